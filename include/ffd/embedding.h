@@ -1,0 +1,62 @@
+/* embedding.h - u,v,w of points: the inverse of a lattice's rest volume, with a verdict for each point. */
+#ifndef FFD_EMBEDDING_H
+#define FFD_EMBEDDING_H
+
+#include <ffd/error.h>
+#include <ffd/export.h>
+#include <ffd/lattice.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is known of a point p and the equation C(u,v,w) = p. The numbers are those of `ffd embed --status`. */
+typedef enum ffd_vertex_status {
+    FFD_INSIDE = 0,       /* exactly one u,v,w */
+    FFD_OUTSIDE = 1,      /* none within the tolerance */
+    FFD_MULTIPLE = 2,     /* two or more: the lattice overlaps itself */
+    FFD_SINGULAR = 3,     /* u,v,w where det J = 0 to rounding, or a set of them */
+    FFD_POINT_INVALID = 4 /* a coordinate is not finite */
+} ffd_vertex_status;
+
+#define FFD_VERTEX_STATUS_COUNT 5
+
+/* The search structure for one rest lattice: made once, never changed by a search, shared freely by threads.
+ */
+typedef struct ffd_locator ffd_locator;
+
+typedef struct ffd_location {
+    double uvw[3];        /* in the knots' range; NaN where outside or invalid */
+    double residual;      /* |C(u,v,w) - p|, world units (Euclidean); 0 where there is no u,v,w */
+    uint8_t status;       /* ffd_vertex_status */
+    uint32_t evaluations; /* of C with its Jacobian; 0 for an affine or separable lattice's closed forms */
+    uint32_t leaves;      /* leaves of the search structure that were looked into */
+} ffd_location;
+
+/* Prepares the inversion of lattice's rest volume, which must outlive the locator unchanged. The way is
+   chosen by the control points: affine in closed form, separable by bracketed one-dimensional Newton steps,
+   else a search over cells with a contraction bound (Krawczyk's operator on the Bernstein form). Errors:
+   FFD_E_ARGUMENT (the lattice still needs bounds), FFD_E_INVALID (a cell without volume), FFD_E_MEMORY,
+   FFD_E_LIMIT. */
+FFD_API ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator, ffd_error *error);
+
+/* Frees the locator and clears the pointer. NULL and pointers to NULL are allowed. */
+FFD_API void ffd_locator_destroy(ffd_locator **locator);
+
+/* Which way is used: "affine", "separable" or "general". A constant string. */
+FFD_API const char *ffd_locator_get_method(const ffd_locator *locator);
+
+/* Finds u,v,w for count points (xyz: 3*count doubles, world units); fills count locations. A result depends
+   on its point and the lattice only, to the bit. No point is called inside with a residual, in any coordinate
+   a, above 16 eps (max|P_a| + |p_a|), taken after the lattice's origin is subtracted. Any thread, no
+   allocation that outlives the call. Errors: FFD_E_MEMORY (locations are then not filled). */
+FFD_API ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_t count,
+                                    ffd_location *locations, ffd_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

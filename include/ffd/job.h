@@ -1,0 +1,143 @@
+/* job.h - whole jobs on files, as the program `ffd` runs them: read, embed, deform, judge, write, report. */
+#ifndef FFD_JOB_H
+#define FFD_JOB_H
+
+#include <ffd/embedding.h>
+#include <ffd/error.h>
+#include <ffd/export.h>
+#include <ffd/lattice.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum ffd_format {
+    FFD_FORMAT_AUTO = 0, /* by the name's ending */
+    FFD_FORMAT_OBJ,
+    FFD_FORMAT_GLTF,
+    FFD_FORMAT_GLB
+} ffd_format;
+
+/* The format that a file name's ending (or a bare ending, "obj") stands for, any case; FFD_FORMAT_AUTO if
+ * none. */
+FFD_API ffd_format ffd_format_from_name(const char *name);
+
+typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_ERROR } ffd_outside;
+typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP } ffd_normals;
+typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
+typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
+
+typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
+
+/* Takes one line without line break, in the calling thread. */
+typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
+
+/* A mesh file to read. */
+typedef struct ffd_source {
+    const char *path;  /* "-": standard input */
+    ffd_format format; /* AUTO is not possible for "-" */
+    ffd_space space;   /* glTF: where the lattice stands */
+} ffd_source;
+
+typedef struct ffd_deform_desc {
+    size_t struct_size; /* sizeof(ffd_deform_desc) of the caller */
+    ffd_source input;
+    const char *output; /* path, "-" for standard output */
+    ffd_format output_format;
+    const char *const *lattices; /* lattice_count paths, applied in that order; at least one */
+    size_t lattice_count;
+    ffd_outside outside;
+    ffd_normals normals;
+    ffd_resources resources;
+    int threads;          /* 0: all cores. Never changes a byte of the output. */
+    bool force;           /* overwrite an existing output */
+    bool in_place;        /* output is the input (output is NULL then) */
+    ffd_log_function log; /* may be NULL */
+    void *log_user;
+} ffd_deform_desc;
+
+FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc);
+
+typedef struct ffd_bounds {
+    double min[3], max[3]; /* min > max where there is no finite vertex */
+} ffd_bounds;
+
+/* What a job did: the figures of the report (interface 4). Lengths in world units unless said otherwise. */
+typedef struct ffd_job_result {
+    ffd_status status;
+    ffd_error error;
+    uint64_t vertices;
+    uint64_t counts[FFD_VERTEX_STATUS_COUNT]; /* by ffd_vertex_status; the highest over several lattices */
+    uint64_t moved;
+    double residual_max, residual_rms; /* relative to the diagonal of the rest lattice */
+    double evaluations_mean;
+    uint32_t evaluations_max;
+    ffd_bounds before, after;
+    double displacement_max, displacement_rms;
+    uint64_t normals_collapsed;
+    uint64_t transforms_singular; /* vertices kept because their node's matrix has no inverse */
+    double seconds_read, seconds_embed, seconds_deform, seconds_write;
+} ffd_job_result;
+
+/* Runs one job. Everything that can be refused is refused before anything is written; the output is complete
+   or absent. result is filled in every case (not NULL). Returns result->status. Errors: all. */
+FFD_API ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
+
+/* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,
+   where status_output is not NULL, the statuses (uint8, N). Both files or none. The lattice's "mesh" box is
+   fitted to the mesh. counts may be NULL. */
+typedef struct ffd_embed_desc {
+    size_t struct_size;
+    ffd_source input;
+    const char *lattice;
+    const char *output;
+    const char *status_output;
+    int threads;
+    bool force;
+    ffd_log_function log;
+    void *log_user;
+} ffd_embed_desc;
+
+FFD_API void ffd_embed_desc_init(ffd_embed_desc *desc);
+FFD_API ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
+
+/* `ffd compare`: are a and b the same mesh, positions within tolerance (world units, per coordinate) and all
+   else equal? Fills *comparison unless it fails. */
+typedef struct ffd_comparison {
+    bool equal;
+    uint64_t positions_compared;
+    double position_difference_max; /* largest |a - b| of a coordinate */
+    char difference[512];           /* the first difference in words, "" where equal */
+} ffd_comparison;
+
+FFD_API ffd_status ffd_compare_run(const ffd_source *a, const ffd_source *b, double tolerance,
+                                   ffd_comparison *comparison, ffd_error *error);
+
+/* `ffd info`: describes a mesh or lattice file as text or JSON. *text is the caller's, freed with
+   ffd_text_free, ends in a line break and 0. */
+FFD_API ffd_status ffd_info_run(const ffd_source *file, bool json, char **text, ffd_error *error);
+
+/* `ffd lattice new`: makes a lattice round a mesh (in scene space) and writes it. */
+FFD_API ffd_status ffd_lattice_new_run(const ffd_source *mesh, const ffd_lattice_desc *desc,
+                                       const char *output, bool force, ffd_error *error);
+
+/* The report of interface 4. Entries are added in the order of the jobs; the strings are copied. */
+typedef struct ffd_report ffd_report;
+
+FFD_API ffd_status ffd_report_create(bool stable, ffd_report **report, ffd_error *error);
+FFD_API void ffd_report_destroy(ffd_report **report);
+FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
+                                  const ffd_job_result *result, ffd_error *error);
+/* Writes the report to path (replacing an older one) or, for "-", to standard output. */
+FFD_API ffd_status ffd_report_write(const ffd_report *report, const char *path, ffd_error *error);
+
+FFD_API void ffd_text_free(char *text);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

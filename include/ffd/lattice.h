@@ -1,0 +1,105 @@
+/* lattice.h - the control lattice: a trivariate B-spline volume with a rest and a deformed position (and
+   weight) for each control point.
+
+   C(u,v,w) = sum P_ijk R_ijk(u,v,w), R_ijk = h_ijk N_i(u) N_j(v) N_k(w) / sum h N N N (Piegl & Tiller, The
+   NURBS Book, 2nd ed., 4.4). Control points are stored with u fastest: index = i + size[0]*(j + size[1]*k).
+ */
+#ifndef FFD_LATTICE_H
+#define FFD_LATTICE_H
+
+#include <ffd/error.h>
+#include <ffd/export.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define FFD_MAX_DEGREE 9
+
+typedef struct ffd_lattice ffd_lattice;
+
+typedef enum ffd_volume { FFD_VOLUME_REST = 0, FFD_VOLUME_DEFORMED = 1 } ffd_volume;
+
+/* Knot vectors that a new lattice can have (the file knows explicit lists too). */
+typedef enum ffd_knots {
+    FFD_KNOTS_CLAMPED = 0,
+    FFD_KNOTS_OPEN,
+    FFD_KNOTS_UNIFORM,
+    FFD_KNOTS_CLOSED
+} ffd_knots;
+
+typedef enum ffd_lattice_shape { FFD_SHAPE_BOX = 0, FFD_SHAPE_CYLINDER } ffd_lattice_shape;
+typedef enum ffd_spacing { FFD_SPACING_GREVILLE = 0, FFD_SPACING_UNIFORM } ffd_spacing;
+
+/* How to make a lattice round a set of points. Fill with ffd_lattice_desc_init, then change what differs. */
+typedef struct ffd_lattice_desc {
+    size_t struct_size; /* sizeof(ffd_lattice_desc) of the caller */
+    ffd_lattice_shape shape;
+    size_t size[3];     /* control points along u,v,w; default 4,4,4 */
+    int degree[3];      /* 1..9, or 0: 3, or size-1 where that is less */
+    ffd_knots knots[3]; /* default clamped; cylinder: v is closed on its own account */
+    double margin;      /* added on every side, as a fraction of the extent there; >= 0, default 0.05 */
+    ffd_spacing spacing;
+    double axis[3]; /* cylinder: its axis, need not be of unit length; default 0,0,1 */
+    bool principal; /* box: along the principal axes of the points instead of x,y,z */
+} ffd_lattice_desc;
+
+FFD_API void ffd_lattice_desc_init(ffd_lattice_desc *desc);
+
+/* Reads a lattice file (JSON, interface 3). On success *lattice is the caller's, to be destroyed.
+   Errors: FFD_E_IO; FFD_E_INVALID with line (syntax) or JSON pointer (meaning); FFD_E_MEMORY, FFD_E_LIMIT. */
+FFD_API ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
+
+/* The same from memory: text of size bytes (no final 0 needed); name stands in messages. text is not kept. */
+FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
+                                     ffd_error *error);
+
+/* Makes an undeformed lattice that covers count points (xyz: 3*count doubles, world units).
+   Extents of 0 are widened, so that the volume is not empty. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (no finite
+   point), FFD_E_MEMORY, FFD_E_LIMIT. */
+FFD_API ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
+                                      ffd_lattice **lattice, ffd_error *error);
+
+/* Writes the lattice as a file of interface 3, complete or not at all. force: replace an existing file. */
+FFD_API ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force,
+                                    ffd_error *error);
+
+/* Whether the rest box is "mesh", so that ffd_lattice_fit must come before anything that needs control
+ * points. */
+FFD_API bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
+
+/* Places a "mesh" lattice round the bounds min, max (3 doubles each, world units) and applies its moves. May
+   be called again with other bounds. Does nothing where ffd_lattice_needs_bounds is false. Errors:
+   FFD_E_INVALID (not finite; no lattice can stand there), FFD_E_MEMORY. */
+FFD_API ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3],
+                                   ffd_error *error);
+
+/* Frees the lattice and clears the pointer. NULL and pointers to NULL are allowed. */
+FFD_API void ffd_lattice_destroy(ffd_lattice **lattice);
+
+/* Shape. Each fills the caller's array. */
+FFD_API void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3]);
+FFD_API void ffd_lattice_get_degree(const ffd_lattice *lattice, int degree[3]);
+FFD_API void ffd_lattice_get_domain(const ffd_lattice *lattice, double lo[3], double hi[3]);
+
+/* The 3*size[0]*size[1]*size[2] control points; lent by the lattice, valid until it is changed or destroyed.
+   NULL while ffd_lattice_fit is still needed. */
+FFD_API const double *ffd_lattice_get_points(const ffd_lattice *lattice, ffd_volume volume);
+
+/* The weights, one a control point, or NULL where all are 1. Lent as above. */
+FFD_API const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume volume);
+
+/* Evaluates C at u,v,w (in the domain; values outside are taken to its nearest point, closed directions
+   modulo their period) and, where jacobian is not NULL, J = [C_u | C_v | C_w] as 9 doubles, row by row:
+   jacobian[3*r+c] = dC_r/du_c. At an inner knot the right-hand derivative, at the end of the domain the
+   left-hand one. Basis: Piegl & Tiller A2.1 to A2.3; rational: 4.4. Any thread. */
+FFD_API void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3],
+                                  double point[3], double jacobian[9]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

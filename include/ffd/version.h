@@ -1,0 +1,24 @@
+/* version.h - the version of the library. meson.build reads it from here. */
+#ifndef FFD_VERSION_H
+#define FFD_VERSION_H
+
+#include <ffd/export.h>
+
+#define FFD_VERSION_MAJOR 0
+#define FFD_VERSION_MINOR 1
+#define FFD_VERSION_PATCH 0
+#define FFD_VERSION "0.1.0"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version of the library that runs, "MAJOR.MINOR.PATCH"; compare with FFD_VERSION, that of the headers.
+   Returns a constant string. Any thread. */
+FFD_API const char *ffd_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,38 @@
+/* fail.h - filling the caller's error record. Each function returns the status, so that one can `return` it.
+ */
+#ifndef FFD_BASE_FAIL_H
+#define FFD_BASE_FAIL_H
+
+#include <ffd/error.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#ifdef __GNUC__
+#define FFD_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
+#else
+#define FFD_PRINTF(text, first)
+#endif
+
+/* A failure with no file. Line breaks and control characters in the text become '?'; error may be NULL. */
+ffd_status ffd_fail(ffd_error *error, ffd_status status, const char *format, ...) FFD_PRINTF(3, 4);
+/* A failure of a file. */
+ffd_status ffd_fail_file(ffd_error *error, ffd_status status, const char *file, const char *format, ...)
+    FFD_PRINTF(4, 5);
+/* A failure at a line (from 1) of a file. */
+ffd_status ffd_fail_line(ffd_error *error, ffd_status status, const char *file, size_t line,
+                         const char *format, ...) FFD_PRINTF(5, 6);
+/* A failure at a JSON pointer into a file. */
+ffd_status ffd_fail_at(ffd_error *error, ffd_status status, const char *file, const char *pointer,
+                       const char *format, ...) FFD_PRINTF(5, 6);
+/* "out of memory", FFD_E_MEMORY. */
+ffd_status ffd_fail_memory(ffd_error *error);
+/* Names the file in an error that has none yet. */
+void ffd_fail_name_file(ffd_error *error, const char *file);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,50 @@
+/* file.h - reading whole files, and writing files that are complete or absent. All paths are UTF-8. */
+#ifndef FFD_BASE_FILE_H
+#define FFD_BASE_FILE_H
+
+#include "base/fail.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct file_input {
+    const unsigned char *data; /* never NULL after success, also when size is 0 */
+    size_t size;
+    void *block; /* how it is held: mapped or allocated */
+    bool mapped;
+} file_input;
+
+/* Reads path ("-": standard input; pipes too). Regular files are mapped. A folder is refused (FFD_E_IO). */
+ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error);
+/* Reads a file that a model refers to: relative must lead to a regular file inside folder, links followed
+   (canonical paths are compared). Else FFD_E_IO with `named_by` as the file of the message. */
+ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
+                                file_input *input, ffd_error *error);
+void ffd_file_unload(file_input *input);
+
+bool ffd_file_exists(const char *path);
+/* Whether both paths lead to one existing file. */
+bool ffd_file_same(const char *a, const char *b);
+
+/* A set of files that appear together. Each is written under a temporary name beside its target
+   (".NAME.ffd-tmp"; the same for the same target, locked against other runs) and renamed by the commit in the
+   order of begin. */
+typedef struct file_output file_output;
+
+ffd_status ffd_output_create(file_output **output, ffd_error *error);
+/* Starts the next file. path "-" is standard output, to which bytes go at the commit's time or before. An
+   existing target is refused with FFD_E_EXISTS unless force. Permission bits of an existing target are kept.
+   Targets that are neither file nor link (/dev/null) are written straight. */
+ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error);
+/* Appends to the file begun last. */
+ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error);
+/* Removes the old target of the file begun last before the commit renames anything (a .gltf whose buffers are
+   replaced). */
+void ffd_output_remove_first(file_output *output);
+/* Makes all files appear. After a failure none that was not yet renamed does. */
+ffd_status ffd_output_commit(file_output *output, ffd_error *error);
+/* Frees; removes the temporary files of what was not committed. NULL and pointers to NULL are allowed. */
+void ffd_output_destroy(file_output **output);
+/* The refusals of ffd_output_begin, before any work is done. */
+ffd_status ffd_output_check(const char *path, bool force, ffd_error *error);
+
+#endif

@@ -1,0 +1,135 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const unsigned char nothing[1] = {0};
+
+/* Reads what has no size to be mapped: pipes, terminals, /dev/stdin, files of /proc. */
+static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_error *error)
+{
+    unsigned char *block = NULL;
+    size_t capacity = 0, size = 0;
+    for (;;) {
+        if (!ffd_grow((void **)&block, &capacity, size + 65536, 1)) {
+            ffd_free(block);
+            return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
+        }
+        const ssize_t got = read(fd, block + size, capacity - size);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            ffd_free(block);
+            return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
+        }
+        if (got == 0)
+            break;
+        size += (size_t)got;
+    }
+    *input = (file_input){.data = block, .size = size, .block = block};
+    return FFD_OK;
+}
+
+static ffd_status map_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
+{
+    void *block = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
+    if (block == MAP_FAILED)
+        return errno == ENOMEM ? ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size)
+                               : read_stream(fd, name, input, error);
+    *input = (file_input){.data = block, .size = size, .block = block, .mapped = true};
+    return FFD_OK;
+}
+
+static ffd_status load_descriptor(int fd, const char *name, file_input *input, ffd_error *error)
+{
+    struct stat info;
+    if (fstat(fd, &info) != 0)
+        return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
+    if (S_ISDIR(info.st_mode))
+        return ffd_fail_file(error, FFD_E_IO, name, "is a folder");
+    if (S_ISREG(info.st_mode) && info.st_size > 0) {
+        if ((unsigned long long)info.st_size > (size_t)-1)
+            return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
+        return map_file(fd, name, (size_t)info.st_size, input, error);
+    }
+    return read_stream(fd, name, input, error);
+}
+
+ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error)
+{
+    *input = (file_input){.data = nothing};
+    if (strcmp(path, "-") == 0)
+        return load_descriptor(STDIN_FILENO, "standard input", input, error);
+    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0)
+        return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(errno));
+    const ffd_status status = load_descriptor(fd, path, input, error);
+    close(fd);
+    return status;
+}
+
+static bool is_inside(const char *folder, const char *path)
+{
+    const size_t length = strlen(folder);
+    if (strcmp(folder, "/") == 0)
+        return true;
+    return strncmp(folder, path, length) == 0 && path[length] == '/';
+}
+
+ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
+                                file_input *input, ffd_error *error)
+{
+    *input = (file_input){.data = nothing};
+    char *joined = ffd_path_join(folder, relative);
+    char *root = realpath(folder, NULL), *path = joined ? realpath(joined, NULL) : NULL;
+    const int reason = errno;
+    ffd_status status;
+    struct stat info;
+    if (!joined)
+        status = ffd_fail_memory(error);
+    else if (relative[0] == '/')
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
+                               relative);
+    else if (!root || !path)
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
+                               strerror(reason));
+    else if (!is_inside(root, path))
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
+                               relative);
+    else if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "\"%s\" is not a file", relative);
+    else
+        status = ffd_file_load(path, input, error);
+    free(root);
+    free(path);
+    ffd_free(joined);
+    return status;
+}
+
+void ffd_file_unload(file_input *input)
+{
+    if (input->mapped)
+        munmap(input->block, input->size);
+    else
+        ffd_free(input->block);
+    *input = (file_input){.data = nothing};
+}
+
+bool ffd_file_exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+bool ffd_file_same(const char *a, const char *b)
+{
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}

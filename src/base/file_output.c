@@ -1,0 +1,264 @@
+#define _DEFAULT_SOURCE /* flock, realpath */
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define BLOCK ((size_t)1 << 18)
+
+typedef struct output_file {
+    char *target;    /* where it shall appear; links are followed beforehand */
+    char *temporary; /* NULL where bytes go straight to the target: standard output, devices */
+    int fd;          /* -1 when closed */
+    bool committed, remove_first;
+} output_file;
+
+struct file_output {
+    output_file *files;
+    size_t count, capacity;
+    unsigned char *block; /* bytes of the last file that are not yet written */
+    size_t filled;
+};
+
+static ffd_status fail_errno(ffd_error *error, const char *file, const char *what)
+{
+    const int reason = errno;
+    return ffd_fail_file(error, reason == ENOMEM ? FFD_E_MEMORY : FFD_E_IO, file, "%s: %s", what,
+                         strerror(reason));
+}
+
+ffd_status ffd_output_create(file_output **output, ffd_error *error)
+{
+    *output = ffd_alloc_zero(1, sizeof **output);
+    if (*output)
+        (*output)->block = ffd_alloc(BLOCK, 1);
+    if (*output && (*output)->block)
+        return FFD_OK;
+    ffd_output_destroy(output);
+    return ffd_fail_memory(error);
+}
+
+static bool is_stdout(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+static ffd_status check_target(const char *path, bool force, struct stat *info, bool *exists,
+                               ffd_error *error)
+{
+    *exists = stat(path, info) == 0;
+    if (!*exists) {
+        if (errno != ENOENT)
+            return fail_errno(error, path, "cannot be written");
+        return FFD_OK;
+    }
+    if (S_ISDIR(info->st_mode))
+        return ffd_fail_file(error, FFD_E_IO, path, "is a folder");
+    if (S_ISREG(info->st_mode) && !force)
+        return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already (--force overwrites it)");
+    return FFD_OK;
+}
+
+ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
+{
+    struct stat info;
+    bool exists;
+    if (is_stdout(path))
+        return FFD_OK;
+    const ffd_status status = check_target(path, force, &info, &exists, error);
+    if (status || exists)
+        return status;
+    char *folder = ffd_path_folder(path);
+    if (!folder)
+        return ffd_fail_memory(error);
+    ffd_status result = FFD_OK;
+    if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode))
+        result = ffd_fail_file(error, FFD_E_IO, path, "cannot be written: there is no folder \"%s\"", folder);
+    ffd_free(folder);
+    return result;
+}
+
+/* The folder of target, resolved, with the temporary file's name in it. */
+static char *temporary_name(const char *target)
+{
+    const char *name = ffd_path_name(target);
+    const size_t folder = (size_t)(name - target), capacity = strlen(target) + sizeof "..ffd-tmp";
+    char *text = ffd_alloc(capacity, 1);
+    if (text)
+        snprintf(text, capacity, "%.*s.%s.ffd-tmp", (int)folder, target, name);
+    return text;
+}
+
+/* Opens the temporary file and locks it, so that a run that was killed leaves no obstacle and one that still
+   lives is not disturbed. The file may be renamed by its owner between our open and our lock: then it is no
+   longer the one of that name, and we try again. */
+static int open_locked(const char *path)
+{
+    for (;;) {
+        const int fd = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+        if (fd < 0)
+            return -1;
+        struct stat ours, there;
+        if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+            const int reason = errno;
+            close(fd);
+            errno = reason == EWOULDBLOCK ? EBUSY : reason;
+            return -1;
+        }
+        if (fstat(fd, &ours) == 0 && S_ISREG(ours.st_mode) && stat(path, &there) == 0 &&
+            ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) {
+            if (ftruncate(fd, 0) == 0)
+                return fd;
+            close(fd);
+            return -1;
+        }
+        close(fd);
+    }
+}
+
+static ffd_status open_beside(output_file *file, const char *path, const struct stat *old, ffd_error *error)
+{
+    file->temporary = temporary_name(file->target);
+    if (!file->temporary)
+        return ffd_fail_memory(error);
+    file->fd = open_locked(file->temporary);
+    if (file->fd < 0) {
+        const int reason = errno;
+        ffd_free(file->temporary); /* not ours to remove */
+        file->temporary = NULL;
+        if (reason == EBUSY)
+            return ffd_fail_file(error, FFD_E_IO, path, "is being written by another run");
+        errno = reason;
+        return fail_errno(error, path, "cannot be written");
+    }
+    if (old && fchmod(file->fd, old->st_mode & 0777) != 0)
+        return fail_errno(error, path, "its permissions cannot be kept");
+    return FFD_OK;
+}
+
+static ffd_status flush(file_output *output, ffd_error *error)
+{
+    if (output->count == 0)
+        return FFD_OK;
+    const output_file *file = &output->files[output->count - 1];
+    size_t done = 0;
+    while (done < output->filled) {
+        const ssize_t written = write(file->fd, output->block + done, output->filled - done);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            return fail_errno(error, is_stdout(file->target) ? "standard output" : file->target,
+                              "cannot be written");
+        done += (size_t)written;
+    }
+    output->filled = 0;
+    return FFD_OK;
+}
+
+ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error)
+{
+    ffd_status status = flush(output, error);
+    if (status)
+        return status;
+    if (!ffd_grow((void **)&output->files, &output->capacity, output->count + 1, sizeof *output->files))
+        return ffd_fail_memory(error);
+    output_file *file = &output->files[output->count];
+    *file = (output_file){.fd = -1};
+
+    struct stat info;
+    bool exists = false;
+    if (!is_stdout(path)) {
+        status = check_target(path, force, &info, &exists, error);
+        if (status)
+            return status;
+    }
+    char *resolved = exists && S_ISREG(info.st_mode) ? realpath(path, NULL) : NULL;
+    file->target = ffd_text_copy(resolved ? resolved : path);
+    free(resolved);
+    if (!file->target)
+        return ffd_fail_memory(error);
+    output->count++;
+
+    if (is_stdout(path)) {
+        file->fd = dup(STDOUT_FILENO);
+        return file->fd < 0 ? fail_errno(error, "standard output", "cannot be written") : FFD_OK;
+    }
+    if (exists && !S_ISREG(info.st_mode)) {
+        file->fd = open(path, O_WRONLY | O_CLOEXEC);
+        return file->fd < 0 ? fail_errno(error, path, "cannot be written") : FFD_OK;
+    }
+    return open_beside(file, path, exists ? &info : NULL, error);
+}
+
+ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error)
+{
+    const unsigned char *from = bytes;
+    while (size > 0) {
+        const size_t room = BLOCK - output->filled, part = size < room ? size : room;
+        memcpy(output->block + output->filled, from, part);
+        output->filled += part;
+        from += part;
+        size -= part;
+        if (output->filled == BLOCK) {
+            const ffd_status status = flush(output, error);
+            if (status)
+                return status;
+        }
+    }
+    return FFD_OK;
+}
+
+void ffd_output_remove_first(file_output *output)
+{
+    output->files[output->count - 1].remove_first = true;
+}
+
+ffd_status ffd_output_commit(file_output *output, ffd_error *error)
+{
+    const ffd_status status = flush(output, error);
+    if (status)
+        return status;
+    for (size_t i = 0; i < output->count; i++) {
+        output_file *file = &output->files[i];
+        if (file->remove_first && file->temporary && unlink(file->target) != 0 && errno != ENOENT)
+            return fail_errno(error, file->target, "cannot be replaced");
+    }
+    for (size_t i = 0; i < output->count; i++) {
+        output_file *file = &output->files[i];
+        if (file->temporary && rename(file->temporary, file->target) != 0)
+            return fail_errno(error, file->target, "cannot be written");
+        file->committed = true;
+        /* Closing gives up the lock: only now may another run take the name. */
+        const int fd = file->fd;
+        file->fd = -1;
+        if (close(fd) != 0)
+            return fail_errno(error, file->target, "cannot be written");
+    }
+    return FFD_OK;
+}
+
+void ffd_output_destroy(file_output **output)
+{
+    if (!output || !*output)
+        return;
+    for (size_t i = 0; i < (*output)->count; i++) {
+        output_file *file = &(*output)->files[i];
+        if (file->temporary && !file->committed)
+            unlink(file->temporary);
+        if (file->fd >= 0)
+            close(file->fd);
+        ffd_free(file->temporary);
+        ffd_free(file->target);
+    }
+    ffd_free((*output)->files);
+    ffd_free((*output)->block);
+    ffd_free(*output);
+    *output = NULL;
+}

@@ -1,0 +1,131 @@
+#include "base/json_text.h"
+#include <assert.h>
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+void ffd_json_begin(json_text *json, byte_buffer *out)
+{
+    memset(json, 0, sizeof *json);
+    json->out = out;
+    json->empty[0] = true;
+}
+
+static void line_break(json_text *json)
+{
+    ffd_buffer_text(json->out, "\n");
+    for (int i = 0; i < json->depth; i++)
+        ffd_buffer_text(json->out, "  ");
+}
+
+static void quoted(byte_buffer *out, const char *text)
+{
+    ffd_buffer_text(out, "\"");
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c == '"' || *c == '\\')
+            ffd_buffer_format(out, "\\%c", *c);
+        else if (*c == '\n')
+            ffd_buffer_text(out, "\\n");
+        else if (*c == '\t')
+            ffd_buffer_text(out, "\\t");
+        else if (*c < 0x20 || *c == 0x7f)
+            ffd_buffer_format(out, "\\u%04x", (unsigned)*c);
+        else
+            ffd_buffer_append(out, c, 1);
+    }
+    ffd_buffer_text(out, "\"");
+}
+
+/* What stands before a value: the comma, the place, the key. */
+static void lead_in(json_text *json, const char *key)
+{
+    const bool first = json->empty[json->depth];
+    json->empty[json->depth] = false;
+    if (json->depth > 0) {
+        if (!first)
+            ffd_buffer_text(json->out, ",");
+        if (!json->inline_from[json->depth])
+            line_break(json);
+        else if (!first)
+            ffd_buffer_text(json->out, " ");
+    }
+    if (key) {
+        quoted(json->out, key);
+        ffd_buffer_text(json->out, ": ");
+    }
+}
+
+static void open_level(json_text *json, const char *key, bool on_one_line, const char *bracket)
+{
+    assert(json->depth + 1 < FFD_JSON_DEPTH);
+    lead_in(json, key);
+    ffd_buffer_text(json->out, bracket);
+    const bool inherited = json->depth > 0 && json->inline_from[json->depth];
+    json->depth++;
+    json->inline_from[json->depth] = inherited || on_one_line;
+    json->empty[json->depth] = true;
+}
+
+void ffd_json_object(json_text *json, const char *key, bool on_one_line)
+{
+    open_level(json, key, on_one_line, "{");
+}
+
+void ffd_json_array(json_text *json, const char *key, bool on_one_line)
+{
+    open_level(json, key, on_one_line, "[");
+}
+
+void ffd_json_end(json_text *json, char bracket)
+{
+    const bool on_one_line = json->inline_from[json->depth], empty = json->empty[json->depth];
+    json->depth--;
+    if (!on_one_line && !empty)
+        line_break(json);
+    ffd_buffer_append(json->out, &bracket, 1);
+    if (json->depth == 0)
+        ffd_buffer_text(json->out, "\n");
+}
+
+void ffd_json_string(json_text *json, const char *key, const char *value)
+{
+    lead_in(json, key);
+    if (value)
+        quoted(json->out, value);
+    else
+        ffd_buffer_text(json->out, "null");
+}
+
+void ffd_json_number(json_text *json, const char *key, double value)
+{
+    lead_in(json, key);
+    if (isfinite(value))
+        ffd_buffer_number(json->out, value);
+    else
+        ffd_buffer_text(json->out, "null");
+}
+
+void ffd_json_count(json_text *json, const char *key, uint64_t value)
+{
+    lead_in(json, key);
+    ffd_buffer_format(json->out, "%" PRIu64, value);
+}
+
+void ffd_json_bool(json_text *json, const char *key, bool value)
+{
+    lead_in(json, key);
+    ffd_buffer_text(json->out, value ? "true" : "false");
+}
+
+void ffd_json_null(json_text *json, const char *key)
+{
+    ffd_json_string(json, key, NULL);
+}
+
+void ffd_json_vector(json_text *json, const char *key, const double *values, size_t count)
+{
+    ffd_json_array(json, key, true);
+    for (size_t i = 0; i < count; i++)
+        ffd_json_number(json, NULL, values[i]);
+    ffd_json_end(json, ']');
+}

@@ -1,0 +1,18 @@
+/* thread.h - work on fixed tiles by several threads. */
+#ifndef FFD_BASE_THREAD_H
+#define FFD_BASE_THREAD_H
+
+#include <stddef.h>
+
+/* Called for tile `tile` = items [begin, end). worker is 0 .. threads-1, for scratch memory. */
+typedef void (*tile_function)(void *context, size_t tile, size_t begin, size_t end, int worker);
+
+/* Calls function once for every tile of tile_size items (the last may be smaller). Tiles are the same
+   whatever the number of threads; each must write only what belongs to it. Threads that cannot be started are
+   done without. */
+void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_function function, void *context);
+
+/* The number of processors that are switched on, at least 1. */
+int ffd_processor_count(void);
+
+#endif

@@ -1,0 +1,11 @@
+/* words.h - the known word nearest to one that somebody wrote. */
+#ifndef FFD_BASE_WORDS_H
+#define FFD_BASE_WORDS_H
+
+#include <stddef.h>
+
+/* The entry of known (count words) with the least edit distance (insert, delete, replace, swap of neighbours)
+   to word, the first of equals; NULL when count is 0. */
+const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
+
+#endif

@@ -1,0 +1,28 @@
+#include "io/formats.h"
+#include "base/path.h"
+
+const mesh_format *ffd_format_table(ffd_format format)
+{
+    switch (format) {
+    case FFD_FORMAT_OBJ:
+        return &ffd_obj_format;
+    case FFD_FORMAT_GLTF:
+    case FFD_FORMAT_GLB:
+        return &ffd_gltf_format;
+    case FFD_FORMAT_AUTO:
+        break;
+    }
+    return NULL;
+}
+
+ffd_format ffd_format_from_name(const char *name)
+{
+    static const struct {
+        const char *ending;
+        ffd_format format;
+    } known[] = {{".obj", FFD_FORMAT_OBJ}, {".gltf", FFD_FORMAT_GLTF}, {".glb", FFD_FORMAT_GLB}};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (ffd_path_has_ending(name, known[i].ending))
+            return known[i].format;
+    return FFD_FORMAT_AUTO;
+}

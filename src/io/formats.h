@@ -1,0 +1,13 @@
+/* formats.h - the table of mesh formats. */
+#ifndef FFD_IO_FORMATS_H
+#define FFD_IO_FORMATS_H
+
+#include "mesh/mesh.h"
+
+extern const mesh_format ffd_obj_format;  /* io/obj */
+extern const mesh_format ffd_gltf_format; /* io/gltf: .gltf and .glb */
+
+/* The table for a format; NULL for FFD_FORMAT_AUTO. */
+const mesh_format *ffd_format_table(ffd_format format);
+
+#endif

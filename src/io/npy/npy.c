@@ -1,0 +1,26 @@
+#include "io/npy/npy.h"
+#include <stdio.h>
+#include <string.h>
+
+/* The header is padded so that the values start at a multiple of this (NumPy's format 1.0). */
+#define ALIGNMENT 64
+
+ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, size_t columns, ffd_error *error)
+{
+    char shape[64], header[4 * ALIGNMENT];
+    if (columns)
+        snprintf(shape, sizeof shape, "(%zu, %zu)", rows, columns);
+    else
+        snprintf(shape, sizeof shape, "(%zu,)", rows);
+    const size_t prefix = 10; /* magic, version, length of the text */
+    int length = snprintf(header + prefix, sizeof header - prefix,
+                          "{'descr': '%s', 'fortran_order': False, 'shape': %s, }", descr, shape);
+    size_t size = prefix + (size_t)length;
+    while ((size + 1) % ALIGNMENT != 0)
+        header[size++] = ' ';
+    header[size++] = '\n';
+    memcpy(header, "\x93NUMPY\x01\x00", 8);
+    header[8] = (char)((size - prefix) & 0xff);
+    header[9] = (char)((size - prefix) >> 8);
+    return ffd_output_write(output, header, size, error);
+}

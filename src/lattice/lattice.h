@@ -1,0 +1,63 @@
+/* lattice.h - what a control lattice is made of (public: ffd/lattice.h). */
+#ifndef FFD_LATTICE_LATTICE_H
+#define FFD_LATTICE_LATTICE_H
+
+#include "spline/knots.h"
+#include <ffd/lattice.h>
+
+/* Most control points that a lattice may have (1e9 would be 24 GB a copy). */
+#define FFD_MAX_CONTROL_POINTS ((size_t)1 << 26)
+
+struct lattice_spec; /* what the file says: spec.h */
+
+typedef enum rest_form {
+    REST_BOX_AFFINE,  /* C(u,v,w) = origin + frame t, t = parameter in [0,1] of the domain: exact by construction */
+    REST_POINTS       /* nothing is known beyond the control points */
+} rest_form;
+
+struct ffd_lattice {
+    struct lattice_spec *spec; /* owned; kept for saving and for a later ffd_lattice_fit */
+    knot_vector knots[3];
+    size_t size[3];
+    size_t count; /* size[0]*size[1]*size[2] */
+
+    /* NULL until built (a "mesh" box that has not met its mesh). */
+    double *rest;     /* 3*count */
+    double *deformed; /* 3*count */
+    double *rest_weights, *deformed_weights; /* count, or NULL where all are 1; both or neither */
+    bool weights_moved; /* some deformed weight differs from its rest weight */
+
+    rest_form form;
+    double origin[3];  /* REST_BOX_AFFINE: C at the domain's lower corner */
+    double frame[9];   /* REST_BOX_AFFINE: columns are the box's sides */
+
+    /* The displacement of the control points, made once when the lattice is built. */
+    double *difference;     /* Q - P, 3*count */
+    unsigned char *moved;   /* per control point: Q != P or its weight moved */
+    double diagonal;        /* of the bounds of the rest control points */
+};
+
+/* Makes difference, moved, diagonal anew from rest and deformed. */
+ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error);
+
+/* The (d_u+1)(d_v+1)(d_w+1) basis functions that are not 0 at one u,v,w, per direction. */
+typedef struct lattice_basis {
+    int span[3];
+    double value[3][MAX_ORDER], derivative[3][MAX_ORDER];
+} lattice_basis;
+
+/* uvw must be in the domain (ffd_knots_wrap). */
+void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_basis *basis);
+
+/* sum over the basis' control points of field[3] * N N N (no weights), ascending index, u innermost; derivative
+   (9, row by row, may be NULL) is by u,v,w. */
+void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field, double value[3],
+                     double derivative[9]);
+
+/* Copies the control points (and, where rational, weights; else weights is not touched) of the cell whose basis
+   functions start at first[a] = span[a] - degree[a], u fastest: (d_u+1)(d_v+1)(d_w+1) points. */
+void ffd_lattice_cell_points(const ffd_lattice *lattice, const double *field, const int span[3], double *points);
+void ffd_lattice_cell_weights(const ffd_lattice *lattice, const double *weights, const int span[3],
+                              double *cell_weights);
+
+#endif

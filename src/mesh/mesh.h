@@ -1,0 +1,107 @@
+/* mesh.h - what a mesh format hands over to a job and takes back. Plain C; each format under src/io fills one
+   mesh_format table.
+
+   A document keeps the bytes of its file. It shows its vertices as parts; a job reads a part's streams in any
+   order, hands results back, and has the document saved: the same bytes with the results spliced in. */
+#ifndef FFD_MESH_MESH_H
+#define FFD_MESH_MESH_H
+
+#include "base/buffer.h"
+#include "base/file.h"
+#include "base/json_text.h"
+#include <ffd/job.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* Vertices that share one transform into the lattice's space. */
+typedef struct mesh_part {
+    size_t vertex_count;
+    size_t normal_count; /* 0 where there are none */
+    /* Normals stand in the order of their vertices: those of vertex i are normal_start[i] ..
+       normal_start[i+1]-1. NULL: normal i belongs to vertex i (normal_count is then vertex_count or 0). Lent
+       by the document. */
+    const uint32_t *normal_start;
+    bool has_tangents; /* tangent i belongs to vertex i and to normal i; only with normal_start NULL */
+
+    bool identity; /* the part stands in the lattice's space itself; the matrices are then not used */
+    double linear[9], offset[3]; /* x = linear p + offset */
+    double inverse[9];           /* of linear */
+    bool singular;               /* linear has no inverse: the part's vertices are kept */
+} mesh_part;
+
+/* Polygons over all vertices of the document, for topology. Vertex numbers count the vertices of parts in
+   order (the order of `ffd embed`); a document may give a subset where parts repeat storage. */
+typedef struct mesh_faces {
+    size_t vertex_count, face_count;
+    double *positions;    /* 3*vertex_count, in the lattice's space */
+    size_t *start;        /* face_count+1 */
+    uint32_t *corners;    /* start[face_count] vertex numbers */
+    size_t lines, points; /* primitives that are no faces: counted only */
+} mesh_faces;
+
+void ffd_mesh_faces_free(mesh_faces *faces);
+
+typedef struct mesh_save_options {
+    const char *path; /* "-": standard output */
+    ffd_format format;
+    bool force;
+    ffd_resources resources;
+} mesh_save_options;
+
+typedef struct mesh_log {
+    ffd_log_function function; /* may be NULL */
+    void *user;
+} mesh_log;
+
+typedef struct mesh_document mesh_document;
+
+typedef struct mesh_format {
+    ffd_format format;
+    const char *name; /* "OBJ" */
+    /* Reads the document from input, whose ownership passes to the document on success only. name stands in
+       messages and says where relative references lead ("-": nowhere). */
+    ffd_status (*open)(file_input *input, const ffd_source *source, mesh_document **document,
+                       ffd_error *error);
+    void (*close)(mesh_document *document);
+
+    /* Raw values of the file, as double: 3 a position or normal, 4 a tangent (x,y,z and the handedness). Any
+     * thread. */
+    void (*read_positions)(const mesh_document *document, size_t part, size_t first, size_t count,
+                           double *xyz);
+    void (*read_normals)(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz);
+    void (*read_tangents)(const mesh_document *document, size_t part, size_t first, size_t count,
+                          double *xyzw);
+
+    /* Results. ffd_mesh_begin_results must come first (it makes room); the writers may run in several threads
+       on disjoint ranges. changed: one byte a value, 0: kept as it was (xyz is then not looked at). */
+    ffd_status (*begin_results)(mesh_document *document, bool normals, bool tangents, ffd_error *error);
+    void (*write_positions)(mesh_document *document, size_t part, size_t first, size_t count,
+                            const double *xyz, const uint8_t *changed);
+    void (*write_normals)(mesh_document *document, size_t part, size_t first, size_t count, const double *xyz,
+                          const uint8_t *changed);
+    void (*write_tangents)(mesh_document *document, size_t part, size_t first, size_t count,
+                           const double *xyzw, const uint8_t *changed);
+
+    /* Writes the file (and what belongs to it) into output; byte-identical to the input where nothing
+     * changed. */
+    ffd_status (*save)(mesh_document *document, const mesh_save_options *options, file_output *output,
+                       const mesh_log *log, ffd_error *error);
+
+    /* Topology and description. describe appends members to an open JSON object. */
+    ffd_status (*faces)(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+    ffd_status (*describe)(const mesh_document *document, json_text *json, ffd_error *error);
+
+    /* Compares two documents of this format (see ffd_compare_run). */
+    ffd_status (*compare)(const mesh_document *a, const mesh_document *b, double tolerance,
+                          ffd_comparison *comparison, ffd_error *error);
+} mesh_format;
+
+/* The head of every document; a format's own struct starts with it. */
+struct mesh_document {
+    const mesh_format *format;
+    const mesh_part *parts; /* part_count, lent */
+    size_t part_count;
+};
+
+#endif

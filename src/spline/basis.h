@@ -1,0 +1,19 @@
+/* basis.h - the non-zero basis functions at a parameter, and the Bezier form of a span. */
+#ifndef FFD_SPLINE_BASIS_H
+#define FFD_SPLINE_BASIS_H
+
+#include "spline/knots.h"
+
+/* value[j] = N_{span-d+j}(u), j = 0..d (P&T A2.2). */
+void ffd_basis_values(const knot_vector *knots, int span, double u, double value[MAX_ORDER]);
+
+/* Values and first derivatives (P&T A2.3 for one derivative). */
+void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double value[MAX_ORDER],
+                           double derivative[MAX_ORDER]);
+
+/* The Bezier form of the curve over a non-empty span: Bezier point r = sum_j matrix[r*(d+1)+j] P_{span-d+j},
+   the blossom at t_span (d-r times) and t_{span+1} (r times), which is what knot insertion (P&T A5.6) arrives
+   at. */
+void ffd_bezier_extraction(const knot_vector *knots, int span, double matrix[MAX_ORDER * MAX_ORDER]);
+
+#endif
