@@ -24,11 +24,18 @@ typedef struct mesh_part {
     const uint32_t *normal_start;
     bool has_tangents; /* tangent i belongs to vertex i and to normal i; only with normal_start NULL */
 
+    /* The vertices are those of an earlier part (same positions, same place), listed again for other normals
+       or tangents: they are not counted, embedded or written a second time. */
+    bool repeats_positions;
+
     bool identity; /* the part stands in the lattice's space itself; the matrices are then not used */
     double linear[9], offset[3]; /* x = linear p + offset */
     double inverse[9];           /* of linear */
     bool singular;               /* linear has no inverse: the part's vertices are kept */
 } mesh_part;
+
+/* Takes count points (3 doubles each) from the file's space to the lattice's: x = linear p + offset. */
+void ffd_part_place(const mesh_part *part, double *points, size_t count);
 
 /* Polygons over all vertices of the document, for topology. Vertex numbers count the vertices of parts in
    order (the order of `ffd embed`); a document may give a subset where parts repeat storage. */
@@ -64,6 +71,11 @@ typedef struct mesh_format {
     ffd_status (*open)(file_input *input, const ffd_source *source, mesh_document **document,
                        ffd_error *error);
     void (*close)(mesh_document *document);
+    /* Refuses (FFD_E_UNSUPPORTED) what the parts' streams do not show as it is, before anything is embedded
+       or deformed: skins, morph targets, compressed data. A document that only is to be described need not
+       pass. */
+    ffd_status (*check)(const mesh_document *document, ffd_error *error);
+    double largest_coordinate; /* that the format's numbers can hold */
 
     /* Raw values of the file, as double: 3 a position or normal, 4 a tangent (x,y,z and the handedness). Any
      * thread. */

@@ -1,0 +1,79 @@
+/* attribute.c - normals and tangents under the deformation gradient F = I + gradient (maths.md 8). */
+#include "base/vec.h"
+#include <ffd/deform.h>
+#include <float.h>
+#include <string.h>
+
+static bool is_zero(const double gradient[9])
+{
+    for (int i = 0; i < 9; i++)
+        if (gradient[i] != 0)
+            return false;
+    return true;
+}
+
+static void add_identity(const double gradient[9], double f[9])
+{
+    for (int i = 0; i < 9; i++)
+        f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
+}
+
+/* Copies v to result and tells why. */
+static int keep(const double v[3], double result[3], int *collapsed, int why)
+{
+    memmove(result, v, 3 * sizeof *result);
+    if (collapsed)
+        *collapsed = why;
+    return 0;
+}
+
+/* Divides carried by its length into result; keeps `before` where nothing is left of it beyond rounding:
+   `scale` is the size of the terms that were added up. */
+static int normalise(const double carried[3], double scale, const double before[3], double result[3],
+                     int *collapsed)
+{
+    const double length = vec_length(carried);
+    if (!(length > 16 * DBL_EPSILON * scale) || length > DBL_MAX)
+        return keep(before, result, collapsed, 1);
+    for (int a = 0; a < 3; a++)
+        result[a] = carried[a] / length;
+    if (collapsed)
+        *collapsed = 0;
+    return 1;
+}
+
+static double largest_entry(const double m[9])
+{
+    double largest = 0;
+    for (int i = 0; i < 9; i++)
+        largest = fabs(m[i]) > largest ? fabs(m[i]) : largest;
+    return largest;
+}
+
+int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3], int *collapsed)
+{
+    double f[9], cofactor[9], carried[3];
+    if (is_zero(gradient))
+        return keep(normal, result, collapsed, 0);
+    add_identity(gradient, f);
+    mat_cofactor(f, cofactor);
+    mat_apply(cofactor, normal, carried);
+    const double largest = largest_entry(f);
+    return normalise(carried, largest * largest * vec_length(normal), normal, result, collapsed);
+}
+
+int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
+                       double result[3], int *collapsed)
+{
+    double f[9], carried[3];
+    if (is_zero(gradient))
+        return keep(tangent, result, collapsed, 0);
+    add_identity(gradient, f);
+    mat_apply(f, tangent, carried);
+    if (normal) {
+        const double along = vec_dot(carried, normal);
+        for (int a = 0; a < 3; a++)
+            carried[a] -= along * normal[a];
+    }
+    return normalise(carried, largest_entry(f) * vec_length(tangent), tangent, result, collapsed);
+}

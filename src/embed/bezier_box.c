@@ -1,0 +1,301 @@
+#include "embed/bezier_box.h"
+#include "base/vec.h"
+#include <float.h>
+#include <string.h>
+
+enum { N = BEZIER_COMPONENTS };
+
+size_t ffd_bezier_count(const int order[3])
+{
+    return (size_t)order[0] * (size_t)order[1] * (size_t)order[2];
+}
+
+size_t ffd_bezier_size(const int order[3])
+{
+    return N * ffd_bezier_count(order);
+}
+
+static size_t stride_of(const int order[3], int a)
+{
+    return a == 0 ? 1 : a == 1 ? (size_t)order[0] : (size_t)order[0] * (size_t)order[1];
+}
+
+/* Every line of control points along a: the first point's number from a running number of lines. */
+static size_t line_start(const int order[3], int a, size_t line)
+{
+    if (a == 0)
+        return line * (size_t)order[0];
+    if (a == 2)
+        return line;
+    const size_t u = line % (size_t)order[0], w = line / (size_t)order[0];
+    return u + w * (size_t)order[0] * (size_t)order[1];
+}
+
+/* De Casteljau's scheme at 1/2. The upper half arises in place: after step k, points k.. hold the level-k
+   values of the line, and point k+.. of the lower half is the first of them. */
+void ffd_bezier_halve(const bezier_box *box, int a, bezier_box *lower, bezier_box *upper)
+{
+    const size_t stride = N * stride_of(box->order, a),
+                 lines = ffd_bezier_count(box->order) / (size_t)box->order[a];
+    const int order = box->order[a];
+    if (upper->coefficients != box->coefficients)
+        memcpy(upper->coefficients, box->coefficients, ffd_bezier_size(box->order) * sizeof(double));
+    for (size_t line = 0; line < lines; line++) {
+        const size_t start = N * line_start(box->order, a, line);
+        for (int c = 0; c < N; c++) {
+            double *high = upper->coefficients + start + c, *low = lower->coefficients + start + c;
+            for (int k = 0; k < order; k++) {
+                low[(size_t)k * stride] = high[0];
+                for (int i = 0; i + 1 < order - k; i++)
+                    high[(size_t)i * stride] =
+                        0.5 * high[(size_t)i * stride] + 0.5 * high[(size_t)(i + 1) * stride];
+            }
+        }
+    }
+    const double middle = 0.5 * (box->lo[a] + box->hi[a]), end = box->hi[a];
+    for (int b = 0; b < 3; b++) {
+        lower->order[b] = upper->order[b] = box->order[b];
+        const double lo = box->lo[b], hi = box->hi[b];
+        lower->lo[b] = upper->lo[b] = lo;
+        lower->hi[b] = upper->hi[b] = hi;
+    }
+    lower->rational = upper->rational = box->rational;
+    lower->hi[a] = middle;
+    upper->lo[a] = middle;
+    upper->hi[a] = end;
+}
+
+static const bounds empty_bounds = {{DBL_MAX, DBL_MAX, DBL_MAX}, {-DBL_MAX, -DBL_MAX, -DBL_MAX}};
+
+bounds ffd_bezier_hull(const bezier_box *box)
+{
+    bounds hull = empty_bounds;
+    const size_t size = ffd_bezier_size(box->order);
+    for (size_t i = 0; i < size; i += N) {
+        const double *c = box->coefficients + i;
+        const double point[3] = {c[0] / c[3], c[1] / c[3], c[2] / c[3]};
+        bounds_add(&hull, point);
+    }
+    return hull;
+}
+
+void ffd_bezier_weights(const bezier_box *box, double *least, double *greatest)
+{
+    *least = DBL_MAX;
+    *greatest = 0;
+    const size_t size = ffd_bezier_size(box->order);
+    for (size_t i = 3; i < size; i += N) {
+        const double h = box->coefficients[i];
+        *least = h < *least ? h : *least;
+        *greatest = h > *greatest ? h : *greatest;
+    }
+}
+
+/* F's value at a control point: A - p W. */
+static void equation(const double *c, const double p[3], double f[3])
+{
+    for (int a = 0; a < 3; a++)
+        f[a] = c[a] - p[a] * c[3];
+}
+
+bounds ffd_bezier_equation_hull(const bezier_box *box, const double p[3])
+{
+    bounds hull = empty_bounds;
+    const size_t size = ffd_bezier_size(box->order);
+    for (size_t i = 0; i < size; i += N) {
+        double f[3];
+        equation(box->coefficients + i, p, f);
+        bounds_add(&hull, f);
+    }
+    return hull;
+}
+
+bounds ffd_bezier_image(const bezier_box *box, const double inverse[9], const double p[3])
+{
+    bounds hull = empty_bounds;
+    const size_t size = ffd_bezier_size(box->order);
+    for (size_t i = 0; i < size; i += N) {
+        double f[3];
+        equation(box->coefficients + i, p, f);
+        mat_apply(inverse, f, f);
+        bounds_add(&hull, f);
+    }
+    return hull;
+}
+
+/* Bernstein polynomials of the degree at 1/2: binomial(d, i) / 2^d, exact. */
+static void bernstein_at_half(int degree, double value[MAX_ORDER])
+{
+    double binomial = 1;
+    for (int i = 0; i <= degree; i++) {
+        value[i] = ldexp(binomial, -degree);
+        binomial = binomial * (degree - i) / (i + 1);
+    }
+}
+
+/* J_F at the centre, row by row. */
+static void centre_jacobian(const bezier_box *box, const double p[3], double jacobian[9])
+{
+    double value[3][MAX_ORDER], slope[3][MAX_ORDER];
+    for (int a = 0; a < 3; a++) {
+        const int degree = box->order[a] - 1;
+        double lower[MAX_ORDER] = {0};
+        bernstein_at_half(degree, value[a]);
+        bernstein_at_half(degree - 1, lower);
+        for (int i = 0; i <= degree; i++)
+            slope[a][i] = degree * ((i > 0 ? lower[i - 1] : 0) - (i < degree ? lower[i] : 0));
+    }
+    for (int i = 0; i < 9; i++)
+        jacobian[i] = 0;
+    const double *c = box->coefficients;
+    for (int k = 0; k < box->order[2]; k++)
+        for (int j = 0; j < box->order[1]; j++)
+            for (int i = 0; i < box->order[0]; i++, c += N) {
+                double f[3];
+                equation(c, p, f);
+                const double du = slope[0][i] * value[1][j] * value[2][k];
+                const double dv = value[0][i] * slope[1][j] * value[2][k];
+                const double dw = value[0][i] * value[1][j] * slope[2][k];
+                for (int r = 0; r < 3; r++) {
+                    jacobian[3 * r] += f[r] * du;
+                    jacobian[3 * r + 1] += f[r] * dv;
+                    jacobian[3 * r + 2] += f[r] * dw;
+                }
+            }
+}
+
+/* The coefficients of column b of Y J_F (3 each, where the point has a next one along b) into column; the
+   greatest |delta_rb - coefficient| of each row, with the reach of p added, into distance. */
+static void column_coefficients(const bezier_box *box, int b, const double middle[3], const double reach[3],
+                                const double inverse[9], double *column, double distance[3])
+{
+    const size_t next = N * stride_of(box->order, b);
+    const double degree = box->order[b] - 1;
+    distance[0] = distance[1] = distance[2] = 0;
+    size_t point = 0;
+    for (int k = 0; k < box->order[2]; k++)
+        for (int j = 0; j < box->order[1]; j++)
+            for (int i = 0; i < box->order[0]; i++, point++) {
+                const int at[3] = {i, j, k};
+                if (at[b] == box->order[b] - 1)
+                    continue;
+                const double *c = box->coefficients + N * point, *d = c + next;
+                const double difference[N] = {degree * (d[0] - c[0]), degree * (d[1] - c[1]),
+                                              degree * (d[2] - c[2]), degree * (d[3] - c[3])};
+                double f[3], *y = column + 3 * point;
+                equation(difference, middle, f);
+                mat_apply(inverse, f, y);
+                for (int r = 0; r < 3; r++) {
+                    const double *row = inverse + 3 * r;
+                    const double moving =
+                        (fabs(row[0]) * reach[0] + fabs(row[1]) * reach[1] + fabs(row[2]) * reach[2]) *
+                        fabs(difference[3]);
+                    const double off = fabs((r == b ? 1.0 : 0.0) - y[r]) + moving;
+                    if (!(off <= distance[r])) /* a NaN must not pass as a small bound */
+                        distance[r] = off;
+                }
+            }
+}
+
+/* spread[r][a]: how much row r of the column varies along a, over all lines of coefficients. */
+static void column_spread(const bezier_box *box, int b, const double *column, double spread[3][3])
+{
+    for (int a = 0; a < 3; a++) {
+        const size_t stride = 3 * stride_of(box->order, a);
+        const size_t lines = ffd_bezier_count(box->order) / (size_t)box->order[a];
+        const int length = box->order[a] - (a == b);
+        for (int r = 0; r < 3; r++)
+            spread[r][a] = 0;
+        for (size_t line = 0; line < lines; line++) {
+            const size_t start = line_start(box->order, a, line);
+            /* The last layer along b holds no coefficient. */
+            if (a != b &&
+                start / stride_of(box->order, b) % (size_t)box->order[b] == (size_t)box->order[b] - 1)
+                continue;
+            for (int r = 0; r < 3; r++) {
+                const double *y = column + 3 * start + r;
+                double least = y[0], greatest = y[0];
+                for (int i = 1; i < length; i++) {
+                    const double value = y[(size_t)i * stride];
+                    least = value < least ? value : least;
+                    greatest = value > greatest ? value : greatest;
+                }
+                if (greatest - least > spread[r][a])
+                    spread[r][a] = greatest - least;
+            }
+        }
+    }
+}
+
+/* Halving c halves every spread along c and all of column c (its derivative is by a shorter side), and
+   doubles row c (its coordinate is stretched). */
+static int best_halving(double spread[3][3][3])
+{
+    int best = 0;
+    double least = DBL_MAX;
+    for (int c = 0; c < 3; c++) {
+        double predicted = 0;
+        for (int r = 0; r < 3; r++) {
+            double sum = 0;
+            for (int b = 0; b < 3; b++)
+                for (int a = 0; a < 3; a++)
+                    sum += spread[b][r][a] * (a == c ? 0.5 : 1) * (b == c ? 0.5 : 1) * (r == c ? 2 : 1);
+            predicted = sum > predicted ? sum : predicted;
+        }
+        if (predicted < least) {
+            least = predicted;
+            best = c;
+        }
+    }
+    return best;
+}
+
+/* The direction in which the box is widest in space. */
+static int widest(const bezier_box *box)
+{
+    int best = 0;
+    double longest = -1;
+    for (int a = 0; a < 3; a++) {
+        const size_t stride = N * stride_of(box->order, a);
+        const size_t lines = ffd_bezier_count(box->order) / (size_t)box->order[a];
+        for (size_t line = 0; line < lines; line++) {
+            const double *first = box->coefficients + N * line_start(box->order, a, line);
+            double length = 0;
+            for (int i = 0; i + 1 < box->order[a]; i++) {
+                const double *c = first + (size_t)i * stride, *d = c + stride;
+                const double step[3] = {d[0] / d[3] - c[0] / c[3], d[1] / d[3] - c[1] / c[3],
+                                        d[2] / d[3] - c[2] / c[3]};
+                length += vec_length(step);
+            }
+            if (length > longest) {
+                longest = length;
+                best = a;
+            }
+        }
+    }
+    return best;
+}
+
+void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const double reach[3],
+                            double *scratch, contraction_bound *result)
+{
+    double jacobian[9], spread[3][3][3], sum[3] = {0, 0, 0};
+    centre_jacobian(box, middle, jacobian);
+    result->regular = mat_invert(jacobian, result->inverse);
+    if (!result->regular) {
+        result->halve = widest(box);
+        return;
+    }
+    for (int b = 0; b < 3; b++) {
+        double distance[3];
+        column_coefficients(box, b, middle, reach, result->inverse, scratch, distance);
+        column_spread(box, b, scratch, spread[b]);
+        for (int r = 0; r < 3; r++)
+            sum[r] += distance[r];
+    }
+    result->bound = sum[0];
+    for (int r = 1; r < 3; r++)
+        if (!(sum[r] <= result->bound))
+            result->bound = sum[r];
+    result->halve = best_halving(spread);
+}

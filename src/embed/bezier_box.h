@@ -1,0 +1,49 @@
+/* bezier_box.h - a lattice's volume over one span cell, or a part of it, in Bezier form; hulls and the
+   contraction bound that make a search certain.
+
+   The equation is F(t) = A(t) - p W(t) = 0 with A = sum h P B, W = sum h B (h = 1 and W = 1 without weights):
+   its roots are those of C(t) = p, and F is a polynomial also for a rational volume. */
+#ifndef FFD_EMBED_BEZIER_BOX_H
+#define FFD_EMBED_BEZIER_BOX_H
+
+#include "embed/box_tree.h"
+#include "spline/knots.h"
+
+#define BEZIER_COMPONENTS 4 /* h P (3) and h */
+
+typedef struct bezier_box {
+    int order[3];
+    bool rational;
+    double lo[3], hi[3];  /* the part of the cell, whose own is [0,1]; multiples of powers of 1/2, exact */
+    double *coefficients; /* ffd_bezier_size values: BEZIER_COMPONENTS a point, u fastest */
+} bezier_box;
+
+size_t ffd_bezier_count(const int order[3]); /* points */
+size_t ffd_bezier_size(const int order[3]);  /* doubles */
+
+/* The halves of box across direction a; lower and upper have their own coefficients (upper may share box's).
+ */
+void ffd_bezier_halve(const bezier_box *box, int a, bezier_box *lower, bezier_box *upper);
+
+/* Bounds of C over the box: those of the control points A_i / W_i. */
+bounds ffd_bezier_hull(const bezier_box *box);
+/* Bounds of the weights. */
+void ffd_bezier_weights(const bezier_box *box, double *least, double *greatest);
+
+/* Bounds of F over the box for one p. */
+bounds ffd_bezier_equation_hull(const bezier_box *box, const double p[3]);
+/* Bounds of Y F over the box for one p. */
+bounds ffd_bezier_image(const bezier_box *box, const double inverse[9], const double p[3]);
+
+typedef struct contraction_bound {
+    bool regular;      /* J_F(centre) has an inverse; else inverse and bound are not set */
+    double inverse[9]; /* Y = J_F(centre)^{-1}, in box coordinates t in [0,1]^3 */
+    double bound;      /* L: the greatest row sum of |I - Y J_F| over the box and all p in middle +- reach */
+    int halve;         /* the direction whose halving lowers the bound most */
+} contraction_bound;
+
+/* scratch: 3 * ffd_bezier_count doubles. */
+void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const double reach[3],
+                            double *scratch, contraction_bound *result);
+
+#endif

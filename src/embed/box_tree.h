@@ -1,0 +1,45 @@
+/* box_tree.h - a tree over axis-aligned boxes that answers: which of them hold this point? */
+#ifndef FFD_EMBED_BOX_TREE_H
+#define FFD_EMBED_BOX_TREE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct bounds {
+    double lo[3], hi[3];
+} bounds;
+
+typedef struct box_tree {
+    struct box_tree_node *nodes; /* node 0 is the root */
+    uint32_t *items;             /* the boxes' numbers, leaf by leaf */
+    size_t node_count;
+} box_tree;
+
+/* Builds the tree over count boxes (fewer than 2^31). False when there is no memory. */
+bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree);
+void ffd_box_tree_free(box_tree *tree);
+
+/* Calls visit for every box whose node's box, grown by slack in each coordinate, holds p; the caller tests
+   the box itself. The order depends on the boxes only. Stops and returns false when visit does. */
+typedef bool (*box_tree_visitor)(void *context, uint32_t item);
+bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double slack[3],
+                        box_tree_visitor visit, void *context);
+
+static inline bool bounds_hold(const bounds *box, const double p[3], const double slack[3])
+{
+    return p[0] >= box->lo[0] - slack[0] && p[0] <= box->hi[0] + slack[0] && p[1] >= box->lo[1] - slack[1] &&
+           p[1] <= box->hi[1] + slack[1] && p[2] >= box->lo[2] - slack[2] && p[2] <= box->hi[2] + slack[2];
+}
+
+static inline void bounds_add(bounds *box, const double p[3])
+{
+    for (int a = 0; a < 3; a++) {
+        if (p[a] < box->lo[a])
+            box->lo[a] = p[a];
+        if (p[a] > box->hi[a])
+            box->hi[a] = p[a];
+    }
+}
+
+#endif

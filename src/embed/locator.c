@@ -1,0 +1,87 @@
+#include "embed/locator.h"
+#include "base/memory.h"
+#include "base/vec.h"
+#include <math.h>
+
+/* The middle of the control points' bounds, and how far they reach from it. */
+static void find_origin(ffd_locator *locator)
+{
+    const ffd_lattice *lattice = locator->lattice;
+    bounds box = {{lattice->rest[0], lattice->rest[1], lattice->rest[2]},
+                  {lattice->rest[0], lattice->rest[1], lattice->rest[2]}};
+    for (size_t i = 0; i < lattice->count; i++)
+        bounds_add(&box, lattice->rest + 3 * i);
+    for (int a = 0; a < 3; a++) {
+        locator->origin[a] = 0.5 * box.lo[a] + 0.5 * box.hi[a];
+        locator->extent[a] = fmax(box.hi[a] - locator->origin[a], locator->origin[a] - box.lo[a]);
+    }
+}
+
+ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator, ffd_error *error)
+{
+    *locator = NULL;
+    if (!lattice->rest)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the lattice has no place yet: its box is that of a mesh");
+    ffd_locator *made = ffd_alloc_zero(1, sizeof *made);
+    if (!made)
+        return ffd_fail_memory(error);
+    made->lattice = lattice;
+    find_origin(made);
+
+    ffd_status status = FFD_OK;
+    bool separable = false;
+    if (ffd_affine_detect(made)) {
+        made->method = METHOD_AFFINE;
+    } else {
+        status = ffd_separable_detect(made, &separable, error);
+        made->method = separable ? METHOD_SEPARABLE : METHOD_GENERAL;
+        if (!status && !separable)
+            status = ffd_cells_create(made, error);
+    }
+    if (status)
+        ffd_locator_destroy(&made);
+    *locator = made;
+    return status;
+}
+
+void ffd_locator_destroy(ffd_locator **locator)
+{
+    if (!locator || !*locator)
+        return;
+    ffd_separable_free(*locator);
+    ffd_cells_destroy(&(*locator)->cells);
+    ffd_free(*locator);
+    *locator = NULL;
+}
+
+const char *ffd_locator_get_method(const ffd_locator *locator)
+{
+    static const char *const names[] = {"affine", "separable", "general"};
+    return names[locator->method];
+}
+
+static const ffd_location nowhere = {.uvw = {NAN, NAN, NAN}, .status = FFD_OUTSIDE};
+
+ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_t count,
+                            ffd_location *locations, ffd_error *error)
+{
+    search_scratch *scratch = NULL;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        const double p[3] = {xyz[3 * i] - locator->origin[0], xyz[3 * i + 1] - locator->origin[1],
+                             xyz[3 * i + 2] - locator->origin[2]};
+        locations[i] = nowhere;
+        if (!vec_is_finite(xyz + 3 * i))
+            locations[i].status = FFD_POINT_INVALID;
+        else if (!vec_is_finite(p)) /* farther away than doubles reach */
+            locations[i].status = FFD_OUTSIDE;
+        else if (locator->method == METHOD_AFFINE)
+            ffd_affine_find(locator, p, &locations[i]);
+        else if (locator->method == METHOD_SEPARABLE)
+            ffd_separable_find(locator, p, &locations[i]);
+        else
+            status = ffd_cells_find(locator, p, &scratch, &locations[i], error);
+    }
+    ffd_search_scratch_free(scratch);
+    return status;
+}

@@ -1,0 +1,68 @@
+/* locator.h - the search structure for one rest lattice (public: ffd/embedding.h). */
+#ifndef FFD_EMBED_LOCATOR_H
+#define FFD_EMBED_LOCATOR_H
+
+#include "base/fail.h"
+#include "embed/box_tree.h"
+#include "lattice/lattice.h"
+#include <ffd/embedding.h>
+#include <float.h>
+
+typedef enum locator_method { METHOD_AFFINE, METHOD_SEPARABLE, METHOD_GENERAL } locator_method;
+
+/* C(u,v,w) - origin = frame t, t in [0,1]^3 over the domain (maths.md 5). */
+typedef struct affine_map {
+    double frame[9], inverse[9];
+} affine_map;
+
+/* One direction of a separable lattice: a strictly monotone spline x(u). */
+typedef struct monotone_curve {
+    double *points;      /* one a basis function, origin subtracted */
+    double *breakpoints; /* x at the start of each non-empty span, and at the domain's end: span_count + 1 */
+    bool falling;
+} monotone_curve;
+
+struct ffd_locator {
+    const ffd_lattice *lattice;
+    locator_method method;
+    double origin[3]; /* subtracted from control points and points before anything else */
+    double extent[3]; /* max |P_a - origin_a| over the control points */
+    affine_map affine;
+    monotone_curve curves[3];
+    struct cell_search *cells;
+};
+
+/* tol_a = 16 eps (max|P_a| + |p_a|), p with the origin subtracted (maths.md 6.6). */
+static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
+{
+    for (int a = 0; a < 3; a++)
+        tolerance[a] = 16 * DBL_EPSILON * (locator->extent[a] + (p[a] < 0 ? -p[a] : p[a]));
+}
+
+/* Whether |r_a| <= tol_a for each a. */
+static inline bool ffd_within_tolerance(const double residual[3], const double tolerance[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (!(residual[a] <= tolerance[a] && residual[a] >= -tolerance[a]))
+            return false;
+    return true;
+}
+
+/* affine.c. find takes p with the origin subtracted and fills uvw, residual and status of *location. */
+bool ffd_affine_detect(ffd_locator *locator);
+void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location *location);
+
+/* separable.c */
+ffd_status ffd_separable_detect(ffd_locator *locator, bool *found, ffd_error *error);
+void ffd_separable_free(ffd_locator *locator);
+void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_location *location);
+
+/* cells.c and search.c: the certified cell search. */
+typedef struct search_scratch search_scratch; /* of one thread; NULL at first, made when needed */
+ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error);
+void ffd_cells_destroy(struct cell_search **cells);
+ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_scratch **scratch,
+                          ffd_location *location, ffd_error *error);
+void ffd_search_scratch_free(search_scratch *scratch);
+
+#endif

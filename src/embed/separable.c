@@ -1,0 +1,177 @@
+/* separable.c - lattices with P_ijk = (x_i, y_j, z_k), each sequence strictly monotone: three equations in
+   one unknown, each with exactly one root or none. */
+#include "base/memory.h"
+#include "base/vec.h"
+#include "embed/locator.h"
+#include "spline/basis.h"
+#include <math.h>
+
+static size_t stride_of(const ffd_lattice *lattice, int a)
+{
+    return a == 0 ? 1 : a == 1 ? lattice->size[0] : lattice->size[0] * lattice->size[1];
+}
+
+/* Whether coordinate a of every control point is that of the point with the same index along a and 0
+ * elsewhere. */
+static bool depends_on_own_index(const ffd_lattice *lattice, int a)
+{
+    const size_t stride = stride_of(lattice, a);
+    for (size_t n = 0; n < lattice->count; n++) {
+        const size_t index = n / stride % lattice->size[a];
+        if (lattice->rest[3 * n + (size_t)a] != lattice->rest[3 * index * stride + (size_t)a])
+            return false;
+    }
+    return true;
+}
+
+static bool is_strictly_monotone(const ffd_lattice *lattice, int a)
+{
+    const size_t stride = stride_of(lattice, a);
+    const double *x = lattice->rest + a;
+    const bool falling = x[3 * stride] < x[0];
+    for (size_t i = 1; i < lattice->size[a]; i++) {
+        const double before = x[3 * (i - 1) * stride], here = x[3 * i * stride];
+        if (falling ? !(here < before) : !(here > before))
+            return false;
+    }
+    return true;
+}
+
+static double value_at(const knot_vector *knots, const monotone_curve *curve, int span, double u,
+                       double *slope)
+{
+    double value[MAX_ORDER], derivative[MAX_ORDER], x = 0, dx = 0;
+    ffd_basis_derivatives(knots, span, u, value, derivative);
+    const double *points = curve->points + (span - knots->degree);
+    for (int i = 0; i <= knots->degree; i++) {
+        x += points[i] * value[i];
+        dx += points[i] * derivative[i];
+    }
+    *slope = dx;
+    return x;
+}
+
+static ffd_status make_curve(ffd_locator *locator, int a, ffd_error *error)
+{
+    const ffd_lattice *lattice = locator->lattice;
+    const knot_vector *knots = &lattice->knots[a];
+    monotone_curve *curve = &locator->curves[a];
+    const size_t stride = stride_of(lattice, a);
+    curve->points = ffd_alloc(lattice->size[a], sizeof(double));
+    curve->breakpoints = ffd_alloc(knots->span_count + 1, sizeof(double));
+    if (!curve->points || !curve->breakpoints)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < lattice->size[a]; i++)
+        curve->points[i] = lattice->rest[3 * i * stride + (size_t)a] - locator->origin[a];
+    curve->falling = curve->points[1] < curve->points[0];
+    double slope;
+    for (size_t s = 0; s < knots->span_count; s++)
+        curve->breakpoints[s] = value_at(knots, curve, knots->spans[s], knots->t[knots->spans[s]], &slope);
+    curve->breakpoints[knots->span_count] =
+        value_at(knots, curve, knots->spans[knots->span_count - 1], ffd_knots_last(knots), &slope);
+    return FFD_OK;
+}
+
+ffd_status ffd_separable_detect(ffd_locator *locator, bool *found, ffd_error *error)
+{
+    const ffd_lattice *lattice = locator->lattice;
+    *found = false;
+    if (lattice->rest_weights)
+        return FFD_OK;
+    for (int a = 0; a < 3; a++)
+        if (ffd_knots_closed(&lattice->knots[a]) || !depends_on_own_index(lattice, a) ||
+            !is_strictly_monotone(lattice, a))
+            return FFD_OK;
+    *found = true;
+    for (int a = 0; a < 3; a++) {
+        const ffd_status status = make_curve(locator, a, error);
+        if (status)
+            return status;
+    }
+    return FFD_OK;
+}
+
+void ffd_separable_free(ffd_locator *locator)
+{
+    for (int a = 0; a < 3; a++) {
+        ffd_free(locator->curves[a].points);
+        ffd_free(locator->curves[a].breakpoints);
+    }
+}
+
+/* The number of the span whose values hold x; x beyond the ends gets the first or last. */
+static size_t span_holding(const knot_vector *knots, const monotone_curve *curve, double x)
+{
+    size_t low = 0, high = knots->span_count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        const double here = curve->breakpoints[middle];
+        if (curve->falling ? x <= here : x >= here)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Solves x(u) = x within one span: Newton steps, and halving wherever one would leave the bracket or gains
+   less than a half. Ends when the bracket is two neighbouring numbers, or the value is met. Beyond the ends
+   the nearest end is the answer. Stores x(u) - x. */
+static double solve(const knot_vector *knots, const monotone_curve *curve, double x, double *residual)
+{
+    const size_t number = span_holding(knots, curve, x);
+    const int span = knots->spans[number];
+    double low = knots->t[span], high = knots->t[span + 1], u = 0.5 * low + 0.5 * high;
+    double best = u, best_residual = HUGE_VAL, slope;
+    const double sign = curve->falling ? -1 : 1;
+    const double ends[2] = {low, high};
+    for (int e = 0; e < 2; e++) {
+        const double off = value_at(knots, curve, span, ends[e], &slope) - x;
+        if (fabs(off) < fabs(best_residual)) {
+            best = ends[e];
+            best_residual = off;
+        }
+    }
+    /* Twice the bits of a double: halving alone would end by then. */
+    for (int step = 0; step < 128 && best_residual != 0; step++) {
+        const double off = value_at(knots, curve, span, u, &slope) - x;
+        if (fabs(off) < fabs(best_residual)) {
+            best = u;
+            best_residual = off;
+        }
+        if (sign * off > 0)
+            high = u;
+        else
+            low = u;
+        double next = u - off / slope;
+        if (!(next > low && next < high))
+            next = 0.5 * low + 0.5 * high;
+        if (next == u || !(next > low && next < high))
+            break;
+        u = next;
+    }
+    *residual = best_residual;
+    return best;
+}
+
+void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_location *location)
+{
+    double residual[3], tolerance[3], uvw[3];
+    ffd_locator_tolerance(locator, p, tolerance);
+    for (int a = 0; a < 3; a++) {
+        /* Far outside needs no solving. */
+        const monotone_curve *curve = &locator->curves[a];
+        const double first = curve->breakpoints[0],
+                     last = curve->breakpoints[locator->lattice->knots[a].span_count];
+        if (p[a] < fmin(first, last) - tolerance[a] || p[a] > fmax(first, last) + tolerance[a])
+            return;
+    }
+    for (int a = 0; a < 3; a++)
+        uvw[a] = solve(&locator->lattice->knots[a], &locator->curves[a], p[a], &residual[a]);
+    if (!ffd_within_tolerance(residual, tolerance))
+        return;
+    location->status = FFD_INSIDE;
+    location->residual = vec_length(residual);
+    for (int a = 0; a < 3; a++)
+        location->uvw[a] = uvw[a];
+}

@@ -1,0 +1,310 @@
+#include "job/pass.h"
+#include "base/memory.h"
+#include "base/thread.h"
+#include "base/vec.h"
+#include <ffd/deform.h>
+#include <math.h>
+#include <string.h>
+
+#define TILE ((size_t)1024)
+
+/* What one worker needs for a tile. */
+typedef struct tile_scratch {
+    double raw[3 * TILE];   /* positions as the file has them */
+    double place[3 * TILE]; /* in the lattice's space, from rest to deformed */
+    double before[3 * TILE];
+    ffd_location locations[TILE];
+    chain_point points[TILE];
+    uint8_t changed[TILE];
+    double normals[3 * TILE], tangents[4 * TILE];
+    uint8_t normals_changed[TILE], tangents_changed[TILE];
+} tile_scratch;
+
+typedef struct tile_result {
+    pass_totals totals;
+    ffd_status status;
+} tile_result;
+
+typedef struct part_work {
+    const mesh_pass *pass;
+    const mesh_part *part;
+    size_t part_number;
+    uint64_t first_vertex; /* the part's first vertex in the document */
+    tile_scratch *scratch;
+    tile_result *tiles;
+} part_work;
+
+static void clear_totals(pass_totals *totals)
+{
+    memset(totals, 0, sizeof *totals);
+    for (int a = 0; a < 3; a++) {
+        totals->before.min[a] = totals->after.min[a] = HUGE_VAL;
+        totals->before.max[a] = totals->after.max[a] = -HUGE_VAL;
+    }
+    totals->first_outside = totals->first_invalid = totals->first_overflow = UINT64_MAX;
+}
+
+static void widen(ffd_bounds *box, const double p[3])
+{
+    for (int a = 0; a < 3; a++) {
+        box->min[a] = fmin(box->min[a], p[a]);
+        box->max[a] = fmax(box->max[a], p[a]);
+    }
+}
+
+static uint64_t least(uint64_t a, uint64_t b)
+{
+    return a < b ? a : b;
+}
+
+static void join_totals(pass_totals *all, const pass_totals *tile)
+{
+    all->vertices += tile->vertices;
+    for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
+        all->counts[s] += tile->counts[s];
+    all->moved += tile->moved;
+    all->located += tile->located;
+    all->residual_square_max = fmax(all->residual_square_max, tile->residual_square_max);
+    all->residual_square_sum += tile->residual_square_sum;
+    all->evaluations += tile->evaluations;
+    all->evaluations_max =
+        tile->evaluations_max > all->evaluations_max ? tile->evaluations_max : all->evaluations_max;
+    all->displacement_square_max = fmax(all->displacement_square_max, tile->displacement_square_max);
+    all->displacement_square_sum += tile->displacement_square_sum;
+    if (tile->before.min[0] <= tile->before.max[0]) {
+        widen(&all->before, tile->before.min);
+        widen(&all->before, tile->before.max);
+        widen(&all->after, tile->after.min);
+        widen(&all->after, tile->after.max);
+    }
+    all->outside_any += tile->outside_any;
+    all->first_outside = least(all->first_outside, tile->first_outside);
+    all->first_invalid = least(all->first_invalid, tile->first_invalid);
+    all->first_overflow = least(all->first_overflow, tile->first_overflow);
+    all->normals_collapsed += tile->normals_collapsed;
+    all->transforms_singular += tile->transforms_singular;
+    all->embed_seconds += tile->embed_seconds;
+    all->deform_seconds += tile->deform_seconds;
+}
+
+/* Only the displacement goes back to the file's space: p' = p + linear^{-1} delta. A coordinate whose
+   displacement is 0 keeps its bits. Returns whether one changed. */
+static bool move_back(const mesh_part *part, const chain_point *point, double p[3])
+{
+    double delta[3] = {point->delta[0], point->delta[1], point->delta[2]};
+    if (delta[0] == 0 && delta[1] == 0 && delta[2] == 0)
+        return false;
+    if (!part->identity)
+        mat_apply(part->inverse, delta, delta);
+    bool changed = false;
+    for (int a = 0; a < 3; a++)
+        if (delta[a] != 0) {
+            const double moved = p[a] + delta[a];
+            changed = changed || moved != p[a];
+            p[a] = moved;
+        }
+    return changed;
+}
+
+static void count_point(const part_work *work, const chain_point *point, const double before[3],
+                        const double after[3], uint64_t number, pass_totals *totals)
+{
+    const bool located = point->status != FFD_OUTSIDE && point->status != FFD_POINT_INVALID;
+    totals->vertices++;
+    totals->counts[point->status]++;
+    if (point->outside) {
+        totals->outside_any++;
+        totals->first_outside = least(totals->first_outside, number);
+    }
+    totals->evaluations += point->evaluations;
+    totals->evaluations_max =
+        point->evaluations > totals->evaluations_max ? point->evaluations : totals->evaluations_max;
+    if (located) {
+        totals->located++;
+        totals->residual_square_max = fmax(totals->residual_square_max, point->residual_square);
+        totals->residual_square_sum += point->residual_square;
+    }
+    if (!vec_is_finite(before)) {
+        totals->first_invalid = least(totals->first_invalid, number);
+        return;
+    }
+    widen(&totals->before, before);
+    widen(&totals->after, after);
+    if (work->part->singular) {
+        totals->transforms_singular++;
+        return;
+    }
+    const double square = vec_dot(point->delta, point->delta);
+    totals->displacement_square_max = fmax(totals->displacement_square_max, square);
+    totals->displacement_square_sum += square;
+}
+
+static bool fits_format(const mesh_format *format, const double p[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (!(fabs(p[a]) <= format->largest_coordinate))
+            return false;
+    return true;
+}
+
+/* Positions of a tile: counted, and handed back. */
+static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                             pass_totals *totals)
+{
+    const mesh_pass *pass = work->pass;
+    const mesh_format *format = pass->document->format;
+    for (size_t i = 0; i < count; i++) {
+        const uint64_t number = work->first_vertex + first + i;
+        const chain_point *point = &scratch->points[i];
+        double *p = scratch->raw + 3 * i;
+        count_point(work, point, scratch->before + 3 * i, scratch->place + 3 * i, number, totals);
+        scratch->changed[i] = !work->part->singular && move_back(work->part, point, p);
+        if (scratch->changed[i]) {
+            totals->moved++;
+            if (!fits_format(format, p))
+                totals->first_overflow = least(totals->first_overflow, number);
+        }
+        if (pass->uvw)
+            memcpy(pass->uvw + 3 * number, point->uvw, sizeof point->uvw);
+        if (pass->statuses)
+            pass->statuses[number] = point->status;
+    }
+    if (pass->write)
+        format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
+                                scratch->changed);
+}
+
+/* The deformation's gradient in the file's own space: linear^{-1} E linear. */
+static void bring_gradient_back(const mesh_part *part, double gradient[9])
+{
+    double product[9];
+    if (part->identity)
+        return;
+    mat_multiply(gradient, part->linear, product);
+    mat_multiply(part->inverse, product, gradient);
+}
+
+/* Normals [from, to) of a tile whose first vertex is `first`; vertex is the place to go on from. */
+static void deform_normals(const part_work *work, tile_scratch *scratch, size_t first, size_t from, size_t to,
+                           size_t *vertex, pass_totals *totals)
+{
+    const mesh_part *part = work->part;
+    mesh_document *document = work->pass->document;
+    const size_t count = to - from;
+    document->format->read_normals(document, work->part_number, from, count, scratch->normals);
+    for (size_t i = 0; i < count; i++) {
+        while (part->normal_start ? part->normal_start[*vertex + 1] <= from + i : *vertex < from + i)
+            (*vertex)++;
+        double *n = scratch->normals + 3 * i;
+        int collapsed = 0;
+        scratch->normals_changed[i] =
+            (uint8_t)ffd_deform_normal(scratch->points[*vertex - first].gradient, n, n, &collapsed);
+        totals->normals_collapsed += (uint64_t)collapsed;
+    }
+    document->format->write_normals(document, work->part_number, from, count, scratch->normals,
+                                    scratch->normals_changed);
+}
+
+/* Tangents stand one a vertex, as the normals before them, which scratch still holds. */
+static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+{
+    mesh_document *document = work->pass->document;
+    document->format->read_tangents(document, work->part_number, first, count, scratch->tangents);
+    for (size_t i = 0; i < count; i++) {
+        double *t = scratch->tangents + 4 * i;
+        const double *n = work->part->normal_count ? scratch->normals + 3 * i : NULL;
+        scratch->tangents_changed[i] =
+            (uint8_t)ffd_deform_tangent(scratch->points[i].gradient, t, n, t, NULL);
+    }
+    document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,
+                                     scratch->tangents_changed);
+}
+
+static void finish_attributes(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                              pass_totals *totals)
+{
+    const mesh_part *part = work->part;
+    for (size_t i = 0; i < count; i++)
+        bring_gradient_back(part, scratch->points[i].gradient);
+    if (part->normal_count) {
+        size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;
+        const size_t end = part->normal_start ? part->normal_start[first + count] : first + count;
+        for (size_t to; from < end; from = to) {
+            to = end - from > TILE ? from + TILE : end;
+            deform_normals(work, scratch, first, from, to, &vertex, totals);
+        }
+    }
+    if (part->has_tangents)
+        deform_tangents(work, scratch, first, count);
+}
+
+static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const part_work *work = context;
+    const mesh_pass *pass = work->pass;
+    const mesh_part *part = work->part;
+    tile_scratch *scratch = &work->scratch[worker];
+    tile_result *result = &work->tiles[tile];
+    const size_t count = last - first;
+    const bool attributes = pass->attributes && !part->singular && (part->normal_count || part->has_tangents);
+
+    clear_totals(&result->totals);
+    pass->document->format->read_positions(pass->document, work->part_number, first, count, scratch->raw);
+    memcpy(scratch->place, scratch->raw, 3 * count * sizeof(double));
+    ffd_part_place(part, scratch->place, count);
+    memcpy(scratch->before, scratch->place, 3 * count * sizeof(double));
+    result->status =
+        ffd_chain_apply(pass->chain, pass->links, scratch->place, count, attributes, scratch->locations,
+                        scratch->points, &result->totals.embed_seconds, &result->totals.deform_seconds, NULL);
+    if (result->status)
+        return;
+    if (!part->repeats_positions)
+        finish_positions(work, scratch, first, count, &result->totals);
+    if (attributes)
+        finish_attributes(work, scratch, first, count, &result->totals);
+}
+
+static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
+{
+    const size_t count = work->part->vertex_count, tiles = count / TILE + (count % TILE != 0);
+    ffd_status status = FFD_OK;
+    work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
+    if (!work->tiles)
+        return ffd_fail_memory(error);
+    ffd_parallel_tiles(count, TILE, work->pass->threads, run_tile, work);
+    for (size_t i = 0; i < tiles; i++) {
+        if (work->tiles[i].status && !status) /* memory is all that a search can want for */
+            status = ffd_fail(error, work->tiles[i].status, "out of memory while embedding");
+        join_totals(totals, &work->tiles[i].totals);
+    }
+    ffd_free(work->tiles);
+    return status;
+}
+
+uint64_t ffd_pass_vertex_count(const mesh_document *document)
+{
+    uint64_t count = 0;
+    for (size_t i = 0; i < document->part_count; i++)
+        if (!document->parts[i].repeats_positions)
+            count += document->parts[i].vertex_count;
+    return count;
+}
+
+ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
+{
+    part_work work = {.pass = pass};
+    ffd_status status = FFD_OK;
+    clear_totals(totals);
+    work.scratch = ffd_alloc((size_t)pass->threads, sizeof *work.scratch);
+    if (!work.scratch)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < pass->document->part_count && !status; i++) {
+        work.part = &pass->document->parts[i];
+        work.part_number = i;
+        status = run_part(&work, totals, error);
+        if (!work.part->repeats_positions)
+            work.first_vertex += work.part->vertex_count;
+    }
+    ffd_free(work.scratch);
+    return status;
+}

@@ -1,0 +1,82 @@
+#include "job/placement.h"
+#include "job/source.h"
+#include "lattice/lattice.h"
+#include "lattice/spec.h"
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
+{
+    for (size_t l = 0; l < chain->count; l++) {
+        chain_link *link = &chain->links[l];
+        if (link->locator)
+            continue;
+        const mesh_pass pass = {.document = document, .chain = chain, .links = l, .threads = threads};
+        pass_totals totals;
+        ffd_status status = ffd_pass_run(&pass, &totals, error);
+        if (status)
+            return status;
+        /* Of a mesh without vertices nothing will be asked. */
+        ffd_bounds box = totals.after;
+        for (int a = 0; a < 3; a++)
+            if (!(box.min[a] <= box.max[a])) {
+                box.min[a] = 0;
+                box.max[a] = 1;
+            }
+        status = ffd_lattice_fit(link->lattice, box.min, box.max, error);
+        if (!status)
+            status = ffd_locator_create(link->lattice, &link->locator, error);
+        if (status) {
+            ffd_fail_name_file(error, link->lattice->spec->name);
+            return status;
+        }
+    }
+    return FFD_OK;
+}
+
+void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds)
+{
+    result->vertices = totals->vertices;
+    for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
+        result->counts[s] = totals->counts[s];
+    result->moved = totals->moved;
+    result->residual_max = sqrt(totals->residual_square_max);
+    result->residual_rms = totals->located ? sqrt(totals->residual_square_sum / (double)totals->located) : 0;
+    result->evaluations_mean = totals->vertices ? (double)totals->evaluations / (double)totals->vertices : 0;
+    result->evaluations_max = totals->evaluations_max;
+    result->before = totals->before;
+    result->after = totals->after;
+    result->displacement_max = sqrt(totals->displacement_square_max);
+    result->displacement_rms =
+        totals->vertices ? sqrt(totals->displacement_square_sum / (double)totals->vertices) : 0;
+    result->normals_collapsed = totals->normals_collapsed;
+    result->transforms_singular = totals->transforms_singular;
+    const double own = totals->embed_seconds + totals->deform_seconds;
+    result->seconds_embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
+    result->seconds_deform = seconds - result->seconds_embed;
+}
+
+void ffd_result_warn(const pass_totals *totals, const mesh_log *log)
+{
+    static const char *const names[] = {"inside", "outside (left where they are)", "multiple", "singular",
+                                        "invalid"};
+    const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE];
+    if (others) {
+        char list[200];
+        size_t length = 0;
+        list[0] = 0;
+        for (int s = FFD_OUTSIDE; s < FFD_VERTEX_STATUS_COUNT; s++)
+            if (totals->counts[s])
+                length += (size_t)snprintf(list + length, sizeof list - length, "%s%" PRIu64 " %s",
+                                           length ? ", " : "", totals->counts[s], names[s]);
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " vertices are not inside: %s", others,
+                     totals->vertices, list);
+    }
+    if (totals->transforms_singular)
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " vertices stay: their node's matrix has no inverse",
+                     totals->transforms_singular);
+    if (totals->normals_collapsed)
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " normals stay: the deformation collapses them",
+                     totals->normals_collapsed);
+}

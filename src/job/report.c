@@ -1,0 +1,161 @@
+/* report.c - the JSON report of interface 4. */
+#include "base/json_text.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include "mesh/mesh.h"
+#include <string.h>
+
+typedef struct report_entry {
+    char *input, *output; /* output may be NULL */
+    ffd_job_result result;
+} report_entry;
+
+struct ffd_report {
+    bool stable;
+    report_entry *entries;
+    size_t count, capacity;
+};
+
+ffd_status ffd_report_create(bool stable, ffd_report **report, ffd_error *error)
+{
+    *report = ffd_alloc_zero(1, sizeof **report);
+    if (!*report)
+        return ffd_fail_memory(error);
+    (*report)->stable = stable;
+    return FFD_OK;
+}
+
+void ffd_report_destroy(ffd_report **report)
+{
+    if (!report || !*report)
+        return;
+    for (size_t i = 0; i < (*report)->count; i++) {
+        ffd_free((*report)->entries[i].input);
+        ffd_free((*report)->entries[i].output);
+    }
+    ffd_free((*report)->entries);
+    ffd_free(*report);
+    *report = NULL;
+}
+
+ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
+                          const ffd_job_result *result, ffd_error *error)
+{
+    if (!ffd_grow((void **)&report->entries, &report->capacity, report->count + 1, sizeof *report->entries))
+        return ffd_fail_memory(error);
+    report_entry *entry = &report->entries[report->count];
+    entry->result = *result;
+    entry->input = ffd_text_copy(input);
+    entry->output = output ? ffd_text_copy(output) : NULL;
+    if (!entry->input || (output && !entry->output)) {
+        ffd_free(entry->input);
+        ffd_free(entry->output);
+        return ffd_fail_memory(error);
+    }
+    report->count++;
+    return FFD_OK;
+}
+
+static void write_error(json_text *json, const ffd_job_result *result)
+{
+    char line[2048];
+    if (!result->status) {
+        ffd_json_null(json, "error");
+        return;
+    }
+    ffd_error_format(&result->error, line, sizeof line);
+    ffd_json_string(json, "error", line);
+}
+
+static void write_bounds(json_text *json, const char *key, const ffd_bounds *box)
+{
+    ffd_json_object(json, key, true);
+    if (box->min[0] <= box->max[0]) {
+        ffd_json_vector(json, "min", box->min, 3);
+        ffd_json_vector(json, "max", box->max, 3);
+    } else {
+        ffd_json_null(json, "min");
+        ffd_json_null(json, "max");
+    }
+    ffd_json_end(json, '}');
+}
+
+static void write_figures(json_text *json, const ffd_job_result *result)
+{
+    static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
+    ffd_json_count(json, "vertices", result->vertices);
+    for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
+        ffd_json_count(json, names[s], result->counts[s]);
+    ffd_json_count(json, "moved", result->moved);
+    ffd_json_object(json, "residual", true);
+    ffd_json_number(json, "max", result->residual_max);
+    ffd_json_number(json, "rms", result->residual_rms);
+    ffd_json_end(json, '}');
+    ffd_json_object(json, "iterations", true);
+    ffd_json_number(json, "mean", result->evaluations_mean);
+    ffd_json_count(json, "max", result->evaluations_max);
+    ffd_json_end(json, '}');
+    /* No proof was tried: neither the folds nor the flipped faces are known. */
+    ffd_json_object(json, "folds", true);
+    ffd_json_string(json, "verdict", "unknown");
+    ffd_json_count(json, "cells", 0);
+    ffd_json_null(json, "min_det");
+    ffd_json_end(json, '}');
+    ffd_json_null(json, "flipped_faces");
+    ffd_json_object(json, "bounds", false);
+    write_bounds(json, "before", &result->before);
+    write_bounds(json, "after", &result->after);
+    ffd_json_end(json, '}');
+    ffd_json_object(json, "displacement", true);
+    ffd_json_number(json, "max", result->displacement_max);
+    ffd_json_number(json, "rms", result->displacement_rms);
+    ffd_json_end(json, '}');
+}
+
+static void write_entry(json_text *json, const report_entry *entry, bool stable)
+{
+    const ffd_job_result *result = &entry->result;
+    ffd_json_object(json, NULL, false);
+    ffd_json_string(json, "input", entry->input);
+    ffd_json_string(json, "output", entry->output);
+    ffd_json_string(json, "status", result->status ? "failed" : "ok");
+    ffd_json_count(json, "exit", (uint64_t)ffd_status_exit_code(result->status));
+    write_error(json, result);
+    write_figures(json, result);
+    if (!stable) {
+        ffd_json_object(json, "seconds", true);
+        ffd_json_number(json, "read", result->seconds_read);
+        ffd_json_number(json, "embed", result->seconds_embed);
+        ffd_json_number(json, "deform", result->seconds_deform);
+        ffd_json_number(json, "write", result->seconds_write);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, '}');
+}
+
+ffd_status ffd_report_write(const ffd_report *report, const char *path, ffd_error *error)
+{
+    byte_buffer text = {0};
+    json_text json;
+    ffd_json_begin(&json, &text);
+    ffd_json_object(&json, NULL, false);
+    ffd_json_string(&json, "format", "ffd-report");
+    ffd_json_count(&json, "version", 1);
+    ffd_json_array(&json, "jobs", false);
+    for (size_t i = 0; i < report->count; i++)
+        write_entry(&json, &report->entries[i], report->stable);
+    ffd_json_end(&json, ']');
+    ffd_json_end(&json, '}');
+
+    file_output *output = NULL;
+    ffd_status status = text.failed ? ffd_fail_memory(error) : ffd_output_create(&output, error);
+    if (!status)
+        status = ffd_output_begin(output, path, true, error);
+    if (!status)
+        status = ffd_output_write(output, text.data, text.size, error);
+    if (!status)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    ffd_buffer_free(&text);
+    return status;
+}

@@ -1,0 +1,67 @@
+#include "job/source.h"
+#include "base/path.h"
+#include "io/formats.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *ffd_source_name(const ffd_source *source)
+{
+    return strcmp(source->path, "-") == 0 ? "standard input" : source->path;
+}
+
+ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_error *error)
+{
+    *format = source->format != FFD_FORMAT_AUTO ? source->format : ffd_format_from_name(source->path);
+    if (ffd_format_table(*format))
+        return FFD_OK;
+    if (strcmp(source->path, "-") == 0)
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs --input-format obj, gltf or glb");
+    return ffd_fail_file(error, FFD_E_ARGUMENT, source->path,
+                         "the ending \"%s\" is not that of a mesh format: .obj, .gltf and .glb are known",
+                         ffd_path_ending(source->path));
+}
+
+ffd_status ffd_source_open(const ffd_source *source, mesh_document **document, ffd_error *error)
+{
+    file_input input;
+    ffd_source typed = *source;
+    *document = NULL;
+    ffd_status status = ffd_source_format(source, &typed.format, error);
+    if (status)
+        return status;
+    status = ffd_file_load(source->path, &input, error);
+    if (status)
+        return status;
+    status = ffd_format_table(typed.format)->open(&input, &typed, document, error);
+    if (status) {
+        ffd_file_unload(&input);
+        ffd_fail_name_file(error, ffd_source_name(source));
+    }
+    return status;
+}
+
+void ffd_source_close(mesh_document **document)
+{
+    if (*document)
+        (*document)->format->close(*document);
+    *document = NULL;
+}
+
+void ffd_source_positions(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
+{
+    document->format->read_positions(document, part, first, count, xyz);
+    ffd_part_place(&document->parts[part], xyz, count);
+}
+
+void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...)
+{
+    char line[1024];
+    va_list arguments;
+    if (!log->function)
+        return;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    log->function(log->user, level, line);
+}

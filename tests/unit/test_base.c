@@ -1,0 +1,226 @@
+/* test_base.c - sizes, buffers, words, paths, JSON text, messages, tiles. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/buffer.h"
+#include "base/fail.h"
+#include "base/json_text.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include "base/thread.h"
+#include "base/words.h"
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void test_sizes(void **state)
+{
+    size_t result = 1;
+    assert_true(ffd_multiply_size(3, 4, &result));
+    assert_int_equal(result, 12);
+    assert_false(ffd_multiply_size(SIZE_MAX / 2, 3, &result));
+    assert_false(ffd_add_size(SIZE_MAX, 1, &result));
+    assert_true(ffd_add_size(SIZE_MAX - 1, 1, &result));
+    assert_null(ffd_alloc(SIZE_MAX / 2, 4));
+    assert_null(ffd_alloc_zero(SIZE_MAX, SIZE_MAX));
+    void *block = ffd_alloc(0, 8);
+    assert_non_null(block);
+    ffd_free(block);
+    (void)state;
+}
+
+static void test_grow(void **state)
+{
+    int *numbers = NULL;
+    size_t capacity = 0;
+    for (size_t i = 0; i < 1000; i++) {
+        assert_true(ffd_grow((void **)&numbers, &capacity, i + 1, sizeof *numbers));
+        numbers[i] = (int)i;
+    }
+    assert_int_equal(numbers[999], 999);
+    ffd_alloc_fail_after(0);
+    const int *before = numbers;
+    const size_t held = capacity;
+    assert_false(ffd_grow((void **)&numbers, &capacity, capacity + 1, sizeof *numbers));
+    ffd_alloc_fail_after(-1);
+    assert_ptr_equal(numbers, before);
+    assert_int_equal(capacity, held);
+    ffd_free(numbers);
+    (void)state;
+}
+
+static void test_buffer(void **state)
+{
+    byte_buffer buffer = {0};
+    for (int i = 0; i < 100; i++)
+        ffd_buffer_format(&buffer, "%d,", i);
+    ffd_buffer_number(&buffer, 0.5);
+    char *text = ffd_buffer_finish(&buffer);
+    assert_non_null(text);
+    assert_memory_equal(text, "0,1,2,", 6);
+    assert_string_equal(text + strlen(text) - 6, "99,0.5");
+    ffd_free(text);
+
+    ffd_alloc_fail_after(0);
+    ffd_buffer_text(&buffer, "lost");
+    ffd_alloc_fail_after(-1);
+    ffd_buffer_text(&buffer, "too late");
+    assert_true(buffer.failed);
+    assert_null(ffd_buffer_finish(&buffer));
+    (void)state;
+}
+
+static void test_words(void **state)
+{
+    static const char *const known[] = {"rest",    "size",     "degree", "knots",
+                                        "weights", "deformed", "units",  "moves"};
+    assert_string_equal(ffd_nearest_word("knot", known, 8), "knots");
+    assert_string_equal(ffd_nearest_word("degrees", known, 8), "degree");
+    assert_string_equal(ffd_nearest_word("mvoes", known, 8), "moves");
+    assert_string_equal(ffd_nearest_word("Size", known, 8), "size");
+    assert_null(ffd_nearest_word("x", known, 0));
+    char longest[500];
+    memset(longest, 'k', sizeof longest - 1);
+    longest[sizeof longest - 1] = 0;
+    assert_non_null(ffd_nearest_word(longest, known, 8));
+    (void)state;
+}
+
+static void check_text(char *text, const char *expected)
+{
+    assert_non_null(text);
+    assert_string_equal(text, expected);
+    ffd_free(text);
+}
+
+static void test_paths(void **state)
+{
+    assert_string_equal(ffd_path_name("a/b.obj"), "b.obj");
+    assert_string_equal(ffd_path_ending("a.d/b"), "");
+    assert_string_equal(ffd_path_ending("a/.obj"), "");
+    assert_string_equal(ffd_path_ending("x.gltf.glb"), ".glb");
+    assert_true(ffd_path_has_ending("X.OBJ", ".obj"));
+    assert_false(ffd_path_has_ending("x.objx", ".obj"));
+    assert_false(ffd_path_has_ending("x.ob", ".obj"));
+    check_text(ffd_path_folder("b.obj"), ".");
+    check_text(ffd_path_folder("/b.obj"), "/");
+    check_text(ffd_path_folder("a//b.obj"), "a");
+    check_text(ffd_path_stem("a/b.x.obj"), "b.x");
+    check_text(ffd_path_join("a", "b"), "a/b");
+    check_text(ffd_path_join("a/", "b"), "a/b");
+    check_text(ffd_path_join("", "b"), "b");
+    (void)state;
+}
+
+static void test_json_text(void **state)
+{
+    byte_buffer out = {0};
+    json_text json;
+    const double numbers[] = {1, 0.1, -2e-300};
+    ffd_json_begin(&json, &out);
+    ffd_json_object(&json, NULL, false);
+    ffd_json_string(&json, "name", "a\"b\\c\n\x01");
+    ffd_json_vector(&json, "numbers", numbers, 3);
+    ffd_json_array(&json, "empty", false);
+    ffd_json_end(&json, ']');
+    ffd_json_object(&json, "inner", false);
+    ffd_json_number(&json, "nan", 0.0 / (numbers[0] - 1));
+    ffd_json_bool(&json, "yes", true);
+    ffd_json_count(&json, "count", UINT64_MAX);
+    ffd_json_end(&json, '}');
+    ffd_json_end(&json, '}');
+    char *text = ffd_buffer_finish(&out);
+    assert_string_equal(text, "{\n  \"name\": \"a\\\"b\\\\c\\n\\u0001\",\n  \"numbers\": [1, 0.1, -2e-300],\n"
+                              "  \"empty\": [],\n  \"inner\": {\n    \"nan\": null,\n    \"yes\": true,\n"
+                              "    \"count\": 18446744073709551615\n  }\n}\n");
+    ffd_free(text);
+    (void)state;
+}
+
+static void test_messages(void **state)
+{
+    ffd_error error = {0};
+    char line[200];
+    assert_int_equal(ffd_fail_line(&error, FFD_E_INVALID, "a\nb.obj", 7, "bad \"%s\"", "x\ty"),
+                     FFD_E_INVALID);
+    ffd_error_format(&error, line, sizeof line);
+    assert_string_equal(line, "a?b.obj:7: bad \"x?y\"");
+    ffd_fail_at(&error, FFD_E_INVALID, "l.json", "/moves/0", "needs an action");
+    ffd_error_format(&error, line, sizeof line);
+    assert_string_equal(line, "l.json:/moves/0: needs an action");
+    ffd_fail(&error, FFD_E_ARGUMENT, "no lattice");
+    assert_int_equal(ffd_error_format(&error, line, 5), 10);
+    assert_string_equal(line, "no l");
+    ffd_fail_name_file(&error, "f");
+    ffd_fail_name_file(&error, "g");
+    assert_string_equal(error.file, "f");
+    assert_int_equal(ffd_fail(NULL, FFD_E_LIMIT, "nobody listens"), FFD_E_LIMIT);
+    /* A text longer than the record is cut, and a message made of the record itself is whole. */
+    char longest[3000];
+    memset(longest, 'y', sizeof longest - 1);
+    longest[sizeof longest - 1] = 0;
+    ffd_fail_file(&error, FFD_E_IO, longest, "%s", longest);
+    assert_int_equal(strlen(error.message), sizeof error.message - 1);
+    ffd_fail(&error, FFD_E_IO, "short");
+    ffd_fail_file(&error, FFD_E_IO, "x", "wrapped: %s", error.message);
+    assert_string_equal(error.message, "wrapped: short");
+    (void)state;
+}
+
+static void test_exit_codes(void **state)
+{
+    assert_int_equal(ffd_status_exit_code(FFD_OK), 0);
+    assert_int_equal(ffd_status_exit_code(FFD_E_ARGUMENT), 2);
+    assert_int_equal(ffd_status_exit_code(FFD_E_IO), 3);
+    assert_int_equal(ffd_status_exit_code(FFD_E_EXISTS), 3);
+    assert_int_equal(ffd_status_exit_code(FFD_E_INVALID), 4);
+    assert_int_equal(ffd_status_exit_code(FFD_E_EMBEDDING), 5);
+    assert_int_equal(ffd_status_exit_code(FFD_E_UNSUPPORTED), 6);
+    assert_int_equal(ffd_status_exit_code(FFD_E_MEMORY), 7);
+    assert_int_equal(ffd_status_exit_code(FFD_E_LIMIT), 7);
+    (void)state;
+}
+
+typedef struct tile_log {
+    unsigned char seen[10007];
+    size_t tiles[200];
+} tile_log;
+
+static void mark_tile(void *context, size_t tile, size_t begin, size_t end, int worker)
+{
+    tile_log *log = context;
+    assert_true(worker >= 0 && worker < 8);
+    log->tiles[tile] = end - begin;
+    for (size_t i = begin; i < end; i++)
+        log->seen[i]++;
+}
+
+static void test_tiles(void **state)
+{
+    static const int threads[] = {1, 2, 8, 1000};
+    static tile_log log;
+    for (size_t t = 0; t < 4; t++) {
+        memset(&log, 0, sizeof log);
+        /* 1000 threads for 8 tiles: no more than 8 workers. */
+        ffd_parallel_tiles(sizeof log.seen, t == 3 ? 1300 : 100, threads[t], mark_tile, &log);
+        for (size_t i = 0; i < sizeof log.seen; i++)
+            assert_int_equal(log.seen[i], 1);
+        assert_int_equal(log.tiles[t == 3 ? 7 : 100], t == 3 ? 907 : 7);
+    }
+    ffd_parallel_tiles(0, 100, 4, mark_tile, NULL);
+    assert_true(ffd_processor_count() >= 1);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_grow),       cmocka_unit_test(test_buffer),
+        cmocka_unit_test(test_words),    cmocka_unit_test(test_paths),      cmocka_unit_test(test_json_text),
+        cmocka_unit_test(test_messages), cmocka_unit_test(test_exit_codes), cmocka_unit_test(test_tiles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

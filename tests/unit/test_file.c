@@ -1,0 +1,238 @@
+/* test_file.c - files that appear whole or not at all, and reading of whatever a path leads to. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/file.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/ffd-test-file-XXXXXX";
+
+static const char *in_folder(const char *name)
+{
+    static char path[4][200];
+    static int turn;
+    turn = (turn + 1) % 4;
+    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
+    return path[turn];
+}
+
+static void put(const char *name, const char *text)
+{
+    FILE *file = fopen(in_folder(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(fclose(file), 0);
+}
+
+static void check_content(const char *name, const char *text)
+{
+    file_input input;
+    assert_int_equal(ffd_file_load(in_folder(name), &input, NULL), FFD_OK);
+    assert_int_equal(input.size, strlen(text));
+    assert_memory_equal(input.data, text, input.size);
+    ffd_file_unload(&input);
+}
+
+static file_output *begin(const char *name, bool force)
+{
+    file_output *output;
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, in_folder(name), force, NULL), FFD_OK);
+    return output;
+}
+
+static void test_load(void **state)
+{
+    file_input input;
+    ffd_error error;
+    put("empty", "");
+    assert_int_equal(ffd_file_load(in_folder("empty"), &input, &error), FFD_OK);
+    assert_int_equal(input.size, 0);
+    assert_non_null(input.data);
+    ffd_file_unload(&input);
+    assert_int_equal(ffd_file_load(in_folder("none"), &input, &error), FFD_E_IO);
+    assert_int_equal(ffd_file_load(folder, &input, &error), FFD_E_IO);
+    assert_string_equal(error.message, "is a folder");
+    assert_int_equal(ffd_file_load("/dev/null", &input, &error), FFD_OK);
+    assert_int_equal(input.size, 0);
+    ffd_file_unload(&input);
+    (void)state;
+}
+
+static void test_load_within(void **state)
+{
+    file_input input;
+    ffd_error error;
+    assert_int_equal(mkdir(in_folder("model"), 0777), 0);
+    put("secret.bin", "secret");
+    put("model/a.bin", "inside");
+    assert_int_equal(symlink("../secret.bin", in_folder("model/link.bin")), 0);
+    assert_int_equal(ffd_file_load_within(in_folder("model"), "a.bin", "m.gltf", &input, &error), FFD_OK);
+    assert_int_equal(input.size, 6);
+    ffd_file_unload(&input);
+    static const char *const refused[] = {"../secret.bin", "link.bin", "/etc/passwd", ".",
+                                          "none.bin",      "../model"};
+    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+        assert_int_equal(ffd_file_load_within(in_folder("model"), refused[i], "m.gltf", &input, &error),
+                         FFD_E_IO);
+        assert_string_equal(error.file, "m.gltf");
+    }
+    (void)state;
+}
+
+static void test_appears_when_committed(void **state)
+{
+    file_output *output = begin("new.txt", false);
+    assert_int_equal(ffd_output_write(output, "hello", 5, NULL), FFD_OK);
+    assert_false(ffd_file_exists(in_folder("new.txt")));
+    assert_true(ffd_file_exists(in_folder(".new.txt.ffd-tmp")));
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    assert_null(output);
+    check_content("new.txt", "hello");
+    assert_false(ffd_file_exists(in_folder(".new.txt.ffd-tmp")));
+    (void)state;
+}
+
+static void test_dropped(void **state)
+{
+    put("old.txt", "old");
+    file_output *output = begin("old.txt", true);
+    assert_int_equal(ffd_output_write(output, "newer", 5, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    check_content("old.txt", "old");
+    assert_false(ffd_file_exists(in_folder(".old.txt.ffd-tmp")));
+    (void)state;
+}
+
+static void test_refusals(void **state)
+{
+    file_output *output;
+    ffd_error error;
+    put("there.txt", "there");
+    assert_int_equal(ffd_output_create(&output, &error), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, in_folder("there.txt"), false, &error), FFD_E_EXISTS);
+    assert_int_equal(ffd_output_begin(output, folder, true, &error), FFD_E_IO);
+    assert_int_equal(ffd_output_begin(output, in_folder("no/folder.txt"), true, &error), FFD_E_IO);
+    ffd_output_destroy(&output);
+    assert_int_equal(ffd_output_check(in_folder("there.txt"), false, &error), FFD_E_EXISTS);
+    assert_int_equal(ffd_output_check(in_folder("there.txt"), true, &error), FFD_OK);
+    assert_int_equal(ffd_output_check(in_folder("no/folder.txt"), true, &error), FFD_E_IO);
+    assert_int_equal(ffd_output_check("-", false, &error), FFD_OK);
+    check_content("there.txt", "there");
+    (void)state;
+}
+
+/* A temporary file that a killed run left is taken over; one of a living run is not. */
+static void test_leftover_and_lock(void **state)
+{
+    ffd_error error;
+    put(".locked.txt.ffd-tmp", "left by a run that was killed, and longer than what comes now");
+    file_output *first = begin("locked.txt", false), *second;
+    assert_int_equal(ffd_output_create(&second, &error), FFD_OK);
+    assert_int_equal(ffd_output_begin(second, in_folder("locked.txt"), false, &error), FFD_E_IO);
+    assert_string_equal(error.message, "is being written by another run");
+    ffd_output_destroy(&second);
+    assert_int_equal(ffd_output_write(first, "done", 4, &error), FFD_OK);
+    assert_int_equal(ffd_output_commit(first, &error), FFD_OK);
+    ffd_output_destroy(&first);
+    check_content("locked.txt", "done");
+    (void)state;
+}
+
+static void test_permissions_and_links(void **state)
+{
+    struct stat info;
+    put("mode.txt", "old");
+    assert_int_equal(chmod(in_folder("mode.txt"), 0640), 0);
+    assert_int_equal(symlink("mode.txt", in_folder("link.txt")), 0);
+    file_output *output = begin("link.txt", true);
+    assert_int_equal(ffd_output_write(output, "new", 3, NULL), FFD_OK);
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    check_content("mode.txt", "new");
+    assert_int_equal(stat(in_folder("mode.txt"), &info), 0);
+    assert_int_equal(info.st_mode & 0777, 0640);
+    assert_int_equal(lstat(in_folder("link.txt"), &info), 0);
+    assert_true(S_ISLNK(info.st_mode));
+    (void)state;
+}
+
+/* Several files appear together, large ones in many blocks. */
+static void test_set(void **state)
+{
+    enum { SIZE = 1000003 };
+    unsigned char *bytes = malloc(SIZE);
+    assert_non_null(bytes);
+    for (int i = 0; i < SIZE; i++)
+        bytes[i] = (unsigned char)(i * 7);
+    put("set.gltf", "old");
+    file_output *output = begin("set.bin", false);
+    for (int i = 0; i < SIZE; i += 1000)
+        assert_int_equal(ffd_output_write(output, bytes + i, SIZE - i < 1000 ? SIZE - i : 1000, NULL),
+                         FFD_OK);
+    assert_int_equal(ffd_output_begin(output, in_folder("set.gltf"), true, NULL), FFD_OK);
+    assert_int_equal(ffd_output_write(output, "new", 3, NULL), FFD_OK);
+    ffd_output_remove_first(output);
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    file_input input;
+    assert_int_equal(ffd_file_load(in_folder("set.bin"), &input, NULL), FFD_OK);
+    assert_int_equal(input.size, SIZE);
+    assert_memory_equal(input.data, bytes, SIZE);
+    ffd_file_unload(&input);
+    check_content("set.gltf", "new");
+    free(bytes);
+    (void)state;
+}
+
+static void test_full_disk(void **state)
+{
+    file_output *output;
+    ffd_error error;
+    if (!ffd_file_exists("/dev/full"))
+        skip();
+    assert_int_equal(ffd_output_create(&output, &error), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, "/dev/full", false, &error), FFD_OK);
+    assert_int_equal(ffd_output_write(output, "x", 1, &error), FFD_OK);
+    assert_int_equal(ffd_output_commit(output, &error), FFD_E_IO);
+    ffd_output_destroy(&output);
+    (void)state;
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    char command[100];
+    snprintf(command, sizeof command, "rm -rf '%s'", folder);
+    (void)state;
+    return system(command);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_load),
+        cmocka_unit_test(test_load_within),
+        cmocka_unit_test(test_appears_when_committed),
+        cmocka_unit_test(test_dropped),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_leftover_and_lock),
+        cmocka_unit_test(test_permissions_and_links),
+        cmocka_unit_test(test_set),
+        cmocka_unit_test(test_full_disk),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

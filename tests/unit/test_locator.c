@@ -1,0 +1,407 @@
+/* test_locator.c - u,v,w of points: the three ways, statuses, the tolerance, independence of company. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/draw.h"
+#include "../support/lattice_by_hand.h"
+#include "base/vec.h"
+#include <ffd/embedding.h>
+#include <float.h>
+
+static ffd_lattice *lattice_of_kinds(const knot_kind kind[3], const int degree[3], const size_t size[3])
+{
+    knot_vector knots[3];
+    for (int a = 0; a < 3; a++)
+        assert_int_equal(ffd_knots_make(kind[a], degree[a], size[a], NULL, 0, "uvw"[a], &knots[a], NULL),
+                         FFD_OK);
+    return lattice_of_knots(knots);
+}
+
+static ffd_lattice *clamped(int degree, size_t size)
+{
+    const knot_kind kind[3] = {KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED};
+    const int degrees[3] = {degree, degree, degree};
+    const size_t sizes[3] = {size, size, size};
+    return lattice_of_kinds(kind, degrees, sizes);
+}
+
+typedef void (*point_map)(const double g[3], double out[3]);
+
+/* Control points at the images of their Greville abscissae (fractions of the domain). */
+static void set_points(ffd_lattice *lattice, point_map map)
+{
+    double *p = lattice->rest;
+    for (size_t k = 0; k < lattice->size[2]; k++)
+        for (size_t j = 0; j < lattice->size[1]; j++)
+            for (size_t i = 0; i < lattice->size[0]; i++, p += 3) {
+                const size_t index[3] = {i, j, k};
+                double g[3];
+                for (int a = 0; a < 3; a++) {
+                    const knot_vector *knots = &lattice->knots[a];
+                    g[a] = (ffd_knots_greville(knots, index[a]) - ffd_knots_first(knots)) /
+                           (ffd_knots_last(knots) - ffd_knots_first(knots));
+                }
+                map(g, p);
+            }
+    memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
+    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+}
+
+static void box_map(const double g[3], double out[3])
+{
+    out[0] = -1 + 3 * g[0];
+    out[1] = 2 + 0.5 * g[1];
+    out[2] = 10 * g[2];
+}
+
+static void sheared_map(const double g[3], double out[3])
+{
+    out[0] = 1 + g[0] + 0.5 * g[1];
+    out[1] = g[1] - 0.25 * g[2];
+    out[2] = g[2] + 0.125 * g[0];
+}
+
+static void mirrored_map(const double g[3], double out[3])
+{
+    box_map(g, out);
+    out[0] = -out[0];
+}
+
+static void separable_map(const double g[3], double out[3])
+{
+    for (int a = 0; a < 3; a++)
+        out[a] = g[a] * g[a] + (a + 1) * g[a];
+}
+
+static void warped_map(const double g[3], double out[3])
+{
+    out[0] = g[0] + 0.1 * g[1] * g[1] + 0.05 * g[2];
+    out[1] = g[1] + 0.15 * g[0] * g[2];
+    out[2] = g[2] - 0.1 * g[0] * g[0] + 0.05 * g[1] * g[1] * g[0];
+}
+
+static void thin_map(const double g[3], double out[3])
+{
+    warped_map(g, out);
+    out[2] *= 1e-6;
+}
+
+static void far_map(const double g[3], double out[3])
+{
+    warped_map(g, out);
+    out[0] += 1e6;
+    out[1] -= 1e6;
+}
+
+static void huge_map(const double g[3], double out[3])
+{
+    warped_map(g, out);
+    for (int a = 0; a < 3; a++)
+        out[a] *= 1e9;
+}
+
+/* A bar bent to 3/4 of a circle: v along the bar. */
+static void bent_map(const double g[3], double out[3])
+{
+    const double angle = 4.7 * g[1], radius = 1 + g[0];
+    out[0] = radius * cos(angle);
+    out[1] = radius * sin(angle);
+    out[2] = g[2];
+}
+
+typedef struct locator_case {
+    const char *name;
+    point_map map;
+    const char *method;
+} locator_case;
+
+/* Round trip: random u,v,w, its point, and back. */
+static void check_round_trip(const ffd_lattice *lattice, const char *method, draw *d, int points)
+{
+    /* Far from the origin a point of a face is rounded by more than the tolerance, which is that of the
+       lattice's own size: it may really lie outside. */
+    const bool far = fabs(lattice->rest[0]) > 1e5 * lattice->diagonal;
+    ffd_locator *locator;
+    ffd_error error;
+    assert_int_equal(ffd_locator_create(lattice, &locator, &error), FFD_OK);
+    assert_string_equal(ffd_locator_get_method(locator), method);
+    for (int i = 0; i < points; i++) {
+        double uvw[3], p[3], jacobian[9], inverse[9], back[3];
+        ffd_location location;
+        for (int a = 0; a < 3; a++) {
+            const knot_vector *knots = &lattice->knots[a];
+            const double lo = ffd_knots_first(knots), hi = ffd_knots_last(knots);
+            const int where = far ? 2 : draw_int(d, 0, 9);
+            uvw[a] = where == 0 ? lo : where == 1 ? hi : draw_between(d, lo, hi);
+        }
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, p, jacobian);
+        assert_true(mat_invert(jacobian, inverse));
+        assert_int_equal(ffd_locator_find(locator, p, 1, &location, &error), FFD_OK);
+        if (location.status != FFD_INSIDE)
+            fail_msg("u,v,w %.17g %.17g %.17g: status %d", uvw[0], uvw[1], uvw[2], location.status);
+        for (int a = 0; a < 3; a++) {
+            double allowed = 0;
+            for (int r = 0; r < 3; r++) {
+                double size = fabs(p[r]);
+                for (size_t n = 0; n < lattice->count; n++)
+                    size = fmax(size, fabs(p[r]) + fabs(lattice->rest[3 * n + (size_t)r]));
+                allowed += fabs(inverse[3 * a + r]) * 16 * DBL_EPSILON * size;
+            }
+            allowed = fmax(1e-12, 4 * allowed);
+            if (!(fabs(location.uvw[a] - uvw[a]) <= allowed))
+                fail_msg("direction %d: %.17g is not %.17g (within %g)", a, location.uvw[a], uvw[a], allowed);
+        }
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, location.uvw, back, NULL);
+        for (int r = 0; r < 3; r++)
+            assert_true(fabs(back[r] - p[r]) <= 64 * DBL_EPSILON * (fabs(p[r]) + lattice->diagonal));
+    }
+    ffd_locator_destroy(&locator);
+    assert_null(locator);
+}
+
+static void test_round_trips(void **state)
+{
+    static const locator_case cases[] = {
+        {"box", box_map, "affine"},           {"sheared", sheared_map, "affine"},
+        {"mirrored", mirrored_map, "affine"}, {"separable", separable_map, "separable"},
+        {"warped", warped_map, "general"},    {"thin", thin_map, "general"},
+        {"far", far_map, "general"},          {"huge", huge_map, "general"},
+    };
+    draw d = {draw_seed()};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
+        for (int degree = 1; degree <= 9; degree += degree < 3 ? 1 : 3) {
+            ffd_lattice *lattice = clamped(degree, (size_t)degree + 4);
+            set_points(lattice, cases[c].map);
+            print_message("%s, degree %d\n", cases[c].name, degree);
+            check_round_trip(lattice, cases[c].method, &d, 60);
+            ffd_lattice_destroy(&lattice);
+        }
+    (void)state;
+}
+
+static void test_other_knots(void **state)
+{
+    draw d = {draw_seed()};
+    const knot_kind kind[3] = {KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLAMPED};
+    const int degree[3] = {2, 3, 4};
+    const size_t size[3] = {6, 7, 8};
+    ffd_lattice *lattice = lattice_of_kinds(kind, degree, size);
+    set_points(lattice, box_map);
+    check_round_trip(lattice, "affine", &d, 100);
+    set_points(lattice, warped_map);
+    check_round_trip(lattice, "general", &d, 100);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+static void test_bent_bar(void **state)
+{
+    draw d = {draw_seed()};
+    ffd_lattice *lattice = clamped(3, 10);
+    set_points(lattice, bent_map);
+    check_round_trip(lattice, "general", &d, 300);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+static void test_weights(void **state)
+{
+    draw d = {draw_seed()};
+    ffd_lattice *lattice = clamped(3, 6);
+    lattice_add_weights(lattice);
+    for (size_t i = 0; i < lattice->count; i++)
+        lattice->rest_weights[i] = lattice->deformed_weights[i] = draw_between(&d, 0.8, 1.25);
+    set_points(lattice, warped_map);
+    check_round_trip(lattice, "general", &d, 300);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+static ffd_location find_one(const ffd_locator *locator, double x, double y, double z)
+{
+    const double p[3] = {x, y, z};
+    ffd_location location;
+    assert_int_equal(ffd_locator_find(locator, p, 1, &location, NULL), FFD_OK);
+    return location;
+}
+
+static void test_outside_and_invalid(void **state)
+{
+    static const point_map maps[] = {box_map, separable_map, warped_map};
+    for (size_t m = 0; m < 3; m++) {
+        ffd_lattice *lattice = clamped(3, 6);
+        ffd_locator *locator;
+        set_points(lattice, maps[m]);
+        assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+        const ffd_location far = find_one(locator, 1e5, 0, 0), huge = find_one(locator, 0, -1e308, 1e308);
+        const ffd_location nan = find_one(locator, 0, NAN, 0), inf = find_one(locator, INFINITY, 0, 0);
+        assert_int_equal(far.status, FFD_OUTSIDE);
+        assert_int_equal(far.evaluations, 0);
+        assert_true(isnan(far.uvw[0]) && isnan(far.uvw[1]) && isnan(far.uvw[2]));
+        assert_int_equal(huge.status, FFD_OUTSIDE);
+        assert_int_equal(nan.status, FFD_POINT_INVALID);
+        assert_int_equal(inf.status, FFD_POINT_INVALID);
+        /* A hair beyond the faces of the box is outside: 1e-9 is far more than the tolerance. */
+        if (maps[m] == box_map) {
+            assert_int_equal(find_one(locator, -1 - 1e-9, 2.1, 5).status, FFD_OUTSIDE);
+            assert_int_equal(find_one(locator, -1, 2.1, 5).status, FFD_INSIDE);
+            assert_int_equal(find_one(locator, 2, 2.5, 10).status, FFD_INSIDE);
+            assert_int_equal(find_one(locator, 2, 2.5, 10 + 1e-9).status, FFD_OUTSIDE);
+        }
+        ffd_locator_destroy(&locator);
+        ffd_lattice_destroy(&lattice);
+    }
+    (void)state;
+}
+
+/* Shuffled, in pieces, alone: the same bits. */
+static void test_company(void **state)
+{
+    enum { COUNT = 500 };
+    static double points[3 * COUNT];
+    static ffd_location together[COUNT];
+    draw d = {draw_seed()};
+    ffd_lattice *lattice = clamped(3, 8);
+    ffd_locator *locator, *other;
+    set_points(lattice, warped_map);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_create(lattice, &other, NULL), FFD_OK);
+    for (int i = 0; i < 3 * COUNT; i++)
+        points[i] = draw_between(&d, -0.1, 1.3);
+    assert_int_equal(ffd_locator_find(locator, points, COUNT, together, NULL), FFD_OK);
+    for (int i = COUNT - 1; i >= 0; i--) {
+        ffd_location alone;
+        assert_int_equal(ffd_locator_find(other, points + 3 * i, 1, &alone, NULL), FFD_OK);
+        assert_memory_equal(alone.uvw, together[i].uvw, sizeof alone.uvw);
+        assert_int_equal(alone.status, together[i].status);
+        assert_int_equal(alone.evaluations, together[i].evaluations);
+    }
+    ffd_locator_destroy(&other);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* The map folds over itself along u: x goes forth and back. */
+static void folded_map(const double g[3], double out[3])
+{
+    out[0] = 4 * g[0] * (1 - g[0]) + 0.01 * g[1];
+    out[1] = g[1];
+    out[2] = g[2];
+}
+
+static void test_folded(void **state)
+{
+    ffd_lattice *lattice = clamped(2, 6);
+    ffd_locator *locator;
+    set_points(lattice, folded_map);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    const ffd_location location = find_one(locator, 0.5, 0.5, 0.5);
+    assert_int_equal(location.status, FFD_MULTIPLE);
+    double back[3];
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, location.uvw, back, NULL);
+    assert_true(fabs(back[0] - 0.5) < 1e-13);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+static void flat_map(const double g[3], double out[3])
+{
+    out[0] = g[0];
+    out[1] = g[1];
+    out[2] = 0.25 * g[0] - g[1];
+}
+
+static void test_flat_is_refused(void **state)
+{
+    ffd_lattice *lattice = clamped(3, 5);
+    ffd_locator *locator;
+    ffd_error error;
+    set_points(lattice, flat_map);
+    assert_int_equal(ffd_locator_create(lattice, &locator, &error), FFD_E_INVALID);
+    assert_null(locator);
+    assert_non_null(strstr(error.message, "no volume"));
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* Axis of a wedge: the face u = 0 is a line, on which J has no inverse. */
+static void wedge_map(const double g[3], double out[3])
+{
+    const double angle = 1.2 * g[1];
+    out[0] = g[0] * cos(angle);
+    out[1] = g[0] * sin(angle);
+    out[2] = g[2];
+}
+
+static void test_collapsed_face(void **state)
+{
+    draw d = {draw_seed()};
+    ffd_lattice *lattice = clamped(2, 5);
+    ffd_locator *locator;
+    set_points(lattice, wedge_map);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    for (int i = 0; i < 100; i++) {
+        const double uvw[3] = {pow(10, draw_between(&d, -7, 0)), draw_unit(&d), draw_unit(&d)};
+        double p[3], back[3];
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, p, NULL);
+        const ffd_location location = find_one(locator, p[0], p[1], p[2]);
+        assert_true(location.status == FFD_INSIDE || location.status == FFD_SINGULAR);
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, location.uvw, back, NULL);
+        for (int a = 0; a < 3; a++)
+            assert_true(fabs(back[a] - p[a]) < 1e-13);
+    }
+    const ffd_location axis = find_one(locator, 0, 0, 0.5);
+    assert_int_equal(axis.status, FFD_SINGULAR);
+    assert_true(fabs(axis.uvw[0]) < 1e-12);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* Memory that runs out anywhere is told, and nothing is lost. */
+static void test_no_memory(void **state)
+{
+    ffd_lattice *lattice = clamped(3, 6);
+    set_points(lattice, bent_map);
+    int failures = 0;
+    for (long n = 0;; n++) {
+        ffd_locator *locator = NULL;
+        ffd_location location;
+        const double p[3] = {1.5, 0.1, 0.5};
+        ffd_alloc_fail_after(n);
+        ffd_status status = ffd_locator_create(lattice, &locator, NULL);
+        if (!status)
+            status = ffd_locator_find(locator, p, 1, &location, NULL);
+        ffd_alloc_fail_after(-1);
+        ffd_locator_destroy(&locator);
+        if (!status)
+            break;
+        assert_int_equal(status, FFD_E_MEMORY);
+        failures++;
+    }
+    assert_true(failures > 5);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_trips),
+        cmocka_unit_test(test_other_knots),
+        cmocka_unit_test(test_bent_bar),
+        cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_outside_and_invalid),
+        cmocka_unit_test(test_company),
+        cmocka_unit_test(test_folded),
+        cmocka_unit_test(test_flat_is_refused),
+        cmocka_unit_test(test_collapsed_face),
+        cmocka_unit_test(test_no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,131 @@
+/* test_number.c - number text both ways. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/draw.h"
+#include "base/number.h"
+#include <float.h>
+#include <locale.h>
+#include <math.h>
+#include <string.h>
+
+typedef struct number_case {
+    const char *text;
+    double value;
+    size_t length; /* of what is read; 0: nothing */
+} number_case;
+
+static void test_parse(void **state)
+{
+    static const number_case cases[] = {
+        {"0", 0, 1},
+        {"-0", -0.0, 2},
+        {"+1.5", 1.5, 4},
+        {"1e3x", 1000, 3},
+        {".5", 0.5, 2},
+        {"5.", 5, 2},
+        {"1.5.2", 1.5, 3},
+        {"1e", 1, 1},
+        {"1e+", 1, 1},
+        {"-1E-2", -0.01, 5},
+        {"0x10", 0, 1},
+        {"", 0, 0},
+        {"-", 0, 0},
+        {"+-1", 0, 0},
+        {"e5", 0, 0},
+        {".", 0, 0},
+        {"1,5", 1, 1},
+        {"1e400", HUGE_VAL, 5},
+        {"-1e400", -HUGE_VAL, 6},
+        {"1e-400", 0, 6},
+        {"0.1", 0.1, 3},
+        {"4.9e-324", 4.9406564584124654e-324, 8},
+        {"inf", HUGE_VAL, 3},
+        {"123456789012345678901234567890e-400", 0, 35},
+        {"0.00000000000000000000000000000000001e400", HUGE_VAL, 41},
+        {"9007199254740993", 9007199254740992.0, 16},
+        {"1.7976931348623157e308", DBL_MAX, 22},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *text = cases[i].text;
+        double value = -7;
+        const char *end = ffd_number_parse(text, text + strlen(text), &value);
+        if (!cases[i].length) {
+            assert_null(end);
+            continue;
+        }
+        assert_non_null(end);
+        assert_int_equal(end - text, cases[i].length);
+        assert_true(value == cases[i].value);
+        assert_int_equal(signbit(value) != 0, signbit(cases[i].value) != 0);
+    }
+    double value = 0;
+    assert_non_null(ffd_number_parse("nan", &"nan"[3], &value));
+    (void)state;
+}
+
+static void test_stops_at_last(void **state)
+{
+    const char text[] = "12345";
+    double value = 0;
+    assert_ptr_equal(ffd_number_parse(text, text + 2, &value), text + 2);
+    assert_true(value == 12);
+    (void)state;
+}
+
+static const char *format(double value)
+{
+    static char text[FFD_NUMBER_CAPACITY + 1];
+    text[ffd_number_format(value, text)] = 0;
+    return text;
+}
+
+static void test_format(void **state)
+{
+    assert_string_equal(format(0.1), "0.1");
+    assert_string_equal(format(1), "1");
+    assert_string_equal(format(-0.0), "-0");
+    assert_string_equal(format(1e300), "1e+300");
+    assert_string_equal(format(0.001), "0.001");
+    assert_string_equal(format(1.0 / 3), "0.3333333333333333");
+    assert_string_equal(format(5e-324), "5e-324");
+    char text[FFD_NUMBER_CAPACITY];
+    const size_t length = ffd_number_format_float(0.1f, text);
+    assert_int_equal(length, 3);
+    assert_memory_equal(text, "0.1", 3);
+    (void)state;
+}
+
+/* Any double comes back as itself, under a locale with a decimal comma too where there is one. */
+static void test_round_trip(void **state)
+{
+    draw d = {draw_seed()};
+    setlocale(LC_ALL, "de_DE.UTF-8");
+    for (int i = 0; i < 200000; i++) {
+        const uint64_t bits = draw_bits(&d);
+        double value, back = 0;
+        memcpy(&value, &bits, sizeof value);
+        if (!isfinite(value))
+            continue;
+        char text[FFD_NUMBER_CAPACITY];
+        const size_t length = ffd_number_format(value, text);
+        assert_true(length < FFD_NUMBER_CAPACITY);
+        assert_ptr_equal(ffd_number_parse(text, text + length, &back), text + length);
+        assert_memory_equal(&back, &value, sizeof value);
+    }
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_parse),
+        cmocka_unit_test(test_stops_at_last),
+        cmocka_unit_test(test_format),
+        cmocka_unit_test(test_round_trip),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
