@@ -1,0 +1,44 @@
+/* command.h - the table of commands. */
+#ifndef FFD_CLI_COMMAND_H
+#define FFD_CLI_COMMAND_H
+
+#include "cli/options.h"
+#include <ffd/ffd.h>
+
+/* Exit codes that are not those of a status. */
+enum { EXIT_DONE = 0, EXIT_NO = 1, EXIT_USAGE = 2 };
+
+typedef struct cli_command {
+    const char *name;     /* "lattice new" */
+    const char *summary;  /* one line */
+    const char *synopsis; /* lines of usage, each ended by a line break */
+    const cli_option *options;
+    /* Gets the arguments behind the name. Returns the exit code. */
+    int (*run)(const struct cli_command *command, int count, char **arguments);
+} cli_command;
+
+extern const cli_command cli_deform, cli_embed, cli_compare, cli_info, cli_lattice_new;
+
+void cli_print_help(const cli_command *command);
+
+/* What is common to commands that talk: filled by the options -q, -v. */
+typedef struct cli_talk {
+    bool quiet, verbose;
+    const char *subject; /* the file that is being worked on, NULL for none */
+} cli_talk;
+
+/* An ffd_log_function whose user is a cli_talk. */
+void cli_log(void *user, ffd_log_level level, const char *line);
+
+/* Says what went wrong, returns its exit code. */
+int cli_fail(const ffd_error *error);
+
+/* "usage: ..." for a wrong number of words. */
+int cli_usage(const cli_command *command, const char *why);
+
+/* Parses into settings and words (to be freed by the caller). Returns 0 to go on, else with *exit_code to
+   end: after a complaint, or help. */
+bool cli_begin(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
+               cli_words *words, int *exit_code);
+
+#endif

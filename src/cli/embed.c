@@ -1,0 +1,72 @@
+/* embed.c - ffd embed: u,v,w of every vertex as a NumPy file. */
+#include "cli/command.h"
+#include <stdlib.h>
+
+typedef struct settings {
+    const char *lattice, *output, *status;
+    int threads, space;
+    ffd_format input_format;
+    bool force, help;
+    cli_talk talk;
+} settings;
+
+static const char *const space_names[] = {"scene", "mesh", NULL};
+
+#define AT(field) offsetof(settings, field)
+static const cli_option options[] = {
+    {"lattice", 'l', "FILE", "lattice file", cli_set_text, AT(lattice), NULL},
+    {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside", cli_set_text, AT(output), NULL},
+    {"status", 0, "FILE.npy", "uint8 a vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
+     cli_set_text, AT(status), NULL},
+    {"space", 0, "scene|mesh", "glTF: where the lattice stands; default scene", cli_set_choice, AT(space),
+     space_names},
+    {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),
+     NULL},
+    {"force", 0, NULL, "overwrite existing outputs", cli_set_flag, AT(force), NULL},
+    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+static int embed(settings *s, const char *input)
+{
+    ffd_embed_desc desc;
+    ffd_job_result result;
+    ffd_error error;
+    ffd_embed_desc_init(&desc);
+    desc.input = (ffd_source){input, s->input_format, (ffd_space)s->space};
+    desc.lattice = s->lattice;
+    desc.output = s->output;
+    desc.status_output = s->status;
+    desc.threads = s->threads;
+    desc.force = s->force;
+    desc.log = cli_log;
+    desc.log_user = &s->talk;
+    s->talk.subject = input;
+    return ffd_embed_run(&desc, &result, &error) ? cli_fail(&error) : EXIT_DONE;
+}
+
+static int run(const cli_command *command, int count, char **arguments)
+{
+    settings s = {0};
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
+        return code;
+    if (words.count != 1)
+        code = cli_usage(command, "needs one IN");
+    else if (!s.lattice)
+        code = cli_usage(command, "no lattice is given (-l FILE)");
+    else if (!s.output)
+        code = cli_usage(command, "no output is given (-o FILE.npy)");
+    else
+        code = embed(&s, words.words[0]);
+    free(words.words);
+    return code;
+}
+
+const cli_command cli_embed = {"embed", "u,v,w of every vertex",
+                               "usage: ffd embed IN -l LATTICE -o FILE.npy [--status FILE.npy] [options]\n",
+                               options, run};

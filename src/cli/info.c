@@ -1,0 +1,44 @@
+/* info.c - ffd info: what is in a mesh or lattice file. */
+#include "cli/command.h"
+#include <stdio.h>
+#include <stdlib.h>
+
+typedef struct settings {
+    ffd_format input_format;
+    bool json, help;
+} settings;
+
+#define AT(field) offsetof(settings, field)
+static const cli_option options[] = {
+    {"json", 0, NULL, "as JSON", cli_set_flag, AT(json), NULL},
+    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+static int describe(const settings *s, const char *file)
+{
+    const ffd_source source = {file, s->input_format, FFD_SPACE_SCENE};
+    ffd_error error;
+    char *text;
+    if (ffd_info_run(&source, s->json, &text, &error))
+        return cli_fail(&error);
+    fputs(text, stdout);
+    ffd_text_free(text);
+    return EXIT_DONE;
+}
+
+static int run(const cli_command *command, int count, char **arguments)
+{
+    settings s = {0};
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
+        return code;
+    code = words.count == 1 ? describe(&s, words.words[0]) : cli_usage(command, "needs one FILE");
+    free(words.words);
+    return code;
+}
+
+const cli_command cli_info = {"info", "what is in a mesh or a lattice file",
+                              "usage: ffd info FILE [--json]\n", options, run};

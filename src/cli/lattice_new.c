@@ -1,0 +1,187 @@
+/* lattice_new.c - ffd lattice new: a lattice round a mesh. */
+#include "cli/command.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct settings {
+    ffd_lattice_desc desc;
+    const char *output;
+    int shape, spacing;
+    ffd_format input_format;
+    bool force, help;
+} settings;
+
+/* Splits "4,4,4" (or "4" for all three) into texts. */
+static bool split_three(const char *value, char part[3][32])
+{
+    for (int a = 0; a < 3; a++) {
+        const size_t length = strcspn(value, ",");
+        if (length == 0 || length >= sizeof part[a])
+            return false;
+        memcpy(part[a], value, length);
+        part[a][length] = 0;
+        if (a == 0 && !value[length]) {
+            strcpy(part[1], part[0]);
+            strcpy(part[2], part[0]);
+            return true;
+        }
+        value += length;
+        if (a < 2 ? *value != ',' : *value != 0)
+            return false;
+        value++;
+    }
+    return true;
+}
+
+static bool parse_count(const char *text, long least, long greatest, long *count)
+{
+    char *end;
+    errno = 0;
+    *count = strtol(text, &end, 10);
+    return *text >= '0' && *text <= '9' && *end == 0 && !errno && *count >= least && *count <= greatest;
+}
+
+static bool set_size(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    char part[3][32];
+    long count = 0;
+    bool right = split_three(value, part);
+    for (int a = 0; right && a < 3; a++) {
+        right = parse_count(part[a], 2, 1000000, &count);
+        s->desc.size[a] = (size_t)count;
+    }
+    if (!right)
+        cli_complain("--%s: \"%s\" is not three whole numbers from 2 on, like 4,4,4", option->name, value);
+    return right;
+}
+
+static bool set_degree(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    char part[3][32];
+    long degree = 0;
+    bool right = split_three(value, part);
+    for (int a = 0; right && a < 3; a++) {
+        right = parse_count(part[a], 1, FFD_MAX_DEGREE, &degree);
+        s->desc.degree[a] = (int)degree;
+    }
+    if (!right)
+        cli_complain("--%s: \"%s\" is not three whole numbers from 1 to %d, like 3,3,3", option->name, value,
+                     FFD_MAX_DEGREE);
+    return right;
+}
+
+static bool set_knots(void *context, const cli_option *option, const char *value)
+{
+    static const struct {
+        const char *name;
+        ffd_knots knots;
+    } known[] = {{"clamped", FFD_KNOTS_CLAMPED}, {"open", FFD_KNOTS_OPEN},
+                 {"unclamped", FFD_KNOTS_OPEN},  {"uniform", FFD_KNOTS_UNIFORM},
+                 {"closed", FFD_KNOTS_CLOSED},   {"periodic", FFD_KNOTS_CLOSED}};
+    settings *s = context;
+    char part[3][32];
+    bool right = split_three(value, part);
+    for (int a = 0; right && a < 3; a++) {
+        right = false;
+        for (size_t i = 0; !right && i < sizeof known / sizeof *known; i++)
+            if (strcmp(part[a], known[i].name) == 0) {
+                s->desc.knots[a] = known[i].knots;
+                right = true;
+            }
+    }
+    if (!right)
+        cli_complain("--%s: \"%s\" is not three of clamped, open, uniform, closed", option->name, value);
+    return right;
+}
+
+static bool set_margin(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    if (cli_parse_number(value, &s->desc.margin) && s->desc.margin >= 0)
+        return true;
+    cli_complain("--%s: \"%s\" is not a number from 0 on", option->name, value);
+    return false;
+}
+
+static bool set_axis(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    char part[3][32];
+    if (strlen(value) == 1 && *value >= 'x' && *value <= 'z') {
+        for (int a = 0; a < 3; a++)
+            s->desc.axis[a] = *value == "xyz"[a];
+        return true;
+    }
+    bool right = strchr(value, ',') && split_three(value, part);
+    for (int a = 0; right && a < 3; a++)
+        right = cli_parse_number(part[a], &s->desc.axis[a]);
+    right = right && (s->desc.axis[0] != 0 || s->desc.axis[1] != 0 || s->desc.axis[2] != 0);
+    if (!right)
+        cli_complain("--%s: \"%s\" is not x, y, z or a direction like 0,1,1", option->name, value);
+    return right;
+}
+
+static bool set_axes(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    s->desc.principal = strcmp(value, "principal") == 0;
+    if (!s->desc.principal)
+        cli_complain("--%s: \"%s\" is not principal", option->name, value);
+    return s->desc.principal;
+}
+
+static const char *const shape_names[] = {"box", "cylinder", NULL};
+static const char *const spacing_names[] = {"greville", "uniform", NULL};
+
+#define AT(field) offsetof(settings, field)
+static const cli_option options[] = {
+    {"output", 'o', "LATTICE", "the file to write", cli_set_text, AT(output), NULL},
+    {"size", 0, "N,M,O", "control points along u, v, w; default 4,4,4", set_size, 0, NULL},
+    {"degree", 0, "N,M,O", "1 to 9; default 3, or less where there are fewer points", set_degree, 0, NULL},
+    {"knots", 0, "K,K,K", "clamped, open, uniform or closed; default clamped", set_knots, 0, NULL},
+    {"margin", 0, "F", "room on every side, as a fraction of the extent; default 0.05", set_margin, 0, NULL},
+    {"spacing", 0, "greville|uniform", "of the control points of a box; default greville", cli_set_choice,
+     AT(spacing), spacing_names},
+    {"shape", 0, "box|cylinder", "default box", cli_set_choice, AT(shape), shape_names},
+    {"axis", 0, "x|y|z|X,Y,Z", "of a cylinder; default z", set_axis, 0, NULL},
+    {"axes", 0, "principal", "a box along the mesh's principal axes", set_axes, 0, NULL},
+    {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
+    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+static int create(settings *s, const char *mesh)
+{
+    const ffd_source source = {mesh, s->input_format, FFD_SPACE_SCENE};
+    ffd_error error;
+    s->desc.shape = (ffd_lattice_shape)s->shape;
+    s->desc.spacing = (ffd_spacing)s->spacing;
+    return ffd_lattice_new_run(&source, &s->desc, s->output, s->force, &error) ? cli_fail(&error) : EXIT_DONE;
+}
+
+static int run(const cli_command *command, int count, char **arguments)
+{
+    settings s = {0};
+    cli_words words;
+    int code = EXIT_USAGE;
+    ffd_lattice_desc_init(&s.desc);
+    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
+        return code;
+    if (words.count != 1)
+        code = cli_usage(command, "needs one MESH");
+    else if (!s.output)
+        code = cli_usage(command, "no output is given (-o LATTICE)");
+    else
+        code = create(&s, words.words[0]);
+    free(words.words);
+    return code;
+}
+
+const cli_command cli_lattice_new = {"lattice new", "make a lattice round a mesh",
+                                     "usage: ffd lattice new MESH -o LATTICE [--size 4,4,4] [--degree 3,3,3] "
+                                     "[--shape box|cylinder] [options]\n",
+                                     options, run};

@@ -1,0 +1,194 @@
+#include "cli/options.h"
+#include <errno.h>
+#include <ffd/ffd.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+void cli_complain(const char *format, ...)
+{
+    char line[2048];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    /* One line, whatever was on the command line. */
+    for (char *c = line; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+    fprintf(stderr, "ffd: %s\n", line);
+}
+
+static void *field(void *settings, const cli_option *option)
+{
+    return (char *)settings + option->offset;
+}
+
+bool cli_set_flag(void *settings, const cli_option *option, const char *value)
+{
+    (void)value;
+    *(bool *)field(settings, option) = true;
+    return true;
+}
+
+bool cli_set_text(void *settings, const cli_option *option, const char *value)
+{
+    *(const char **)field(settings, option) = value;
+    return true;
+}
+
+bool cli_set_count(void *settings, const cli_option *option, const char *value)
+{
+    char *end;
+    errno = 0;
+    const long count = strtol(value, &end, 10);
+    if (*value < '0' || *value > '9' || *end || errno || count < 1 || count > 1024) {
+        cli_complain("--%s: \"%s\" is not a whole number from 1 to 1024", option->name, value);
+        return false;
+    }
+    *(int *)field(settings, option) = (int)count;
+    return true;
+}
+
+bool cli_set_choice(void *settings, const cli_option *option, const char *value)
+{
+    char known[200] = "";
+    for (int i = 0; option->choices[i]; i++) {
+        if (strcmp(option->choices[i], value) == 0) {
+            *(int *)field(settings, option) = i;
+            return true;
+        }
+        const size_t length = strlen(known);
+        snprintf(known + length, sizeof known - length, "%s%s", i ? ", " : "", option->choices[i]);
+    }
+    cli_complain("--%s: \"%s\" is not one of %s", option->name, value, known);
+    return false;
+}
+
+bool cli_set_format(void *settings, const cli_option *option, const char *value)
+{
+    char name[32];
+    snprintf(name, sizeof name, "x.%s", value[0] == '.' ? value + 1 : value);
+    const ffd_format format = strlen(value) < 16 ? ffd_format_from_name(name) : FFD_FORMAT_AUTO;
+    if (format == FFD_FORMAT_AUTO) {
+        cli_complain("--%s: \"%s\" is not one of obj, gltf, glb", option->name, value);
+        return false;
+    }
+    *(ffd_format *)field(settings, option) = format;
+    return true;
+}
+
+bool cli_parse_number(const char *text, double *value)
+{
+    /* strtod takes spaces, hexadecimal numbers, infinities and a locale's comma: none of them is meant. */
+    if (!*text || strspn(text, "+-.0123456789eE") != strlen(text))
+        return false;
+    char *end;
+    *value = strtod(text, &end);
+    return *end == 0 && isfinite(*value);
+}
+
+static bool unknown_option(const char *name, size_t length)
+{
+    cli_complain("unknown option --%.*s (--help lists them)", (int)(length < 60 ? length : 60), name);
+    return false;
+}
+
+static const cli_option *by_name(const cli_option *options, const char *name, size_t length)
+{
+    for (const cli_option *option = options; option->name; option++)
+        if (strlen(option->name) == length && memcmp(option->name, name, length) == 0)
+            return option;
+    return NULL;
+}
+
+static const cli_option *by_letter(const cli_option *options, char letter)
+{
+    for (const cli_option *option = options; option->name; option++)
+        if (option->letter == letter)
+            return option;
+    return NULL;
+}
+
+/* --name, --name=value, --name value. *next is the argument after it. */
+static bool parse_long(const cli_option *options, void *settings, const char *text, char ***next, char **end)
+{
+    const char *equals = strchr(text, '=');
+    const size_t length = equals ? (size_t)(equals - text) : strlen(text);
+    const cli_option *option = by_name(options, text, length);
+    if (!option)
+        return unknown_option(text, length);
+    const char *value = equals ? equals + 1 : NULL;
+    if (!option->value && value) {
+        cli_complain("--%s takes no value", option->name);
+        return false;
+    }
+    if (option->value && !value) {
+        if (*next == end) {
+            cli_complain("--%s needs a value (%s)", option->name, option->value);
+            return false;
+        }
+        value = *(*next)++;
+    }
+    return option->set(settings, option, value);
+}
+
+/* -q, -lFILE, -l FILE; letters without values may stand together. */
+static bool parse_letters(const cli_option *options, void *settings, const char *text, char ***next,
+                          char **end)
+{
+    for (; *text; text++) {
+        const cli_option *option = by_letter(options, *text);
+        if (!option) {
+            cli_complain("unknown option -%c", *text);
+            return false;
+        }
+        if (!option->value) {
+            if (!option->set(settings, option, NULL))
+                return false;
+            continue;
+        }
+        const char *value = text[1] ? text + 1 : NULL;
+        if (!value) {
+            if (*next == end) {
+                cli_complain("-%c needs a value (%s)", *text, option->value);
+                return false;
+            }
+            value = *(*next)++;
+        }
+        return option->set(settings, option, value);
+    }
+    return true;
+}
+
+bool cli_parse(const cli_option *options, void *settings, int count, char **arguments, cli_words *words)
+{
+    char **next = arguments, **end = arguments + count;
+    bool only_words = false;
+    words->count = 0;
+    while (next < end) {
+        const char *argument = *next++;
+        if (only_words || argument[0] != '-' || !argument[1])
+            words->words[words->count++] = argument;
+        else if (strcmp(argument, "--") == 0)
+            only_words = true;
+        else if (argument[1] == '-' ? !parse_long(options, settings, argument + 2, &next, end)
+                                    : !parse_letters(options, settings, argument + 1, &next, end))
+            return false;
+    }
+    return true;
+}
+
+void cli_print_options(const cli_option *options)
+{
+    for (const cli_option *option = options; option->name; option++) {
+        char left[64], letter[8] = "    ";
+        if (option->letter)
+            snprintf(letter, sizeof letter, "-%c, ", option->letter);
+        snprintf(left, sizeof left, "%s--%s%s%s", letter, option->name, option->value ? " " : "",
+                 option->value ? option->value : "");
+        printf("  %-32s  %s\n", left, option->help);
+    }
+}

@@ -1,0 +1,53 @@
+/* options.h - the options of a command: one table from which words are parsed and help is printed. */
+#ifndef FFD_CLI_OPTIONS_H
+#define FFD_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct cli_option cli_option;
+
+/* Takes the option's value (NULL where it has none) into the command's settings. Returns false after having
+   said what is wrong with the value (cli_complain). */
+typedef bool (*cli_setter)(void *settings, const cli_option *option, const char *value);
+
+struct cli_option {
+    const char *name;  /* "lattice", without the dashes */
+    char letter;       /* 'l', or 0 */
+    const char *value; /* what stands for the value in the help, NULL: the option takes none */
+    const char *help;
+    cli_setter set;
+    size_t offset;              /* of the field that set fills, for the common setters */
+    const char *const *choices; /* of cli_set_choice: names in the order of the enum, ended by NULL */
+};
+
+/* Words that are no options; at most a fixed number where the command says so itself. */
+typedef struct cli_words {
+    const char **words;
+    size_t count;
+} cli_words;
+
+/* Common setters: the field at offset is a bool, const char *, int (number of threads, >= 0) or an enum
+ * (int). */
+bool cli_set_flag(void *settings, const cli_option *option, const char *value);
+bool cli_set_text(void *settings, const cli_option *option, const char *value);
+bool cli_set_count(void *settings, const cli_option *option, const char *value);
+bool cli_set_choice(void *settings, const cli_option *option, const char *value);
+bool cli_set_format(void *settings, const cli_option *option, const char *value);
+
+/* The whole text as a number. */
+bool cli_parse_number(const char *text, double *value);
+
+/* Sorts the arguments of a command (without its name) into settings and words. words->words must have room
+   for count entries. False after a complaint. options end with a name of NULL. */
+bool cli_parse(const cli_option *options, void *settings, int count, char **arguments, cli_words *words);
+
+/* One line "ffd: ..." on stderr. */
+#ifdef __GNUC__
+__attribute__((__format__(__printf__, 1, 2)))
+#endif
+void cli_complain(const char *format, ...);
+
+void cli_print_options(const cli_option *options);
+
+#endif
