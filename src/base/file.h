@@ -24,6 +24,11 @@ void ffd_file_unload(file_input *input);
 bool ffd_file_exists(const char *path);
 /* Whether both paths lead to one existing file. */
 bool ffd_file_same(const char *a, const char *b);
+/* Makes a folder and those above it, where they do not exist. */
+ffd_status ffd_folder_make(const char *path, ffd_error *error);
+/* The absolute path of a file or folder, without links; NULL where there is none (or no memory). Free with
+   ffd_free. */
+char *ffd_path_resolve(const char *path);
 
 /* A set of files that appear together. Each is written under a temporary name beside its target
    (".NAME.ffd-tmp"; the same for the same target, locked against other runs) and renamed by the commit in the

@@ -18,10 +18,38 @@ static void line_break(json_text *json)
         ffd_buffer_text(json->out, "  ");
 }
 
+/* The length of the UTF-8 sequence that starts at c (Unicode 15, table 3-7), 0 where it is none. The final 0
+   of the text ends every sequence that is cut. */
+static size_t sequence_length(const unsigned char *c)
+{
+    const unsigned char first = c[0];
+    if (first < 0x80)
+        return 1;
+    const size_t length = first >= 0xc2 && first <= 0xdf   ? 2
+                          : (first & 0xf0) == 0xe0         ? 3
+                          : first >= 0xf0 && first <= 0xf4 ? 4
+                                                           : 0;
+    for (size_t i = 1; i < length; i++)
+        if ((c[i] & 0xc0) != 0x80)
+            return 0;
+    if ((first == 0xe0 && c[1] < 0xa0) || (first == 0xed && c[1] > 0x9f) || (first == 0xf0 && c[1] < 0x90) ||
+        (first == 0xf4 && c[1] > 0x8f))
+        return 0;
+    return length;
+}
+
+/* File names are bytes: those that are not UTF-8 become the replacement character, so that what comes out is
+ * JSON. */
 static void quoted(byte_buffer *out, const char *text)
 {
     ffd_buffer_text(out, "\"");
     for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        const size_t length = sequence_length(c);
+        if (length != 1) {
+            ffd_buffer_append(out, length ? (const char *)c : "\xef\xbf\xbd", length ? length : 3);
+            c += length ? length - 1 : 0;
+            continue;
+        }
         if (*c == '"' || *c == '\\')
             ffd_buffer_format(out, "\\%c", *c);
         else if (*c == '\n')

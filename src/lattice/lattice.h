@@ -37,7 +37,9 @@ struct ffd_lattice {
     double diagonal;        /* of the bounds of the rest control points */
 };
 
-/* Makes difference, moved, diagonal anew from rest and deformed. */
+/* Makes difference, moved, weights_moved, diagonal anew from rest and deformed (both must be there). Refuses control
+   points and weights that are not finite, weights that are not positive, and sizes whose differences, or products of
+   weight and coordinate, overflow; the message names volume, i,j,k and value. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error);
 
 /* The (d_u+1)(d_v+1)(d_w+1) basis functions that are not 0 at one u,v,w, per direction. */
@@ -53,6 +55,11 @@ void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_
    (9, row by row, may be NULL) is by u,v,w. */
 void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field, double value[3],
                      double derivative[9]);
+
+/* The same for sum field R with R = h N N N / sum h N N N and these weights h (count; NULL: ffd_lattice_sum), the
+   derivative by the quotient rule (P&T 4.4). */
+void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
+                              const double *weights, double value[3], double derivative[9]);
 
 /* Copies the control points (and, where rational, weights; else weights is not touched) of the cell whose basis
    functions start at first[a] = span[a] - degree[a], u fastest: (d_u+1)(d_v+1)(d_w+1) points. */

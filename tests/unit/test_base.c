@@ -140,6 +140,19 @@ static void test_json_text(void **state)
     (void)state;
 }
 
+static void test_json_text_is_utf8(void **state)
+{
+    byte_buffer out = {0};
+    json_text json;
+    ffd_json_begin(&json, &out);
+    ffd_json_string(&json, NULL, "\xc3\xa4 \xf0\x9f\x90\x84 \xff \xc3 \xed\xa0\x80 \xe2\x82");
+    char *text = ffd_buffer_finish(&out);
+    assert_string_equal(text, "\"\xc3\xa4 \xf0\x9f\x90\x84 \xef\xbf\xbd \xef\xbf\xbd "
+                              "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd \xef\xbf\xbd\xef\xbf\xbd\"");
+    ffd_free(text);
+    (void)state;
+}
+
 static void test_messages(void **state)
 {
     ffd_error error = {0};
@@ -218,9 +231,11 @@ static void test_tiles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_grow),       cmocka_unit_test(test_buffer),
-        cmocka_unit_test(test_words),    cmocka_unit_test(test_paths),      cmocka_unit_test(test_json_text),
-        cmocka_unit_test(test_messages), cmocka_unit_test(test_exit_codes), cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_sizes),      cmocka_unit_test(test_grow),
+        cmocka_unit_test(test_buffer),     cmocka_unit_test(test_words),
+        cmocka_unit_test(test_paths),      cmocka_unit_test(test_json_text),
+        cmocka_unit_test(test_messages),   cmocka_unit_test(test_json_text_is_utf8),
+        cmocka_unit_test(test_exit_codes), cmocka_unit_test(test_tiles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

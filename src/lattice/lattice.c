@@ -1,0 +1,163 @@
+#include "lattice/lattice.h"
+#include "base/memory.h"
+#include "base/number.h"
+#include <math.h>
+#include <stdio.h>
+
+typedef struct number_text {
+    char text[FFD_NUMBER_CAPACITY + 1];
+} number_text;
+
+static number_text text_of(double value)
+{
+    number_text result;
+    result.text[ffd_number_format(value, result.text)] = 0;
+    return result;
+}
+
+typedef struct point_name {
+    char text[96];
+} point_name;
+
+/* "rest point 1,0,2" */
+static point_name name_of(const ffd_lattice *lattice, ffd_volume volume, size_t point)
+{
+    const size_t row = point / lattice->size[0];
+    point_name name;
+    snprintf(name.text, sizeof name.text, "%s point %zu,%zu,%zu",
+             volume == FFD_VOLUME_REST ? "rest" : "deformed", point % lattice->size[0],
+             row % lattice->size[1], row / lattice->size[1]);
+    return name;
+}
+
+static ffd_status check_point(const ffd_lattice *lattice, ffd_volume volume, size_t point, ffd_error *error)
+{
+    const double *const p = ffd_lattice_get_points(lattice, volume) + 3 * point;
+    const double *const weights = ffd_lattice_get_weights(lattice, volume);
+    const double weight = weights ? weights[point] : 1;
+    if (!(weight > 0 && isfinite(weight)))
+        return ffd_fail(error, FFD_E_INVALID, "the weight of %s is %s, not positive and finite",
+                        name_of(lattice, volume, point).text, text_of(weight).text);
+    for (int c = 0; c < 3; c++) {
+        if (!isfinite(p[c]))
+            return ffd_fail(error, FFD_E_INVALID, "%s: %c is %s, not a finite number",
+                            name_of(lattice, volume, point).text, "xyz"[c], text_of(p[c]).text);
+        if (!isfinite(weight * p[c]))
+            return ffd_fail(error, FFD_E_INVALID, "%s: weight %s times %c, %s, is not finite",
+                            name_of(lattice, volume, point).text, text_of(weight).text, "xyz"[c],
+                            text_of(p[c]).text);
+    }
+    return FFD_OK;
+}
+
+static ffd_status check_points(const ffd_lattice *lattice, ffd_error *error)
+{
+    for (int volume = FFD_VOLUME_REST; volume <= FFD_VOLUME_DEFORMED; volume++)
+        for (size_t i = 0; i < lattice->count; i++) {
+            const ffd_status status = check_point(lattice, (ffd_volume)volume, i, error);
+            if (status)
+                return status;
+        }
+    return FFD_OK;
+}
+
+static void find_range(const ffd_lattice *lattice, int c, double *min, double *max)
+{
+    *min = *max = lattice->rest[c];
+    for (size_t i = 1; i < lattice->count; i++) {
+        const double x = lattice->rest[3 * i + (size_t)c];
+        *min = x < *min ? x : *min;
+        *max = x > *max ? x : *max;
+    }
+}
+
+static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
+{
+    double min[3], max[3];
+    int longest = 0;
+    for (int c = 0; c < 3; c++) {
+        find_range(lattice, c, &min[c], &max[c]);
+        if (max[c] - min[c] > max[longest] - min[longest])
+            longest = c;
+    }
+    /* Squares of the sides as they are could overflow or vanish. */
+    const double length = max[longest] - min[longest];
+    double sum = 0;
+    for (int c = 0; c < 3 && length > 0; c++) {
+        const double part = (max[c] - min[c]) / length;
+        sum += part * part;
+    }
+    lattice->diagonal = length * sqrt(sum);
+    if (isfinite(lattice->diagonal))
+        return FFD_OK;
+    return ffd_fail(error, FFD_E_INVALID,
+                    "the rest points reach from %s to %s in %c, further than numbers can hold",
+                    text_of(min[longest]).text, text_of(max[longest]).text, "xyz"[longest]);
+}
+
+static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
+{
+    for (size_t i = 0; i < lattice->count; i++) {
+        bool moved = lattice->rest_weights && lattice->rest_weights[i] != lattice->deformed_weights[i];
+        lattice->weights_moved |= moved;
+        for (size_t c = 3 * i; c < 3 * i + 3; c++) {
+            const double difference = lattice->deformed[c] - lattice->rest[c];
+            if (!isfinite(difference))
+                return ffd_fail(error, FFD_E_INVALID,
+                                "%s: the way from %s to %s is longer than numbers can hold",
+                                name_of(lattice, FFD_VOLUME_DEFORMED, i).text, text_of(lattice->rest[c]).text,
+                                text_of(lattice->deformed[c]).text);
+            lattice->difference[c] = difference;
+            moved |= difference != 0;
+        }
+        lattice->moved[i] = moved;
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error)
+{
+    ffd_status status = check_points(lattice, error);
+    if (!status)
+        status = make_diagonal(lattice, error);
+    if (status)
+        return status;
+    if (!lattice->difference)
+        lattice->difference = ffd_alloc(lattice->count, 3 * sizeof *lattice->difference);
+    if (!lattice->moved)
+        lattice->moved = ffd_alloc(lattice->count, sizeof *lattice->moved);
+    if (!lattice->difference || !lattice->moved)
+        return ffd_fail_memory(error);
+    lattice->weights_moved = false;
+    return make_difference(lattice, error);
+}
+
+void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3])
+{
+    for (int a = 0; a < 3; a++)
+        size[a] = lattice->size[a];
+}
+
+void ffd_lattice_get_degree(const ffd_lattice *lattice, int degree[3])
+{
+    for (int a = 0; a < 3; a++)
+        degree[a] = lattice->knots[a].degree;
+}
+
+void ffd_lattice_get_domain(const ffd_lattice *lattice, double lo[3], double hi[3])
+{
+    for (int a = 0; a < 3; a++) {
+        lo[a] = ffd_knots_first(&lattice->knots[a]);
+        hi[a] = ffd_knots_last(&lattice->knots[a]);
+    }
+}
+
+const double *ffd_lattice_get_points(const ffd_lattice *lattice, ffd_volume volume)
+{
+    return volume == FFD_VOLUME_REST ? lattice->rest : lattice->deformed;
+}
+
+const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_volume volume)
+{
+    return volume == FFD_VOLUME_REST ? lattice->rest_weights : lattice->deformed_weights;
+}

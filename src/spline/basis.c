@@ -1,0 +1,30 @@
+#include "spline/basis.h"
+#include "spline/triangle.h"
+
+void ffd_basis_values(const knot_vector *knots, int span, double u, double value[MAX_ORDER])
+{
+    value[0] = 1;
+    for (int degree = 1; degree <= knots->degree; degree++)
+        triangle_raise(knots->t, span, degree, u, value);
+}
+
+void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double value[MAX_ORDER],
+                           double derivative[MAX_ORDER])
+{
+    const int d = knots->degree;
+    value[0] = 1;
+    for (int degree = 1; degree < d; degree++)
+        triangle_raise(knots->t, span, degree, u, value);
+
+    /* N'_i = d/(t_{i+d} - t_i) N_{i,d-1} - d/(t_{i+d+1} - t_{i+1}) N_{i+1,d-1}: each quotient enters twice.
+     */
+    const double *const left = knots->t + span + 1 - d, *const right = knots->t + span + 1;
+    double before = 0;
+    for (int r = 0; r < d; r++) {
+        const double quotient = value[r] * (d / (right[r] - left[r]));
+        derivative[r] = before - quotient;
+        before = quotient;
+    }
+    derivative[d] = before;
+    triangle_raise(knots->t, span, d, u, value);
+}
