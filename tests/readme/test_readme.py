@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Runs every command of README.md.
+
+    test_readme.py tutorial FFD SOURCE     the tutorial, in a copy of data/, with the program FFD
+    test_readme.py build SOURCE            the build and the C example, in a copy of the source
+
+Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME and ```c NAME (files).
+Commands that stand indented are compared with a list: a new one must find its test here."""
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+INDENTED = {
+    "sh data/demo.sh": "tests/golden (demo)",
+    "sh tests/run.sh": "this run",
+    "cc example.c $(pkg-config --cflags --libs ffd)": "below",
+}
+
+
+def blocks(text):
+    for match in re.finditer(r"^```(\S*) ?(\S*)\n(.*?)^```$", text, re.M | re.S):
+        yield match.group(1), match.group(2), match.group(3)
+
+
+def run(script, folder, environment):
+    result = subprocess.run(["sh", "-eu", "-c", script], cwd=folder, env=environment, text=True,
+                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=1500)
+    if result.returncode != 0:
+        sys.exit(f"{script}\nended with {result.returncode}:\n{result.stdout}")
+    return result.stdout
+
+
+def check_indented(text):
+    outside = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    found = [line.strip() for line in outside.splitlines() if re.match(r"^    (sh|cc|ffd|meson|python3) ", line)]
+    for line in found:
+        command = re.split(r"\s{2,}", line)[0]
+        if command not in INDENTED:
+            sys.exit(f"README.md has a command that no test runs: {command}")
+    return len(found)
+
+
+def tutorial(text, ffd, source):
+    count = 0
+    with tempfile.TemporaryDirectory() as folder:
+        data = os.path.join(folder, "data")
+        shutil.copytree(os.path.join(source, "data"), data)
+        tools = os.path.join(folder, "bin")
+        os.mkdir(tools)
+        os.symlink(os.path.abspath(ffd), os.path.join(tools, "ffd"))
+        environment = dict(os.environ, PATH=tools + os.pathsep + os.environ["PATH"])
+        for language, name, content in blocks(text):
+            if language == "json":
+                with open(os.path.join(data, name), "w", encoding="utf-8") as file:
+                    file.write(content)
+            elif language == "sh" and not name:
+                run(content, data, environment)
+                count += len(content.strip().splitlines())
+    return count
+
+
+def build(text, source):
+    count = 0
+    with tempfile.TemporaryDirectory() as folder:
+        copy, root = os.path.join(folder, "source"), os.path.join(folder, "root")
+        skip = shutil.ignore_patterns(".git", ".build*", "build*", "node_modules")
+        shutil.copytree(source, copy, ignore=skip)
+        environment = dict(os.environ, DESTDIR=root)
+        for language, name, content in blocks(text):
+            if language == "sh" and name == "build":
+                run(content, copy, environment)
+                count += len(content.strip().splitlines())
+        example = next(content for language, name, content in blocks(text) if name == "example.c")
+        with open(os.path.join(folder, "example.c"), "w", encoding="utf-8") as file:
+            file.write(example)
+        pc = next(os.path.join(path, "ffd.pc") for path, _, files in os.walk(root) if "ffd.pc" in files)
+        environment = dict(os.environ, PKG_CONFIG_PATH=os.path.dirname(pc), PKG_CONFIG_SYSROOT_DIR=root)
+        library = next(path for path, _, files in os.walk(root) if "libffd.so" in files)
+        run("cc example.c $(pkg-config --cflags --libs ffd)", folder, environment)
+        environment["LD_LIBRARY_PATH"] = library
+        box = '{"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"box": {"min": [-1, -1, -1], ' \
+              '"max": [1, 1, 1]}}, "moves": [{"by": [0.5, 0, 0]}]}'
+        with open(os.path.join(folder, "box.json"), "w", encoding="utf-8") as file:
+            file.write(box)
+        output = run("./a.out box.json", folder, environment)
+        if output != "moves by 0.5 0 0\n":
+            sys.exit(f"the C example printed {output!r}")
+        count += 2
+    return count
+
+
+def main():
+    source = os.path.abspath(sys.argv[-1])
+    with open(os.path.join(source, "README.md"), encoding="utf-8") as file:
+        text = file.read()
+    if sys.argv[1] == "tutorial":
+        count = check_indented(text) + tutorial(text, sys.argv[2], source)
+    else:
+        count = build(text, source)
+    if count == 0:
+        sys.exit("README.md has no command")
+    print(f"{count} commands of README.md run")
+
+
+if __name__ == "__main__":
+    main()
