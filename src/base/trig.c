@@ -22,19 +22,19 @@ static split_number to_radians(double degrees)
 {
     const split_number a = split(degrees), b = split(RADIAN_HIGH);
     const double product = degrees * RADIAN_HIGH;
-    const double error =
-        ((a.high * b.high - product) + a.high * b.low + a.low * b.high) + a.low * b.low;
+    const double error = ((a.high * b.high - product) + a.high * b.low + a.low * b.high) + a.low * b.low;
     const double low = error + degrees * RADIAN_LOW;
     const double high = product + low;
     return (split_number){high, low - (high - product)};
 }
 
-/* sin(h + l) = h + (l cos h + h^3 S(h^2)): Taylor's sum to h^17, the next term is below 2^-62 for h <= pi/4. Only
-   the last addition rounds at the size of the result. */
+/* sin(h + l) = h + (l cos h + h^3 S(h^2)): Taylor's sum to h^17, the next term is below 2^-62 for h <= pi/4.
+   Only the last addition rounds at the size of the result. */
 static double sine_of(split_number x)
 {
-    static const double term[] = {-1.0 / 6,        1.0 / 120,        -1.0 / 5040,           1.0 / 362880,
-                                  -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000., 1.0 / 355687428096000.};
+    static const double term[] = {
+        -1.0 / 6,        1.0 / 120,        -1.0 / 5040,           1.0 / 362880,
+        -1.0 / 39916800, 1.0 / 6227020800, -1.0 / 1307674368000., 1.0 / 355687428096000.};
     const double z = x.high * x.high;
     double sum = 0;
     for (int i = (int)(sizeof term / sizeof *term) - 1; i >= 0; i--)
@@ -45,8 +45,9 @@ static double sine_of(split_number x)
 /* cos(h + l) = 1 - h^2/2 + (h^4 K(h^2) - h l), to h^18; what 1 - h^2/2 loses in rounding is added again. */
 static double cosine_of(split_number x)
 {
-    static const double term[] = {1.0 / 24,        -1.0 / 720,           1.0 / 40320,           -1.0 / 3628800,
-                                  1.0 / 479001600, -1.0 / 87178291200., 1.0 / 20922789888000., -1.0 / 6402373705728000.};
+    static const double term[] = {
+        1.0 / 24,        -1.0 / 720,          1.0 / 40320,           -1.0 / 3628800,
+        1.0 / 479001600, -1.0 / 87178291200., 1.0 / 20922789888000., -1.0 / 6402373705728000.};
     const double z = x.high * x.high, half = 0.5 * z, rest = 1 - half;
     double sum = 0;
     for (int i = (int)(sizeof term / sizeof *term) - 1; i >= 0; i--)
@@ -70,8 +71,8 @@ static void sincos_octant(double degrees, double *sine, double *cosine)
 
 void ffd_sincos_degrees(double degrees, double *sine, double *cosine)
 {
-    /* Exact: fmod by definition; the subtraction because both sides are within a factor of two (Sterbenz) or the
-       quadrant is 0. */
+    /* Exact: fmod by definition; the subtraction because both sides are within a factor of two (Sterbenz) or
+       the quadrant is 0. */
     const double turn = fmod(degrees, 360);
     const double quadrant = floor(turn / 90 + 0.5);
     double s, c;

@@ -11,8 +11,9 @@
 struct lattice_spec; /* what the file says: spec.h */
 
 typedef enum rest_form {
-    REST_BOX_AFFINE,  /* C(u,v,w) = origin + frame t, t = parameter in [0,1] of the domain: exact by construction */
-    REST_POINTS       /* nothing is known beyond the control points */
+    REST_BOX_AFFINE, /* C(u,v,w) = origin + frame t, t = parameter in [0,1] of the domain: exact by
+                        construction */
+    REST_POINTS      /* nothing is known beyond the control points */
 } rest_form;
 
 struct ffd_lattice {
@@ -22,24 +23,25 @@ struct ffd_lattice {
     size_t count; /* size[0]*size[1]*size[2] */
 
     /* NULL until built (a "mesh" box that has not met its mesh). */
-    double *rest;     /* 3*count */
-    double *deformed; /* 3*count */
+    double *rest;                            /* 3*count */
+    double *deformed;                        /* 3*count */
     double *rest_weights, *deformed_weights; /* count, or NULL where all are 1; both or neither */
-    bool weights_moved; /* some deformed weight differs from its rest weight */
+    bool weights_moved;                      /* some deformed weight differs from its rest weight */
 
     rest_form form;
-    double origin[3];  /* REST_BOX_AFFINE: C at the domain's lower corner */
-    double frame[9];   /* REST_BOX_AFFINE: columns are the box's sides */
+    double origin[3]; /* REST_BOX_AFFINE: C at the domain's lower corner */
+    double frame[9];  /* REST_BOX_AFFINE: columns are the box's sides */
 
     /* The displacement of the control points, made once when the lattice is built. */
-    double *difference;     /* Q - P, 3*count */
-    unsigned char *moved;   /* per control point: Q != P or its weight moved */
-    double diagonal;        /* of the bounds of the rest control points */
+    double *difference;   /* Q - P, 3*count */
+    unsigned char *moved; /* per control point: Q != P or its weight moved */
+    double diagonal;      /* of the bounds of the rest control points */
 };
 
-/* Makes difference, moved, weights_moved, diagonal anew from rest and deformed (both must be there). Refuses control
-   points and weights that are not finite, weights that are not positive, and sizes whose differences, or products of
-   weight and coordinate, overflow; the message names volume, i,j,k and value. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
+/* Makes difference, moved, weights_moved, diagonal anew from rest and deformed (both must be there). Refuses
+   control points and weights that are not finite, weights that are not positive, and sizes whose differences,
+   or products of weight and coordinate, overflow; the message names volume, i,j,k and value. Errors:
+   FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error);
 
 /* The (d_u+1)(d_v+1)(d_w+1) basis functions that are not 0 at one u,v,w, per direction. */
@@ -51,19 +53,20 @@ typedef struct lattice_basis {
 /* uvw must be in the domain (ffd_knots_wrap). */
 void ffd_lattice_basis(const ffd_lattice *lattice, const double uvw[3], lattice_basis *basis);
 
-/* sum over the basis' control points of field[3] * N N N (no weights), ascending index, u innermost; derivative
-   (9, row by row, may be NULL) is by u,v,w. */
-void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field, double value[3],
-                     double derivative[9]);
+/* sum over the basis' control points of field[3] * N N N (no weights), ascending index, u innermost;
+   derivative (9, row by row, may be NULL) is by u,v,w. */
+void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
+                     double value[3], double derivative[9]);
 
-/* The same for sum field R with R = h N N N / sum h N N N and these weights h (count; NULL: ffd_lattice_sum), the
-   derivative by the quotient rule (P&T 4.4). */
+/* The same for sum field R with R = h N N N / sum h N N N and these weights h (count; NULL: ffd_lattice_sum),
+   the derivative by the quotient rule (P&T 4.4). */
 void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
                               const double *weights, double value[3], double derivative[9]);
 
-/* Copies the control points (and, where rational, weights; else weights is not touched) of the cell whose basis
-   functions start at first[a] = span[a] - degree[a], u fastest: (d_u+1)(d_v+1)(d_w+1) points. */
-void ffd_lattice_cell_points(const ffd_lattice *lattice, const double *field, const int span[3], double *points);
+/* Copies the control points (and, where rational, weights; else weights is not touched) of the cell whose
+   basis functions start at first[a] = span[a] - degree[a], u fastest: (d_u+1)(d_v+1)(d_w+1) points. */
+void ffd_lattice_cell_points(const ffd_lattice *lattice, const double *field, const int span[3],
+                             double *points);
 void ffd_lattice_cell_weights(const ffd_lattice *lattice, const double *weights, const int span[3],
                               double *cell_weights);
 

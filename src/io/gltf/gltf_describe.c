@@ -1,0 +1,174 @@
+#include "base/memory.h"
+#include "io/gltf/gltf_document.h"
+#include <string.h>
+
+static void describe_text(const gltf_document *d, uint32_t value, const char *key, json_text *json,
+                          bool *failed)
+{
+    char *text = ffd_json_span_string(&d->tree, value, NULL);
+    *failed = *failed || !text;
+    ffd_json_string(json, key, text);
+    ffd_free(text);
+}
+
+static void describe_asset(const gltf_document *d, json_text *json, bool *failed)
+{
+    const uint32_t asset = ffd_json_span_member(&d->tree, 0, "asset");
+    const uint32_t generator = ffd_json_span_member(&d->tree, asset, "generator");
+    describe_text(d, ffd_json_span_member(&d->tree, asset, "version"), "version", json, failed);
+    if (generator == JSON_NONE)
+        ffd_json_null(json, "generator");
+    else
+        describe_text(d, generator, "generator", json, failed);
+}
+
+static void describe_count(const gltf_document *d, const char *key, json_text *json)
+{
+    const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
+    ffd_json_count(json, key, array == JSON_NONE ? 0 : d->tree.values[array].count);
+}
+
+static void describe_strings(const gltf_document *d, const char *key, json_text *json, bool *failed)
+{
+    const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
+    ffd_json_array(json, key, true);
+    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v))
+        describe_text(d, v, NULL, json, failed);
+    ffd_json_end(json, ']');
+}
+
+/* How the vertices that a deformation would change are stored. */
+typedef struct storage_facts {
+    size_t vertices;                                   /* of POSITION accessors, each once */
+    size_t morphed, sparse, quantized, draco, meshopt; /* primitives */
+} storage_facts;
+
+static void survey_primitive(const gltf_document *d, size_t m, size_t p, bool *seen, storage_facts *facts)
+{
+    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    const int positions = primitive->accessor[GLTF_POSITION];
+    bool sparse = false, quantized = false, meshopt = false;
+    for (int s = 0; s < GLTF_DEFORMED; s++) {
+        const int a = primitive->accessor[s];
+        if (a < 0)
+            continue;
+        sparse = sparse || d->model.accessors[a].sparse.present;
+        quantized = quantized || d->model.accessors[a].component != GLTF_FLOAT;
+        meshopt = meshopt || d->layouts[a].meshopt;
+    }
+    facts->morphed += primitive->target_count > 0;
+    facts->sparse += sparse;
+    facts->quantized += quantized;
+    facts->meshopt += meshopt;
+    facts->draco +=
+        ffd_gltf_has_extension(d, ffd_gltf_primitive_value(d, m, p), "KHR_draco_mesh_compression");
+    if (positions >= 0 && !seen[positions]) {
+        seen[positions] = true;
+        facts->vertices += (size_t)d->model.accessors[positions].count;
+    }
+}
+
+static ffd_status describe_storage(const gltf_document *d, json_text *json, ffd_error *error)
+{
+    bool *seen = ffd_alloc_zero(d->model.accessor_count, sizeof *seen);
+    if (!seen)
+        return ffd_fail_memory(error);
+    storage_facts facts = {0};
+    size_t triangles = 0, lines = 0, points = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        ffd_gltf_count_drawing(d, m, &triangles, &lines, &points);
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            survey_primitive(d, m, p, seen, &facts);
+    }
+    ffd_free(seen);
+    ffd_json_object(json, "stored", false);
+    ffd_json_count(json, "vertices", facts.vertices);
+    ffd_json_count(json, "triangles", triangles);
+    ffd_json_count(json, "lines", lines);
+    ffd_json_count(json, "points", points);
+    ffd_json_count(json, "primitives_with_morph_targets", facts.morphed);
+    ffd_json_count(json, "primitives_sparse", facts.sparse);
+    ffd_json_count(json, "primitives_quantized", facts.quantized);
+    ffd_json_count(json, "primitives_draco", facts.draco);
+    ffd_json_count(json, "primitives_meshopt", facts.meshopt);
+    ffd_json_end(json, '}');
+    return FFD_OK;
+}
+
+/* The names of all attributes, each once, in the order of their letters. */
+static ffd_status describe_attributes(const gltf_document *d, json_text *json, ffd_error *error)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < d->primitive_values.count; i++)
+        count +=
+            d->tree.values[ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes")].count;
+    json_member *members = ffd_alloc(count, sizeof *members);
+    if (!members)
+        return ffd_fail_memory(error);
+    count = 0;
+    for (size_t i = 0; i < d->primitive_values.count; i++) {
+        const uint32_t attributes =
+            ffd_json_span_member(&d->tree, d->primitive_values.values[i], "attributes");
+        for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
+             v = ffd_json_span_after(&d->tree, v))
+            members[count++] = (json_member){&d->tree, v};
+    }
+    ffd_json_span_sort_keys(members, count);
+    ffd_status status = FFD_OK;
+    ffd_json_array(json, "attributes", true);
+    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+        if (i > 0 &&
+            ffd_json_span_compare_keys(&d->tree, members[i - 1].value, &d->tree, members[i].value) == 0)
+            continue;
+        char *name = ffd_json_span_key(&d->tree, members[i].value);
+        if (name)
+            ffd_json_string(json, NULL, name);
+        else
+            status = ffd_fail_memory(error);
+        ffd_free(name);
+    }
+    ffd_json_end(json, ']');
+    ffd_free(members);
+    return status;
+}
+
+static void describe_buffers(const gltf_document *d, json_text *json)
+{
+    static const char *const kinds[] = {"none", "BIN chunk", "data URI", "file"};
+    ffd_json_array(json, "buffers", false);
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
+        ffd_json_object(json, NULL, true);
+        ffd_json_count(json, "bytes", d->buffers[i].length);
+        ffd_json_string(json, "stored_in", kinds[d->buffers[i].kind]);
+        if (d->buffers[i].path)
+            ffd_json_string(json, "file", d->buffers[i].path);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd_error *error)
+{
+    static const char *const counted[] = {"scenes", "nodes",      "meshes", "materials",
+                                          "skins",  "animations", "images"};
+    const gltf_document *d = ffd_gltf_of(document);
+    bool failed = false;
+    ffd_json_string(json, "container", d->binary ? "glb" : "gltf");
+    describe_asset(d, json, &failed);
+    for (size_t i = 0; i < sizeof counted / sizeof *counted; i++)
+        describe_count(d, counted[i], json);
+    ffd_json_count(json, "primitives", d->primitive_values.count);
+    ffd_json_count(json, "nodes_with_mesh_not_shown", d->hidden_nodes);
+    if (d->shared_child != GLTF_NONE)
+        ffd_json_count(json, "node_with_two_parents", d->shared_child);
+    ffd_status status = describe_attributes(d, json, error);
+    if (status == FFD_OK)
+        status = describe_storage(d, json, error);
+    if (status)
+        return status;
+    describe_strings(d, "extensionsUsed", json, &failed);
+    describe_strings(d, "extensionsRequired", json, &failed);
+    describe_buffers(d, json);
+    return failed ? ffd_fail_memory(error) : FFD_OK;
+}

@@ -1,0 +1,146 @@
+/* gltf_document.h - an open glTF file: its bytes, its model, and the parts that it shows. */
+#ifndef FFD_IO_GLTF_GLTF_DOCUMENT_H
+#define FFD_IO_GLTF_GLTF_DOCUMENT_H
+
+#include "io/gltf/glb.h"
+#include "io/gltf/gltf_buffer.h"
+#include "io/gltf/gltf_model.h"
+#include "io/gltf/json_span.h"
+#include "mesh/mesh.h"
+
+#define GLTF_NONE SIZE_MAX
+
+/* The values in the JSON of an array at its top. */
+typedef struct gltf_values {
+    uint32_t *values;
+    size_t count;
+} gltf_values;
+
+/* How an accessor's elements lie; made by ffd_gltf_check. */
+typedef struct gltf_layout {
+    const unsigned char *data; /* its first element; NULL: no bytes (compressed, or zeros) */
+    size_t element_size, stride;
+    size_t begin;  /* of the first element in the buffer */
+    bool readable; /* false: compressed, or its buffer has no bytes */
+    bool meshopt;  /* its bufferView is compressed */
+} gltf_layout;
+
+/* One attribute that is deformed, under one node: a float result of 3 components an element. */
+typedef struct gltf_stream {
+    size_t accessor; /* GLTF_NONE: the part has none */
+    float *result;   /* 3 * count; NULL before begin_results, and where a part repeats */
+} gltf_stream;
+
+typedef struct gltf_part {
+    size_t mesh, primitive; /* the first that shows it */
+    size_t node;            /* GLTF_NONE in mesh space */
+    gltf_stream streams[GLTF_DEFORMED];
+    size_t twin; /* the part whose positions it repeats; GLTF_NONE */
+} gltf_part;
+
+/* A primitive under a node that shows it (or by itself, in mesh space). */
+typedef struct gltf_instance {
+    size_t part[GLTF_DEFORMED]; /* where its attribute is deformed; GLTF_NONE: has none, or cannot be read */
+} gltf_instance;
+
+/* The instances of a mesh: for each primitive, for each node. */
+typedef struct gltf_showing {
+    size_t first_instance;
+    size_t *nodes;     /* lent by document->shown_nodes; ascending */
+    size_t node_count; /* in mesh space 1, nodes is NULL */
+    bool hidden_too;   /* some node outside the shown scene uses it, or none at all */
+} gltf_showing;
+
+typedef struct gltf_document {
+    mesh_document base;
+    char *path;       /* "-" for standard input */
+    const char *name; /* for messages */
+    ffd_space space;
+    file_input input;
+    bool binary;
+    glb_layout glb;
+    json_span tree;
+    gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, image_values;
+    gltf_values primitive_values; /* of all meshes */
+    size_t *first_primitive;      /* of a mesh, in them */
+    gltf_model model;
+    gltf_buffer *buffers; /* buffer_values.count */
+    gltf_layout *layouts; /* model.accessor_count */
+
+    double *world;  /* 12 a node: linear row by row, offset; of shown nodes */
+    bool *is_shown; /* a node */
+    size_t *shown_nodes;
+    size_t hidden_nodes; /* with a mesh, not shown */
+    /* A node below two parents: not valid, but described as if it had the first; GLTF_NONE: none. */
+    size_t shared_child, shared_by[2];
+    gltf_showing *showings; /* model.mesh_count */
+    gltf_instance *instances;
+    gltf_part *parts; /* base.part_count */
+    mesh_part *mesh_parts;
+} gltf_document;
+
+static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
+{
+    return (const gltf_document *)document;
+}
+
+static inline size_t ffd_gltf_components(const gltf_accessor *accessor)
+{
+    return (size_t)(accessor->columns * accessor->rows);
+}
+
+/* Number of the value of primitive p of mesh m in the JSON. */
+uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
+/* The number that stands in it for an attribute, e.g. "NORMAL". */
+uint32_t ffd_gltf_attribute_value(const gltf_document *document, size_t mesh, size_t primitive,
+                                  gltf_semantic semantic);
+/* Whether value's "extensions" has one of this name. */
+bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const char *extension);
+extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
+
+/* gltf_check.c: validates every index, offset, count and stride of the model, and fills layouts. */
+ffd_status ffd_gltf_check(gltf_document *document, ffd_error *error);
+/* gltf_scene.c: which nodes are shown, and their matrices. Refuses cycles and second parents. */
+ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
+/* gltf_parts.c */
+ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
+/* gltf_refuse.c: valid, but more than can be done. read: what would make the positions wrong or unreadable;
+   store: what cannot be written back. */
+ffd_status ffd_gltf_refuse_read(const gltf_document *document, ffd_error *error);
+ffd_status ffd_gltf_refuse_store(const gltf_document *document, bool normals, bool tangents,
+                                 ffd_error *error);
+
+/* Refuses a primitive whose accessor cannot be read. */
+ffd_status ffd_gltf_refuse_unreadable(const gltf_document *document, size_t mesh, size_t primitive,
+                                      int accessor, ffd_error *error);
+
+/* gltf_faces.c: adds what the primitives of a mesh draw, once. */
+void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *triangles, size_t *lines,
+                            size_t *points);
+
+/* gltf_read.c: elements [first, first + count) of an accessor as double, `components` values of each (the
+ * first ones). */
+void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first, size_t count,
+                   size_t components, double *values);
+/* Element i of a sparse.indices or index accessor. */
+uint32_t ffd_gltf_read_index(const unsigned char *at, int component);
+size_t ffd_gltf_component_size(int component);
+
+/* gltf_results.c */
+ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
+void ffd_gltf_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                              const double *xyz, const uint8_t *changed);
+void ffd_gltf_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
+                            const double *xyz, const uint8_t *changed);
+void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first, size_t count,
+                             const double *xyzw, const uint8_t *changed);
+
+/* gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_compare.c: entries of the table (mesh.h). */
+ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                         const mesh_log *log, ffd_error *error);
+ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd_error *error);
+ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+ffd_status ffd_gltf_compare(const mesh_document *a, const mesh_document *b, double tolerance,
+                            ffd_comparison *comparison, ffd_error *error);
+
+#endif

@@ -1,0 +1,193 @@
+#include "base/memory.h"
+#include "io/gltf/gltf_document.h"
+
+#define MOST_FACES ((uint64_t)INT32_MAX)
+
+enum { MODE_POINTS, MODE_LINES, MODE_LINE_LOOP, MODE_LINE_STRIP, MODE_TRIANGLES, MODE_STRIP, MODE_FAN };
+
+/* What a primitive of a mesh draws, whatever shows it. */
+typedef struct drawing {
+    size_t corners; /* indices, or vertices where it has none */
+    size_t triangles, lines, points;
+} drawing;
+
+static drawing count_drawing(const gltf_document *d, const gltf_primitive *primitive)
+{
+    drawing counted = {0};
+    if (primitive->accessor[GLTF_POSITION] < 0)
+        return counted;
+    const int accessor = primitive->indices >= 0 ? primitive->indices : primitive->accessor[GLTF_POSITION];
+    const size_t n = (size_t)d->model.accessors[accessor].count;
+    counted.corners = n;
+    switch (primitive->mode) {
+    case MODE_POINTS:
+        counted.points = n;
+        break;
+    case MODE_LINES:
+        counted.lines = n / 2;
+        break;
+    case MODE_LINE_LOOP:
+        counted.lines = n > 1 ? n : 0;
+        break;
+    case MODE_LINE_STRIP:
+        counted.lines = n > 1 ? n - 1 : 0;
+        break;
+    case MODE_TRIANGLES:
+        counted.triangles = n / 3;
+        break;
+    default:
+        counted.triangles = n > 2 ? n - 2 : 0;
+    }
+    return counted;
+}
+
+void ffd_gltf_count_drawing(const gltf_document *d, size_t mesh, size_t *triangles, size_t *lines,
+                            size_t *points)
+{
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
+        const drawing counted = count_drawing(d, &d->model.meshes[mesh].primitives[p]);
+        *triangles += counted.triangles;
+        *lines += counted.lines;
+        *points += counted.points;
+    }
+}
+
+static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, ffd_error *error)
+{
+    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    if (primitive->accessor[GLTF_POSITION] < 0)
+        return FFD_OK;
+    const ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
+    if (status || primitive->indices < 0)
+        return status;
+    return ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, error);
+}
+
+static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error *error)
+{
+    uint64_t triangles = 0, lines = 0, points = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        const size_t nodes = d->showings[m].node_count;
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && nodes > 0; p++) {
+            const ffd_status status = refuse_primitive(d, m, p, error);
+            if (status)
+                return status;
+            const drawing counted = count_drawing(d, &d->model.meshes[m].primitives[p]);
+            triangles += (uint64_t)counted.triangles * nodes; /* both are below 2^32 */
+            lines += (uint64_t)counted.lines * nodes;
+            points += (uint64_t)counted.points * nodes;
+            if (triangles > MOST_FACES)
+                return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %llu triangles",
+                                     (unsigned long long)MOST_FACES);
+        }
+    }
+    faces->face_count = (size_t)triangles;
+    faces->lines = (size_t)lines;
+    faces->points = (size_t)points;
+    return FFD_OK;
+}
+
+/* Positions of all parts in order; base[i] is the first vertex of part i. */
+static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *base)
+{
+    size_t at = 0;
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        const mesh_part *part = &d->mesh_parts[i];
+        base[i] = at;
+        if (part->repeats_positions)
+            continue;
+        double *positions = faces->positions + 3 * at;
+        ffd_gltf_read(d, d->parts[i].streams[GLTF_POSITION].accessor, 0, part->vertex_count, 3, positions);
+        ffd_part_place(part, positions, part->vertex_count);
+        at += part->vertex_count;
+    }
+}
+
+/* The vertices (0, 1, ..) that a primitive draws, one after the other. */
+static ffd_status read_corners(const gltf_document *d, size_t m, size_t p, size_t count, uint32_t *corners,
+                               ffd_error *error)
+{
+    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    const uint64_t vertices = d->model.accessors[primitive->accessor[GLTF_POSITION]].count;
+    if (primitive->indices < 0) {
+        for (size_t i = 0; i < count; i++)
+            corners[i] = (uint32_t)i;
+        return FFD_OK;
+    }
+    for (size_t i = 0; i < count; i++) {
+        double index;
+        ffd_gltf_read(d, (size_t)primitive->indices, i, 1, 1, &index);
+        if (!(index < (double)vertices))
+            return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID,
+                                      error, "index %zu is %.0f, but there are only %llu vertices", i, index,
+                                      (unsigned long long)vertices);
+        corners[i] = (uint32_t)index;
+    }
+    return FFD_OK;
+}
+
+/* Every second triangle of a strip is turned round (glTF 2.0, 3.7.2.1). */
+static void triangle_corners(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3])
+{
+    const size_t first = mode == MODE_TRIANGLES ? 3 * t : mode == MODE_FAN ? 0 : t;
+    const size_t second = mode == MODE_TRIANGLES ? first + 1 : mode == MODE_FAN ? t + 1 : t + 1 + t % 2;
+    const size_t third = mode == MODE_TRIANGLES ? first + 2 : mode == MODE_FAN ? t + 2 : t + 2 - t % 2;
+    triangle[0] = corners[first];
+    triangle[1] = corners[second];
+    triangle[2] = corners[third];
+}
+
+static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, const size_t *base, uint32_t *to,
+                                size_t *added, ffd_error *error)
+{
+    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    const drawing counted = count_drawing(d, primitive);
+    const gltf_showing *showing = &d->showings[m];
+    if (counted.triangles == 0 || showing->node_count == 0)
+        return FFD_OK;
+    uint32_t *corners = ffd_alloc(counted.corners, sizeof *corners);
+    if (!corners)
+        return ffd_fail_memory(error);
+    const ffd_status status = read_corners(d, m, p, counted.corners, corners, error);
+    for (size_t n = 0; n < showing->node_count && status == FFD_OK; n++) {
+        const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + n];
+        for (size_t t = 0; t < counted.triangles; t++) {
+            uint32_t *triangle = to + 3 * (*added)++;
+            triangle_corners(primitive->mode, t, corners, triangle);
+            for (int c = 0; c < 3; c++)
+                triangle[c] += (uint32_t)base[instance->part[GLTF_POSITION]];
+        }
+    }
+    ffd_free(corners);
+    return status;
+}
+
+ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    *faces = (mesh_faces){0};
+    ffd_status status = count_all(d, faces, error);
+    if (status)
+        return status;
+    for (size_t i = 0; i < d->base.part_count; i++)
+        faces->vertex_count += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
+    size_t *base = ffd_alloc(d->base.part_count, sizeof *base);
+    faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
+    faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
+    faces->corners = ffd_alloc(faces->face_count, 3 * sizeof *faces->corners);
+    if (!base || !faces->positions || !faces->start || !faces->corners)
+        status = ffd_fail_memory(error);
+    if (status == FFD_OK) {
+        fill_positions(d, faces, base);
+        for (size_t i = 0; i <= faces->face_count; i++)
+            faces->start[i] = 3 * i;
+    }
+    size_t added = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
+            status = add_primitive(d, m, p, base, faces->corners, &added, error);
+    ffd_free(base);
+    if (status)
+        ffd_mesh_faces_free(faces);
+    return status;
+}

@@ -1,0 +1,162 @@
+#include "base/memory.h"
+#include "base/vec.h"
+#include "io/gltf/gltf_document.h"
+#include <string.h>
+
+#define MOST_INSTANCES ((size_t)1 << 24)
+#define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
+
+/* Finds the parts of one POSITION accessor under one node. */
+typedef struct part_table {
+    size_t *heads; /* first part of a slot's key, GLTF_NONE: free */
+    size_t mask;
+    size_t *next; /* the part's next one with the same positions */
+} part_table;
+
+static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *error)
+{
+    *total = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        const size_t primitives = d->model.meshes[m].primitive_count, nodes = d->showings[m].node_count;
+        d->showings[m].first_instance = *total;
+        if (nodes > 0 && primitives > (MOST_INSTANCES - *total) / nodes)
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %zu primitives",
+                                 MOST_INSTANCES);
+        *total += primitives * nodes;
+    }
+    return FFD_OK;
+}
+
+static size_t *find_slot(const gltf_document *d, const part_table *table, size_t accessor, size_t node)
+{
+    size_t slot = (accessor * 0x9e3779b1u + node * 0x85ebca6bu) & table->mask;
+    while (table->heads[slot] != GLTF_NONE) {
+        const gltf_part *part = &d->parts[table->heads[slot]];
+        if (part->streams[GLTF_POSITION].accessor == accessor && part->node == node)
+            break;
+        slot = (slot + 1) & table->mask;
+    }
+    return &table->heads[slot];
+}
+
+static size_t readable_accessor(const gltf_document *d, const gltf_primitive *primitive,
+                                gltf_semantic semantic)
+{
+    const int accessor = primitive->accessor[semantic];
+    return accessor >= 0 && d->layouts[accessor].readable ? (size_t)accessor : GLTF_NONE;
+}
+
+/* Whether the part deforms what a primitive with these attributes shows. A tangent depends on its normal. */
+static bool serves(const gltf_part *part, size_t normal, size_t tangent)
+{
+    return (normal == GLTF_NONE || part->streams[GLTF_NORMAL].accessor == normal) &&
+           (tangent == GLTF_NONE || part->streams[GLTF_TANGENT].accessor == tangent);
+}
+
+static void place_part(const gltf_document *d, size_t node, mesh_part *part)
+{
+    static const double unit[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    const double *world = node == GLTF_NONE ? unit : d->world + 12 * node;
+    part->identity = true;
+    for (int i = 0; i < 12; i++)
+        part->identity = part->identity && !(world[i] < unit[i] || world[i] > unit[i]);
+    memcpy(part->linear, world, sizeof part->linear);
+    memcpy(part->offset, world + 9, sizeof part->offset);
+    part->singular = !mat_invert(part->linear, part->inverse);
+}
+
+static size_t add_part(gltf_document *d, size_t mesh, size_t primitive, size_t node,
+                       const size_t accessors[GLTF_DEFORMED], size_t twin)
+{
+    const size_t index = d->base.part_count++;
+    gltf_part *part = &d->parts[index];
+    mesh_part *shown = &d->mesh_parts[index];
+    *part = (gltf_part){.mesh = mesh, .primitive = primitive, .node = node, .twin = twin};
+    for (int s = 0; s < GLTF_DEFORMED; s++)
+        part->streams[s].accessor = accessors[s];
+    shown->vertex_count = (size_t)d->model.accessors[accessors[GLTF_POSITION]].count;
+    shown->normal_count = accessors[GLTF_NORMAL] == GLTF_NONE ? 0 : shown->vertex_count;
+    shown->has_tangents = accessors[GLTF_TANGENT] != GLTF_NONE;
+    shown->repeats_positions = twin != GLTF_NONE;
+    place_part(d, node, shown);
+    return index;
+}
+
+static void add_instance(gltf_document *d, const part_table *table, size_t mesh, size_t p, size_t node,
+                         gltf_instance *instance)
+{
+    const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
+    size_t accessors[GLTF_DEFORMED];
+    for (int s = 0; s < GLTF_DEFORMED; s++) {
+        accessors[s] = readable_accessor(d, primitive, (gltf_semantic)s);
+        instance->part[s] = GLTF_NONE;
+    }
+    if (accessors[GLTF_NORMAL] == GLTF_NONE)
+        accessors[GLTF_TANGENT] = GLTF_NONE; /* to be ignored without normals (glTF 2.0, 3.7.2.1) */
+    if (accessors[GLTF_POSITION] == GLTF_NONE)
+        return;
+    size_t *const head = find_slot(d, table, accessors[GLTF_POSITION], node);
+    size_t part = *head, last = GLTF_NONE;
+    while (part != GLTF_NONE && !serves(&d->parts[part], accessors[GLTF_NORMAL], accessors[GLTF_TANGENT])) {
+        last = part;
+        part = table->next[part];
+    }
+    if (part == GLTF_NONE) {
+        part = add_part(d, mesh, p, node, accessors, *head);
+        table->next[part] = GLTF_NONE;
+        if (last == GLTF_NONE)
+            *head = part;
+        else
+            table->next[last] = part;
+    }
+    instance->part[GLTF_POSITION] = *head;
+    for (int s = GLTF_NORMAL; s < GLTF_DEFORMED; s++)
+        if (accessors[s] != GLTF_NONE)
+            instance->part[s] = part;
+}
+
+static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
+{
+    uint64_t vertices = 0;
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        vertices += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
+        if (vertices > MOST_VERTICES)
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %llu vertices",
+                                 (unsigned long long)MOST_VERTICES);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
+{
+    size_t total, slots = 16;
+    ffd_status status = count_instances(d, &total, error);
+    if (status)
+        return status;
+    while (slots < 2 * total)
+        slots *= 2;
+    part_table table = {.heads = ffd_alloc(slots, sizeof *table.heads),
+                        .mask = slots - 1,
+                        .next = ffd_alloc(total, sizeof *table.next)};
+    d->instances = ffd_alloc(total, sizeof *d->instances);
+    d->parts = ffd_alloc_zero(total, sizeof *d->parts);
+    d->mesh_parts = ffd_alloc_zero(total, sizeof *d->mesh_parts);
+    if (!table.heads || !table.next || !d->instances || !d->parts || !d->mesh_parts) {
+        status = ffd_fail_memory(error);
+        goto done;
+    }
+    for (size_t i = 0; i < slots; i++)
+        table.heads[i] = GLTF_NONE;
+    gltf_instance *instance = d->instances;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            for (size_t n = 0; n < d->showings[m].node_count; n++)
+                add_instance(d, &table, m, p, d->showings[m].nodes ? d->showings[m].nodes[n] : GLTF_NONE,
+                             instance++);
+    d->base.parts = d->mesh_parts;
+    status = limit_vertices(d, error);
+done:
+    ffd_free(table.heads);
+    ffd_free(table.next);
+    return status;
+}

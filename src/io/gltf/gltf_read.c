@@ -1,0 +1,127 @@
+#include "io/gltf/gltf_document.h"
+#include <string.h>
+
+size_t ffd_gltf_component_size(int component)
+{
+    switch (component) {
+    case GLTF_I8:
+    case GLTF_U8:
+        return 1;
+    case GLTF_I16:
+    case GLTF_U16:
+        return 2;
+    default:
+        return 4;
+    }
+}
+
+uint32_t ffd_gltf_read_index(const unsigned char *at, int component)
+{
+    if (component == GLTF_U8)
+        return at[0];
+    if (component == GLTF_U16)
+        return at[0] | (uint32_t)at[1] << 8;
+    return ffd_glb_read_u32(at);
+}
+
+static double read_float(const unsigned char *at)
+{
+    const uint32_t bits = ffd_glb_read_u32(at);
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* Normalized integers as glTF 2.0, 3.11 has them. */
+static double read_component(const unsigned char *at, int component, bool normalized)
+{
+    double value, scale;
+    switch (component) {
+    case GLTF_I8:
+        value = (signed char)at[0];
+        scale = 127;
+        break;
+    case GLTF_U8:
+        value = at[0];
+        scale = 255;
+        break;
+    case GLTF_I16:
+        value = (int16_t)(at[0] | at[1] << 8);
+        scale = 32767;
+        break;
+    case GLTF_U16:
+        value = at[0] | at[1] << 8;
+        scale = 65535;
+        break;
+    case GLTF_U32:
+        return ffd_glb_read_u32(at);
+    default:
+        return read_float(at);
+    }
+    if (!normalized)
+        return value;
+    return value / scale < -1 ? -1 : value / scale;
+}
+
+static void read_element(const gltf_accessor *accessor, const unsigned char *at, size_t components,
+                         double *values)
+{
+    const size_t size = ffd_gltf_component_size(accessor->component);
+    for (size_t c = 0; c < components; c++)
+        values[c] = read_component(at + c * size, accessor->component, accessor->normalized);
+}
+
+/* The first of the sparse elements that is not before element `first`. */
+static uint64_t find_sparse(const gltf_sparse *sparse, const unsigned char *indices, size_t first)
+{
+    const size_t size = ffd_gltf_component_size(sparse->indices_type);
+    uint64_t low = 0, high = sparse->count;
+    while (low < high) {
+        const uint64_t middle = low + (high - low) / 2;
+        if (ffd_gltf_read_index(indices + middle * size, sparse->indices_type) < first)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void read_sparse(const gltf_document *d, const gltf_accessor *accessor, size_t element_size,
+                        size_t first, size_t count, size_t components, double *values)
+{
+    const gltf_sparse *sparse = &accessor->sparse;
+    const gltf_view *index_view = &d->model.views[sparse->indices_view];
+    const gltf_view *value_view = &d->model.views[sparse->values_view];
+    const unsigned char *indices =
+        d->buffers[index_view->buffer].data + index_view->offset + sparse->indices_offset;
+    const unsigned char *elements =
+        d->buffers[value_view->buffer].data + value_view->offset + sparse->values_offset;
+    const size_t size = ffd_gltf_component_size(sparse->indices_type);
+    for (uint64_t i = find_sparse(sparse, indices, first); i < sparse->count; i++) {
+        const size_t index = ffd_gltf_read_index(indices + i * size, sparse->indices_type);
+        if (index - first >= count)
+            return;
+        read_element(accessor, elements + i * element_size, components,
+                     values + (index - first) * components);
+    }
+}
+
+void ffd_gltf_read(const gltf_document *d, size_t a, size_t first, size_t count, size_t components,
+                   double *values)
+{
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    const gltf_layout *layout = &d->layouts[a];
+    if (!layout->data) {
+        memset(values, 0, count * components * sizeof *values);
+    } else if (accessor->component == GLTF_FLOAT) {
+        for (size_t i = 0; i < count; i++)
+            for (size_t c = 0; c < components; c++)
+                values[i * components + c] = read_float(layout->data + (first + i) * layout->stride + 4 * c);
+    } else {
+        for (size_t i = 0; i < count; i++)
+            read_element(accessor, layout->data + (first + i) * layout->stride, components,
+                         values + i * components);
+    }
+    if (accessor->sparse.present)
+        read_sparse(d, accessor, layout->element_size, first, count, components, values);
+}

@@ -1,0 +1,160 @@
+#include "base/memory.h"
+#include "io/gltf/gltf_document.h"
+#include <string.h>
+
+static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *error, const char *what)
+{
+    return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error, "%s", what);
+}
+
+/* Extensions that a file may require and that leave the vertices as they are, or are looked at where they are
+   used. */
+static bool is_harmless(const char *extension)
+{
+    static const char *const known[] = {"KHR_materials_*",
+                                        "EXT_materials_*",
+                                        "KHR_texture_*",
+                                        "EXT_texture_*",
+                                        "MSFT_texture_dds",
+                                        "KHR_lights_*",
+                                        "EXT_lights_*",
+                                        "KHR_xmp*",
+                                        "KHR_animation_pointer",
+                                        "KHR_mesh_quantization",
+                                        "KHR_draco_mesh_compression",
+                                        "EXT_meshopt_compression",
+                                        "KHR_meshopt_compression",
+                                        "EXT_mesh_gpu_instancing",
+                                        "EXT_mesh_features",
+                                        "EXT_structural_metadata",
+                                        "EXT_instance_features"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const size_t length = strlen(known[i]);
+        const bool family = known[i][length - 1] == '*';
+        if (family ? strncmp(extension, known[i], length - 1) == 0 : strcmp(extension, known[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+static ffd_status refuse_unknown_extensions(const gltf_document *d, ffd_error *error)
+{
+    const uint32_t required = ffd_json_span_member(&d->tree, 0, "extensionsRequired");
+    ffd_status status = FFD_OK;
+    for (uint32_t v = ffd_json_span_first(&d->tree, required); v != JSON_NONE && status == FFD_OK;
+         v = ffd_json_span_after(&d->tree, v)) {
+        char *name = ffd_json_span_string(&d->tree, v, NULL);
+        if (!name)
+            return ffd_fail_memory(error);
+        if (!is_harmless(name))
+            status = ffd_json_span_fail(&d->tree, v, d->name, FFD_E_UNSUPPORTED, error,
+                                        "the required extension \"%s\" is not known", name);
+        ffd_free(name);
+    }
+    return status;
+}
+
+static ffd_status refuse_node(const gltf_document *d, size_t n, ffd_error *error)
+{
+    const uint32_t value = d->node_values.values[n];
+    if (ffd_json_span_member(&d->tree, value, "skin") != JSON_NONE)
+        return refuse(
+            d, ffd_json_span_member(&d->tree, value, "skin"), error,
+            "skins are not supported in scene space (--space mesh deforms the mesh before its skin)");
+    if (ffd_gltf_has_extension(d, value, "EXT_mesh_gpu_instancing"))
+        return refuse(d, value, error, "EXT_mesh_gpu_instancing is not supported in scene space");
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_t primitive, int accessor,
+                                      ffd_error *error)
+{
+    const uint32_t value = ffd_gltf_primitive_value(d, mesh, primitive);
+    if (d->layouts[accessor].readable)
+        return FFD_OK;
+    if (ffd_gltf_has_extension(d, value, "KHR_draco_mesh_compression"))
+        return refuse(d, value, error, "KHR_draco_mesh_compression is not supported");
+    if (d->layouts[accessor].meshopt)
+        return refuse(d, d->view_values.values[d->model.accessors[accessor].view], error,
+                      "EXT_meshopt_compression is not supported");
+    return refuse(d, d->accessor_values.values[accessor], error,
+                  "an accessor without bytes is not supported");
+}
+
+static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, ffd_error *error)
+{
+    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    const uint32_t value = ffd_gltf_primitive_value(d, m, p);
+    if (primitive->accessor[GLTF_POSITION] < 0)
+        return FFD_OK;
+    if (primitive->target_count > 0)
+        return refuse(d, ffd_json_span_member(&d->tree, value, "targets"), error,
+                      "morph targets are not supported");
+    return ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
+}
+
+static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
+{
+    if (d->shared_child == GLTF_NONE || d->space == FFD_SPACE_MESH)
+        return FFD_OK;
+    return ffd_json_span_fail(&d->tree, d->node_values.values[d->shared_child], d->name, FFD_E_INVALID, error,
+                              "the node is a child of node %zu and again of node %zu", d->shared_by[0],
+                              d->shared_by[1]);
+}
+
+ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
+{
+    ffd_status status = refuse_shared_child(d, error);
+    if (status == FFD_OK)
+        status = refuse_unknown_extensions(d, error);
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        const gltf_showing *showing = &d->showings[m];
+        for (size_t n = 0; showing->nodes && n < showing->node_count && status == FFD_OK; n++)
+            status = refuse_node(d, showing->nodes[n], error);
+        for (size_t p = 0;
+             p < d->model.meshes[m].primitive_count && showing->node_count > 0 && status == FFD_OK; p++)
+            status = refuse_primitive(d, m, p, error);
+    }
+    return status;
+}
+
+/* What keeps float results from being written in the accessor's place, or beside it. */
+static ffd_status refuse_accessor(const gltf_document *d, size_t mesh, size_t p, int a, ffd_error *error)
+{
+    const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    const uint32_t value = d->accessor_values.values[a];
+    if (ffd_gltf_has_extension(d, primitive, "KHR_draco_mesh_compression"))
+        return refuse(d, primitive, error, "KHR_draco_mesh_compression is not supported");
+    const ffd_status status = ffd_gltf_refuse_unreadable(d, mesh, p, a, error);
+    if (status)
+        return status;
+    if (d->layouts[a].meshopt)
+        return refuse(d, d->view_values.values[accessor->view], error,
+                      "EXT_meshopt_compression is not supported");
+    if (accessor->sparse.present)
+        return refuse(d, value, error, "a sparse accessor is not supported");
+    if (accessor->component != GLTF_FLOAT)
+        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error,
+                                  "quantized data (component type %d) is not supported", accessor->component);
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tangents, ffd_error *error)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && d->showings[m].node_count > 0; p++) {
+            const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+            const bool wanted[GLTF_DEFORMED] = {true, normals,
+                                                tangents && primitive->accessor[GLTF_NORMAL] >= 0};
+            for (int s = 0; s < GLTF_DEFORMED && primitive->accessor[GLTF_POSITION] >= 0; s++) {
+                if (!wanted[s] || primitive->accessor[s] < 0)
+                    continue;
+                const ffd_status status = refuse_accessor(d, m, p, primitive->accessor[s], error);
+                if (status)
+                    return status;
+            }
+        }
+    }
+    return FFD_OK;
+}

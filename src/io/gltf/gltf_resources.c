@@ -1,0 +1,192 @@
+#include "base/memory.h"
+#include "base/path.h"
+#include "io/gltf/gltf_saver.h"
+#include "io/gltf/uri.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* The folders of input and output, and what was copied already. */
+typedef struct resources {
+    gltf_saver *saver;
+    char *from, *to;
+    char **done; /* relative paths, in order */
+    size_t done_count, done_capacity;
+} resources;
+
+/* The path that an image's URI names relative to the model, normalized; NULL with FFD_OK: not a file beside
+ * it. */
+static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
+{
+    *path = NULL;
+    const uint32_t uri = ffd_json_span_member(&d->tree, d->image_values.values[image], "uri");
+    if (uri == JSON_NONE)
+        return FFD_OK;
+    size_t size;
+    char *text = ffd_json_span_string(&d->tree, uri, &size);
+    if (!text)
+        return ffd_fail_memory(error);
+    if (!ffd_uri_is_data(text) && !ffd_uri_is_absolute(text)) {
+        size = ffd_uri_decode(text, size);
+        text[size] = 0;
+        if (!memchr(text, 0, size) && size > 0) {
+            *path = ffd_path_normalize(text);
+            if (!*path) {
+                ffd_free(text);
+                return ffd_fail_memory(error);
+            }
+        }
+    }
+    ffd_free(text);
+    return FFD_OK;
+}
+
+/* Whether target holds just these bytes. */
+static ffd_status compare_file(const char *target, const file_input *bytes, bool *same, ffd_error *error)
+{
+    file_input there;
+    const ffd_status status = ffd_file_load(target, &there, error);
+    if (status)
+        return status;
+    *same = there.size == bytes->size && memcmp(there.data, bytes->data, bytes->size) == 0;
+    ffd_file_unload(&there);
+    return FFD_OK;
+}
+
+static ffd_status write_image(const resources *r, const char *target, const file_input *bytes,
+                              ffd_error *error)
+{
+    if (ffd_file_exists(target)) {
+        bool same = false;
+        const ffd_status status = compare_file(target, bytes, &same, error);
+        if (status || same)
+            return status;
+        return ffd_fail_file(error, FFD_E_IO, target,
+                             "exists with other content than the image that belongs there "
+                             "(--resources reference leaves it)");
+    }
+    char *folder = ffd_path_folder(target);
+    ffd_status status = folder ? ffd_folder_make(folder, error) : ffd_fail_memory(error);
+    ffd_free(folder);
+    if (status == FFD_OK)
+        status = ffd_output_begin(r->saver->output, target, false, error);
+    return status ? status : ffd_output_write(r->saver->output, bytes->data, bytes->size, error);
+}
+
+static ffd_status copy_image(const resources *r, size_t image, const char *path, ffd_error *error)
+{
+    const gltf_document *d = r->saver->document;
+    char *source = ffd_path_join(r->from, path), *target = ffd_path_join(r->to, path);
+    file_input bytes = {0};
+    ffd_error reason = {0};
+    ffd_status status = source && target ? FFD_OK : ffd_fail_memory(error);
+    if (status)
+        goto done;
+    if (!ffd_path_leads_out(path) && !ffd_file_exists(source)) {
+        ffd_gltf_log(r->saver, FFD_LOG_WARNING, "%s: the image \"%s\" is missing and was not copied", d->name,
+                     path);
+        goto done;
+    }
+    if (!ffd_path_leads_out(path))
+        status = ffd_file_load_within(r->from, path, d->name, &bytes, &reason);
+    if (ffd_path_leads_out(path) || status)
+        status = ffd_json_span_fail(
+            &d->tree, d->image_values.values[image], d->name,
+            status == FFD_E_MEMORY ? FFD_E_MEMORY : FFD_E_IO, error,
+            "the image \"%s\" cannot be copied: %s; --resources reference leaves it where it is", path,
+            status ? reason.message : "it is outside the model's folder");
+    else
+        status = write_image(r, target, &bytes, error);
+done:
+    if (bytes.data)
+        ffd_file_unload(&bytes);
+    ffd_free(source);
+    ffd_free(target);
+    return status;
+}
+
+static ffd_status refer_to_image(const resources *r, size_t image, const char *path, ffd_error *error)
+{
+    const gltf_document *d = r->saver->document;
+    const json_value *uri =
+        &d->tree.values[ffd_json_span_member(&d->tree, d->image_values.values[image], "uri")];
+    char *from = ffd_path_resolve(r->from), *to = ffd_path_resolve(r->to);
+    char *absolute = from ? ffd_path_join(from, path) : NULL;
+    char *plain = absolute ? ffd_path_normalize(absolute) : NULL;
+    char *relative = plain && to ? ffd_path_relative(to, plain) : NULL;
+    char *encoded = relative ? ffd_uri_encode(relative) : NULL;
+    ffd_status status = FFD_OK;
+    if (!encoded)
+        status = ffd_fail_memory(error);
+    else
+        ffd_edits_replace(&r->saver->edits, uri->begin + 1, uri->end - 1, encoded, strlen(encoded));
+    char *const texts[] = {from, to, absolute, plain, relative, encoded};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        ffd_free(texts[i]);
+    return status;
+}
+
+static int compare_paths(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* Two images may be one file: it is copied once. */
+static ffd_status remember(resources *r, char *path, bool *known, ffd_error *error)
+{
+    *known =
+        r->done_count > 0 && bsearch(&path, r->done, r->done_count, sizeof *r->done, compare_paths) != NULL;
+    if (*known) {
+        ffd_free(path);
+        return FFD_OK;
+    }
+    if (!ffd_grow((void **)&r->done, &r->done_capacity, r->done_count + 1, sizeof *r->done)) {
+        ffd_free(path);
+        return ffd_fail_memory(error);
+    }
+    size_t i = r->done_count++;
+    for (; i > 0 && strcmp(r->done[i - 1], path) > 0; i--)
+        r->done[i] = r->done[i - 1];
+    r->done[i] = path;
+    return FFD_OK;
+}
+
+static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
+{
+    char *path;
+    bool known = false;
+    ffd_status status = image_path(r->saver->document, image, &path, error);
+    if (status || !path)
+        return status;
+    if (r->saver->options->resources == FFD_RESOURCES_REFERENCE) {
+        status = refer_to_image(r, image, path, error);
+        ffd_free(path);
+        return status;
+    }
+    char *copy = ffd_text_copy(path);
+    status = copy ? remember(r, path, &known, error) : ffd_fail_memory(error);
+    if (!copy)
+        ffd_free(path);
+    if (status == FFD_OK && !known)
+        status = copy_image(r, image, copy, error);
+    ffd_free(copy);
+    return status;
+}
+
+ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    if (strcmp(d->path, "-") == 0 || strcmp(saver->options->path, "-") == 0 || saver->in_place)
+        return FFD_OK;
+    resources r = {
+        .saver = saver, .from = ffd_path_folder(d->path), .to = ffd_path_folder(saver->options->path)};
+    ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
+    if (status == FFD_OK && !ffd_file_same(r.from, r.to))
+        for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
+            status = bring_image(&r, i, error);
+    for (size_t i = 0; i < r.done_count; i++)
+        ffd_free(r.done[i]);
+    ffd_free(r.done);
+    ffd_free(r.from);
+    ffd_free(r.to);
+    return status;
+}

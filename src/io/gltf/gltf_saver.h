@@ -1,0 +1,61 @@
+/* gltf_saver.h - what belongs to one saving: the plan, the new buffers, the edits of the JSON. */
+#ifndef FFD_IO_GLTF_GLTF_SAVER_H
+#define FFD_IO_GLTF_GLTF_SAVER_H
+
+#include "io/gltf/gltf_plan.h"
+#include "io/gltf/json_edit.h"
+
+/* An accessor whose content changes where it stands. */
+typedef struct gltf_overwrite {
+    size_t begin, end, stride; /* in its buffer */
+    size_t end_so_far;         /* the largest end up to this one in the list */
+    const float *values;
+} gltf_overwrite;
+
+/* A new accessor's content behind the old end of its buffer. */
+typedef struct gltf_append {
+    size_t offset, size;
+    size_t version;
+} gltf_append;
+
+typedef struct gltf_new_buffer {
+    size_t length;              /* its new byteLength */
+    bool changed;               /* its bytes are not those of before */
+    gltf_overwrite *overwrites; /* by begin */
+    size_t overwrite_count;
+    gltf_append *appends; /* by offset */
+    size_t append_count;
+    char *target; /* the file to write; NULL: none */
+} gltf_new_buffer;
+
+typedef struct gltf_saver {
+    const gltf_document *document;
+    const mesh_save_options *options;
+    file_output *output;
+    const mesh_log *log;
+    gltf_plan plan;
+    gltf_new_buffer *buffers;
+    json_edits edits;
+    bool in_place; /* the output is the input */
+    bool replaces; /* some buffer file that exists is replaced */
+} gltf_saver;
+
+void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
+
+/* gltf_content.c: fills overwrites, appends and lengths of saver->buffers from the plan. */
+ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error);
+void ffd_gltf_free_content(gltf_saver *saver);
+/* Bytes of the new content of a buffer: more than its length where the old one had more and did not grow. */
+size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer);
+/* Its bytes [offset, offset + size). */
+void ffd_gltf_content_read(const gltf_saver *saver, size_t buffer, size_t offset, size_t size,
+                           unsigned char *bytes);
+
+/* gltf_patch.c: the edits of the JSON that the plan and the new buffers need. */
+ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);
+/* gltf_targets.c: names for the buffers' files, and their URIs. */
+ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
+/* gltf_resources.c: images beside the output, or their URIs. Begins and writes files of saver->output. */
+ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
+
+#endif

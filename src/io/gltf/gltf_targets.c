@@ -1,0 +1,126 @@
+#include "base/memory.h"
+#include "base/path.h"
+#include "io/gltf/gltf_saver.h"
+#include "io/gltf/uri.h"
+#include <string.h>
+
+static char *beside(const char *path, const char *name)
+{
+    char *folder = ffd_path_folder(path);
+    char *joined = folder ? ffd_path_join(folder, name) : NULL;
+    ffd_free(folder);
+    return joined;
+}
+
+/* "OUT-stem.bin" for the first external buffer, "OUT-stem-1.bin" for the next. */
+static char *make_name(const char *path, size_t number)
+{
+    char *stem = ffd_path_stem(path);
+    byte_buffer name = {0};
+    if (stem)
+        ffd_buffer_text(&name, stem);
+    if (number > 0)
+        ffd_buffer_format(&name, "-%zu", number);
+    ffd_buffer_text(&name, ".bin");
+    name.failed = name.failed || !stem;
+    ffd_free(stem);
+    return ffd_buffer_finish(&name);
+}
+
+/* A buffer's own file is overwritten, if its bytes changed. */
+static ffd_status keep_name(gltf_saver *saver, size_t b, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    if (!saver->buffers[b].changed)
+        return FFD_OK;
+    saver->buffers[b].target = beside(d->path, d->buffers[b].path);
+    if (!saver->buffers[b].target)
+        return ffd_fail_memory(error);
+    saver->replaces = true;
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
+        if (i == b || d->buffers[i].kind != BUFFER_FILE)
+            continue;
+        char *other = beside(d->path, d->buffers[i].path);
+        const bool same = other && ffd_file_same(other, saver->buffers[b].target);
+        const bool failed = !other;
+        ffd_free(other);
+        if (failed)
+            return ffd_fail_memory(error);
+        if (same)
+            return ffd_json_span_fail(
+                &d->tree, d->buffer_values.values[b], d->name, FFD_E_UNSUPPORTED, error,
+                "buffers %zu and %zu are one file, which cannot be overwritten for both", b, i);
+    }
+    return FFD_OK;
+}
+
+/* The output must not take the place of a file that the input consists of. */
+static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
+        if (d->buffers[i].kind != BUFFER_FILE)
+            continue;
+        char *own = beside(d->path, d->buffers[i].path);
+        const bool same = own && ffd_file_same(own, target), failed = !own;
+        ffd_free(own);
+        if (failed)
+            return ffd_fail_memory(error);
+        if (same)
+            return ffd_fail_file(error, FFD_E_EXISTS, target,
+                                 "is a buffer of the input %s and is not overwritten", d->name);
+    }
+    return FFD_OK;
+}
+
+static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    const json_value *uri =
+        &d->tree.values[ffd_json_span_member(&d->tree, d->buffer_values.values[b], "uri")];
+    if (strcmp(d->buffers[b].path, name) == 0)
+        return FFD_OK;
+    char *encoded = ffd_uri_encode(name);
+    if (!encoded)
+        return ffd_fail_memory(error);
+    ffd_edits_replace(&saver->edits, uri->begin + 1, uri->end - 1, encoded, strlen(encoded));
+    ffd_free(encoded);
+    return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
+}
+
+static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_error *error)
+{
+    char *name = make_name(saver->options->path, number);
+    char *target = name ? beside(saver->options->path, name) : NULL;
+    saver->buffers[b].target = target;
+    ffd_status status = target ? refuse_own_file(saver, target, error) : ffd_fail_memory(error);
+    if (status == FFD_OK)
+        status = ffd_output_check(target, saver->options->force, error);
+    if (status == FFD_OK) {
+        saver->replaces = saver->replaces || ffd_file_exists(target);
+        status = set_uri(saver, b, name, error);
+    }
+    ffd_free(name);
+    return status;
+}
+
+ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    const bool stream = strcmp(saver->options->path, "-") == 0;
+    size_t number = 0;
+    ffd_status status = FFD_OK;
+    if (!stream && !saver->in_place)
+        status = refuse_own_file(saver, saver->options->path, error);
+    for (size_t b = 0; b < d->buffer_values.count && status == FFD_OK; b++) {
+        if (d->buffers[b].kind != BUFFER_FILE)
+            continue;
+        if (stream)
+            return ffd_json_span_fail(
+                &d->tree, d->buffer_values.values[b], d->name, FFD_E_ARGUMENT, error,
+                "the buffer is a file of its own, which standard output cannot hold: give a file "
+                "name as output");
+        status = saver->in_place ? keep_name(saver, b, error) : give_name(saver, b, number++, error);
+    }
+    return status;
+}

@@ -1,0 +1,120 @@
+#include "io/gltf/json_chars.h"
+
+static int hex_value(char c)
+{
+    if (c >= '0' && c <= '9')
+        return c - '0';
+    if (c >= 'a' && c <= 'f')
+        return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F')
+        return c - 'A' + 10;
+    return -1;
+}
+
+/* The four digits behind \u. */
+static const char *read_hex(const char *c, const char *last, uint32_t *code)
+{
+    if (last - c < 4)
+        return NULL;
+    *code = 0;
+    for (int i = 0; i < 4; i++) {
+        const int digit = hex_value(c[i]);
+        if (digit < 0)
+            return NULL;
+        *code = *code * 16 + (uint32_t)digit;
+    }
+    return c + 4;
+}
+
+static const char *read_unicode_escape(const char *c, const char *last, uint32_t *code)
+{
+    c = read_hex(c, last, code);
+    if (!c || *code < 0xd800 || *code > 0xdfff)
+        return c;
+    uint32_t low;
+    if (*code > 0xdbff || last - c < 2 || c[0] != '\\' || c[1] != 'u')
+        return NULL;
+    c = read_hex(c + 2, last, &low);
+    if (!c || low < 0xdc00 || low > 0xdfff)
+        return NULL;
+    *code = 0x10000 + ((*code - 0xd800) << 10) + (low - 0xdc00);
+    return c;
+}
+
+static const char *read_escape(const char *c, const char *last, uint32_t *code)
+{
+    if (c == last)
+        return NULL;
+    switch (*c) {
+    case '"':
+    case '\\':
+    case '/':
+        *code = (uint32_t)(unsigned char)*c;
+        return c + 1;
+    case 'b':
+        *code = '\b';
+        return c + 1;
+    case 'f':
+        *code = '\f';
+        return c + 1;
+    case 'n':
+        *code = '\n';
+        return c + 1;
+    case 'r':
+        *code = '\r';
+        return c + 1;
+    case 't':
+        *code = '\t';
+        return c + 1;
+    case 'u':
+        return read_unicode_escape(c + 1, last, code);
+    default:
+        return NULL;
+    }
+}
+
+static const char *read_utf8(const char *c, const char *last, uint32_t *code)
+{
+    const unsigned char lead = (unsigned char)*c;
+    const int more = lead < 0x80                   ? 0
+                     : lead >= 0xc2 && lead < 0xe0 ? 1
+                     : lead < 0xf0                 ? 2
+                     : lead < 0xf5                 ? 3
+                                                   : -1;
+    if (more < 0 || (lead >= 0x80 && lead < 0xc2) || last - c <= more)
+        return NULL;
+    *code = more == 0 ? lead : lead & (0x3fu >> more);
+    for (int i = 1; i <= more; i++) {
+        const unsigned char next = (unsigned char)c[i];
+        if ((next & 0xc0) != 0x80)
+            return NULL;
+        *code = *code << 6 | (next & 0x3fu);
+    }
+    const uint32_t least = more == 2 ? 0x800 : more == 3 ? 0x10000 : 0;
+    if (*code < least || *code > 0x10ffff || (*code >= 0xd800 && *code <= 0xdfff))
+        return NULL;
+    return c + more + 1;
+}
+
+const char *ffd_json_char(const char *c, const char *last, uint32_t *code)
+{
+    if (c == last || (unsigned char)*c < 0x20)
+        return NULL;
+    return *c == '\\' ? read_escape(c + 1, last, code) : read_utf8(c, last, code);
+}
+
+size_t ffd_utf8_write(uint32_t code, char bytes[4])
+{
+    if (code < 0x80) {
+        bytes[0] = (char)code;
+        return 1;
+    }
+    const int more = code < 0x800 ? 1 : code < 0x10000 ? 2 : 3;
+    static const unsigned char lead[4] = {0, 0xc0, 0xe0, 0xf0};
+    for (int i = more; i > 0; i--) {
+        bytes[i] = (char)(0x80 | (code & 0x3f));
+        code >>= 6;
+    }
+    bytes[0] = (char)(lead[more] | code);
+    return (size_t)more + 1;
+}

@@ -1,0 +1,101 @@
+#include "io/gltf/json_edit.h"
+#include "base/memory.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static json_edit *add(json_edits *edits, uint32_t begin, uint32_t end)
+{
+    if (!ffd_grow((void **)&edits->edits, &edits->capacity, edits->count + 1, sizeof *edits->edits)) {
+        edits->failed = true;
+        return NULL;
+    }
+    json_edit *edit = &edits->edits[edits->count++];
+    *edit = (json_edit){.begin = begin, .end = end, .text = edits->pool.size, .buffer = EDIT_NO_BUFFER};
+    return edit;
+}
+
+void ffd_edits_replace(json_edits *edits, uint32_t begin, uint32_t end, const char *text, size_t size)
+{
+    json_edit *edit = add(edits, begin, end);
+    if (!edit)
+        return;
+    edit->text_size = size;
+    ffd_buffer_append(&edits->pool, text, size);
+}
+
+void ffd_edits_format(json_edits *edits, uint32_t begin, uint32_t end, const char *format, ...)
+{
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    if (length < 0 || (size_t)length >= sizeof text)
+        edits->failed = true;
+    else
+        ffd_edits_replace(edits, begin, end, text, (size_t)length);
+}
+
+void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffer)
+{
+    json_edit *edit = add(edits, begin, end);
+    if (edit)
+        edit->buffer = buffer;
+}
+
+static int compare_edits(const void *a, const void *b)
+{
+    const json_edit *x = a, *y = b;
+    if (x->begin != y->begin)
+        return x->begin < y->begin ? -1 : 1;
+    if (x->end != y->end)
+        return x->end < y->end ? -1 : 1;
+    return (x->text > y->text) - (x->text < y->text);
+}
+
+void ffd_edits_sort(json_edits *edits)
+{
+    if (edits->count > 0)
+        qsort(edits->edits, edits->count, sizeof *edits->edits, compare_edits);
+}
+
+/* The first edit that does not begin before `begin`. */
+static size_t find(const json_edits *edits, uint32_t begin)
+{
+    size_t low = 0, high = edits->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (edits->edits[middle].begin < begin)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+void ffd_edits_apply(const json_edits *edits, const char *text, uint32_t begin, uint32_t end,
+                     byte_buffer *out)
+{
+    uint32_t at = begin;
+    for (size_t i = find(edits, begin); i < edits->count && edits->edits[i].end <= end; i++) {
+        const json_edit *edit = &edits->edits[i];
+        ffd_buffer_append(out, text + at, edit->begin - at);
+        ffd_buffer_append(out, edits->pool.data + edit->text, edit->text_size);
+        at = edit->end;
+    }
+    ffd_buffer_append(out, text + at, end - at);
+}
+
+bool ffd_edits_failed(const json_edits *edits)
+{
+    return edits->failed || edits->pool.failed;
+}
+
+void ffd_edits_free(json_edits *edits)
+{
+    ffd_free(edits->edits);
+    ffd_buffer_free(&edits->pool);
+    *edits = (json_edits){0};
+}

@@ -1,0 +1,121 @@
+#include "io/obj/obj_document.h"
+#include "io/obj/obj_names.h"
+
+typedef struct obj_facts {
+    size_t triangles, quads, ngons; /* faces with 3, 4, more corners */
+    size_t coloured;                /* vertices with 6 numbers or more: x y z [w] r g b */
+    size_t lf, crlf, cr;            /* line ends */
+    obj_names groups, objects, materials;
+    bool failed; /* memory ran out */
+} obj_facts;
+
+static size_t count_words(obj_scan *scan)
+{
+    obj_word word;
+    size_t count = 0;
+    while (ffd_obj_scan_word(scan, &word))
+        count++;
+    return count;
+}
+
+static void count_face(obj_facts *facts, size_t corners)
+{
+    facts->triangles += corners == 3;
+    facts->quads += corners == 4;
+    facts->ngons += corners > 4;
+}
+
+/* A group's words are names of their own; an object's or material's name may hold blanks. */
+static void count_names(obj_facts *facts, obj_names *names, obj_scan *scan, bool each_word)
+{
+    obj_word name = {0}, word;
+    while (ffd_obj_scan_word(scan, &word)) {
+        if (each_word)
+            facts->failed = facts->failed || !ffd_obj_names_add(names, word);
+        name = (obj_word){name.first ? name.first : word.first, word.last};
+    }
+    if (name.first && !each_word)
+        facts->failed = facts->failed || !ffd_obj_names_add(names, name);
+}
+
+static void survey_statement(obj_facts *facts, obj_scan *scan)
+{
+    switch (scan->keyword) {
+    case OBJ_VERTEX:
+        facts->coloured += count_words(scan) >= 6;
+        break;
+    case OBJ_FACE:
+        count_face(facts, count_words(scan));
+        break;
+    case OBJ_GROUP:
+        count_names(facts, &facts->groups, scan, true);
+        break;
+    case OBJ_OBJECT:
+        count_names(facts, &facts->objects, scan, false);
+        break;
+    case OBJ_MATERIAL:
+        count_names(facts, &facts->materials, scan, false);
+        break;
+    default:
+        break;
+    }
+}
+
+static void count_line_ends(obj_facts *facts, const file_input *input)
+{
+    const char *at = (const char *)input->data, *last = at + input->size;
+    for (; at < last; at++) {
+        if (*at == '\n')
+            facts->lf++;
+        else if (*at == '\r' && ffd_obj_line_end_size(at, last) == 1)
+            facts->cr++;
+        else if (*at == '\r') {
+            facts->crlf++;
+            at++;
+        }
+    }
+}
+
+static const char *line_end_name(const obj_facts *facts)
+{
+    const int kinds = (facts->lf > 0) + (facts->crlf > 0) + (facts->cr > 0);
+    if (kinds != 1)
+        return kinds ? "mixed" : "none";
+    return facts->lf ? "LF" : facts->crlf ? "CRLF" : "CR";
+}
+
+ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_error *error)
+{
+    const obj_document *d = ffd_obj_of(document);
+    obj_facts facts = {0};
+    obj_walk walk;
+    ffd_obj_document_walk(d, &walk);
+    while (!facts.failed && ffd_obj_walk_next(&walk))
+        survey_statement(&facts, &walk.scan);
+    count_line_ends(&facts, &d->input);
+    const struct {
+        const char *key;
+        size_t count;
+    } members[] = {
+        {"vertices", d->vertices},
+        {"vertices_with_color", facts.coloured},
+        {"normals", d->normals},
+        {"texcoords", d->texcoords},
+        {"faces", d->faces},
+        {"triangles", facts.triangles},
+        {"quads", facts.quads},
+        {"ngons", facts.ngons},
+        {"lines", d->lines},
+        {"points", d->points},
+        {"groups", ffd_obj_names_distinct(&facts.groups)},
+        {"objects", ffd_obj_names_distinct(&facts.objects)},
+        {"materials", ffd_obj_names_distinct(&facts.materials)},
+    };
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+        ffd_json_count(json, members[i].key, members[i].count);
+    ffd_json_string(json, "line_endings", line_end_name(&facts));
+    ffd_obj_names_free(&facts.groups);
+    ffd_obj_names_free(&facts.objects);
+    ffd_obj_names_free(&facts.materials);
+    return facts.failed ? ffd_fail_memory(error) : FFD_OK;
+}

@@ -1,0 +1,64 @@
+/* obj_document.h - an OBJ file as a mesh document: one part that stands in the lattice's space.
+
+   Every `v` is a vertex, in the order of the file. The normals of a vertex are the distinct `vn` that face
+   corners name together with it. Coordinates are held as numbers; all else stays in the file's bytes, which
+   are scanned again where it is needed (saving, faces, comparison). */
+#ifndef FFD_IO_OBJ_OBJ_DOCUMENT_H
+#define FFD_IO_OBJ_OBJ_DOCUMENT_H
+
+#include "io/obj/obj_walk.h"
+#include "mesh/mesh.h"
+
+/* Vertices and `vn` that a file may have: their numbers, and one number for none, are 32 bits. */
+#define OBJ_ELEMENTS_MAX (UINT32_MAX - 1)
+#define OBJ_NONE UINT32_MAX
+
+typedef struct obj_document {
+    mesh_document base;
+    mesh_part part;
+    file_input input;
+    char *name;                           /* for messages */
+    size_t vertices, texcoords, normals;  /* `v`, `vt`, `vn` */
+    size_t faces, corners, lines, points; /* statements; corners of faces */
+    double *positions;                    /* 3 a `v` */
+    double *directions;                   /* 3 a `vn` */
+    /* A pair is a vertex with one of its normals: pairs pair_start[i] .. pair_start[i+1]-1 are those of
+       vertex i, with the `vn` pair_normal[.] (from 0) ascending. NULL where no face corner names a normal. */
+    uint32_t *pair_start, *pair_normal;
+    /* Where `vn` can be added so that every index keeps its meaning: an offset into the file. */
+    size_t addition;
+    double *new_positions;  /* 3 a vertex; NULL before ffd_obj_begin_results */
+    double *new_directions; /* 3 a pair; NULL: normals are kept */
+} obj_document;
+
+static inline const obj_document *ffd_obj_of(const mesh_document *document)
+{
+    return (const obj_document *)document;
+}
+
+/* A walk over the document's file, totals set. */
+void ffd_obj_document_walk(const obj_document *document, obj_walk *walk);
+/* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
+ffd_status ffd_obj_read_faces(obj_document *document, ffd_error *error);
+
+/* The entries of the format's table. */
+ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_document **document,
+                        ffd_error *error);
+void ffd_obj_close(mesh_document *document);
+void ffd_obj_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                            double *xyz);
+void ffd_obj_read_normals(const mesh_document *document, size_t part, size_t first, size_t count,
+                          double *xyz);
+ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
+void ffd_obj_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                             const double *xyz, const uint8_t *changed);
+void ffd_obj_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
+                           const double *xyz, const uint8_t *changed);
+ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                        const mesh_log *log, ffd_error *error);
+ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_error *error);
+ffd_status ffd_obj_compare(const mesh_document *a, const mesh_document *b, double tolerance,
+                           ffd_comparison *comparison, ffd_error *error);
+
+#endif

@@ -1,0 +1,29 @@
+#include "io/formats.h"
+#include "io/obj/obj_document.h"
+#include <float.h>
+
+/* Nothing in an OBJ file moves vertices but the file's own numbers. */
+static ffd_status check(const mesh_document *document, ffd_error *error)
+{
+    (void)document;
+    (void)error;
+    return FFD_OK;
+}
+
+const mesh_format ffd_obj_format = {
+    .format = FFD_FORMAT_OBJ,
+    .name = "OBJ",
+    .open = ffd_obj_open,
+    .close = ffd_obj_close,
+    .check = check,
+    .largest_coordinate = DBL_MAX,
+    .read_positions = ffd_obj_read_positions,
+    .read_normals = ffd_obj_read_normals,
+    .begin_results = ffd_obj_begin_results,
+    .write_positions = ffd_obj_write_positions,
+    .write_normals = ffd_obj_write_normals,
+    .save = ffd_obj_save,
+    .faces = ffd_obj_faces,
+    .describe = ffd_obj_describe,
+    .compare = ffd_obj_compare,
+};

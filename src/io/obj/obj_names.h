@@ -1,0 +1,19 @@
+/* obj_names.h - a list of words, to count the distinct ones. */
+#ifndef FFD_IO_OBJ_OBJ_NAMES_H
+#define FFD_IO_OBJ_OBJ_NAMES_H
+
+#include "io/obj/obj_scan.h"
+
+/* Zeroed: the empty list. The words stay the caller's. */
+typedef struct obj_names {
+    obj_word *words;
+    size_t count, capacity;
+} obj_names;
+
+/* False when there is no memory. */
+bool ffd_obj_names_add(obj_names *names, obj_word word);
+/* How many different words were added. Changes their order. */
+size_t ffd_obj_names_distinct(obj_names *names);
+void ffd_obj_names_free(obj_names *names);
+
+#endif

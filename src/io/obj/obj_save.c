@@ -1,0 +1,161 @@
+#include "base/memory.h"
+#include "base/number.h"
+#include "io/obj/obj_document.h"
+#include "io/obj/obj_splice.h"
+#include "io/obj/obj_split.h"
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct saver {
+    const obj_document *document;
+    obj_split split;
+    obj_splice splice;
+} saver;
+
+/* Replaces those of a statement's three numbers that have other bits than before. */
+static void replace_numbers(saver *s, obj_scan *scan, const double *before, const double *after)
+{
+    obj_word word;
+    if (ffd_obj_same_vector(before, after))
+        return;
+    for (int a = 0; a < 3 && ffd_obj_scan_word(scan, &word); a++)
+        if (memcmp(before + a, after + a, sizeof *after) != 0)
+            ffd_obj_splice_number(&s->splice, word, after[a]);
+}
+
+/* The pair of a face's corner: its normal's place in the vertex's ascending list. */
+static size_t find_pair(const obj_document *d, const obj_face_corner *corner)
+{
+    size_t low = d->pair_start[corner->vertex], high = d->pair_start[corner->vertex + 1];
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (d->pair_normal[middle] <= corner->normal)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void renumber_corners(saver *s, obj_walk *walk)
+{
+    obj_face_corner corner;
+    while (ffd_obj_walk_corner(walk, &corner)) {
+        if (!corner.has_normal)
+            continue;
+        const uint32_t target = s->split.target[find_pair(s->document, &corner)];
+        if (target == OBJ_NONE)
+            continue;
+        char text[24];
+        const uint64_t index = (uint64_t)s->document->normals + target + 1;
+        const int size = snprintf(text, sizeof text, "%" PRIu64, index);
+        ffd_obj_splice_word(&s->splice, corner.normal_text, text, (size_t)size);
+    }
+}
+
+/* The line end that lines before a place have: the one right there, else the file's first, else LF. */
+static obj_word line_end_at(const obj_document *d, const char *place)
+{
+    static const char lf[] = "\n";
+    const char *first = (const char *)d->input.data, *last = first + d->input.size;
+    if (place > first && place[-1] == '\n')
+        return (obj_word){place - (place - first > 1 && place[-2] == '\r' ? 2 : 1), place};
+    if (place > first && place[-1] == '\r')
+        return (obj_word){place - 1, place};
+    for (const char *at = first; at < last; at++)
+        if (*at == '\n' || *at == '\r')
+            return (obj_word){at, at + ffd_obj_line_end_size(at, last)};
+    return (obj_word){lf, lf + 1};
+}
+
+static void write_word(obj_splice *splice, obj_word word)
+{
+    ffd_obj_splice_text(splice, word.first, (size_t)(word.last - word.first));
+}
+
+/* Makes the place the beginning of a line that nothing continues: a backslash that ends the line before gets
+   an empty line to join, be it in a comment, which some readers continue too. */
+static void begin_line(obj_splice *splice, const char *first, const char *place, obj_word line_end)
+{
+    const char *text_end = place;
+    if (place > first && (place[-1] == '\n' || place[-1] == '\r'))
+        text_end -= line_end.last - line_end.first;
+    else
+        write_word(splice, line_end);
+    if (text_end > first && text_end[-1] == '\\')
+        write_word(splice, line_end);
+}
+
+static void add_normals(saver *s)
+{
+    const obj_document *d = s->document;
+    const char *first = (const char *)d->input.data, *place = first + d->addition;
+    if (s->split.added_count == 0)
+        return;
+    const obj_word line_end = line_end_at(d, place);
+    ffd_obj_splice_copy(&s->splice, place);
+    begin_line(&s->splice, first, place, line_end);
+    for (size_t i = 0; i < s->split.added_count; i++) {
+        const double *value = d->new_directions + 3 * (size_t)s->split.added[i];
+        ffd_obj_splice_text(&s->splice, "vn", 2);
+        for (int a = 0; a < 3; a++) {
+            char text[1 + FFD_NUMBER_CAPACITY] = " ";
+            ffd_obj_splice_text(&s->splice, text, 1 + ffd_number_format(value[a], text + 1));
+        }
+        write_word(&s->splice, line_end);
+    }
+}
+
+static void replace_normal(saver *s, obj_walk *walk)
+{
+    const obj_document *d = s->document;
+    const size_t n = walk->normals.seen - 1;
+    const uint32_t keeper = s->split.keeper[n];
+    if (keeper != OBJ_NONE)
+        replace_numbers(s, &walk->scan, d->directions + 3 * n, d->new_directions + 3 * (size_t)keeper);
+    if (n + 1 == d->normals && d->addition < d->input.size)
+        add_normals(s);
+}
+
+static void write_statements(saver *s)
+{
+    const obj_document *d = s->document;
+    obj_walk walk;
+    ffd_obj_document_walk(d, &walk);
+    while (s->splice.status == FFD_OK && ffd_obj_walk_next(&walk)) {
+        const size_t v = walk.vertices.seen - 1;
+        if (walk.scan.keyword == OBJ_VERTEX)
+            replace_numbers(s, &walk.scan, d->positions + 3 * v, d->new_positions + 3 * v);
+        else if (walk.scan.keyword == OBJ_NORMAL && s->split.keeper)
+            replace_normal(s, &walk);
+        else if (walk.scan.keyword == OBJ_FACE && s->split.target)
+            renumber_corners(s, &walk);
+    }
+}
+
+ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                        const mesh_log *log, ffd_error *error)
+{
+    const obj_document *d = ffd_obj_of(document);
+    saver s = {.document = d};
+    const char *last = (const char *)d->input.data + d->input.size;
+    (void)log;
+    ffd_status status = d->new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
+    if (status == FFD_OK)
+        status = ffd_obj_splice_begin(&s.splice, d->input.data, output, error);
+    if (status == FFD_OK)
+        status = ffd_output_begin(output, options->path, options->force, error);
+    if (status)
+        goto out;
+    if (d->new_positions)
+        write_statements(&s);
+    ffd_obj_splice_copy(&s.splice, last);
+    if (d->addition == d->input.size)
+        add_normals(&s);
+    status = ffd_obj_splice_end(&s.splice);
+out:
+    ffd_free(s.splice.block);
+    ffd_obj_split_free(&s.split);
+    return status;
+}

@@ -1,0 +1,154 @@
+#include "io/obj/obj_scan.h"
+#include <string.h>
+
+enum { ORDINARY = 0, BLANK, LINE_END, BACKSLASH, HASH };
+
+static const unsigned char classes[256] = {
+    ['\t'] = BLANK,    ['\v'] = BLANK,    ['\f'] = BLANK,     [' '] = BLANK,
+    ['\n'] = LINE_END, ['\r'] = LINE_END, ['\\'] = BACKSLASH, ['#'] = HASH,
+};
+
+static int class_of(const char *at)
+{
+    return classes[(unsigned char)*at];
+}
+
+size_t ffd_obj_line_end_size(const char *at, const char *last)
+{
+    return *at == '\r' && last - at > 1 && at[1] == '\n' ? 2 : 1;
+}
+
+void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size)
+{
+    const char *first = data;
+    *scan = (obj_scan){.at = first, .last = first + size, .line = 1};
+    if (size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
+        scan->at += 3;
+}
+
+/* Whether the backslash at `at` continues its line; at the very end of the file it joins nothing and counts
+ * too. */
+static bool continues(const obj_scan *scan, const char *at)
+{
+    return scan->last - at == 1 || class_of(at + 1) == LINE_END;
+}
+
+static void pass_line_end(obj_scan *scan)
+{
+    scan->at += ffd_obj_line_end_size(scan->at, scan->last);
+    scan->line++;
+}
+
+static void pass_continuation(obj_scan *scan)
+{
+    scan->at++;
+    if (scan->at < scan->last)
+        pass_line_end(scan);
+}
+
+static bool takes_names(obj_keyword keyword)
+{
+    return keyword >= OBJ_GROUP;
+}
+
+static void pass_comment(obj_scan *scan)
+{
+    while (scan->at < scan->last && class_of(scan->at) != LINE_END)
+        scan->at++;
+}
+
+void ffd_obj_scan_finish(obj_scan *scan)
+{
+    if (!scan->inside)
+        return;
+    scan->inside = false;
+    const bool names = takes_names(scan->keyword);
+    while (scan->at < scan->last) {
+        const int class = class_of(scan->at);
+        if (class == LINE_END) {
+            pass_line_end(scan);
+            return;
+        }
+        if (class == BACKSLASH && continues(scan, scan->at))
+            pass_continuation(scan);
+        else if (class == HASH && !names)
+            pass_comment(scan);
+        else
+            scan->at++;
+    }
+}
+
+/* Behind blanks and continuations, to a word, a comment or the end of the line. */
+static void pass_blanks(obj_scan *scan)
+{
+    while (scan->at < scan->last) {
+        const int class = class_of(scan->at);
+        if (class == BLANK)
+            scan->at++;
+        else if (class == BACKSLASH && continues(scan, scan->at))
+            pass_continuation(scan);
+        else
+            return;
+    }
+}
+
+static obj_word take_word(obj_scan *scan, bool names)
+{
+    const char *at = scan->at;
+    const obj_word word = {.first = at};
+    for (; at < scan->last; at++) {
+        const int class = class_of(at);
+        if (class == BLANK || class == LINE_END || (class == HASH && !names) ||
+            (class == BACKSLASH && continues(scan, at)))
+            break;
+    }
+    scan->at = at;
+    return (obj_word){word.first, at};
+}
+
+static obj_keyword keyword_of(obj_word word)
+{
+    static const struct {
+        const char *text;
+        obj_keyword keyword;
+    } known[] = {
+        {"v", OBJ_VERTEX},        {"f", OBJ_FACE},         {"vn", OBJ_NORMAL}, {"vt", OBJ_TEXCOORD},
+        {"l", OBJ_LINE},          {"p", OBJ_POINT},        {"g", OBJ_GROUP},   {"o", OBJ_OBJECT},
+        {"usemtl", OBJ_MATERIAL}, {"mtllib", OBJ_LIBRARY},
+    };
+    const size_t size = (size_t)(word.last - word.first);
+    for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
+        if (strlen(known[i].text) == size && memcmp(known[i].text, word.first, size) == 0)
+            return known[i].keyword;
+    return OBJ_OTHER;
+}
+
+bool ffd_obj_scan_next(obj_scan *scan)
+{
+    ffd_obj_scan_finish(scan);
+    for (;;) {
+        pass_blanks(scan);
+        if (scan->at == scan->last)
+            return false;
+        const int class = class_of(scan->at);
+        if (class == LINE_END)
+            pass_line_end(scan);
+        else if (class == HASH)
+            pass_comment(scan);
+        else
+            break;
+    }
+    scan->inside = true;
+    scan->keyword_line = scan->line;
+    scan->name = take_word(scan, false);
+    scan->keyword = keyword_of(scan->name);
+    return true;
+}
+
+bool ffd_obj_scan_word(obj_scan *scan, obj_word *word)
+{
+    const bool names = takes_names(scan->keyword);
+    pass_blanks(scan);
+    *word = take_word(scan, names);
+    return word->first < word->last;
+}

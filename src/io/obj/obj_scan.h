@@ -1,0 +1,53 @@
+/* obj_scan.h - the statements of an OBJ file and their words.
+
+   A statement is a keyword and its arguments on one line, which a backslash right before the line's end
+   continues on the next. Lines end with LF, CRLF or CR, also mixed; blanks and tabs separate; a byte order
+   mark is skipped. A comment reaches from # to the end of its line and is never continued (its last character
+   may well be the backslash of a Windows path). It may also follow arguments, even without a blank ("f 1 2 3#
+   face"), but not the names of g, o, usemtl and mtllib, where # is a character like others. */
+#ifndef FFD_IO_OBJ_OBJ_SCAN_H
+#define FFD_IO_OBJ_OBJ_SCAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum obj_keyword {
+    OBJ_OTHER, /* left alone */
+    OBJ_VERTEX,
+    OBJ_TEXCOORD,
+    OBJ_NORMAL,
+    OBJ_FACE,
+    OBJ_LINE,
+    OBJ_POINT,
+    OBJ_GROUP,
+    OBJ_OBJECT,
+    OBJ_MATERIAL,
+    OBJ_LIBRARY
+} obj_keyword;
+
+/* A word of the file: [first, last). */
+typedef struct obj_word {
+    const char *first, *last;
+} obj_word;
+
+typedef struct obj_scan {
+    const char *at, *last;
+    size_t line;         /* of at, from 1 */
+    bool inside;         /* at is in a statement, not between two */
+    obj_keyword keyword; /* of the statement begun last */
+    obj_word name;       /* the keyword as written */
+    size_t keyword_line;
+} obj_scan;
+
+void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size);
+/* Goes behind the current statement, if any, and its line's end. */
+void ffd_obj_scan_finish(obj_scan *scan);
+/* Goes to the next statement, behind its keyword. False at the end of the file. */
+bool ffd_obj_scan_next(obj_scan *scan);
+/* Takes the next argument of the current statement. False (and *word is empty) where there is none left. */
+bool ffd_obj_scan_word(obj_scan *scan, obj_word *word);
+
+/* The line end that starts at a character, given that one does: its length, 1 or 2. */
+size_t ffd_obj_line_end_size(const char *at, const char *last);
+
+#endif

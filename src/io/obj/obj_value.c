@@ -1,0 +1,74 @@
+#include "io/obj/obj_value.h"
+#include "base/number.h"
+
+#define SHOWN_MAX 40
+
+static bool is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+static bool is_misplaced_exponent(const char *at, const char *last)
+{
+    if (last - at < 3 || (at[0] != '+' && at[0] != '-') || (at[1] != 'e' && at[1] != 'E'))
+        return false;
+    for (at += 2; at < last; at++)
+        if (!is_digit(*at))
+            return false;
+    return true;
+}
+
+bool ffd_obj_number(obj_word word, double *value)
+{
+    const char *end = ffd_number_parse(word.first, word.last, value);
+    return end && (end == word.last || is_misplaced_exponent(end, word.last));
+}
+
+int ffd_obj_word_shown(obj_word word)
+{
+    const ptrdiff_t size = word.last - word.first;
+    if (size <= SHOWN_MAX)
+        return (int)size;
+    int shown = SHOWN_MAX;
+    while (shown > 0 && ((unsigned char)word.first[shown] & 0xc0) == 0x80)
+        shown--;
+    return shown;
+}
+
+/* Reads an optional index at *at and goes behind it. */
+static bool take_index(const char **at, const char *last, obj_index *index)
+{
+    /* No file has so many elements, and one more digit still fits. */
+    const int64_t saturated = INT64_MAX / 100;
+    const char *c = *at;
+    *index = (obj_index){.text = {c, c}};
+    const bool negative = c < last && *c == '-';
+    if (c < last && (*c == '-' || *c == '+'))
+        c++;
+    const char *digits = c;
+    for (; c < last && is_digit(*c); c++)
+        if (index->value < saturated)
+            index->value = index->value * 10 + (*c - '0');
+    if (c == digits)
+        return c == *at; /* a sign alone is no index */
+    if (negative)
+        index->value = -index->value;
+    index->text.last = *at = c;
+    return true;
+}
+
+bool ffd_obj_corner(obj_word word, obj_corner *corner)
+{
+    obj_index *const indices[3] = {&corner->vertex, &corner->texcoord, &corner->normal};
+    *corner = (obj_corner){0};
+    const char *at = word.first;
+    for (int i = 0; i < 3; i++) {
+        if (!take_index(&at, word.last, indices[i]))
+            return false;
+        if (at == word.last)
+            return corner->vertex.text.first < corner->vertex.text.last;
+        if (*at++ != '/')
+            return false;
+    }
+    return false;
+}

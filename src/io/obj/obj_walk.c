@@ -1,0 +1,42 @@
+#include "io/obj/obj_walk.h"
+
+void ffd_obj_walk_begin(obj_walk *walk, const void *data, size_t size)
+{
+    *walk = (obj_walk){0};
+    ffd_obj_scan_begin(&walk->scan, data, size);
+}
+
+bool ffd_obj_walk_next(obj_walk *walk)
+{
+    if (!ffd_obj_scan_next(&walk->scan))
+        return false;
+    if (walk->scan.keyword == OBJ_VERTEX)
+        walk->vertices.seen++;
+    else if (walk->scan.keyword == OBJ_TEXCOORD)
+        walk->texcoords.seen++;
+    else if (walk->scan.keyword == OBJ_NORMAL)
+        walk->normals.seen++;
+    return true;
+}
+
+bool ffd_obj_find(int64_t index, obj_count count, size_t *element)
+{
+    const uint64_t size = index < 0 ? (uint64_t)-index : (uint64_t)index;
+    if (index == 0 || size > (index < 0 ? count.seen : count.total))
+        return false;
+    *element = index < 0 ? count.seen - (size_t)size : (size_t)size - 1;
+    return true;
+}
+
+bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner)
+{
+    obj_word word;
+    obj_corner text;
+    if (!ffd_obj_scan_word(&walk->scan, &word) || !ffd_obj_corner(word, &text) ||
+        !ffd_obj_find(text.vertex.value, walk->vertices, &corner->vertex))
+        return false;
+    corner->normal_text = text.normal.text;
+    corner->has_normal = text.normal.text.first < text.normal.text.last &&
+                         ffd_obj_find(text.normal.value, walk->normals, &corner->normal);
+    return true;
+}

@@ -1,0 +1,108 @@
+#include "base/vec.h"
+#include "io/openmesh/topology.h"
+#include "job/info.h"
+#include "job/source.h"
+
+/* Positions read at once. */
+#define BLOCK 256
+
+typedef struct vertex_facts {
+    size_t vertices, normals, tangents;
+    size_t not_finite; /* vertices with a coordinate that is no finite number: in no bounds */
+    ffd_bounds bounds;
+} vertex_facts;
+
+static void survey_positions(const mesh_document *document, size_t part, vertex_facts *facts)
+{
+    const mesh_part *p = &document->parts[part];
+    double xyz[3 * BLOCK];
+    for (size_t first = 0; first < p->vertex_count; first += BLOCK) {
+        const size_t left = p->vertex_count - first, count = left < BLOCK ? left : BLOCK;
+        ffd_source_positions(document, part, first, count, xyz);
+        for (size_t i = 0; i < count; i++)
+            if (vec_is_finite(xyz + 3 * i))
+                ffd_info_widen(&facts->bounds, xyz + 3 * i);
+            else
+                facts->not_finite++;
+    }
+    facts->vertices += p->vertex_count;
+}
+
+static void write_vertices(const mesh_document *document, json_text *json)
+{
+    vertex_facts facts = {.bounds = ffd_info_no_bounds()};
+    for (size_t part = 0; part < document->part_count; part++) {
+        const mesh_part *p = &document->parts[part];
+        if (!p->repeats_positions)
+            survey_positions(document, part, &facts);
+        facts.normals += p->normal_count;
+        facts.tangents += p->has_tangents ? p->vertex_count : 0;
+    }
+    ffd_json_count(json, "parts", document->part_count);
+    ffd_json_count(json, "vertices", facts.vertices);
+    ffd_json_count(json, "not_finite", facts.not_finite);
+    ffd_json_count(json, "normals", facts.normals);
+    ffd_json_count(json, "tangents", facts.tangents);
+    ffd_info_bounds(json, "bounds", &facts.bounds);
+}
+
+static void write_topology(const mesh_faces *faces, const mesh_topology *topology, json_text *json)
+{
+    ffd_json_object(json, "topology", false);
+    ffd_json_count(json, "vertices", topology->vertices);
+    ffd_json_count(json, "faces", topology->faces);
+    ffd_json_count(json, "edges", topology->edges);
+    ffd_json_count(json, "lines", faces->lines);
+    ffd_json_count(json, "points", faces->points);
+    ffd_json_count(json, "isolated_vertices", topology->isolated_vertices);
+    ffd_json_count(json, "degenerate_faces", topology->degenerate_faces);
+    ffd_json_count(json, "components", topology->components);
+    ffd_json_count(json, "boundary_loops", topology->boundary_loops);
+    ffd_json_count(json, "boundary_edges", topology->boundary_edges);
+    ffd_json_count(json, "non_manifold_edges", topology->non_manifold_edges);
+    ffd_json_count(json, "non_manifold_vertices", topology->non_manifold_vertices);
+    ffd_json_number(json, "euler", (double)topology->euler);
+    ffd_json_number(json, "area", topology->area);
+    ffd_json_end(json, '}');
+}
+
+/* Faces that this build cannot show do not keep the rest from being told. */
+static ffd_status survey_faces(const mesh_document *document, json_text *json, ffd_error *error)
+{
+    mesh_faces faces = {0};
+    mesh_topology topology;
+    ffd_error reason = {0};
+    ffd_status status = document->format->faces(document, &faces, &reason);
+    if (status == FFD_OK)
+        status = ffd_topology_compute(&faces, &topology, &reason);
+    if (status == FFD_OK)
+        write_topology(&faces, &topology, json);
+    else if (status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT) {
+        ffd_json_null(json, "topology");
+        ffd_json_string(json, "topology_unknown", reason.message);
+        status = FFD_OK;
+    } else if (error)
+        *error = reason;
+    ffd_mesh_faces_free(&faces);
+    return status;
+}
+
+ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd_error *error)
+{
+    ffd_json_string(json, "mesh_format", document->format->name);
+    write_vertices(document, json);
+    ffd_json_object(json, "contents", false);
+    const ffd_status status = document->format->describe(document, json, error);
+    ffd_json_end(json, '}');
+    return status == FFD_OK ? survey_faces(document, json, error) : status;
+}
+
+ffd_status ffd_info_mesh(const ffd_source *source, json_text *json, ffd_error *error)
+{
+    mesh_document *document;
+    ffd_status status = ffd_source_open(source, &document, error);
+    if (status == FFD_OK)
+        status = ffd_info_document(document, json, error);
+    ffd_source_close(&document);
+    return status;
+}

@@ -1,0 +1,156 @@
+#include "base/memory.h"
+#include "base/vec.h"
+#include "lattice/lattice.h"
+#include "lattice/spec.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Says where in the file the cause stands of an error that came without a place. */
+static ffd_status locate(const lattice_spec *spec, const char *pointer, ffd_status status, ffd_error *error)
+{
+    if (status == FFD_E_INVALID && error && !error->pointer[0])
+        return ffd_fail_at(error, status, spec->name, pointer, "%s", error->message);
+    if (status)
+        ffd_fail_name_file(error, spec->name);
+    return status;
+}
+
+static ffd_status make_knots(const lattice_spec *spec, ffd_lattice *lattice, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (int a = 0; a < 3 && !status; a++) {
+        char pointer[16];
+        snprintf(pointer, sizeof pointer, "/knots/%d", a);
+        lattice->size[a] = spec->size[a];
+        status = ffd_knots_make(spec->kind[a], spec->degree[a], spec->size[a], spec->list[a],
+                                spec->list_count[a], "uvw"[a], &lattice -> knots[a], error);
+        status = locate(spec, pointer, status, error);
+    }
+    lattice->count = spec->count;
+    return status;
+}
+
+static ffd_status make_points(ffd_lattice *lattice, ffd_error *error)
+{
+    lattice->rest = ffd_alloc(lattice->count, 3 * sizeof *lattice->rest);
+    lattice->deformed = ffd_alloc(lattice->count, 3 * sizeof *lattice->deformed);
+    return lattice->rest && lattice->deformed ? FFD_OK : ffd_fail_memory(error);
+}
+
+static bool all_equal(const double *weights, size_t count)
+{
+    for (size_t i = 1; weights && i < count; i++)
+        if (weights[i] != weights[0])
+            return false;
+    return true;
+}
+
+static ffd_status make_weights(const lattice_spec *spec, ffd_lattice *lattice, ffd_error *error)
+{
+    const double *const rest = spec->weights, *const deformed = spec->deformed_weights;
+    const bool rest_is_one = !rest || (all_equal(rest, spec->count) && rest[0] == 1);
+    const bool deformed_is_one = !deformed || (all_equal(deformed, spec->count) && deformed[0] == 1);
+    if (rest_is_one && deformed_is_one)
+        return FFD_OK;
+    lattice->rest_weights = ffd_alloc(spec->count, sizeof *rest);
+    lattice->deformed_weights = ffd_alloc(spec->count, sizeof *deformed);
+    if (!lattice->rest_weights || !lattice->deformed_weights)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < spec->count; i++) {
+        lattice->rest_weights[i] = rest ? rest[i] : 1;
+        lattice->deformed_weights[i] = deformed ? deformed[i] : lattice->rest_weights[i];
+    }
+    return FFD_OK;
+}
+
+/* With equal weights and control points at the Greville abscissae the map is affine, and then known without
+   looking at the points: the region of the box. */
+static ffd_status place_box(const lattice_spec *spec, ffd_lattice *lattice, const double min[3],
+                            const double max[3], rest_region *region, ffd_error *error)
+{
+    const ffd_status status =
+        ffd_shape_box(lattice, min, max, spec->box_axes, spec->spacing, lattice->rest, error);
+    if (status)
+        return locate(spec, "/rest/box/spacing", status, error);
+    ffd_shape_box_region(min, max, spec->box_axes, region);
+    if (spec->spacing == FFD_SPACING_GREVILLE && all_equal(lattice->rest_weights, lattice->count)) {
+        lattice->form = REST_BOX_AFFINE;
+        memcpy(lattice->origin, region->origin, sizeof region->origin);
+        memcpy(lattice->frame, region->frame, sizeof region->frame);
+    }
+    return FFD_OK;
+}
+
+static void place_points(const lattice_spec *spec, ffd_lattice *lattice, rest_region *region)
+{
+    memcpy(lattice->rest, spec->points, spec->count * 3 * sizeof *spec->points);
+    for (int c = 0; c < 3; c++) {
+        double min = spec->points[c], max = min;
+        for (size_t i = 1; i < spec->count; i++) {
+            min = fmin(min, spec->points[3 * i + c]);
+            max = fmax(max, spec->points[3 * i + c]);
+        }
+        region->origin[c] = min;
+        for (int a = 0; a < 3; a++)
+            region->frame[3 * c + a] = a == c ? max - min : 0;
+    }
+}
+
+static ffd_status place_rest(const lattice_spec *spec, const double *min, const double *max,
+                             ffd_lattice *lattice, rest_region *region, ffd_error *error)
+{
+    double grown_min[3], grown_max[3];
+    ffd_status status;
+    lattice->form = REST_POINTS;
+    switch (spec->rest) {
+    case SPEC_BOX:
+        return place_box(spec, lattice, spec->box_min, spec->box_max, region, error);
+    case SPEC_BOX_MESH:
+        status = ffd_shape_grow_box(min, max, spec->margin, grown_min, grown_max, error);
+        if (status)
+            return locate(spec, "/rest/box", status, error);
+        return place_box(spec, lattice, grown_min, grown_max, region, error);
+    case SPEC_CYLINDER:
+        ffd_shape_cylinder_region(spec, region);
+        return locate(spec, "/rest/cylinder", ffd_shape_cylinder(lattice, spec, lattice->rest, error), error);
+    case SPEC_POINTS:
+        place_points(spec, lattice, region);
+        break;
+    }
+    return FFD_OK;
+}
+
+static ffd_status place(const lattice_spec *spec, const double *min, const double *max, ffd_lattice *lattice,
+                        ffd_error *error)
+{
+    rest_region region;
+    ffd_status status = make_points(lattice, error);
+    if (!status)
+        status = make_weights(spec, lattice, error);
+    if (!status)
+        status = place_rest(spec, min, max, lattice, &region, error);
+    if (status)
+        return status;
+    memcpy(lattice->deformed, spec->deformed_points ? spec->deformed_points : lattice->rest,
+           spec->count * 3 * sizeof *lattice->deformed);
+    status = ffd_moves_apply(spec, &region, lattice, error);
+    return status ? status : ffd_lattice_finish(lattice, error);
+}
+
+ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
+                          ffd_error *error)
+{
+    *lattice = NULL;
+    ffd_lattice *result = ffd_alloc_zero(1, sizeof *result);
+    ffd_status status = result ? make_knots(spec, result, error) : ffd_fail_memory(error);
+    if (!status && (spec->rest != SPEC_BOX_MESH || min))
+        status = place(spec, min, max, result, error);
+    if (status) {
+        ffd_fail_name_file(error, spec->name);
+        ffd_lattice_destroy(&result);
+        return status;
+    }
+    result->spec = spec;
+    *lattice = result;
+    return FFD_OK;
+}

@@ -1,0 +1,239 @@
+#include "base/memory.h"
+#include "base/path.h"
+#include "base/vec.h"
+#include "lattice/direction.h"
+#include "lattice/lattice.h"
+#include "lattice/principal.h"
+#include "lattice/spec.h"
+
+void ffd_lattice_desc_init(ffd_lattice_desc *desc)
+{
+    *desc =
+        (ffd_lattice_desc){.struct_size = sizeof *desc, .size = {4, 4, 4}, .margin = 0.05, .axis = {0, 0, 1}};
+}
+
+static ffd_status check_counts(const ffd_lattice_desc *desc, ffd_error *error)
+{
+    size_t count = 1;
+    for (int a = 0; a < 3; a++) {
+        const int degree = desc->degree[a];
+        if (desc->size[a] < 2)
+            return ffd_fail(error, FFD_E_ARGUMENT, "size %zu along %c is less than 2", desc->size[a],
+                            "uvw"[a]);
+        if (desc->size[a] > FFD_MAX_CONTROL_POINTS / count)
+            return ffd_fail(error, FFD_E_LIMIT,
+                            "a lattice of %zu by %zu by %zu has more than %zu control points", desc->size[0],
+                            desc->size[1], desc->size[2], FFD_MAX_CONTROL_POINTS);
+        count *= desc->size[a];
+        if (degree < 0 || degree > MAX_DEGREE)
+            return ffd_fail(error, FFD_E_ARGUMENT, "degree %d along %c is not between 1 and %d", degree,
+                            "uvw"[a], MAX_DEGREE);
+        if (desc->size[a] <= (size_t)degree)
+            return ffd_fail(error, FFD_E_ARGUMENT,
+                            "degree %d along %c needs at least %d control points, not %zu", degree, "uvw"[a],
+                            degree + 1, desc->size[a]);
+    }
+    return FFD_OK;
+}
+
+static ffd_status check_knots(const ffd_lattice_desc *desc, ffd_error *error)
+{
+    const bool cylinder = desc->shape == FFD_SHAPE_CYLINDER;
+    for (int a = 0; a < 3; a++) {
+        if ((int)desc->knots[a] < FFD_KNOTS_CLAMPED || desc->knots[a] > FFD_KNOTS_CLOSED)
+            return ffd_fail(error, FFD_E_ARGUMENT, "there is no kind of knots %d", (int)desc->knots[a]);
+        if (desc->knots[a] == FFD_KNOTS_CLOSED && !(cylinder && a == 1))
+            return ffd_fail(error, FFD_E_ARGUMENT, "direction %c of a %s cannot be closed", "uvw"[a],
+                            cylinder ? "cylinder" : "box");
+        if (desc->spacing == FFD_SPACING_UNIFORM && desc->knots[a] != FFD_KNOTS_CLAMPED)
+            return ffd_fail(error, FFD_E_ARGUMENT,
+                            "uniform spacing needs clamped knots, which direction %c does not have",
+                            "uvw"[a]);
+    }
+    return FFD_OK;
+}
+
+static ffd_status check_desc(const ffd_lattice_desc *desc, ffd_error *error)
+{
+    if (desc->struct_size != sizeof *desc)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the lattice description has %zu bytes, this library's %zu",
+                        desc->struct_size, sizeof *desc);
+    const bool cylinder = desc->shape == FFD_SHAPE_CYLINDER;
+    if (!cylinder && desc->shape != FFD_SHAPE_BOX)
+        return ffd_fail(error, FFD_E_ARGUMENT, "there is no lattice shape %d", (int)desc->shape);
+    if (desc->spacing != FFD_SPACING_GREVILLE && desc->spacing != FFD_SPACING_UNIFORM)
+        return ffd_fail(error, FFD_E_ARGUMENT, "there is no spacing %d", (int)desc->spacing);
+    if (!(desc->margin >= 0) || !isfinite(desc->margin))
+        return ffd_fail(error, FFD_E_ARGUMENT, "margin %g is not a number from 0 on", desc->margin);
+    if (cylinder && desc->spacing != FFD_SPACING_GREVILLE)
+        return ffd_fail(error, FFD_E_ARGUMENT, "uniform spacing is for boxes, not for cylinders");
+    if (cylinder && desc->principal)
+        return ffd_fail(error, FFD_E_ARGUMENT, "principal axes are for boxes; a cylinder has its own axis");
+    if (cylinder &&
+        (!vec_is_finite(desc->axis) || (desc->axis[0] == 0 && desc->axis[1] == 0 && desc->axis[2] == 0)))
+        return ffd_fail(error, FFD_E_ARGUMENT, "axis %g %g %g of the cylinder is no direction", desc->axis[0],
+                        desc->axis[1], desc->axis[2]);
+    const ffd_status status = check_counts(desc, error);
+    return status ? status : check_knots(desc, error);
+}
+
+/* The bounds of the finite points along three directions (rows of axes). False where there is none. */
+static bool find_bounds(const double *xyz, size_t count, const double axes[9], double min[3], double max[3])
+{
+    bool any = false;
+    for (int a = 0; a < 3; a++) {
+        min[a] = INFINITY;
+        max[a] = -INFINITY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double *const p = xyz + 3 * i;
+        if (!vec_is_finite(p))
+            continue;
+        any = true;
+        double along[3];
+        mat_apply(axes, p, along);
+        for (int a = 0; a < 3; a++) {
+            min[a] = fmin(min[a], along[a]);
+            max[a] = fmax(max[a], along[a]);
+        }
+    }
+    return any;
+}
+
+static ffd_status find_bounds_or_fail(const double *xyz, size_t count, const double axes[9], double min[3],
+                                      double max[3], ffd_error *error)
+{
+    if (find_bounds(xyz, count, axes, min, max))
+        return FFD_OK;
+    return ffd_fail(error, FFD_E_INVALID, "there is no finite point to stand a lattice round");
+}
+
+static void fill_common(const ffd_lattice_desc *desc, lattice_spec *spec)
+{
+    static const knot_kind kinds[] = {
+        [FFD_KNOTS_CLAMPED] = KNOTS_CLAMPED,
+        [FFD_KNOTS_OPEN] = KNOTS_OPEN,
+        [FFD_KNOTS_UNIFORM] = KNOTS_UNIFORM,
+        [FFD_KNOTS_CLOSED] = KNOTS_CLOSED,
+    };
+    spec->count = 1;
+    for (int a = 0; a < 3; a++) {
+        spec->size[a] = desc->size[a];
+        spec->count *= desc->size[a];
+        spec->degree[a] = desc->degree[a] ? desc->degree[a] : desc->size[a] > 3 ? 3 : (int)desc->size[a] - 1;
+        spec->kind[a] = kinds[desc->knots[a]];
+    }
+    spec->spacing = desc->spacing;
+}
+
+static const double world_axes[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+static ffd_status use_principal_axes(const double *xyz, size_t count, double axes[9], ffd_error *error)
+{
+    double min[3], max[3], center[3], length = 0;
+    const ffd_status status = find_bounds_or_fail(xyz, count, world_axes, min, max, error);
+    if (status)
+        return status;
+    for (int c = 0; c < 3; c++) {
+        center[c] = 0.5 * min[c] + 0.5 * max[c];
+        length = fmax(length, max[c] - min[c]);
+    }
+    if (length > 0 && isfinite(length))
+        ffd_principal_axes(xyz, count, center, length, axes);
+    return FFD_OK;
+}
+
+static ffd_status fill_box(const ffd_lattice_desc *desc, const double *xyz, size_t count, lattice_spec *spec,
+                           ffd_error *error)
+{
+    double min[3], max[3];
+    spec->rest = SPEC_BOX;
+    spec->has_axes = desc->principal;
+    for (int i = 0; i < 9; i++)
+        spec->box_axes[i] = world_axes[i];
+    ffd_status status = desc->principal ? use_principal_axes(xyz, count, spec->box_axes, error) : FFD_OK;
+    if (!status)
+        status = find_bounds_or_fail(xyz, count, spec->box_axes, min, max, error);
+    if (!status)
+        status = ffd_shape_grow_box(min, max, desc->margin, spec->box_min, spec->box_max, error);
+    return status;
+}
+
+/* The greatest distance of a point from the axis through the middle (coordinates along zero and side). */
+static double greatest_radius(const double *xyz, size_t count, const double frame[9], const double middle[3])
+{
+    double greatest = 0;
+    for (size_t i = 0; i < count; i++) {
+        double p[3];
+        mat_apply(frame, xyz + 3 * i, p);
+        const double x = p[0] - middle[0], y = p[1] - middle[1], square = x * x + y * y;
+        if (vec_is_finite(xyz + 3 * i))
+            greatest = fmax(greatest, square);
+    }
+    return sqrt(greatest);
+}
+
+/* The extents that the margin is a fraction of are the cylinder's diameter and height. */
+static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz, size_t count,
+                                lattice_spec *spec, ffd_error *error)
+{
+    double frame[9], min[3], max[3], grown_min[3], grown_max[3], middle[3];
+    double *const zero = frame, *const side = frame + 3, *const axis = frame + 6;
+    for (int c = 0; c < 3; c++)
+        axis[c] = desc->axis[c];
+    ffd_direction_unit(axis);
+    ffd_direction_default_zero(axis, zero);
+    vec_cross(axis, zero, side);
+    ffd_status status = find_bounds_or_fail(xyz, count, frame, min, max, error);
+    /* Without margin: it widens what is flat, and refuses what is too large. */
+    if (!status)
+        status = ffd_shape_grow_box(min, max, 0, grown_min, grown_max, error);
+    if (status)
+        return status;
+    for (int a = 0; a < 3; a++)
+        middle[a] = 0.5 * grown_min[a] + 0.5 * grown_max[a];
+    const double least = 0.5 * fmin(grown_max[0] - grown_min[0], grown_max[1] - grown_min[1]);
+    const double radius = fmax(greatest_radius(xyz, count, frame, middle), least);
+    spec->rest = SPEC_CYLINDER;
+    spec->radius[1] = radius * (1 + 2 * desc->margin);
+    spec->height = (grown_max[2] - grown_min[2]) * (1 + 2 * desc->margin);
+    spec->angle[1] = 360;
+    for (int c = 0; c < 3; c++) {
+        spec->center[c] = zero[c] * middle[0] + side[c] * middle[1] + axis[c] * middle[2];
+        spec->axis[c] = axis[c];
+        spec->zero[c] = zero[c];
+    }
+    if (spec->kind[1] == KNOTS_CLAMPED)
+        spec->kind[1] = KNOTS_CLOSED;
+    if (isfinite(spec->radius[1]) && isfinite(spec->height))
+        return FFD_OK;
+    return ffd_fail(error, FFD_E_INVALID,
+                    "a cylinder of radius %g and height %g is larger than numbers can hold", spec->radius[1],
+                    spec->height);
+}
+
+ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
+                              ffd_lattice **lattice, ffd_error *error)
+{
+    *lattice = NULL;
+    ffd_status status = check_desc(desc, error);
+    if (status)
+        return status;
+    lattice_spec *const spec = ffd_alloc_zero(1, sizeof *spec);
+    if (!spec || !(spec->name = ffd_text_copy(""))) {
+        status = ffd_fail_memory(error);
+        goto fail;
+    }
+    fill_common(desc, spec);
+    if (desc->shape == FFD_SHAPE_CYLINDER)
+        status = fill_cylinder(desc, xyz, count, spec, error);
+    else
+        status = fill_box(desc, xyz, count, spec, error);
+    if (!status)
+        status = ffd_spec_build(spec, NULL, NULL, lattice, error);
+    if (!status)
+        return FFD_OK;
+fail:
+    ffd_spec_free(spec);
+    return status;
+}

@@ -1,0 +1,329 @@
+#include "base/memory.h"
+#include "base/trig.h"
+#include "base/vec.h"
+#include "lattice/lattice.h"
+#include "lattice/spec.h"
+#include <float.h>
+
+/* With "units": "box" what is a length or a position (by, to, about, within, and what a matrix acts on) is in
+   fractions of the rest region's sides, along them; directions, angles and factors are the same in both
+   units. */
+
+/* The moves of one lattice on their way. */
+typedef struct move_work {
+    const ffd_lattice *lattice;
+    double *points;          /* those that move */
+    unsigned char *selected; /* of the move in hand, one byte a control point */
+    bool box_units;
+    rest_region region;
+    double inverse[9]; /* of the region's frame; only in box units */
+    double slack[3];   /* rounding of the coordinates that `within` compares */
+    const char *file;
+    ffd_error *error;
+} move_work;
+
+/* One move in world units, with what it takes from its points. */
+typedef struct ready_move {
+    lattice_move move;
+    double first, length; /* s0 and s1 - s0 along the axis through about */
+} ready_move;
+
+static void to_world(const move_work *work, double position[3])
+{
+    mat_apply(work->region.frame, position, position);
+    for (int c = 0; c < 3; c++)
+        position[c] += work->region.origin[c];
+}
+
+/* Where `within` looks for a rest point: in world units or in fractions of the region. */
+static void coordinates_of(const move_work *work, const double point[3], double coordinates[3])
+{
+    for (int c = 0; c < 3; c++)
+        coordinates[c] = work->box_units ? point[c] - work->region.origin[c] : point[c];
+    if (work->box_units)
+        mat_apply(work->inverse, coordinates, coordinates);
+}
+
+/* The matrix maps positions: in box units B M B^-1 with B the map from fractions to the world. */
+static void matrix_to_world(const move_work *work, double matrix[16])
+{
+    double linear[9], offset[3], product[9], world[9], origin[3];
+    for (int r = 0; r < 3; r++) {
+        offset[r] = matrix[4 * r + 3];
+        for (int c = 0; c < 3; c++)
+            linear[3 * r + c] = matrix[4 * r + c];
+    }
+    mat_multiply(work->region.frame, linear, product);
+    mat_multiply(product, work->inverse, world);
+    to_world(work, offset);
+    mat_apply(world, work->region.origin, origin);
+    for (int r = 0; r < 3; r++) {
+        matrix[4 * r + 3] = offset[r] - origin[r];
+        for (int c = 0; c < 3; c++)
+            matrix[4 * r + c] = world[3 * r + c];
+    }
+}
+
+static void move_to_world(const move_work *work, lattice_move *move)
+{
+    if (!work->box_units)
+        return;
+    if (move->has_about)
+        to_world(work, move->about);
+    if (move->action == MOVE_BY)
+        mat_apply(work->region.frame, move->vector, move->vector);
+    else if (move->action == MOVE_TO)
+        to_world(work, move->vector);
+    else if (move->action == MOVE_MATRIX)
+        matrix_to_world(work, move->matrix);
+}
+
+/* Control points on a face of the box that `within` names belong to it, whatever their last bit: a
+   coordinate's rounding is allowed for, as in the embedding's tolerance. */
+static void find_slack(move_work *work)
+{
+    double size[3] = {0, 0, 0};
+    for (size_t i = 0; i < work->lattice->count; i++)
+        for (int c = 0; c < 3; c++)
+            size[c] = fmax(size[c], fabs(work->lattice->rest[3 * i + c]));
+    for (int c = 0; c < 3; c++) {
+        const double *const row = work->inverse + 3 * c;
+        const double largest = work->box_units
+                                   ? fabs(row[0]) * size[0] + fabs(row[1]) * size[1] + fabs(row[2]) * size[2]
+                                   : size[c];
+        work->slack[c] = 16 * DBL_EPSILON * largest;
+    }
+}
+
+static bool is_within(const move_work *work, const lattice_move *move, size_t point)
+{
+    double x[3];
+    coordinates_of(work, work->lattice->rest + 3 * point, x);
+    for (int c = 0; c < 3; c++)
+        if (!(x[c] >= move->within_min[c] - work->slack[c] && x[c] <= move->within_max[c] + work->slack[c]))
+            return false;
+    return true;
+}
+
+static bool is_at(const move_work *work, const lattice_move *move, size_t point)
+{
+    const size_t *const size = work->lattice->size;
+    const size_t index[3] = {point % size[0], point / size[0] % size[1], point / size[0] / size[1]};
+    for (int a = 0; a < 3; a++)
+        if (index[a] < move->at_first[a] || index[a] > move->at_last[a])
+            return false;
+    return true;
+}
+
+static size_t select_points(move_work *work, const lattice_move *move)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < work->lattice->count; i++) {
+        work->selected[i] =
+            (!move->has_at || is_at(work, move, i)) && (!move->has_within || is_within(work, move, i));
+        count += work->selected[i];
+    }
+    return count;
+}
+
+/* The centroid, summed up as distances from the first point: an offset of all points costs no digits. */
+static void find_centroid(const move_work *work, size_t count, double centroid[3])
+{
+    const double *origin = NULL;
+    double sum[3] = {0, 0, 0};
+    for (size_t i = 0; i < work->lattice->count; i++) {
+        if (!work->selected[i])
+            continue;
+        const double *const p = work->points + 3 * i;
+        origin = origin ? origin : p;
+        for (int c = 0; c < 3; c++)
+            sum[c] += p[c] - origin[c];
+    }
+    for (int c = 0; c < 3; c++)
+        centroid[c] = (origin ? origin[c] : 0) + sum[c] / (double)count;
+}
+
+static double along_axis(const lattice_move *move, const double p[3])
+{
+    const double from[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
+    return vec_dot(move->axis, from);
+}
+
+static void find_extent(const move_work *work, ready_move *ready)
+{
+    double first = INFINITY, last = -INFINITY;
+    for (size_t i = 0; i < work->lattice->count; i++) {
+        if (!work->selected[i])
+            continue;
+        const double s = along_axis(&ready->move, work->points + 3 * i);
+        first = fmin(first, s);
+        last = fmax(last, s);
+    }
+    ready->first = first;
+    ready->length = last - first;
+}
+
+/* f = (s - s0)/(s1 - s0); 0 where the points have no extent. */
+static double fraction_of(const ready_move *ready, const double p[3])
+{
+    return ready->length > 0 ? (along_axis(&ready->move, p) - ready->first) / ready->length : 0;
+}
+
+static void scale(const lattice_move *move, double p[3])
+{
+    for (int c = 0; c < 3; c++)
+        if (move->vector[c] != 1)
+            p[c] = move->about[c] + move->vector[c] * (p[c] - move->about[c]);
+}
+
+/* Across the axis: e = d - k (k.d) = -k x (k x d), and f = k x d, with d = p - about. */
+static void across_axis(const lattice_move *move, const double p[3], double e[3], double f[3])
+{
+    const double d[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
+    vec_cross(move->axis, d, f);
+    vec_cross(f, move->axis, e);
+}
+
+/* Rodrigues' rotation, p + (cos - 1) e + sin f: what the rotation leaves alone keeps its bits (the coordinate
+   along an axis x, y or z; all at whole turns), and 90 degrees about the origin are exact. */
+static void rotate(const lattice_move *move, double degrees, double p[3])
+{
+    double e[3], f[3], sine, cosine;
+    across_axis(move, p, e, f);
+    ffd_sincos_degrees(degrees, &sine, &cosine);
+    for (int c = 0; c < 3; c++)
+        p[c] = (p[c] + (cosine - 1) * e[c]) + sine * f[c];
+}
+
+static void apply_matrix(const double m[16], double p[3])
+{
+    const double x = p[0], y = p[1], z = p[2];
+    for (int r = 0; r < 3; r++)
+        p[r] = m[4 * r] * x + m[4 * r + 1] * y + m[4 * r + 2] * z + m[4 * r + 3];
+}
+
+/* p + (g - 1) e with g = 1 + (k-1) f. */
+static void taper(const ready_move *ready, double p[3])
+{
+    double e[3], f[3];
+    const double more = (ready->move.amount - 1) * fraction_of(ready, p);
+    across_axis(&ready->move, p, e, f);
+    for (int c = 0; c < 3; c++)
+        p[c] += more * e[c];
+}
+
+/* s' = s0 + (R-t) sin a, t' = R - (R-t) cos a with a = (s-s0)/R = degrees f, written as the changes of s and
+   t, which are 0 at the low end and keep their digits where the angle is small and R is long: t' - t =
+   (R-t)(1 - cos a). */
+static void bend(const ready_move *ready, double p[3])
+{
+    static const double pi = 3.14159265358979323846;
+    const lattice_move *const move = &ready->move;
+    if (move->amount == 0 || !(ready->length > 0))
+        return;
+    const double from[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
+    const double t = vec_dot(move->vector, from), s = vec_dot(move->axis, from) - ready->first;
+    const double radius = ready->length * 180 / (pi * move->amount);
+    const double degrees = move->amount * fraction_of(ready, p);
+    double sine, cosine, half_sine, half_cosine;
+    ffd_sincos_degrees(degrees, &sine, &cosine);
+    ffd_sincos_degrees(0.5 * degrees, &half_sine, &half_cosine);
+    const double lost = cosine > 0.5 ? 2 * half_sine * half_sine : 1 - cosine;
+    const double by_s = (radius - t) * sine - s, by_t = (radius - t) * lost;
+    for (int c = 0; c < 3; c++)
+        p[c] += by_s * move->axis[c] + by_t * move->vector[c];
+}
+
+static void act(const ready_move *ready, double p[3])
+{
+    const lattice_move *const move = &ready->move;
+    switch (move->action) {
+    case MOVE_BY:
+        for (int c = 0; c < 3; c++)
+            p[c] += move->vector[c];
+        break;
+    case MOVE_TO:
+        for (int c = 0; c < 3; c++)
+            p[c] = move->vector[c];
+        break;
+    case MOVE_SCALE:
+        scale(move, p);
+        break;
+    case MOVE_ROTATE:
+        rotate(move, move->amount, p);
+        break;
+    case MOVE_MATRIX:
+        apply_matrix(move->matrix, p);
+        break;
+    case MOVE_TWIST:
+        rotate(move, move->amount * fraction_of(ready, p), p);
+        break;
+    case MOVE_TAPER:
+        taper(ready, p);
+        break;
+    case MOVE_BEND:
+        bend(ready, p);
+        break;
+    }
+}
+
+static ffd_status move_point(const move_work *work, const ready_move *ready, size_t point)
+{
+    double *const p = work->points + 3 * point;
+    const double weight = ready->move.weight;
+    double moved[3] = {p[0], p[1], p[2]};
+    act(ready, moved);
+    for (int c = 0; c < 3; c++)
+        p[c] = weight == 1 ? moved[c] : p[c] + weight * (moved[c] - p[c]);
+    if (vec_is_finite(p))
+        return FFD_OK;
+    const size_t *const size = work->lattice->size;
+    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, ready->move.pointer,
+                       "moves control point %zu,%zu,%zu to a place that is no finite number", point % size[0],
+                       point / size[0] % size[1], point / size[0] / size[1]);
+}
+
+static ffd_status apply_move(move_work *work, const lattice_move *move)
+{
+    ready_move ready = {.move = *move};
+    const size_t count = select_points(work, move);
+    if (count == 0)
+        return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+                           "selects no control point: none rests within these bounds");
+    if (move->weight == 0)
+        return FFD_OK;
+    move_to_world(work, &ready.move);
+    if (!move->has_about)
+        find_centroid(work, count, ready.move.about);
+    find_extent(work, &ready);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < work->lattice->count && !status; i++)
+        if (work->selected[i])
+            status = move_point(work, &ready, i);
+    return status;
+}
+
+ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
+                           ffd_error *error)
+{
+    if (spec->move_count == 0)
+        return FFD_OK;
+    move_work work = {.lattice = lattice,
+                      .points = lattice->deformed,
+                      .box_units = spec->box_units,
+                      .region = *region,
+                      .file = spec->name,
+                      .error = error};
+    if (work.box_units && !mat_invert(region->frame, work.inverse))
+        return ffd_fail_at(error, FFD_E_INVALID, spec->name, "/units",
+                           "the rest points lie in a plane: there is no box to take fractions of");
+    find_slack(&work);
+    work.selected = ffd_alloc(lattice->count, 1);
+    if (!work.selected)
+        return ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < spec->move_count && !status; i++)
+        status = apply_move(&work, &spec->moves[i]);
+    ffd_free(work.selected);
+    return status;
+}

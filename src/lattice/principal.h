@@ -1,0 +1,13 @@
+/* principal.h - the principal axes of a set of points. */
+#ifndef FFD_LATTICE_PRINCIPAL_H
+#define FFD_LATTICE_PRINCIPAL_H
+
+#include <stddef.h>
+
+/* Unit vectors, as rows, by falling variance of the points along them; points that are not finite do not
+   count. The largest component of the first two is positive (the first of equals), the third makes them
+   right-handed. center and length give the points' place and size, for numbers that do not overflow. */
+void ffd_principal_axes(const double *xyz, size_t count, const double center[3], double length,
+                        double axes[9]);
+
+#endif

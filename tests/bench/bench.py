@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Time and memory of `ffd deform` on a mesh of a million vertices with normals, beside a plain copy of the file.
+
+    bench.py --ffd PATH [--runs 5] [--side 1000] [--threads N] [--folder DIR] [--only glb|obj] [--csv FILE]
+
+The meshes are made first (at the default size a GLB of 48 MB and an OBJ of v, vt, vn and quads of about 160 MB).
+Each run of the program is followed by one of `dd bs=64M` on the same file, so that both meet the same machine;
+read and written data stay in the page cache. Time is wall-clock, memory the largest resident set of the process.
+"""
+
+import argparse
+import array
+import json
+import math
+import os
+import platform
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+
+
+def surface(side):
+    """A wavy square of side x side vertices: positions and unit normals, as flat lists of floats."""
+    step = 10.0 / (side - 1)
+    sine = [math.sin(2.1 * i * step) for i in range(side)]
+    cosine = [math.cos(2.1 * i * step) for i in range(side)]
+    positions, normals = array.array("f"), array.array("f")
+    for j in range(side):
+        y = j * step
+        for i in range(side):
+            positions.extend((i * step, y, sine[i] * cosine[j]))
+            dx, dy = 2.1 * cosine[i] * cosine[j], -2.1 * sine[i] * sine[j]
+            size = math.sqrt(dx * dx + dy * dy + 1)
+            normals.extend((-dx / size, -dy / size, 1 / size))
+    return positions, normals
+
+
+def quads(side):
+    for j in range(side - 1):
+        for i in range(side - 1):
+            a = j * side + i
+            yield a, a + 1, a + side + 1, a + side
+
+
+def write_glb(path, side, positions, normals):
+    indices = array.array("I")
+    for a, b, c, d in quads(side):
+        indices.extend((a, b, c, a, c, d))
+    count = side * side
+    parts = [positions.tobytes(), normals.tobytes(), indices.tobytes()]
+    offsets = [0, len(parts[0]), len(parts[0]) + len(parts[1])]
+    document = {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2}]}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
+             "min": [min(positions[a::3]) for a in range(3)], "max": [max(positions[a::3]) for a in range(3)]},
+            {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
+            {"bufferView": 2, "componentType": 5125, "count": len(indices), "type": "SCALAR"},
+        ],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": offset, "byteLength": len(part), "target": target}
+            for part, offset, target in zip(parts, offsets, (34962, 34962, 34963))
+        ],
+        "buffers": [{"byteLength": sum(map(len, parts))}],
+    }
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    size = 12 + 8 + len(text) + 8 + sum(map(len, parts))
+    with open(path, "wb") as file:
+        file.write(struct.pack("<4sII", b"glTF", 2, size))
+        file.write(struct.pack("<I4s", len(text), b"JSON") + text)
+        file.write(struct.pack("<I4s", sum(map(len, parts)), b"BIN\0"))
+        for part in parts:
+            file.write(part)
+
+
+def write_obj(path, side, positions, normals):
+    with open(path, "w", encoding="ascii", buffering=1 << 22) as file:
+        for k in range(0, 3 * side * side, 3):
+            file.write("v %.6f %.6f %.6f\n" % (positions[k], positions[k + 1], positions[k + 2]))
+        for j in range(side):
+            for i in range(side):
+                file.write("vt %.5f %.5f\n" % (i / (side - 1), j / (side - 1)))
+        for k in range(0, 3 * side * side, 3):
+            file.write("vn %.5f %.5f %.5f\n" % (normals[k], normals[k + 1], normals[k + 2]))
+        for quad in quads(side):
+            file.write("f %d/%d/%d %d/%d/%d %d/%d/%d %d/%d/%d\n" % tuple(k + 1 for k in quad for _ in range(3)))
+
+
+def make(write, path, side):
+    """In a process of its own: what this one has held would count in the peak of the programs that it starts."""
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            write(path, side, *surface(side))
+            code = 0
+        finally:
+            os._exit(code)
+    if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0:
+        sys.exit(f"could not make {path}")
+
+
+TWIST = [{"twist": {"axis": "z", "degrees": 20}}, {"at": [[2, 5], [2, 5], [4, 7]], "by": [0.3, 0.2, 0.5]}]
+
+
+def write_lattices(folder):
+    """8 x 8 x 8 cubic: a box (the rest map is affine) and a box with bent control points (inverted cell by cell)."""
+    box = {"min": [-0.1, -0.1, -1.2], "max": [10.1, 10.1, 1.2]}
+    common = {"format": "ffd-lattice", "version": 1, "size": [8, 8, 8], "moves": TWIST}
+    points = []
+    for k in range(8):
+        for j in range(8):
+            for i in range(8):
+                x, y, z = (-0.6 + 11.2 * i / 7, -0.6 + 11.2 * j / 7, -1.5 + 3.0 * k / 7)
+                points.append([x + 0.15 * math.sin(0.9 * y), y + 0.15 * math.sin(1.1 * x), z + 0.1 * math.sin(x + y)])
+    lattices = {"box": dict(common, rest={"box": box}), "warped": dict(common, rest={"points": points})}
+    paths = {}
+    for name, lattice in lattices.items():
+        paths[name] = os.path.join(folder, name + ".json")
+        with open(paths[name], "w", encoding="ascii") as file:
+            json.dump(lattice, file)
+    return paths
+
+
+def measure(command):
+    """Seconds and peak bytes of one run."""
+    start = time.perf_counter()
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    with process.stderr:
+        errors = process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    seconds = time.perf_counter() - start
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        sys.exit(f"exit {process.returncode}: {' '.join(command)}\n{errors.decode(errors='replace')}")
+    return seconds, usage.ru_maxrss * 1024
+
+
+def spread(values):
+    return f"{statistics.median(values):7.3f}  ({min(values):.3f} to {max(values):.3f})"
+
+
+def processor():
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8") as file:
+            return next(line.split(":", 1)[1].strip() for line in file if line.startswith("model name"))
+    except (OSError, StopIteration):
+        return platform.processor() or "unknown processor"
+
+
+def build_flags(ffd):
+    """How the build folder round the program was configured, where there is one."""
+    folder = os.path.dirname(os.path.abspath(ffd))
+    while folder != os.path.dirname(folder):
+        path = os.path.join(folder, "meson-info", "intro-buildoptions.json")
+        if os.path.isfile(path):
+            with open(path, encoding="utf-8") as file:
+                options = {option["name"]: option["value"] for option in json.load(file)}
+            with open(os.path.join(folder, "compile_commands.json"), encoding="utf-8") as file:
+                compiler = next(entry["command"].split()[0] for entry in json.load(file)
+                                if entry["file"].endswith(".c"))
+            said = subprocess.run([compiler, "--version"], capture_output=True, text=True, check=False).stdout
+            compiler = said.splitlines()[0] if said else compiler
+            return f"{compiler}; buildtype {options['buildtype']}, b_sanitize {options['b_sanitize']}"
+        folder = os.path.dirname(folder)
+    return "unknown build"
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--ffd", required=True)
+    parser.add_argument("--runs", type=int, default=5)
+    parser.add_argument("--side", type=int, default=1000, help="the mesh has side x side vertices")
+    parser.add_argument("--threads", type=int, default=0, help="0: all cores")
+    parser.add_argument("--folder", help="where the files are made (default: a temporary folder)")
+    parser.add_argument("--only", choices=("glb", "obj"))
+    parser.add_argument("--csv", metavar="FILE", help="one line for each run")
+    arguments = parser.parse_args()
+
+    print(f"{processor()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}")
+    print(f"{build_flags(arguments.ffd)}; threads: {arguments.threads or 'all'}; runs: {arguments.runs}", flush=True)
+
+    csv = ["file,lattice,run,ffd_seconds,copy_seconds,ffd_peak_bytes,file_bytes"]
+    with tempfile.TemporaryDirectory(dir=arguments.folder) as folder:
+        lattices = write_lattices(folder)
+        print(f"{'file':5} {'MB':>6} {'lattice':8} {'ffd s: median (spread)':>28} {'copy s: median (spread)':>28}"
+              f" {'ratio':>6} {'peak MB':>8} {'x file':>6}")
+        for ending, write in (("glb", write_glb), ("obj", write_obj)):
+            if arguments.only not in (None, ending):
+                continue
+            source = os.path.join(folder, "in." + ending)
+            make(write, source, arguments.side)
+            size = os.path.getsize(source)
+            target = os.path.join(folder, "out." + ending)
+            copy = os.path.join(folder, "copy." + ending)
+            for name, lattice in lattices.items():
+                command = [arguments.ffd, "deform", source, target, "-l", lattice, "--force", "--quiet"]
+                if arguments.threads:
+                    command += ["--threads", str(arguments.threads)]
+                dd = ["dd", "if=" + source, "of=" + copy, "bs=64M"]
+                measure(dd)  # the file is in the page cache from here on
+                times, copies, peaks = [], [], []
+                for run in range(arguments.runs):
+                    seconds, peak = measure(command)
+                    times.append(seconds)
+                    peaks.append(peak)
+                    copies.append(measure(dd)[0])
+                    csv.append(f"{ending},{name},{run},{seconds:.6f},{copies[-1]:.6f},{peak},{size}")
+                ratio = statistics.median(times) / statistics.median(copies)
+                print(f"{ending:5} {size / 1e6:6.1f} {name:8} {spread(times):>28} {spread(copies):>28} {ratio:6.1f}"
+                      f" {max(peaks) / 1e6:8.1f} {max(peaks) / size:6.2f}", flush=True)
+            for path in (source, target, copy):
+                os.remove(path)
+    if arguments.csv:
+        with open(arguments.csv, "w", encoding="ascii") as file:
+            file.write("\n".join(csv) + "\n")
+
+
+main()

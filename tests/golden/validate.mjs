@@ -1,0 +1,33 @@
+// Runs the Khronos glTF validator over files.
+//     node validate.mjs FOLDER-WITH-NODE_MODULES < list-of-paths
+// Prints for each path one line of JSON: {"path", "errors": [[code, pointer], ...]} or {"path", "failed": why}.
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { text } from 'node:stream/consumers';
+
+const validator = createRequire(path.resolve(process.argv[2], 'package.json'))('gltf-validator');
+const ERROR = 0;
+
+async function validate(file) {
+    const report = await validator.validateBytes(new Uint8Array(await readFile(file)), {
+        uri: path.basename(file),
+        maxIssues: 0,
+        writeTimestamp: false,
+        externalResourceFunction: async (uri) =>
+            new Uint8Array(await readFile(path.join(path.dirname(file), decodeURIComponent(uri)))),
+    });
+    return report.issues.messages
+        .filter((message) => message.severity === ERROR)
+        .map((message) => [message.code, message.pointer ?? `@${message.offset ?? ''}`]);
+}
+
+for (const file of (await text(process.stdin)).split('\n').filter(Boolean)) {
+    let line;
+    try {
+        line = { path: file, errors: await validate(file) };
+    } catch (problem) {
+        line = { path: file, failed: String(problem) };
+    }
+    console.log(JSON.stringify(line));
+}

@@ -1,0 +1,436 @@
+/* test_oracle_deform.c - displacement, its gradient, normals and tangents against the oracle. */
+#include "volume_sample.h"
+
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef struct edited {
+    trial *t;
+    sample *s;
+    ffd_lattice *lattice;
+    oracle_volume rest, deformed;
+    bool weights_moved;
+} edited;
+
+static bool open_edited(edited *x, trial *t, sample *s)
+{
+    sample_write(s);
+    *x = (edited){.t = t, .s = s, .lattice = trial_parse(t, s), .weights_moved = s->deformed_weights != NULL};
+    if (!x->lattice)
+        return false;
+    x->rest = sample_volume(s, x->lattice, FFD_VOLUME_REST);
+    x->deformed = sample_volume(s, x->lattice, FFD_VOLUME_DEFORMED);
+    return true;
+}
+
+static void close_edited(edited *x)
+{
+    oracle_free(&x->rest);
+    oracle_free(&x->deformed);
+    ffd_lattice_destroy(&x->lattice);
+}
+
+/* What the displacement and its derivative must be, and what their errors are relative to. */
+typedef struct expectation {
+    long double delta[3], delta_size[3];
+    long double gradient[9], gradient_size[9], gradient_rounding[9]; /* rounding of J_Q J_P^-1 - I here */
+    bool regular;
+} expectation;
+
+/* Unmoved weights: the volume of the differences Q - P. Moved ones: C_Q - C_P, with the size of both. */
+static void displacement(const edited *x, const long double uvw[3], expectation *e, long double slope[9],
+                         long double slope_size[9])
+{
+    if (!x->weights_moved) {
+        oracle_volume difference = oracle_make(x->s->axis, x->rest.weights != NULL);
+        for (size_t i = 0; i < 3 * oracle_count(&difference); i++)
+            difference.points[i] = x->deformed.points[i] - x->rest.points[i];
+        for (size_t i = 0; difference.weights && i < oracle_count(&difference); i++)
+            difference.weights[i] = x->rest.weights[i];
+        oracle_evaluate(&difference, uvw, e->delta, slope);
+        oracle_magnitude(&difference, uvw, e->delta_size, slope_size);
+        oracle_free(&difference);
+        return;
+    }
+    long double point[2][3], jacobian[2][9], size[2][3], steepness[2][9];
+    const oracle_volume *const volumes[2] = {&x->rest, &x->deformed};
+    for (int k = 0; k < 2; k++) {
+        oracle_evaluate(volumes[k], uvw, point[k], jacobian[k]);
+        oracle_magnitude(volumes[k], uvw, size[k], steepness[k]);
+    }
+    for (int a = 0; a < 3; a++) {
+        e->delta[a] = point[1][a] - point[0][a];
+        e->delta_size[a] = size[0][a] + size[1][a];
+    }
+    for (int i = 0; i < 9; i++) {
+        slope[i] = jacobian[1][i] - jacobian[0][i];
+        slope_size[i] = steepness[0][i] + steepness[1][i];
+    }
+}
+
+/* E = D J_P^-1. An error d of D and j of J_P changes it by d |J^-1| + |E| j |J^-1|. The expectation itself is
+   J_Q J_P^-1 - I, the other form of the same. */
+static void expect(const edited *x, const long double uvw[3], expectation *e)
+{
+    long double slope[9], slope_size[9], point[3], rest[9], deformed[9], inverse[9], size[3], rest_size[9];
+    displacement(x, uvw, e, slope, slope_size);
+    oracle_evaluate(&x->rest, uvw, point, rest);
+    oracle_evaluate(&x->deformed, uvw, point, deformed);
+    oracle_magnitude(&x->rest, uvw, size, rest_size);
+    e->regular = oracle_invert(rest, inverse);
+    for (int r = 0; e->regular && r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            long double f = 0;
+            for (int k = 0; k < 3; k++)
+                f += deformed[3 * r + k] * inverse[3 * k + c];
+            e->gradient[3 * r + c] = f - (r == c);
+        }
+    for (int r = 0; e->regular && r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            long double size_rc = 0, product = r == c;
+            for (int k = 0; k < 3; k++) {
+                product += fabsl(deformed[3 * r + k] * inverse[3 * k + c]);
+                size_rc += slope_size[3 * r + k] * fabsl(inverse[3 * k + c]);
+                for (int l = 0; l < 3; l++)
+                    size_rc +=
+                        fabsl(e->gradient[3 * r + k]) * rest_size[3 * k + l] * fabsl(inverse[3 * l + c]);
+            }
+            e->gradient_size[3 * r + c] = size_rc;
+            e->gradient_rounding[3 * r + c] = 1000 * LDBL_EPSILON * product;
+        }
+}
+
+/* cof(F) n, as the cross product of the images of two tangents across n. */
+static void moved_normal(const double gradient[9], const double normal[3], long double result[3],
+                         long double *size)
+{
+    int least = 0;
+    for (int a = 1; a < 3; a++)
+        if (fabs(normal[a]) < fabs(normal[least]))
+            least = a;
+    const int b = (least + 1) % 3, c = (least + 2) % 3;
+    long double first[3] = {0, 0, 0}, second[3], image[2][3], length2 = 0;
+    first[b] = normal[c];
+    first[c] = -(long double)normal[b];
+    for (int a = 0; a < 3; a++) { /* second = n x first, so that first x second points along n */
+        const int p = (a + 1) % 3, q = (a + 2) % 3;
+        second[a] = normal[p] * first[q] - normal[q] * first[p];
+        length2 += first[a] * first[a];
+    }
+    *size = 0;
+    for (int r = 0; r < 3; r++) {
+        image[0][r] = first[r];
+        image[1][r] = second[r];
+        for (int k = 0; k < 3; k++) {
+            image[0][r] += gradient[3 * r + k] * first[k];
+            image[1][r] += gradient[3 * r + k] * second[k];
+            *size += (1 + fabsl(gradient[3 * r + k]));
+        }
+    }
+    *size *= *size;
+    for (int a = 0; a < 3; a++) {
+        const int p = (a + 1) % 3, q = (a + 2) % 3;
+        result[a] = (image[0][p] * image[1][q] - image[0][q] * image[1][p]) / length2;
+    }
+}
+
+static long double length3(const long double v[3])
+{
+    return sqrtl(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static void check_unit(trial *t, const sample *s, const char *what, const double found[3],
+                       const long double v[3], long double size)
+{
+    const long double length = length3(v);
+    for (int a = 0; a < 3; a++)
+        trial_check(t, s, fabsl(found[a] - v[a] / length) <= 1e-13L * (1 + size / length),
+                    "%s[%d] = %.17g, expected %.20Lg (collapsed to %.3Lg)", what, a, found[a], v[a] / length,
+                    length / size);
+}
+
+static void check_directions(trial *t, const sample *s, const double gradient[9], random_source *random)
+{
+    double normal[3], tangent[3], result[3], turned[3], alone[3];
+    long double expected[3], size, along = 0, image[3];
+    int collapsed = -1;
+    random_direction(random, normal);
+    random_direction(random, tangent);
+    moved_normal(gradient, normal, expected, &size);
+    const int moved = ffd_deform_normal(gradient, normal, result, &collapsed);
+    if (length3(expected) < 1e-12L * size)
+        return;
+    trial_check(t, s, moved == 1 && collapsed == 0, "normal: returned %d, collapsed %d", moved, collapsed);
+    check_unit(t, s, "normal", result, expected, size);
+    memcpy(turned, normal, sizeof turned);
+    ffd_deform_normal(gradient, turned, turned, NULL);
+    trial_check(t, s, memcmp(turned, result, sizeof turned) == 0, "normal in place differs");
+
+    for (int r = 0; r < 3; r++) {
+        image[r] = tangent[r];
+        for (int k = 0; k < 3; k++)
+            image[r] += (long double)gradient[3 * r + k] * tangent[k];
+    }
+    const int bent = ffd_deform_tangent(gradient, tangent, NULL, alone, &collapsed);
+    trial_check(t, s, bent == 1 && collapsed == 0, "tangent: returned %d, collapsed %d", bent, collapsed);
+    check_unit(t, s, "tangent", alone, image, sqrtl(size));
+    for (int a = 0; a < 3; a++)
+        along += image[a] * result[a];
+    for (int a = 0; a < 3; a++)
+        image[a] -= along * result[a];
+    if (length3(image) < 1e-3L * sqrtl(size))
+        return;
+    ffd_deform_tangent(gradient, tangent, result, alone, &collapsed);
+    check_unit(t, s, "tangent across the normal", alone, image, sqrtl(size));
+}
+
+static bool any_bit(const double *values, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const double zero = 0;
+        if (memcmp(&values[i], &zero, sizeof zero) != 0)
+            return true;
+    }
+    return false;
+}
+
+typedef enum support { SUPPORT_AWAY, SUPPORT_EDGE, SUPPORT_WITHIN } support;
+
+/* Where u stands to the support of control point i's function: outside, on its end, or with a share of it. */
+static support support_of(const oracle_axis *axis, int i, long double u, long double share)
+{
+    if (share > 0)
+        return SUPPORT_WITHIN;
+    for (int image = i; image < (axis->closed ? axis->n + axis->degree : axis->n); image += axis->n)
+        if (u >= oracle_knot(axis, image) && u <= oracle_knot(axis, image + axis->degree + 1))
+            return SUPPORT_EDGE;
+    return SUPPORT_AWAY;
+}
+
+/* The nearest that uvw is to a moved control point's support. */
+static support nearest_support(const edited *x, const long double uvw[3])
+{
+    long double n[3][ORACLE_MAX_POINTS];
+    support nearest = SUPPORT_AWAY;
+    size_t at = 0;
+    int i[3];
+    for (int a = 0; a < 3; a++)
+        oracle_factors(&x->s->axis[a], uvw[a], n[a], NULL);
+    for (i[2] = 0; i[2] < x->s->axis[2].n; i[2]++)
+        for (i[1] = 0; i[1] < x->s->axis[1].n; i[1]++)
+            for (i[0] = 0; i[0] < x->s->axis[0].n; i[0]++, at++) {
+                bool moved = x->rest.weights && x->rest.weights[at] != x->deformed.weights[at];
+                support here = SUPPORT_WITHIN;
+                for (size_t a = 0; a < 3; a++)
+                    moved = moved || x->rest.points[3 * at + a] != x->deformed.points[3 * at + a];
+                for (int a = 0; moved && a < 3; a++) {
+                    const support side = support_of(&x->s->axis[a], i[a], uvw[a], n[a][i[a]]);
+                    here = side < here ? side : here;
+                }
+                if (moved && here > nearest)
+                    nearest = here;
+            }
+    return nearest;
+}
+
+static void check_displacement(const edited *x, random_source *random)
+{
+    double uvw[3], delta[3], gradient[9], alone[3];
+    long double at[3];
+    for (int a = 0; a < 3; a++) {
+        const long double first = oracle_first(&x->s->axis[a]), last = oracle_last(&x->s->axis[a]);
+        uvw[a] = (double)(first + (last - first) * (long double)random_unit(random));
+        if (random_chance(random, 0.1))
+            uvw[a] = (double)(random_chance(random, 0.5) || x->s->axis[a].closed ? first : last);
+        at[a] = oracle_wrap(&x->s->axis[a], uvw[a]);
+    }
+    const int moved = ffd_displacement(x->lattice, uvw, delta, gradient);
+    const int moved_alone = ffd_displacement(x->lattice, uvw, alone, NULL);
+    trial_check(x->t, x->s, moved == moved_alone && memcmp(delta, alone, sizeof delta) == 0,
+                "delta differs with and without the gradient");
+    const support near = nearest_support(x, at);
+    if (near == SUPPORT_AWAY) {
+        trial_check(x->t, x->s, moved == 0, "at %.17g %.17g %.17g: returned %d outside every support", uvw[0],
+                    uvw[1], uvw[2], moved);
+        trial_check(x->t, x->s, !any_bit(delta, 3) && !any_bit(gradient, 9),
+                    "at %.17g %.17g %.17g: delta %g %g %g outside every support", uvw[0], uvw[1], uvw[2],
+                    delta[0], delta[1], delta[2]);
+        return;
+    }
+    expectation e;
+    expect(x, at, &e);
+    trial_check(x->t, x->s, moved == 1 || near == SUPPORT_EDGE,
+                "at %.17g %.17g %.17g: returned %d in a support", uvw[0], uvw[1], uvw[2], moved);
+    for (int r = 0; r < 3; r++)
+        trial_check(x->t, x->s, fabsl(delta[r] - e.delta[r]) <= 1e-13L * e.delta_size[r],
+                    "at %.17g %.17g %.17g: delta[%d] = %.17g, expected %.20Lg, off by %.2Lg of its size",
+                    uvw[0], uvw[1], uvw[2], r, delta[r], e.delta[r],
+                    fabsl(delta[r] - e.delta[r]) / e.delta_size[r]);
+    for (int i = 0; e.regular && i < 9; i++)
+        trial_check(x->t, x->s,
+                    fabsl(gradient[i] - e.gradient[i]) <=
+                        1e-13L * e.gradient_size[i] + e.gradient_rounding[i],
+                    "at %.17g %.17g %.17g: gradient[%d] = %.17g, expected %.20Lg, off by %.2Lg of its scale",
+                    uvw[0], uvw[1], uvw[2], i, gradient[i], e.gradient[i],
+                    fabsl(gradient[i] - e.gradient[i]) / e.gradient_size[i]);
+    if (near == SUPPORT_WITHIN)
+        check_directions(x->t, x->s, gradient, random);
+}
+
+static void random_rest(sample *s, random_source *random)
+{
+    sample_limits limits = {.max_degree = random_chance(random, 0.2) ? 9 : 4, .max_extra = 4};
+    const int kind = random_int(random, 0, 3);
+    limits.always_closed[1] = kind == 0;
+    limits.max_degree = kind == 0 ? 4 : limits.max_degree;
+    sample_axes(s, random, &limits);
+    if (kind == 0)
+        sample_cylinder(s, random, true);
+    else if (kind == 1)
+        sample_box(s, random, 1, random_chance(random, 0.2) ? 1e6 : 0);
+    else
+        sample_warped(s, random, (volume_scale)random_int(random, 0, SCALE_COUNT - 1),
+                      random_chance(random, 0.5), random_range(random, 0, 0.9));
+    if (random_chance(random, 0.3))
+        sample_weights(s, random, 2);
+}
+
+/* New deformed points, a moved weight, or a move of a few points: some or all of them. */
+static void random_edit(sample *s, random_source *random)
+{
+    const size_t count = sample_count(s);
+    const int kind = random_int(random, 0, 3);
+    if (kind == 0 || (kind == 1 && !s->weights)) {
+        if (s->rest == SAMPLE_POINTS) {
+            s->deformed_points = sample_array(3 * count);
+            for (size_t i = 0; i < 3 * count; i++)
+                s->deformed_points[i] = s->points[i] * random_range(random, 0.5, 1.5);
+        } else
+            text_add(&s->moves,
+                     "{\"scale\":{\"factor\":[1.5,0.75,2.25],\"about\":[0.5,0.25,-1]}},{\"at\":[-1,\"all\","
+                     "0],\"by\":[0.5,0.25,-0.75]}");
+    } else if (kind == 1) {
+        s->deformed_weights = sample_array(count);
+        for (size_t i = 0; i < count; i++)
+            s->deformed_weights[i] =
+                s->weights[i] * (random_chance(random, 0.5) ? 1 : random_range(random, 0.5, 2));
+    } else {
+        text_add(&s->moves, "{\"at\":[%d,%d,%d],\"by\":[%.17g,%.17g,%.17g]}",
+                 random_int(random, 0, s->axis[0].n - 1), random_int(random, 0, s->axis[1].n - 1),
+                 random_int(random, 0, s->axis[2].n - 1), random_range(random, -1, 1),
+                 random_range(random, -1, 1), kind == 2 ? 0.0 : 0.25);
+    }
+}
+
+static void displacements(void **state)
+{
+    (void)state;
+    trial t = {.name = "displacements"};
+    for (long k = 0; k < trial_cases(300); k++, t.cases++) {
+        sample s;
+        edited x;
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        random_rest(&s, &random);
+        random_edit(&s, &random);
+        if (open_edited(&x, &t, &s)) {
+            for (int i = 0; i < 12; i++)
+                check_displacement(&x, &random);
+            close_edited(&x);
+        }
+        sample_free(&s);
+    }
+    trial_end(&t);
+}
+
+/* No edit, and one that goes there and back in exact steps: zeros everywhere. */
+static void nothing_moved(void **state)
+{
+    (void)state;
+    trial t = {.name = "nothing_moved"};
+    for (long k = 0; k < trial_cases(40); k++, t.cases++) {
+        sample s;
+        edited x;
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        random_rest(&s, &random);
+        if (open_edited(&x, &t, &s)) {
+            for (int i = 0; i < 4; i++)
+                check_displacement(&x, &random);
+            close_edited(&x);
+        }
+        sample_free(&s);
+    }
+    trial_end(&t);
+}
+
+/* The normals and tangents of gradients drawn at random, mirrors and strong scalings among them. */
+static void directions(void **state)
+{
+    (void)state;
+    trial t = {.name = "directions"};
+    for (long k = 0; k < trial_cases(2000); k++, t.cases++) {
+        sample s;
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        double gradient[9];
+        const double size = pow(10, random_range(&random, -9, 4));
+        for (int i = 0; i < 9; i++)
+            gradient[i] = random_range(&random, -size, size);
+        if (random_chance(&random, 0.2))
+            gradient[4 * random_int(&random, 0, 2)] -= 2;
+        check_directions(&t, &s, gradient, &random);
+    }
+    trial_end(&t);
+}
+
+/* Gradient 0 keeps the bits; F = 0 and F of rank 1 leave no normal, F t = 0 no tangent: kept and said. */
+static void kept_directions(void **state)
+{
+    (void)state;
+    const double none[9] = {0, -0.0, 0, 0, 0, 0, 0, 0, 0}, odd[3] = {0.1, -3, -0.0};
+    const double collapse[9] = {-1, 0, 0, 0, -1, 0, 0, 0, -1}, line[9] = {0, 0, 0, 0, -1, 0, 0, 0, -1};
+    const double flat[9] = {0, 0, 0, 0, 0, 0, 0, 0, -1};
+    double result[3];
+    int collapsed = -1;
+    assert_int_equal(ffd_deform_normal(none, odd, result, &collapsed), 0);
+    assert_int_equal(collapsed, 0);
+    assert_memory_equal(result, odd, sizeof odd);
+    collapsed = -1;
+    assert_int_equal(ffd_deform_tangent(none, odd, NULL, result, &collapsed), 0);
+    assert_int_equal(collapsed, 0);
+    assert_memory_equal(result, odd, sizeof odd);
+    assert_int_equal(ffd_deform_normal(collapse, odd, result, &collapsed), 0);
+    assert_int_equal(collapsed, 1);
+    assert_memory_equal(result, odd, sizeof odd);
+    collapsed = -1;
+    assert_int_equal(ffd_deform_normal(line, odd, result, &collapsed), 0);
+    assert_int_equal(collapsed, 1);
+    collapsed = -1;
+    assert_int_equal(ffd_deform_tangent(collapse, odd, NULL, result, &collapsed), 0);
+    assert_int_equal(collapsed, 1);
+    assert_memory_equal(result, odd, sizeof odd);
+    /* A flattened body keeps the normal of its plane. */
+    const double up[3] = {0, 0, 1};
+    assert_int_equal(ffd_deform_normal(flat, up, result, &collapsed), 1);
+    assert_int_equal(collapsed, 0);
+    assert_memory_equal(result, up, sizeof up);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(displacements),
+        cmocka_unit_test(nothing_moved),
+        cmocka_unit_test(directions),
+        cmocka_unit_test(kept_directions),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

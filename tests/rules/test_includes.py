@@ -1,0 +1,68 @@
+#!/usr/bin/env python3
+"""An #include goes to the same folder, to a lower layer, or to the public headers; other libraries and the
+system's interfaces are reached from the folders that are there for them only."""
+
+import os
+import re
+
+import tree
+
+# Folder under src/ -> the folders under src/ that its files may include from.
+LAYERS = {
+    "base": set(),
+    "spline": {"base"},
+    "lattice": {"spline", "base"},
+    "embed": {"lattice", "spline", "base"},
+    "deform": {"embed", "lattice", "base"},
+    "mesh": {"base"},
+    "io": {"io/obj", "io/gltf", "io/npy", "io/openmesh", "mesh", "base"},
+    "io/obj": {"io", "mesh", "base"},
+    "io/gltf": {"io", "mesh", "base"},
+    "io/npy": {"base"},
+    "io/openmesh": {"mesh", "base"},
+    "job": {"base", "spline", "lattice", "embed", "deform", "mesh", "io", "io/obj", "io/gltf", "io/npy",
+            "io/openmesh"},
+    "cli": set(),
+}
+
+# <header> pattern -> folders that may include it.
+OUTSIDE = [
+    (r"OpenMesh/", {"io/openmesh"}),
+    (r"tiny_gltf\.h|nlohmann/", {"io/gltf"}),
+    (r"jansson\.h", {"lattice", "io/gltf", "job"}),
+    (r"charconv", {"base"}),
+    (r"unistd\.h|fcntl\.h|pthread\.h|sys/|dirent\.h|dlfcn\.h|sched\.h|windows\.h", {"base"}),
+]
+
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)
+
+
+def main():
+    findings = []
+    checked = 0
+    for path in tree.files():
+        if not path.endswith((".c", ".h", ".cpp")) or not path.startswith(("src/", "include/")):
+            continue
+        checked += 1
+        folder = os.path.dirname(path).split("/", 1)[1]
+        for match in INCLUDE.finditer(tree.read(path)):
+            quoted, angled = match.groups()
+            if path.startswith("include/"):
+                if quoted or not (angled.startswith("ffd/") or re.fullmatch(r"std\w+\.h", angled)):
+                    findings.append(f"{path}: a public header includes {quoted or angled}")
+                continue
+            if folder not in LAYERS:
+                findings.append(f"{path}: folder src/{folder} has no place in the table of {__file__}")
+                break
+            if quoted:
+                target = os.path.dirname(quoted) or folder
+                if target != folder and target not in LAYERS[folder]:
+                    findings.append(f'{path}: src/{folder} must not include "{quoted}"')
+                continue
+            for pattern, allowed in OUTSIDE:
+                if re.match(pattern, angled) and folder not in allowed:
+                    findings.append(f"{path}: <{angled}> belongs in {', '.join(sorted(allowed))} only")
+    tree.finish(checked, "files", findings)
+
+
+main()

@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""Where things lie: which files are C++, that meson.build names every source, what stands at the top, that
+memory is asked for in one place, and that nothing tells of the place where the project was written."""
+
+import os
+import re
+
+import tree
+
+TOP = {
+    ".ci", ".clang-format", ".gitattributes", ".gitignore", "CHANGELOG.md", "LICENSE", "README.md", "data", "doc",
+    "include", "meson.build", "meson_options.txt", "src", "subprojects", "tests",
+}
+
+# C++ is for adapters to C++ libraries, behind a C header, and for number text (<charconv>).
+CPP = [r"src/base/number\.cpp", r"src/io/(gltf|openmesh)/\w+\.cpp"]
+
+# Put together here so that this file does not hold them itself; * after a word: a whole word only.
+WORDS = ["/wo" "rk/", "/ro" "ot/", "/ho" "me/", "../sha" "red", "cla" "ude", "anthro" "pic", "open" "ai",
+         "chat" "gpt", "sub" "agent", "CE" "O*", "registry." "npmjs", "deb.deb" "ian.org", "pypi" ".org",
+         "co-auth" "ored-by"]
+# The one place that looks for sample models in a folder beside the checkout.
+WORDS_ALLOWED = {("tests/run.sh", "../sha" "red")}
+
+ALLOCATION = re.compile(r"(?<![\w.>])(malloc|calloc|realloc|aligned_alloc|strdup|strndup)\s*\(")
+
+
+def without_comments(text):
+    return re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.S)
+
+
+def find_words(path):
+    with open(os.path.join(tree.ROOT, path), "rb") as file:
+        text = file.read().decode("latin-1")
+    for word in WORDS:
+        pattern = r"\b" + re.escape(word[:-1]) + r"\b" if word.endswith("*") else re.escape(word)
+        flags = 0 if word.endswith("*") else re.I
+        # Pictures and models are not text: a match of a few bytes there is chance.
+        if path.endswith((".png", ".glb", ".bin")) and len(word) < 8:
+            continue
+        if re.search(pattern, text, flags) and (path, word) not in WORDS_ALLOWED:
+            yield f"{path}: holds '{word}'"
+
+
+def main():
+    paths = tree.files()
+    findings = [f"{name}: not expected at the top level" for name in sorted({p.split("/")[0] for p in paths} - TOP)]
+    listed = {}
+    for path in paths:
+        findings += find_words(path)
+        if re.search(r"\.(cc|cxx|hh|hpp|hxx)$", path) and not path.startswith("subprojects/"):
+            findings.append(f"{path}: C++ files end in .cpp, headers in .h")
+        if path.startswith("src/"):
+            if path.endswith(".cpp") and not any(re.fullmatch(pattern, path) for pattern in CPP):
+                findings.append(f"{path}: C++ outside the adapters")
+            if path.endswith((".c", ".h")) and not path.startswith("src/base/memory."):
+                for match in ALLOCATION.finditer(without_comments(tree.read(path))):
+                    findings.append(f"{path}: {match.group(1)} instead of base/memory.h")
+        if path.endswith((".c", ".cpp")) and path.startswith(("src/", "tests/")):
+            folder, name = os.path.split(path)
+            # Listed in the folder's own meson.build, or in that of a folder above.
+            above = folder
+            while above:
+                build = f"{above}/meson.build"
+                if build not in listed:
+                    listed[build] = tree.read(build) if build in paths else ""
+                relative = os.path.relpath(path, above)
+                if f"'{relative}'" in listed[build]:
+                    break
+                above = os.path.dirname(above)
+            else:
+                findings.append(f"{path}: in no meson.build")
+    tree.finish(len(paths), "files", findings)
+
+
+main()

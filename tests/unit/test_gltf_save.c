@@ -1,0 +1,629 @@
+/* test_gltf_save.c - writing glTF back: bytes in place, appended copies, buffers' and images' files. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/gltf_file.h"
+#include "io/gltf/glb.h"
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define ASSET "\"asset\":{\"version\":\"2.0\"}"
+#define TRIANGLE "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
+/* The triangle (0,0,0) (1,0,0) (0,1,0) with 1 added to x. */
+#define MOVED "AACAPwAAAAAAAAAAAAAAQAAAAAAAAAAAAACAPwAAgD8AAAAA"
+#define DATA_URI "data:application/octet-stream;base64,"
+#define BUFFER(length, text) "\"buffers\":[{\"byteLength\":" length ",\"uri\":\"" DATA_URI text "\"}]"
+#define VIEWS "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36,\"target\":34962}"
+#define ACCESSOR(min, max)                                                                                   \
+    "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"min\":" min ",\"max\":" max ",\"type\":"         \
+    "\"VEC3\"}"
+#define OLD_ACCESSOR ACCESSOR("[0, 0,0.0]", "[1,1,0]")
+#define MESH(position) "{\"primitives\":[{\"attributes\":{\"POSITION\":" position "}}]}"
+
+static char folder[] = "/tmp/ffd-test-gltf-XXXXXX";
+
+static const char *in_folder(const char *name)
+{
+    static char path[8][200];
+    static int turn;
+    turn = (turn + 1) % 8;
+    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
+    return path[turn];
+}
+
+static void put(const char *name, const void *bytes, size_t size)
+{
+    FILE *file = fopen(in_folder(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void put_text(const char *name, const char *text)
+{
+    put(name, text, strlen(text));
+}
+
+static void check_bytes(const char *name, const void *bytes, size_t size)
+{
+    file_input input;
+    assert_int_equal(ffd_file_load(in_folder(name), &input, NULL), FFD_OK);
+    assert_int_equal(input.size, size);
+    assert_memory_equal(input.data, bytes, size);
+    ffd_file_unload(&input);
+}
+
+/* As a string, so that a difference is shown. */
+static void check_text(const char *name, const char *text)
+{
+    file_input input;
+    assert_int_equal(ffd_file_load(in_folder(name), &input, NULL), FFD_OK);
+    char *read = calloc(input.size + 1, 1);
+    memcpy(read, input.data, input.size);
+    assert_string_equal(read, text);
+    free(read);
+    ffd_file_unload(&input);
+}
+
+static void add_one(const double place[3], double xyz[3])
+{
+    (void)place;
+    xyz[0] += 1;
+}
+
+static void stay(const double place[3], double xyz[3])
+{
+    (void)place;
+    (void)xyz;
+}
+
+/* Only what stands beyond x = 10 moves. */
+static void move_far(const double place[3], double xyz[3])
+{
+    if (place[0] >= 10)
+        xyz[0] += 1;
+}
+
+static void move_by_place(const double place[3], double xyz[3])
+{
+    xyz[0] += place[0];
+}
+
+typedef struct log_lines {
+    char text[1024];
+} log_lines;
+
+static void keep_line(void *user, ffd_log_level level, const char *line)
+{
+    log_lines *lines = user;
+    const size_t length = strlen(lines->text);
+    snprintf(lines->text + length, sizeof lines->text - length, "%d %s\n", (int)level, line);
+}
+
+/* Deforms the file `name` and saves it as `output`; both in the test's folder. */
+static ffd_status convert(const char *name, const char *output, ffd_space space, mover move, bool attributes,
+                          ffd_resources resources, log_lines *lines, ffd_error *error)
+{
+    mesh_document *document = NULL;
+    const mesh_save_options options = {.path = strcmp(output, "-") == 0 ? output : in_folder(output),
+                                       .resources = resources};
+    const mesh_log log = {lines ? keep_line : NULL, lines};
+    assert_int_equal(open_file(in_folder(name), space, &document, error), FFD_OK);
+    ffd_status status = deform(document, move, attributes, error);
+    if (status == FFD_OK)
+        status = save_with(document, &options, &log, error);
+    gltf->close(document);
+    return status;
+}
+
+/* log: the lines, or NULL where it is to warn of a node that is not shown. */
+static void check_conversion(const char *text, ffd_space space, mover move, const char *expected,
+                             const char *log)
+{
+    log_lines lines = {{0}};
+    ffd_error error = {0};
+    put_text("in.gltf", text);
+    unlink(in_folder("out.gltf"));
+    const ffd_status status =
+        convert("in.gltf", "out.gltf", space, move, false, FFD_RESOURCES_COPY, &lines, &error);
+    assert_string_equal(error.message, "");
+    assert_int_equal(status, FFD_OK);
+    check_text("out.gltf", expected);
+    if (log)
+        assert_string_equal(lines.text, log);
+    else
+        assert_non_null(
+            strstr(lines.text, "1 nodes with a mesh are not in the scene shown and stay as they are"));
+}
+
+static void only_what_changes_is_replaced(void **state)
+{
+    (void)state;
+    /* max x was 1 and is 2; 0 becomes 1; the other numbers keep their text. */
+    const char *const before = "\xef\xbb\xbf{ " ASSET ", " BUFFER(
+        "36", TRIANGLE) ",\n" VIEWS "],\"accessors\":[" OLD_ACCESSOR
+                        "],\"meshes\":[" MESH("0") "],\"nodes\":[{\"mesh\":0}] , \"extras\":1.50}\n ";
+    const char *const after =
+        "\xef\xbb\xbf{ " ASSET
+        ", " BUFFER("36", MOVED) ",\n" VIEWS
+                                 "],\"accessors\":[" ACCESSOR("[1, 0,0.0]", "[2,1,0]") "],\"meshes\":[" MESH(
+                                     "0") "],\"nodes\":[{\"mesh\":0}] , \"extras\":1.50}\n ";
+    check_conversion(before, FFD_SPACE_SCENE, add_one, after, "");
+    check_conversion(before, FFD_SPACE_MESH, add_one, after, "");
+    check_conversion(before, FFD_SPACE_SCENE, stay, before, "");
+}
+
+static void odd_data_uris_become_plain(void **state)
+{
+    (void)state;
+#define REST                                                                                                 \
+    VIEWS "],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"       \
+          "\"meshes\":[" MESH("0") "],\"nodes\":[{\"mesh\":0}]}"
+#define URI(uri) "{" ASSET ",\"buffers\":[{\"byteLength\":36,\"uri\":\"" uri "\"}]," REST
+    check_conversion(URI("DATA:;base64," TRIANGLE), FFD_SPACE_MESH, add_one, URI("DATA:;base64," MOVED), "");
+    check_conversion(URI("data:application\\/gltf-buffer;base64," TRIANGLE), FFD_SPACE_MESH, add_one,
+                     URI("data:application\\/gltf-buffer;base64," MOVED), "");
+    check_conversion(
+        URI("data:,%00%00%00%00%00%00%00%00%00%00%00%00%00%00%80%3f%00%00%00%00%00%00%00%00%00%00%00%00"
+            "%00%00%80%3f%00%00%00%00"),
+        FFD_SPACE_MESH, add_one, URI(DATA_URI MOVED), "");
+    check_conversion(URI("data\\u003a;base64\\u002c" TRIANGLE), FFD_SPACE_MESH, add_one, URI(DATA_URI MOVED),
+                     "");
+#undef URI
+#undef REST
+}
+
+/* Two nodes show one mesh, one of them far away. */
+#define TWO_NODES(first, second)                                                                             \
+    "],\"nodes\":[{\"mesh\":" first "},{\"mesh\":" second                                                    \
+    ",\"translation\":[10,0,0]}],\"scenes\":[{\"nodes\":[0,1]}]}"
+
+static void a_mesh_under_two_nodes_is_copied_where_they_differ(void **state)
+{
+    (void)state;
+    const char *const before =
+        "{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
+                                             "],\"meshes\":[" MESH("0") TWO_NODES("0", "0");
+    /* Both alike: in place. */
+    check_conversion(before, FFD_SPACE_SCENE, add_one,
+                     "{" ASSET "," BUFFER("36", MOVED) "," VIEWS "],\"accessors\":[" ACCESSOR(
+                         "[1, 0,0.0]", "[2,1,0]") "],\"meshes\":[" MESH("0") TWO_NODES("0", "0"),
+                     "");
+    /* The far one only: the first keeps mesh and bytes. */
+    check_conversion(
+        before, FFD_SPACE_SCENE, move_far,
+        "{" ASSET "," BUFFER("72", TRIANGLE MOVED) "," VIEWS
+                                                   ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"
+                                                   "\"target\":34962}],\"accessors\":[" OLD_ACCESSOR
+                                                   ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,"
+                                                   "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
+                                                   "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
+                                                       TWO_NODES("0", "1"),
+        "1 node 1 gets a copy of mesh 0, mesh 1: it is deformed otherwise than under other nodes\n");
+}
+
+static void nodes_that_agree_share_a_copy(void **state)
+{
+    (void)state;
+#define THREE(second)                                                                                        \
+    "],\"nodes\":[{\"mesh\":0},{\"mesh\":" second ",\"translation\":[10,0,0]},{\"mesh\":" second             \
+    ",\"translation\":[20,0,0]}]}"
+    check_conversion(
+        "{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
+                                             "],\"meshes\":[" MESH("0") THREE("0"),
+        FFD_SPACE_SCENE, move_far,
+        "{" ASSET "," BUFFER("72", TRIANGLE MOVED) "," VIEWS
+                                                   ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"
+                                                   "\"target\":34962}],\"accessors\":[" OLD_ACCESSOR
+                                                   ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,"
+                                                   "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
+                                                   "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
+                                                       THREE("1"),
+        "1 node 1 gets a copy of mesh 0, mesh 1: it is deformed otherwise than under other nodes\n"
+        "1 node 2 gets a copy of mesh 0, mesh 1: it is deformed otherwise than under other nodes\n");
+#undef THREE
+}
+
+static void a_node_outside_the_scene_keeps_its_mesh(void **state)
+{
+    (void)state;
+#define HIDDEN(shown) "],\"nodes\":[{\"mesh\":" shown "},{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]}"
+    check_conversion("{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
+                                                          "],\"meshes\":[" MESH("0") HIDDEN("0"),
+                     FFD_SPACE_SCENE, add_one,
+                     "{" ASSET "," BUFFER(
+                         "72", TRIANGLE MOVED) "," VIEWS ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"
+                                               "\"target\":34962}],\"accessors\":[" OLD_ACCESSOR
+                                               ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,"
+                                               "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
+                                               "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
+                                                   HIDDEN("1"),
+                     NULL);
+#undef HIDDEN
+}
+
+static void other_users_of_the_bytes_keep_them(void **state)
+{
+    (void)state;
+    /* One more reader each: an attribute of another name, an animation, an unused accessor, an image, another
+       accessor that overlaps by one vertex. The position then gets a new accessor. */
+    static const struct {
+        const char *views, *accessors, *attributes, *rest;
+        const char *number; /* of the new accessor */
+        const char *view;   /* of the new bufferView */
+    } cases[] = {
+        {"", "", ",\"_OLD\":0", "", "1", "1"},
+        {"", "", "", ",\"animations\":[{\"samplers\":[{\"input\":0,\"output\":0}]}]", "1", "1"},
+        {"", ",{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}", "", "", "2", "1"},
+        {"", "", "", ",\"images\":[{\"bufferView\":0}]", "1", "1"},
+        {",{\"buffer\":0,\"byteOffset\":24,\"byteLength\":12}",
+         ",{\"bufferView\":1,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}", "", "", "2", "2"},
+        {"", "", "", ",\"skins\":[{\"inverseBindMatrices\":0}]", "1", "1"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char before[2048], after[2048];
+        static const char *const form =
+            "{" ASSET ",\"buffers\":[{\"byteLength\":%s,\"uri\":\"" DATA_URI TRIANGLE "%s\"}]," VIEWS
+            "%s%s],\"accessors\":[" OLD_ACCESSOR
+            "%s%s],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":%s%s}}]}],"
+            "\"nodes\":[{\"mesh\":0}]%s}";
+        char accessor[256];
+        snprintf(accessor, sizeof accessor,
+                 ",{\"bufferView\":%s,\"componentType\":5126,\"count\":3,\"min\":[1, 0,0.0],\"max\":[2,1,0],"
+                 "\"type\":\"VEC3\"}",
+                 cases[i].view);
+        snprintf(before, sizeof before, form, "36", "", cases[i].views, "", cases[i].accessors, "", "0",
+                 cases[i].attributes, cases[i].rest);
+        snprintf(after, sizeof after, form, "72", MOVED, cases[i].views,
+                 ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,\"target\":34962}", cases[i].accessors,
+                 accessor, cases[i].number, cases[i].attributes, cases[i].rest);
+        check_conversion(before, FFD_SPACE_SCENE, add_one, after, "");
+    }
+}
+
+static void accessors_of_the_same_bytes_that_agree_stay(void **state)
+{
+    (void)state;
+#define TWO(min, max)                                                                                        \
+    "],\"accessors\":[" ACCESSOR(min, max) "," ACCESSOR(min, max) "],\"meshes\":[" MESH("0") "," MESH("1")
+    check_conversion(
+        "{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS TWO("[0,0,0]", "[1,1,0]") TWO_NODES("0", "1"),
+        FFD_SPACE_SCENE, add_one,
+        "{" ASSET "," BUFFER("36", MOVED) "," VIEWS TWO("[1,0,0]", "[2,1,0]") TWO_NODES("0", "1"), "");
+#undef TWO
+    /* Two meshes of one accessor that do not agree: each gets its own. */
+    check_conversion(
+        "{" ASSET "," BUFFER("36", TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
+                                             "],\"meshes\":[" MESH("0") "," MESH("0") TWO_NODES("0", "1"),
+        FFD_SPACE_SCENE, move_far,
+        "{" ASSET "," BUFFER("72", TRIANGLE MOVED) "," VIEWS
+                                                   ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36,"
+                                                   "\"target\":34962}],\"accessors\":[" OLD_ACCESSOR
+                                                   ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,"
+                                                   "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
+                                                   "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
+                                                       TWO_NODES("0", "1"),
+        "");
+}
+
+/* Positions, normals and tangents interleaved; the tangent's last number and the gap stay. */
+static void interleaved_attributes_change_in_place(void **state)
+{
+    (void)state;
+    float values[2][11] = {{1, 2, 3, 4, 5, 6, 7, 8, 9, -1, 77}, {11, 12, 13, 14, 15, 16, 17, 18, 19, 1, 78}};
+    const char *const text =
+        "{" ASSET ",\"buffers\":[{\"byteLength\":88,\"uri\":\"in.bin\"}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":88,\"byteStride\":44}],"
+        "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":12,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"
+        "{\"bufferView\":0,\"byteOffset\":24,\"componentType\":5126,\"count\":2,\"type\":\"VEC4\"}],"
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TANGENT\":2}}]}],"
+        "\"nodes\":[{\"mesh\":0}]}";
+    put_text("in.gltf", text);
+    put("in.bin", values, sizeof values);
+    unlink(in_folder("out.gltf"));
+    unlink(in_folder("out.bin"));
+    assert_int_equal(
+        convert("in.gltf", "out.gltf", FFD_SPACE_SCENE, add_one, true, FFD_RESOURCES_COPY, NULL, NULL),
+        FFD_OK);
+    const float expected[2][11] = {{2, 2, 3, 5, 6, 4, 8, 9, 7, -1, 77},
+                                   {12, 12, 13, 15, 16, 14, 18, 19, 17, 1, 78}};
+    check_bytes("out.bin", expected, sizeof expected);
+    check_bytes("in.bin", values, sizeof values);
+}
+
+static size_t make_glb(unsigned char *glb, const char *json, const void *bin, size_t bin_size,
+                       const char *tail)
+{
+    const size_t length = strlen(json), tail_size = strlen(tail);
+    const size_t total = 12 + 8 + length + 8 + bin_size;
+    memcpy(glb, "glTF\2\0\0\0", 8);
+    ffd_glb_write_u32(glb + 8, (uint32_t)total);
+    ffd_glb_write_u32(glb + 12, (uint32_t)length);
+    ffd_glb_write_u32(glb + 16, GLB_CHUNK_JSON);
+    memcpy(glb + 20, json, length);
+    ffd_glb_write_u32(glb + 20 + length, (uint32_t)bin_size);
+    ffd_glb_write_u32(glb + 24 + length, GLB_CHUNK_BIN);
+    memcpy(glb + 28 + length, bin, bin_size);
+    memcpy(glb + total, tail, tail_size);
+    return total + tail_size;
+}
+
+/* The text with spaces up to a multiple of 4, and more of them. */
+static const char *pad(const char *text, size_t more)
+{
+    static char padded[4][1024];
+    static int turn;
+    char *room = padded[turn++ % 4];
+    const size_t length = strlen(text), size = (length + 3) / 4 * 4 + more;
+    memset(room, ' ', size);
+    memcpy(room, text, length);
+    room[size] = 0;
+    return room;
+}
+
+static void check_glb(const char *json, const void *bin, size_t bin_size, const char *tail, mover move,
+                      const char *new_json, const void *new_bin, size_t new_bin_size, const char *new_tail)
+{
+    unsigned char before[2048], after[2048];
+    const size_t before_size = make_glb(before, json, bin, bin_size, tail);
+    const size_t after_size = make_glb(after, new_json, new_bin, new_bin_size, new_tail);
+    put("in.glb", before, before_size);
+    unlink(in_folder("out.glb"));
+    assert_int_equal(
+        convert("in.glb", "out.glb", FFD_SPACE_SCENE, move, false, FFD_RESOURCES_COPY, NULL, NULL), FFD_OK);
+    check_bytes("out.glb", after, after_size);
+}
+
+#define GLB_JSON(length, view, accessor, mesh, nodes)                                                        \
+    "{" ASSET ",\"buffers\":[{\"byteLength\":" length                                                        \
+    "}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}" view                                              \
+    "],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}" accessor      \
+    "],\"meshes\":[" MESH("0") mesh "],\"nodes\":[{\"mesh\":0}" nodes "]}"
+
+static void glb_lengths_and_padding_follow(void **state)
+{
+    (void)state;
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, moved[9] = {1, 0, 0, 2, 0, 0, 1, 1, 0};
+    const char *const plain = pad(GLB_JSON("36", "", "", "", ""), 0);
+    check_glb(plain, triangle, 36, "tail", stay, plain, triangle, 36, "tail");
+    check_glb(plain, triangle, 36, "tail", add_one, plain, moved, 36, "");
+    /* Odd sizes are kept where nothing grows. */
+    const float padded[10] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 9},
+                padded_moved[10] = {1, 0, 0, 2, 0, 0, 1, 1, 0, 9};
+    const char *const odd = pad(GLB_JSON("36", "", "", "", ""), 6);
+    check_glb(odd, padded, 40, "", add_one, odd, padded_moved, 40, "");
+    /* A copy for the second node: both chunks grow. */
+    float grown[18];
+    memcpy(grown, triangle, sizeof triangle);
+    memcpy(grown + 9, moved, sizeof moved);
+#define SECOND(mesh) ",{\"mesh\":" mesh ",\"translation\":[10,0,0]}"
+    check_glb(pad(GLB_JSON("36", "", "", "", SECOND("0")), 0), padded, 40, "tail", move_far,
+              pad(GLB_JSON("72", ",{\"buffer\":0,\"byteOffset\":36,\"byteLength\":36}",
+                           ",{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}",
+                           "," MESH("1"), SECOND("1")),
+                  0),
+              grown, 72, "");
+#undef SECOND
+}
+
+#define WITH_FILE(uri)                                                                                       \
+    "{" ASSET ",\"buffers\":[{\"byteLength\":36,\"uri\":\"" uri "\"}]," VIEWS                                \
+    "],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"meshes\":"  \
+    "[" MESH("0") "],\"nodes\":[{\"mesh\":0}]}"
+
+static void buffer_files_are_named_after_the_output(void **state)
+{
+    (void)state;
+    const float triangle[10] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5}, moved[10] = {1, 0, 0, 2, 0, 0, 1, 1, 0, 5};
+    put_text("own.gltf", WITH_FILE("some%20data.bin"));
+    put("some data.bin", triangle, sizeof triangle); /* longer than byteLength is allowed */
+    assert_int_equal(
+        convert("own.gltf", "new one.gltf", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY, NULL, NULL),
+        FFD_OK);
+    check_text("new one.gltf", WITH_FILE("new%20one.bin"));
+    check_bytes("new one.bin", moved, sizeof moved);
+    check_bytes("some data.bin", triangle, sizeof triangle);
+
+    /* Either file that exists is refused without force. */
+    ffd_error error = {0};
+    unlink(in_folder("new one.gltf"));
+    assert_int_equal(convert("own.gltf", "new one.gltf", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY,
+                             NULL, &error),
+                     FFD_E_EXISTS);
+    assert_string_equal(error.file, in_folder("new one.bin"));
+    assert_int_equal(access(in_folder("new one.gltf"), F_OK), -1);
+
+    /* The input's own buffer is not overwritten, force or not. */
+    mesh_document *document = NULL;
+    assert_int_equal(open_file(in_folder("own.gltf"), FFD_SPACE_SCENE, &document, NULL), FFD_OK);
+    assert_int_equal(save_to(document, in_folder("some data.gltf"), &error), FFD_E_EXISTS);
+    gltf->close(document);
+    check_bytes("some data.bin", triangle, sizeof triangle);
+
+    assert_int_equal(
+        convert("own.gltf", "-", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY, NULL, &error),
+        FFD_E_ARGUMENT);
+    assert_string_equal(error.message,
+                        "the buffer is a file of its own, which standard output cannot hold: give a file "
+                        "name as output");
+}
+
+static void in_place_keeps_the_names(void **state)
+{
+    (void)state;
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, moved[9] = {1, 0, 0, 2, 0, 0, 1, 1, 0};
+    put_text("place.gltf", WITH_FILE("other.bin"));
+    put("other.bin", triangle, sizeof triangle);
+    assert_int_equal(
+        convert("place.gltf", "place.gltf", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY, NULL, NULL),
+        FFD_OK);
+    check_text("place.gltf", WITH_FILE("other.bin"));
+    check_bytes("other.bin", moved, sizeof moved);
+}
+
+static void conversions_are_refused(void **state)
+{
+    (void)state;
+    const char *const text = "{" ASSET "}";
+    mesh_document *document = NULL;
+    ffd_error error = {0};
+    const mesh_save_options options = {.path = in_folder("x.glb"), .format = FFD_FORMAT_GLB};
+    put_text("empty.gltf", text);
+    assert_int_equal(open_file(in_folder("empty.gltf"), FFD_SPACE_SCENE, &document, NULL), FFD_OK);
+    assert_int_equal(save_with(document, &options, NULL, &error), FFD_E_UNSUPPORTED);
+    assert_string_equal(error.message,
+                        "a .gltf file can only be written as .gltf: conversion is not supported");
+    gltf->close(document);
+}
+
+static void images_are_copied_or_referred_to(void **state)
+{
+    (void)state;
+    ffd_error error = {0};
+    log_lines lines = {{0}};
+#define IMAGES(a, b, c) "{" ASSET ",\"images\":[{\"uri\":\"" a "\"},{\"uri\":\"" b "\"},{\"uri\":\"" c "\"}]}"
+    const char *const text = IMAGES("tex/a%20b.png", "./tex/a b.png", "data:,x");
+    assert_int_equal(mkdir(in_folder("tex"), 0777), 0);
+    assert_int_equal(mkdir(in_folder("out"), 0777), 0);
+    put_text("tex/a b.png", "picture");
+    put_text("images.gltf", text);
+    assert_int_equal(convert("images.gltf", "out/i.gltf", FFD_SPACE_SCENE, stay, false, FFD_RESOURCES_COPY,
+                             &lines, &error),
+                     FFD_OK);
+    check_text("out/i.gltf", text);
+    check_text("out/tex/a b.png", "picture");
+    assert_string_equal(lines.text, "");
+    /* Once more: the copy is there already. */
+    assert_int_equal(
+        convert("images.gltf", "out/j.gltf", FFD_SPACE_SCENE, stay, false, FFD_RESOURCES_COPY, NULL, &error),
+        FFD_OK);
+    put_text("out/tex/a b.png", "another");
+    assert_int_equal(
+        convert("images.gltf", "out/k.gltf", FFD_SPACE_SCENE, stay, false, FFD_RESOURCES_COPY, NULL, &error),
+        FFD_E_IO);
+    assert_string_equal(error.file, in_folder("out/tex/a b.png"));
+    assert_int_equal(access(in_folder("out/k.gltf"), F_OK), -1);
+
+    assert_int_equal(convert("images.gltf", "out/r.gltf", FFD_SPACE_SCENE, stay, false,
+                             FFD_RESOURCES_REFERENCE, NULL, &error),
+                     FFD_OK);
+    check_text("out/r.gltf", IMAGES("../tex/a%20b.png", "../tex/a%20b.png", "data:,x"));
+
+    put_text("images.gltf", IMAGES("../secret.png", "none.png", "http://x/y.png"));
+    assert_int_equal(
+        convert("images.gltf", "out/o.gltf", FFD_SPACE_SCENE, stay, false, FFD_RESOURCES_COPY, NULL, &error),
+        FFD_E_IO);
+    assert_string_equal(error.pointer, "/images/0");
+    put_text("images.gltf", IMAGES("none.png", "http://x/y.png", "none.png"));
+    assert_int_equal(convert("images.gltf", "out/m.gltf", FFD_SPACE_SCENE, stay, false, FFD_RESOURCES_COPY,
+                             &lines, &error),
+                     FFD_OK);
+    assert_non_null(strstr(lines.text, "the image \"none.png\" is missing and was not copied"));
+#undef IMAGES
+}
+
+static void compare_finds_what_differs(void **state)
+{
+    (void)state;
+#define WITH(uri, max, extra)                                                                                \
+    "{" ASSET "," extra "\"buffers\":[{\"byteLength\":36,\"uri\":\"" DATA_URI uri "\"}]," VIEWS              \
+    "],\"accessors\":[" ACCESSOR("[0,0,0]", max) "],\"meshes\":[" MESH(                                      \
+        "0") "],\"nodes\":[{\"mesh\":0,\"scale\":[2,1,1]}]}"
+    const char *const base = WITH(TRIANGLE, "[1,1,0]", "");
+    const struct {
+        const char *text;
+        double tolerance;
+        bool equal;
+        const char *difference;
+    } cases[] = {
+        {base, 0, true, ""},
+        {WITH(TRIANGLE, "[1.0,1,0e1]", ""), 0, true, ""},
+        {WITH(TRIANGLE, "[1,1,0]", "\"x\":1,"), 0, false, "/: only the second file has \"x\""},
+        {WITH(MOVED, "[2,1,0]", ""), 0, false, "/accessors/0/max/0: 1 and 2"},
+        {WITH(MOVED, "[1,1,0]", ""), 0, false, "/accessors/0: vertex 0 has x 0 and 2"},
+        {WITH(MOVED, "[2,1,0]", ""), 1.5, false, "/accessors/0: vertex 0 has x 0 and 2"},
+        {WITH(MOVED, "[2,1,0]", ""), 2, true, ""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mesh_document *a = NULL, *b = NULL;
+        ffd_comparison comparison;
+        assert_int_equal(open_bytes(base, strlen(base), "a", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &a, NULL),
+                         FFD_OK);
+        assert_int_equal(
+            open_bytes(cases[i].text, strlen(cases[i].text), "b", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &b, NULL),
+            FFD_OK);
+        assert_int_equal(gltf->compare(a, b, cases[i].tolerance, &comparison, NULL), FFD_OK);
+        assert_string_equal(comparison.difference, cases[i].difference);
+        assert_int_equal(comparison.equal, cases[i].equal);
+        gltf->close(a);
+        gltf->close(b);
+    }
+#undef WITH
+}
+
+/* Every allocation of the whole way may fail: an error, no leak, no output. */
+static void memory_may_run_out_anywhere(void **state)
+{
+    (void)state;
+    const char *const text = "{" ASSET "," BUFFER(
+        "36",
+        TRIANGLE) "," VIEWS "],\"accessors\":[" OLD_ACCESSOR
+                  "],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":0}}]}" TWO_NODES(
+                      "0", "0");
+    const char *const output = in_folder("memory.gltf");
+    for (long successes = 0;; successes++) {
+        ffd_error error = {0};
+        ffd_alloc_fail_after(successes);
+        const ffd_status status = run_all(text, strlen(text), "m.gltf", FFD_FORMAT_GLTF, FFD_SPACE_SCENE,
+                                          move_by_place, output, &error);
+        ffd_alloc_fail_after(-1);
+        if (status == FFD_OK) {
+            assert_true(successes > 50);
+            break;
+        }
+        assert_int_equal(status, FFD_E_MEMORY);
+        assert_int_equal(access(output, F_OK), -1);
+    }
+    assert_int_equal(access(output, F_OK), 0);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[100];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    return system(command);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(only_what_changes_is_replaced),
+        cmocka_unit_test(odd_data_uris_become_plain),
+        cmocka_unit_test(a_mesh_under_two_nodes_is_copied_where_they_differ),
+        cmocka_unit_test(nodes_that_agree_share_a_copy),
+        cmocka_unit_test(a_node_outside_the_scene_keeps_its_mesh),
+        cmocka_unit_test(other_users_of_the_bytes_keep_them),
+        cmocka_unit_test(accessors_of_the_same_bytes_that_agree_stay),
+        cmocka_unit_test(interleaved_attributes_change_in_place),
+        cmocka_unit_test(glb_lengths_and_padding_follow),
+        cmocka_unit_test(buffer_files_are_named_after_the_output),
+        cmocka_unit_test(in_place_keeps_the_names),
+        cmocka_unit_test(conversions_are_refused),
+        cmocka_unit_test(images_are_copied_or_referred_to),
+        cmocka_unit_test(compare_finds_what_differs),
+        cmocka_unit_test(memory_may_run_out_anywhere),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

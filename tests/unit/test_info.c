@@ -1,0 +1,577 @@
+/* What `ffd info` says of meshes and lattices, as JSON and as text, and `ffd lattice new`. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "job/info.h"
+#include <ffd/job.h>
+#include <jansson.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char folder[64];
+
+static const char *path_of(const char *name)
+{
+    static char path[128];
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return path;
+}
+
+static void write_file(const char *name, const char *text)
+{
+    FILE *file = fopen(path_of(name), "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(fclose(file), 0);
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    strcpy(folder, "/tmp/ffd-test-info-XXXXXX");
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    char command[96];
+    snprintf(command, sizeof command, "rm -r '%s'", folder);
+    return system(command);
+}
+
+/* The JSON of a file in the folder; the caller's. */
+static json_t *info_of(const char *name)
+{
+    const ffd_source source = {.path = path_of(name)};
+    char *text = NULL;
+    ffd_error error = {0};
+    if (ffd_info_run(&source, true, &text, &error) != FFD_OK)
+        fail_msg("%s: %s", error.pointer, error.message);
+    json_error_t reason;
+    json_t *json = json_loads(text, JSON_REJECT_DUPLICATES, &reason);
+    if (!json)
+        fail_msg("%s in %s", reason.text, text);
+    assert_string_equal(text + strlen(text) - 2, "}\n");
+    ffd_text_free(text);
+    assert_string_equal(json_string_value(json_object_get(json, "format")), "ffd-info");
+    assert_int_equal(json_integer_value(json_object_get(json, "version")), 1);
+    assert_string_equal(json_string_value(json_object_get(json, "file")), path_of(name));
+    return json;
+}
+
+static char *text_of(const char *name)
+{
+    const ffd_source source = {.path = path_of(name)};
+    char *text = NULL;
+    ffd_error error = {0};
+    if (ffd_info_run(&source, false, &text, &error) != FFD_OK)
+        fail_msg("%s: %s", error.pointer, error.message);
+    return text;
+}
+
+static ffd_status failure_of(ffd_source source, ffd_error *error)
+{
+    char *text = (char *)"untouched";
+    memset(error, 0, sizeof *error);
+    const ffd_status status = ffd_info_run(&source, true, &text, error);
+    assert_null(text);
+    return status;
+}
+
+/* A member by names with points between, "topology.edges". */
+static json_t *member(json_t *json, const char *names)
+{
+    char copy[64];
+    snprintf(copy, sizeof copy, "%s", names);
+    for (char *name = copy, *end; json && name; name = end) {
+        end = strchr(name, '.');
+        if (end)
+            *end++ = 0;
+        json = json_object_get(json, name);
+    }
+    return json;
+}
+
+static void assert_number(json_t *json, const char *names, double expected)
+{
+    json_t *value = member(json, names);
+    if (!json_is_number(value))
+        fail_msg("%s is no number", names);
+    if (!(fabs(json_number_value(value) - expected) <= 1e-14 * fabs(expected)))
+        fail_msg("%s is %.17g, not %.17g", names, json_number_value(value), expected);
+}
+
+static void assert_word(json_t *json, const char *names, const char *expected)
+{
+    json_t *value = member(json, names);
+    if (!json_is_string(value))
+        fail_msg("%s is no string", names);
+    assert_string_equal(json_string_value(value), expected);
+}
+
+static void assert_none(json_t *json, const char *names)
+{
+    if (!json_is_null(member(json, names)))
+        fail_msg("%s is not null", names);
+}
+
+static void assert_vector(json_t *json, const char *names, double x, double y, double z)
+{
+    json_t *value = member(json, names);
+    const double expected[3] = {x, y, z};
+    if (json_array_size(value) != 3)
+        fail_msg("%s is no vector", names);
+    for (size_t i = 0; i < 3; i++)
+        if (!(fabs(json_number_value(json_array_get(value, i)) - expected[i]) <= 1e-14 * fabs(expected[i])))
+            fail_msg("%s[%zu] is %.17g, not %.17g", names, i, json_number_value(json_array_get(value, i)),
+                     expected[i]);
+}
+
+/* A document of the test's own */
+
+typedef struct fake_document {
+    mesh_document head;
+    mesh_part parts[2];
+    double xyz[2][9];
+    ffd_status faces_status;
+} fake_document;
+
+static void fake_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                                double *xyz)
+{
+    memcpy(xyz, ((const fake_document *)document)->xyz[part] + 3 * first, 3 * count * sizeof *xyz);
+}
+
+static ffd_status fake_describe(const mesh_document *document, json_text *json, ffd_error *error)
+{
+    (void)document;
+    (void)error;
+    ffd_json_string(json, "maker", "tests");
+    return FFD_OK;
+}
+
+static ffd_status fake_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+{
+    const fake_document *fake = (const fake_document *)document;
+    if (fake->faces_status != FFD_OK)
+        return ffd_fail(error, fake->faces_status, "these faces are too odd");
+    *faces = (mesh_faces){.vertex_count = 3, .face_count = 1, .lines = 4};
+    faces->positions = ffd_alloc(9, sizeof(double));
+    faces->start = ffd_alloc_zero(2, sizeof(size_t));
+    faces->corners = ffd_alloc(3, sizeof(uint32_t));
+    assert_true(faces->positions && faces->start && faces->corners);
+    memcpy(faces->positions, fake->xyz[0], 9 * sizeof(double));
+    faces->start[1] = 3;
+    for (uint32_t i = 0; i < 3; i++)
+        faces->corners[i] = i;
+    return FFD_OK;
+}
+
+static const mesh_format fake_format = {
+    .name = "fake", .read_positions = fake_read_positions, .describe = fake_describe, .faces = fake_faces};
+
+static fake_document make_fake(void)
+{
+    fake_document fake = {.head = {.format = &fake_format, .part_count = 2},
+                          .parts = {{.vertex_count = 3, .identity = true, .normal_count = 3},
+                                    {.vertex_count = 3,
+                                     .linear = {2, 0, 0, 0, 0, 1, 0, 1, 0},
+                                     .offset = {10, 0, 0},
+                                     .has_tangents = true}},
+                          .xyz = {{0, 0, 0, 4, 0, 0, 0, 3, 0}, {1, 7, 0, NAN, 0, 0, 0, 0, INFINITY}}};
+    return fake;
+}
+
+static ffd_status fake_info(fake_document *fake, json_t **json, ffd_error *error)
+{
+    byte_buffer out = {0};
+    json_text writer;
+    fake->head.parts = fake->parts;
+    ffd_json_begin(&writer, &out);
+    ffd_json_object(&writer, NULL, false);
+    const ffd_status status = ffd_info_document(&fake->head, &writer, error);
+    *json = NULL;
+    if (status == FFD_OK) {
+        ffd_json_end(&writer, '}');
+        *json = json_loadb(out.data, out.size, JSON_REJECT_DUPLICATES, NULL);
+        assert_non_null(*json);
+    }
+    ffd_buffer_free(&out);
+    return status;
+}
+
+static void test_document(void **state)
+{
+    (void)state;
+    fake_document fake = make_fake();
+    json_t *json;
+    assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
+    assert_word(json, "mesh_format", "fake");
+    assert_number(json, "parts", 2);
+    assert_number(json, "vertices", 6);
+    assert_number(json, "not_finite", 2);
+    assert_number(json, "normals", 3);
+    assert_number(json, "tangents", 3);
+    assert_vector(json, "bounds.min", 0, 0, 0);
+    assert_vector(json, "bounds.max", 12, 3, 7);
+    assert_word(json, "contents.maker", "tests");
+    assert_number(json, "topology.area", 6);
+    assert_number(json, "topology.lines", 4);
+    assert_number(json, "topology.boundary_edges", 3);
+    json_decref(json);
+}
+
+static void test_repeated_positions_count_once(void **state)
+{
+    (void)state;
+    fake_document fake = make_fake();
+    fake.parts[1].repeats_positions = true;
+    json_t *json;
+    assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
+    assert_number(json, "vertices", 3);
+    assert_number(json, "not_finite", 0);
+    assert_vector(json, "bounds.max", 4, 3, 0);
+    json_decref(json);
+}
+
+static void test_faces_that_cannot_be_shown(void **state)
+{
+    (void)state;
+    fake_document fake = make_fake();
+    fake.faces_status = FFD_E_UNSUPPORTED;
+    json_t *json;
+    assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
+    assert_none(json, "topology");
+    assert_word(json, "topology_unknown", "these faces are too odd");
+    assert_number(json, "vertices", 6);
+    json_decref(json);
+
+    ffd_error error = {0};
+    fake.faces_status = FFD_E_INVALID;
+    assert_int_equal(fake_info(&fake, &json, &error), FFD_E_INVALID);
+    assert_string_equal(error.message, "these faces are too odd");
+}
+
+static void test_no_finite_vertex(void **state)
+{
+    (void)state;
+    fake_document fake = make_fake();
+    fake.parts[0].vertex_count = 0;
+    fake.xyz[1][0] = -INFINITY;
+    json_t *json;
+    assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
+    assert_number(json, "not_finite", 3);
+    assert_none(json, "bounds");
+    json_decref(json);
+}
+
+/* The text */
+
+static char *rendered(const char *json)
+{
+    char *text = NULL;
+    ffd_error error = {0};
+    if (ffd_info_render(json, strlen(json), &text, &error) != FFD_OK)
+        fail_msg("%s", error.message);
+    return text;
+}
+
+static void test_text_of_json(void **state)
+{
+    (void)state;
+    char *text =
+        rendered("{\"format\": \"ffd-info\", \"version\": 1, \"file\": \"a\\u001b.obj\", \"long_name\": -0.5,"
+                 "\"bounds\": {\"min\": [0, 0.1, -2], \"max\": null}, \"flat\": true, \"none\": [],"
+                 "\"empty\": {}, \"n\\u00e4me\": [\"x y\", \"z\"],"
+                 "\"nodes\": [{\"deep\": {\"w\": 123456789012345680000}}, [1, 2]]}");
+    assert_string_equal(text, "file       a?.obj\n"
+                              "long name  -0.5\n"
+                              "bounds\n"
+                              "  min      0 0.1 -2\n"
+                              "  max      none\n"
+                              "flat       yes\n"
+                              "none       none\n"
+                              "empty      none\n"
+                              "n\xc3\xa4me       x y, z\n"
+                              "nodes\n"
+                              "  0\n"
+                              "    deep\n"
+                              "      w    123456789012345683968\n"
+                              "  1        1 2\n");
+    ffd_text_free(text);
+}
+
+/* Files */
+
+static const char cube[] = "o cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 2\nv 1 0 2\nv 0 1 2\nv 1 1 2\n"
+                           "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+
+static void test_obj_file(void **state)
+{
+    (void)state;
+    write_file("cube.obj", cube);
+    json_t *json = info_of("cube.obj");
+    assert_word(json, "kind", "mesh");
+    assert_word(json, "mesh_format", "OBJ");
+    assert_number(json, "vertices", 8);
+    assert_vector(json, "bounds.min", 0, 0, 0);
+    assert_vector(json, "bounds.max", 1, 1, 2);
+    assert_number(json, "topology.faces", 6);
+    assert_number(json, "topology.edges", 12);
+    assert_number(json, "topology.components", 1);
+    assert_number(json, "topology.boundary_loops", 0);
+    assert_number(json, "topology.euler", 2);
+    assert_number(json, "topology.area", 10);
+    assert_true(json_is_object(member(json, "contents")));
+    json_decref(json);
+}
+
+/* Whether each fact has its line: the name at its depth, two spaces or more, the value. */
+static void assert_told(const char *text, const char *line_name, const char *value)
+{
+    for (const char *line = text; *line; line = strchr(line, '\n') + 1) {
+        const size_t length = strlen(line_name);
+        if (strncmp(line, line_name, length) != 0 || strncmp(line + length, "  ", 2) != 0)
+            continue;
+        const char *end = strchr(line, '\n'), *start = line + length;
+        while (*start == ' ')
+            start++;
+        if ((size_t)(end - start) == strlen(value) && strncmp(start, value, strlen(value)) == 0)
+            return;
+    }
+    fail_msg("no line \"%s  %s\" in\n%s", line_name, value, text);
+}
+
+static void test_obj_file_as_text(void **state)
+{
+    (void)state;
+    write_file("cube.obj", cube);
+    char *text = text_of("cube.obj");
+    assert_told(text, "file", path_of("cube.obj"));
+    assert_told(text, "kind", "mesh");
+    assert_told(text, "vertices", "8");
+    assert_told(text, "  max", "1 1 2");
+    assert_told(text, "  boundary loops", "0");
+    assert_told(text, "  euler", "2");
+    assert_null(strstr(text, "ffd-info"));
+    ffd_text_free(text);
+}
+
+static void test_names_that_are_not_utf8(void **state)
+{
+    (void)state;
+    write_file("caf\xe9.obj", "v 0 0 0\n");
+    const ffd_source source = {.path = path_of("caf\xe9.obj")};
+    for (int json = 0; json < 2; json++) {
+        char *text = NULL;
+        assert_int_equal(ffd_info_run(&source, json, &text, NULL), FFD_OK);
+        assert_non_null(strstr(text, "/caf?.obj"));
+        ffd_text_free(text);
+    }
+}
+
+static void test_files_that_cannot_be_told(void **state)
+{
+    (void)state;
+    ffd_error error;
+    write_file("a.txt", "");
+    write_file("bad.json", "{\"format\": \"ffd-lattice\", \"version\": 1, \"sise\": [4, 4, 4]}");
+    assert_int_equal(failure_of((ffd_source){.path = path_of("a.txt")}, &error), FFD_E_ARGUMENT);
+    assert_non_null(strstr(error.message, ".txt"));
+    assert_int_equal(failure_of((ffd_source){.path = "-"}, &error), FFD_E_ARGUMENT);
+    assert_string_equal(error.file, "");
+    assert_int_equal(failure_of((ffd_source){.path = path_of("absent.obj")}, &error), FFD_E_IO);
+    assert_int_equal(failure_of((ffd_source){.path = path_of("absent.json")}, &error), FFD_E_IO);
+    assert_string_equal(error.file, path_of("absent.json"));
+    assert_int_equal(failure_of((ffd_source){.path = path_of("bad.json")}, &error), FFD_E_INVALID);
+    assert_string_equal(error.file, path_of("bad.json"));
+}
+
+/* Lattices */
+
+#define LATTICE "{\"format\": \"ffd-lattice\", \"version\": 1, "
+
+static void test_box_lattice(void **state)
+{
+    (void)state;
+    write_file("box.json",
+               LATTICE "\"size\": [4, 5, 3], \"knots\": [\"clamped\", \"open\", [0, 0, 0, 2, 2, 2]],"
+                       "\"rest\": {\"box\": {\"min\": [0, 0, 0], \"max\": [3, 2, 6]}},"
+                       "\"moves\": [{\"at\": [0, \"all\", 0], \"by\": [-3, 0, -4]}]}");
+    json_t *json = info_of("box.json");
+    assert_word(json, "kind", "lattice");
+    assert_vector(json, "size", 4, 5, 3);
+    assert_vector(json, "degree", 3, 3, 2);
+    json_t *knots = member(json, "knots");
+    assert_string_equal(json_string_value(json_array_get(knots, 0)), "clamped");
+    assert_string_equal(json_string_value(json_array_get(knots, 1)), "open");
+    assert_string_equal(json_string_value(json_array_get(knots, 2)), "list");
+    assert_int_equal(json_number_value(json_array_get(member(json, "domain.w"), 1)), 2);
+    assert_number(json, "control_points", 60);
+    assert_word(json, "rest", "box");
+    assert_true(json_is_false(member(json, "rational")));
+    assert_vector(json, "rest_bounds.min", 0, -1,
+                  0); /* open: the outer layers stand one spacing beyond the box */
+    assert_vector(json, "rest_bounds.max", 3, 3, 6);
+    assert_vector(json, "deformed_bounds.min", -3, -1, -4);
+    assert_number(json, "diagonal", sqrt(61));
+    assert_number(json, "moved", 5);
+    assert_number(json, "largest_move", 5);
+    assert_true(json_is_false(member(json, "weights_moved")));
+    assert_word(json, "inversion", "affine");
+    json_decref(json);
+
+    char *text = text_of("box.json");
+    assert_told(text, "knots", "clamped, open, list");
+    assert_told(text, "  w", "0 2");
+    assert_told(text, "largest move", "5");
+    assert_told(text, "rational", "no");
+    ffd_text_free(text);
+}
+
+static void test_cylinder_lattice(void **state)
+{
+    (void)state;
+    write_file("cylinder.json", LATTICE
+               "\"size\": [3, 8, 4], \"rest\": {\"cylinder\": {\"center\": [0, 0, 0], \"axis\": [0, 0, 1],"
+               "\"radius\": [1, 2], \"height\": 4, \"angle\": [0, 360]}}}");
+    json_t *json = info_of("cylinder.json");
+    assert_word(json, "rest", "cylinder");
+    assert_string_equal(json_string_value(json_array_get(member(json, "knots"), 1)), "closed");
+    assert_number(json, "moved", 0);
+    assert_number(json, "largest_move", 0);
+    assert_word(json, "inversion", "general");
+    json_decref(json);
+}
+
+static void test_rational_points_lattice(void **state)
+{
+    (void)state;
+    write_file("points.json", LATTICE
+               "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],"
+               "[0,1,1],[1,1,1]]}, \"weights\": [1,1,1,1,1,1,1,2], \"deformed\": {\"weights\": "
+               "[1,1,1,1,1,1,1,3]}}");
+    json_t *json = info_of("points.json");
+    assert_word(json, "rest", "points");
+    assert_vector(json, "degree", 1, 1, 1);
+    assert_true(json_is_true(member(json, "rational")));
+    assert_true(json_is_true(member(json, "weights_moved")));
+    assert_number(json, "moved", 1);
+    assert_number(json, "largest_move", 0);
+    json_decref(json);
+}
+
+static void test_lattice_of_a_mesh(void **state)
+{
+    (void)state;
+    write_file("mesh.json", LATTICE "\"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"},"
+                                    "\"moves\": [{\"by\": [1, 0, 0]}, {\"by\": [0, 1, 0]}]}");
+    json_t *json = info_of("mesh.json");
+    assert_word(json, "rest", "mesh");
+    assert_number(json, "control_points", 64);
+    assert_number(json, "moves", 2);
+    assert_none(json, "rest_bounds");
+    assert_none(json, "deformed_bounds");
+    assert_none(json, "moved");
+    assert_none(json, "inversion");
+    json_decref(json);
+    ffd_text_free(text_of("mesh.json"));
+}
+
+/* A lattice without volume is described all the same. */
+static void test_lattice_that_cannot_be_inverted(void **state)
+{
+    (void)state;
+    write_file("flat.json",
+               LATTICE "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],"
+                       "[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}}");
+    json_t *json = info_of("flat.json");
+    assert_none(json, "inversion");
+    assert_true(json_is_string(member(json, "inversion_unknown")));
+    assert_vector(json, "rest_bounds.max", 1, 1, 0);
+    json_decref(json);
+}
+
+static void test_lattice_new(void **state)
+{
+    (void)state;
+    char mesh[128];
+    write_file("cube.obj", cube);
+    snprintf(mesh, sizeof mesh, "%s", path_of("cube.obj"));
+    const ffd_source source = {.path = mesh};
+    ffd_lattice_desc desc;
+    ffd_error error = {0};
+    ffd_lattice_desc_init(&desc);
+    desc.margin = 0.5;
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("new.json"), false, &error), FFD_OK);
+    json_t *json = info_of("new.json");
+    assert_word(json, "rest", "box");
+    assert_vector(json, "size", 4, 4, 4);
+    assert_vector(json, "rest_bounds.min", -0.5, -0.5, -1);
+    assert_vector(json, "rest_bounds.max", 1.5, 1.5, 3);
+    assert_number(json, "moved", 0);
+    assert_word(json, "inversion", "affine");
+    json_decref(json);
+
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("new.json"), false, &error), FFD_E_EXISTS);
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("new.json"), true, &error), FFD_OK);
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, mesh, true, &error), FFD_E_ARGUMENT);
+    write_file("empty.obj", "# nothing\n");
+    snprintf(mesh, sizeof mesh, "%s", path_of("empty.obj"));
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("none.json"), false, &error), FFD_E_INVALID);
+    assert_string_equal(error.file, mesh);
+    assert_int_equal(access(path_of("none.json"), F_OK), -1);
+}
+
+static void test_memory_runs_out(void **state)
+{
+    (void)state;
+    write_file("cube.obj", cube);
+    const ffd_source source = {.path = path_of("cube.obj")};
+    long failures = 0;
+    for (;; failures++) {
+        char *text = NULL;
+        ffd_error error = {0};
+        ffd_alloc_fail_after(failures);
+        const ffd_status status = ffd_info_run(&source, false, &text, &error);
+        ffd_alloc_fail_after(-1);
+        ffd_text_free(text);
+        if (status == FFD_OK)
+            break;
+        assert_int_equal(status, FFD_E_MEMORY);
+        assert_null(text);
+    }
+    assert_true(failures > 5);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_document),
+        cmocka_unit_test(test_repeated_positions_count_once),
+        cmocka_unit_test(test_faces_that_cannot_be_shown),
+        cmocka_unit_test(test_no_finite_vertex),
+        cmocka_unit_test(test_text_of_json),
+        cmocka_unit_test(test_obj_file),
+        cmocka_unit_test(test_obj_file_as_text),
+        cmocka_unit_test(test_names_that_are_not_utf8),
+        cmocka_unit_test(test_files_that_cannot_be_told),
+        cmocka_unit_test(test_box_lattice),
+        cmocka_unit_test(test_cylinder_lattice),
+        cmocka_unit_test(test_rational_points_lattice),
+        cmocka_unit_test(test_lattice_of_a_mesh),
+        cmocka_unit_test(test_lattice_that_cannot_be_inverted),
+        cmocka_unit_test(test_lattice_new),
+        cmocka_unit_test(test_memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

@@ -1,0 +1,846 @@
+/* OBJ: statements, values, documents, saving and comparing, on files written here. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../support/draw.h"
+#include "../support/obj_file.h"
+#include "base/memory.h"
+#include "io/obj/obj_document.h"
+#include <math.h>
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* Statements */
+
+static void append_word(char *text, size_t capacity, const char *before, obj_word word)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, capacity - used, "%s%.*s", before, (int)(word.last - word.first), word.first);
+}
+
+/* "v@1 1 2 3;f@2 1": keyword, line, arguments. */
+static void statements_of(const char *bytes, size_t size, char *text, size_t capacity)
+{
+    obj_scan scan;
+    obj_word word;
+    text[0] = 0;
+    ffd_obj_scan_begin(&scan, bytes, size);
+    while (ffd_obj_scan_next(&scan)) {
+        append_word(text, capacity, text[0] ? ";" : "", scan.name);
+        snprintf(text + strlen(text), capacity - strlen(text), "@%zu", scan.keyword_line);
+        while (ffd_obj_scan_word(&scan, &word))
+            append_word(text, capacity, " ", word);
+    }
+}
+
+static void test_statements(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *expected;
+    } cases[] = {
+        {"", ""},
+        {"\n\n", ""},
+        {"\xEF\xBB\xBFv 1", "v@1 1"},
+        {"v 1 2\nf 3\n", "v@1 1 2;f@2 3"},
+        {"v 1 2\r\n\r\nf 3\r\n", "v@1 1 2;f@3 3"},
+        {"v 1 2\r\rf 3\r", "v@1 1 2;f@3 3"},
+        {"v 1\nv 2\r\nv 3\rv 4\n\rv 5", "v@1 1;v@2 2;v@3 3;v@4 4;v@6 5"},
+        {"\t v\t 1  2 \t\n", "v@1 1 2"},
+        {"# c\nv 1# c\n#\nf 2 # d", "v@2 1;f@4 2"},
+        {"usemtl a#b #c\ng #1\nv 1", "usemtl@1 a#b #c;g@2 #1;v@3 1"},
+        {"v 1 \\\n2 \\\r\n 3\\\r4\nf 5", "v@1 1 2 3 4;f@5 5"},
+        {"f 1\\\n/2", "f@1 1 /2"},
+        {"v\\\n1", "v@1 1"},
+        {"\\\nv 1", "v@2 1"},
+        {"v 1 \\\n\nf 2", "v@1 1;f@3 2"},
+        {"v 1\\", "v@1 1"},
+        {"# C:\\\nv 1 # \\\nf 2", "v@2 1;f@3 2"},
+        {"mtllib C:\\a\\b\nv 1", "mtllib@1 C:\\a\\b;v@2 1"},
+        {"usemtl a\\\n#b", "usemtl@1 a #b"},
+        {"curv 0 1 \\\n 2\nend\nvp 1", "curv@1 0 1 2;end@3;vp@4 1"},
+        {"v", "v@1"},
+        {"\\x 1", "\\x@1 1"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char text[256];
+        statements_of(cases[i].text, strlen(cases[i].text), text, sizeof text);
+        assert_string_equal(text, cases[i].expected);
+    }
+}
+
+/* Reading only some words must lead to the same next statement. */
+static void test_unread_words(void **state)
+{
+    (void)state;
+    static const char text[] = "v 1 2 \\\n 3 # \\\nusemtl a \\\n#b\nf 1\n";
+    for (int taken = 0; taken < 5; taken++) {
+        obj_scan scan;
+        obj_word word;
+        ffd_obj_scan_begin(&scan, text, sizeof text - 1);
+        for (size_t s = 0; s < 3; s++) {
+            static const size_t lines[] = {1, 3, 5};
+            assert_true(ffd_obj_scan_next(&scan));
+            assert_int_equal(scan.keyword_line, lines[s]);
+            for (int i = 0; i < taken; i++)
+                ffd_obj_scan_word(&scan, &word);
+        }
+        assert_false(ffd_obj_scan_next(&scan));
+        assert_false(ffd_obj_scan_next(&scan));
+    }
+}
+
+/* Values */
+
+static obj_word word_of(const char *text)
+{
+    return (obj_word){text, text + strlen(text)};
+}
+
+static void test_numbers(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double value;
+    } good[] = {
+        {"0", 0},
+        {"+1", 1},
+        {"-1.5", -1.5},
+        {"2.", 2},
+        {".5", 0.5},
+        {"2.e1", 20},
+        {"1E2", 100},
+        {"3.1e-2", 0.031},
+        {"3.1+e2", 3.1},
+        {"-3.1-E2", -3.1},
+        {"1e10", 1e10},
+        {"inf", INFINITY},
+        {"1e999", INFINITY},
+        {"0.1", 0.1},
+        {"123456789.987654321", 123456789.987654321},
+    };
+    static const char *const bad[] = {"x",   "1x",  "1,5", "1.0f", "--1", "+-1", "1e+2e",   "",
+                                      "3+e", "3+2", "0x1", "1d0",  "+",   "1 2", "3.1+e2x", "1\xc2\xa0"};
+    double value;
+    for (size_t i = 0; i < COUNT(good); i++) {
+        assert_true(ffd_obj_number(word_of(good[i].text), &value));
+        assert_true(value == good[i].value);
+    }
+    assert_true(ffd_obj_number(word_of("-nan"), &value) && isnan(value));
+    for (size_t i = 0; i < COUNT(bad); i++)
+        assert_false(ffd_obj_number(word_of(bad[i]), &value));
+}
+
+static void test_corners(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        int64_t vertex, texcoord, normal;
+        bool has_texcoord, has_normal;
+    } good[] = {
+        {"1", 1, 0, 0, false, false},
+        {"1/2", 1, 2, 0, true, false},
+        {"1//3", 1, 0, 3, false, true},
+        {"1/2/3", 1, 2, 3, true, true},
+        {"-1/-2/-3", -1, -2, -3, true, true},
+        {"+1//+2", 1, 0, 2, false, true},
+        {"1/", 1, 0, 0, false, false},
+        {"1//", 1, 0, 0, false, false},
+        {"1/2/", 1, 2, 0, true, false},
+        {"0/0/0", 0, 0, 0, true, true},
+        {"007", 7, 0, 0, false, false},
+        {"4294967297//4294967298", INT64_C(4294967297), 0, INT64_C(4294967298), false, true},
+    };
+    static const char *const bad[] = {"",    "/",      "/1",      "//1", "x",     "1x",  "1/x", "1/2/x",
+                                      "1.0", "1/2/3/", "1/2/3/4", "-",   "1/-/2", "--1", "1-2", "1\\2"};
+    obj_corner corner;
+    for (size_t i = 0; i < COUNT(good); i++) {
+        assert_true(ffd_obj_corner(word_of(good[i].text), &corner));
+        assert_true(corner.vertex.value == good[i].vertex);
+        assert_true(corner.texcoord.value == good[i].texcoord);
+        assert_true(corner.normal.value == good[i].normal);
+        assert_int_equal(corner.texcoord.text.first < corner.texcoord.text.last, good[i].has_texcoord);
+        assert_int_equal(corner.normal.text.first < corner.normal.text.last, good[i].has_normal);
+    }
+    for (size_t i = 0; i < COUNT(bad); i++)
+        assert_false(ffd_obj_corner(word_of(bad[i]), &corner));
+    /* Larger than 64 bits: in no range, on either side. */
+    size_t element;
+    const obj_count full = {SIZE_MAX / 4096, SIZE_MAX / 4096};
+    assert_true(ffd_obj_corner(word_of("18446744073709551617//-18446744073709551617"), &corner));
+    assert_false(ffd_obj_find(corner.vertex.value, full, &element));
+    assert_false(ffd_obj_find(corner.normal.value, full, &element));
+}
+
+/* Documents */
+
+static mesh_document *opened(const char *text)
+{
+    mesh_document *document = NULL;
+    ffd_error error = {0};
+    if (open_bytes(text, strlen(text), "a.obj", &document, &error) != FFD_OK)
+        fail_msg("line %zu: %s, in:\n%s", error.line, error.message, text);
+    assert_int_equal(document->part_count, 1);
+    assert_true(document->parts->identity);
+    assert_false(document->parts->has_tangents);
+    return document;
+}
+
+/* All positions, as "1,2,3 4,5,6". */
+static void positions_text(const mesh_document *document, char *text, size_t capacity)
+{
+    text[0] = 0;
+    for (size_t i = 0; i < document->parts->vertex_count; i++) {
+        double p[3];
+        obj->read_positions(document, 0, i, 1, p);
+        snprintf(text + strlen(text), capacity - strlen(text), "%s%g,%g,%g", i ? " " : "", p[0], p[1], p[2]);
+    }
+}
+
+/* The x of each vertex's normals: "1,2|3|" for two, one and none. */
+static void normals_text(const mesh_document *document, char *text, size_t capacity)
+{
+    const mesh_part *part = document->parts;
+    text[0] = 0;
+    for (size_t i = 0; part->normal_count && i < part->vertex_count; i++) {
+        for (uint32_t n = part->normal_start[i]; n < part->normal_start[i + 1]; n++) {
+            double v[3];
+            obj->read_normals(document, 0, n, 1, v);
+            snprintf(text + strlen(text), capacity - strlen(text), "%s%g",
+                     n > part->normal_start[i] ? "," : "", v[0]);
+        }
+        snprintf(text + strlen(text), capacity - strlen(text), "|");
+    }
+}
+
+static void test_dialects(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *positions, *normals;
+    } cases[] = {
+        {"", "", ""},
+        {"\n# nothing\n", "", ""},
+        {"v 1 2 3\nv 4 5 6\n", "1,2,3 4,5,6", ""},
+        {"v 1 2 3\rv 4 5 6", "1,2,3 4,5,6", ""},
+        {"v 1 2 3\r\n\tv\t4 5  6 \r\n", "1,2,3 4,5,6", ""},
+        {"v 1 2 3 0.5\nv 4 5 6 .1 .2 .3\nv 7 8 9 1 .1 .2 .3 x\n", "1,2,3 4,5,6 7,8,9", ""},
+        {"v 1 \\\n2 \\\r\n3 # c\n", "1,2,3", ""},
+        {"v nan 2 -inf\n", "nan,2,-inf", ""},
+        {"vn 7 0 0\nv 1 2 3\n", "1,2,3", ""},
+        {"f 1//1 2//1 1//2\nv 1 2 3\nv 4 5 6\nvn 7 0 0\nvn 8 0 0\n", "1,2,3 4,5,6", "7,8|7|"},
+        {"v 1 1 1\nvn 1 0 0\nf -1//-1\nv 2 2 2\nvn 2 0 0\nf -1//-1 -2//-1 1//1\n", "1,1,1 2,2,2", "1,2|2|"},
+        {"v 1 1 1\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0\nf 1//3 1//1 1//3 1//2 1\n", "1,1,1", "1,2,3|"},
+        {"v 1 1 1\nvn 1 0 0\nl 1\np 1\nf 1/9\ncurv 0 1 9 9\nvp 1\nfoo x\n", "1,1,1", ""},
+        {"mtllib ../../x.mtl\nv 1 1 1\nusemtl a b\ns off\n", "1,1,1", ""},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *document = opened(cases[i].text);
+        char text[256];
+        positions_text(document, text, sizeof text);
+        assert_string_equal(text, cases[i].positions);
+        normals_text(document, text, sizeof text);
+        assert_string_equal(text, cases[i].normals);
+        assert_int_equal(document->format->check(document, NULL), FFD_OK);
+        obj->close(document);
+    }
+}
+
+static void test_many_normals_of_one_vertex(void **state)
+{
+    (void)state;
+    char text[4096] = "v 0 0 0\n";
+    for (int i = 0; i < 100; i++)
+        sprintf(text + strlen(text), "vn %d 0 0\n", i);
+    strcat(text, "f");
+    for (int i = 0; i < 200; i++)
+        sprintf(text + strlen(text), " 1//%d", 1 + i * 37 % 100);
+    mesh_document *document = opened(text);
+    assert_int_equal(document->parts->normal_count, 100);
+    for (int i = 0; i < 100; i++) {
+        double v[3];
+        obj->read_normals(document, 0, (size_t)i, 1, v);
+        assert_true(v[0] == i);
+    }
+    obj->close(document);
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t line;
+        const char *message;
+    } cases[] = {
+        {"v 1 2\n", 1, "a vertex needs 3 numbers, found 2"},
+        {"\nv", 2, "a vertex needs 3 numbers, found 0"},
+        {"v 1 2 # 3\n", 1, "a vertex needs 3 numbers, found 2"},
+        {"v 1 2 3\r\nv 1 x 3\r\n", 2, "coordinate y of a vertex is not a number: \"x\""},
+        {"v 1 2 \\\r 1,5", 2, "coordinate z of a vertex is not a number: \"1,5\""},
+        {"vn 1 2\n", 1, "a normal needs 3 numbers, found 2"},
+        {"v 0 0 0\nvn 1 2 3e\n", 2, "coordinate z of a normal is not a number: \"3e\""},
+        {"v 0 0 0\nf 1 2 1\n", 2, "vertex index 2 is out of range: the file has 1"},
+        {"v 0 0 0\nf 1 1\\\n -2\nv 0 0 0\n", 3, "vertex index -2 is out of range: 1 stand before"},
+        {"v 0 0 0\nf 1 0 1\n", 2, "vertex index 0: the first is 1"},
+        {"v 0 0 0\nf 1 4294967297 1\n", 2, "vertex index 4294967297 is out of range: the file has 1"},
+        {"v 0 0 0\nf 99999999999999999999999999 1\n", 2,
+         "vertex index 99999999999999999999999999 is out of range: the file has 1"},
+        {"v 0 0 0\nvn 0 0 1\nf 1//1 1//2 1\n", 3, "normal index 2 is out of range: the file has 1"},
+        {"v 0 0 0\nf 1//-1 1//2 1\nvn 0 0 1\n", 2, "normal index -1 is out of range: 0 stand before"},
+        {"v 0 0 0\nvn 0 0 1\nf 1//0\n", 3, "normal index 0: the first is 1"},
+        {"v 0 0 0\nf 1 a 1\n", 2, "not a corner (v, v/t, v//n or v/t/n): \"a\""},
+        {"v 0 0 0\nf 1/1/1/1\n", 2, "not a corner (v, v/t, v//n or v/t/n): \"1/1/1/1\""},
+        {"v 0 0 0\nl 1 2\n", 2, "vertex index 2 is out of range: the file has 1"},
+        {"v 0 0 0\np x\n", 2, "not a corner (v, v/t, v//n or v/t/n): \"x\""},
+        {"v 0 0 1234567890123456789012345678901234567890x\n", 1,
+         "coordinate z of a vertex is not a number: \"1234567890123456789012345678901234567890\""},
+        {"\xff\xfev", 1, "is UTF-16 text: an OBJ file is ASCII or UTF-8"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *document = NULL;
+        ffd_error error = {0};
+        const ffd_status status =
+            open_bytes(cases[i].text, strlen(cases[i].text), "a.obj", &document, &error);
+        assert_int_equal(status, FFD_E_INVALID);
+        assert_int_equal(error.status, FFD_E_INVALID);
+        assert_string_equal(error.file, "a.obj");
+        assert_string_equal(error.message, cases[i].message);
+        assert_int_equal(error.line, cases[i].line);
+        assert_null(document);
+    }
+}
+
+/* Saving */
+
+typedef struct edit {
+    char stream; /* 'v' or 'n'; 0 ends a list */
+    size_t item; /* vertex, or pair of a vertex and a normal */
+    double xyz[3];
+} edit;
+
+static void apply(mesh_document *document, const edit *edits)
+{
+    const uint8_t changed = 1;
+    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
+    for (; edits->stream; edits++)
+        if (edits->stream == 'v') {
+            assert_true(edits->item < document->parts->vertex_count);
+            obj->write_positions(document, 0, edits->item, 1, edits->xyz, &changed);
+        } else {
+            assert_true(edits->item < document->parts->normal_count);
+            obj->write_normals(document, 0, edits->item, 1, edits->xyz, &changed);
+        }
+}
+
+static void assert_saved(const char *text, const edit *edits, const char *expected)
+{
+    file_input saved;
+    ffd_error error = {0};
+    mesh_document *document = opened(text);
+    apply(document, edits);
+    if (save_bytes(document, saved_path(), &saved, &error) != FFD_OK)
+        fail_msg("%s", error.message);
+    if (!same_bytes(&saved, expected, strlen(expected)))
+        fail_msg("saved:\n%.*s\nexpected:\n%s", (int)saved.size, (const char *)saved.data, expected);
+    ffd_file_unload(&saved);
+    obj->close(document);
+}
+
+static void test_save_positions(void **state)
+{
+    (void)state;
+    const edit nothing[] = {{0}};
+    const edit same[] = {{'v', 0, {1, 2, 3}}, {0}};
+    const edit first[] = {{'v', 0, {0.1, 2, -1e300}}, {0}};
+    const edit second[] = {{'v', 1, {7, 8, 9}}, {0}};
+    const edit zero[] = {{'v', 0, {-0.0, 0, 0}}, {0}};
+    static const char odd[] =
+        "\xEF\xBB\xBF\r# c\r\n v\t1.0  2.00 3.1+e2 .5 x # c\\\nv 4 \\\r\n 5e0 \\\r 6#7\nl 1 2";
+    assert_saved("", nothing, "");
+    assert_saved(odd, nothing, odd);
+    assert_saved("v 1.0 2.00 3e0", same, "v 1.0 2.00 3e0");
+    assert_saved("v 1.0 2.00 3 .1 .2 .3\n", first, "v 0.1 2.00 -1e+300 .1 .2 .3\n");
+    assert_saved(odd, first,
+                 "\xEF\xBB\xBF\r# c\r\n v\t0.1  2.00 -1e+300 .5 x # c\\\nv 4 \\\r\n 5e0 \\\r 6#7\nl 1 2");
+    assert_saved(odd, second,
+                 "\xEF\xBB\xBF\r# c\r\n v\t1.0  2.00 3.1+e2 .5 x # c\\\nv 7 \\\r\n 8 \\\r 9#7\nl 1 2");
+    assert_saved("v 0 0 0\n", zero, "v -0 0 0\n");
+}
+
+static void test_kept_values_are_not_looked_at(void **state)
+{
+    (void)state;
+    const double xyz[6] = {9, 9, 9, 8, 8, 8};
+    const uint8_t changed[2] = {0, 1};
+    mesh_document *document = opened("v 1 1 1\nv 1 1 1\nvn 1 1 1\nvn 1 1 1\nf 1//1 2//2");
+    file_input saved;
+    assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
+    obj->write_positions(document, 0, 0, 2, xyz, changed);
+    obj->write_normals(document, 0, 0, 2, xyz, changed);
+    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    static const char expected[] = "v 1 1 1\nv 8 8 8\nvn 1 1 1\nvn 8 8 8\nf 1//1 2//2";
+    assert_true(same_bytes(&saved, expected, sizeof expected - 1));
+    ffd_file_unload(&saved);
+    obj->close(document);
+}
+
+#define CORNERS "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1.0\n"
+
+static void test_save_normals(void **state)
+{
+    (void)state;
+    const edit all[] = {{'n', 0, {0, 1, 1}}, {'n', 1, {0, 1, 1}}, {'n', 2, {0, 1, 1}}, {0}};
+    const edit one[] = {{'n', 1, {1, 0, 0}}, {0}};
+    const edit first_moves[] = {{'n', 0, {1, 0, 0}}, {0}};
+    const edit all_differ[] = {{'n', 0, {1, 0, 0}}, {'n', 1, {2, 0, 0}}, {'n', 2, {3, 0, 0.5}}, {0}};
+    const edit both[] = {{'n', 0, {1, 0, 0}}, {'n', 1, {2, 0, 0}}, {0}};
+    const edit two_alike[] = {{'n', 0, {1, 0, 0}}, {'n', 1, {2, 0, 0}}, {'n', 2, {2, 0, 0}}, {0}};
+    const struct {
+        const char *text;
+        const edit *edits;
+        const char *expected;
+    } cases[] = {
+        /* all agree: in place, what did not change keeps its text */
+        {CORNERS "f 1//1 2//1 3//1\n", all, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 1 1.0\nf 1//1 2//1 3//1\n"},
+        /* a value that somebody still has stays */
+        {CORNERS "f 1//1 2//1 3//1\n", one, CORNERS "vn 1 0 0\nf 1//1 2//2 3//1\n"},
+        {CORNERS "f 1//1 2//1 3//1\n", first_moves, CORNERS "vn 1 0 0\nf 1//2 2//1 3//1\n"},
+        /* else the first vertex's takes its line */
+        {CORNERS "f 1//1 2//1 3//1\n", all_differ,
+         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0.5\nf 1//1 2//2 3//3\n"},
+        {CORNERS "f 1//1 2//1 3//1\nf 3/4/1 2/5/1 1\n", two_alike,
+         "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nvn 2 0 0\nf 1//1 2//2 3//2\nf 3/4/2 2/5/2 1\n"},
+        /* the same new value from two `vn` is not shared between them, and unused ones stay */
+        {"v 0 0 0\nvn 1 1 1\nvn 5 5 5\nvn 2 2 2\nf 1//1 1//3", both,
+         "v 0 0 0\nvn 1 0 0\nvn 5 5 5\nvn 2 0 0\nf 1//1 1//3"},
+        /* after the last `vn`, whatever stands there */
+        {"vn 0 0 1\r\nv 0 0 0\r\nv 0 0 0\r\nf 1//1 2//1\r\n", one,
+         "vn 0 0 1\r\nvn 1 0 0\r\nv 0 0 0\r\nv 0 0 0\r\nf 1//1 2//2\r\n"},
+        {"vn 0 0 1\rv 0 0 0\nv 0 0 0\nf 1//1 2//1", one, "vn 0 0 1\rvn 1 0 0\rv 0 0 0\nv 0 0 0\nf 1//1 2//2"},
+        {"v 0 0 0\rv 0 0 0\rf 1//1 2//1\rvn 0 0 1", one,
+         "v 0 0 0\rv 0 0 0\rf 1//1 2//2\rvn 0 0 1\rvn 1 0 0\r"},
+        {"v 0 0 0\nv 0 0 0\nf 1//1 2//1\nvn 0 0 1 \\", one,
+         "v 0 0 0\nv 0 0 0\nf 1//1 2//2\nvn 0 0 1 \\\n\nvn 1 0 0\n"},
+        {"v 0 0 0\r\nv 0 0 0\r\nf 1//1 2//1\r\nvn 0 0 1 \\\r\n", one,
+         "v 0 0 0\r\nv 0 0 0\r\nf 1//1 2//2\r\nvn 0 0 1 \\\r\n\r\nvn 1 0 0\r\n"},
+        {"vn 0 0 1 # \\\nv 0 0 0\nv 0 0 0\nf 1//1 2//1\n", one,
+         "vn 0 0 1 # \\\n\nvn 1 0 0\nv 0 0 0\nv 0 0 0\nf 1//1 2//2\n"},
+        {"vn 0 0 \\\n1\nv 0 0 0\nv 0 0 0\nf 1//1 \\\n2//1", one,
+         "vn 0 0 \\\n1\nvn 1 0 0\nv 0 0 0\nv 0 0 0\nf 1//1 \\\n2//2"},
+        /* indices that count back: at the end of the file */
+        {CORNERS "f -3//-1 -2//-1 -1//-1\n", one, CORNERS "f -3//-1 -2//2 -1//-1\nvn 1 0 0\n"},
+        {CORNERS "f -3//-1 -2//-1 -1//-1", one, CORNERS "f -3//-1 -2//2 -1//-1\nvn 1 0 0\n"},
+        {CORNERS "f -3//-1 -2//-1 -1//-1 \\", one, CORNERS "f -3//-1 -2//2 -1//-1 \\\n\nvn 1 0 0\n"},
+        {CORNERS "f -3//-1 -2//-1 -1//-1\n# \\", one, CORNERS "f -3//-1 -2//2 -1//-1\n# \\\n\nvn 1 0 0\n"},
+        {CORNERS "f 1//1 2//1 3//1\nsurf 0 1 0 1 -1/1/-1\n", one,
+         CORNERS "f 1//1 2//2 3//1\nsurf 0 1 0 1 -1/1/-1\nvn 1 0 0\n"},
+        /* counting back only before the last `vn` does no harm */
+        {"v 0 0 0\nv 0 0 0\nvn 0 0 1\nf -2//-1 -1//-1\nvn 0 1 0\nf 1//2\n", one,
+         "v 0 0 0\nv 0 0 0\nvn 0 0 1\nf -2//-1 -1//-1\nvn 1 0 0\nf 1//2\n"},
+        /* a continued face, tabs, texcoords, comments */
+        {"v 0 0 0\nv 0 0 0\nvn 0 0 1\nf\t1/7/1\\\r\n  2/8/01# c\n", one,
+         "v 0 0 0\nv 0 0 0\nvn 0 0 1\nvn 1 0 0\nf\t1/7/1\\\r\n  2/8/2# c\n"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++)
+        assert_saved(cases[i].text, cases[i].edits, cases[i].expected);
+}
+
+static void test_normals_kept(void **state)
+{
+    (void)state;
+    static const char text[] = CORNERS "f 1//1 2//1 3//1\n";
+    const double xyz[3] = {5, 5, 5};
+    const uint8_t changed = 1;
+    mesh_document *document = opened(text);
+    file_input saved;
+    assert_int_equal(obj->begin_results(document, false, false, NULL), FFD_OK);
+    obj->write_normals(document, 0, 0, 1, xyz, &changed);
+    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    assert_true(same_bytes(&saved, text, sizeof text - 1));
+    ffd_file_unload(&saved);
+    obj->close(document);
+}
+
+static void test_saved_without_results(void **state)
+{
+    (void)state;
+    static const char text[] = CORNERS "f 1//1 2//1 3//1 # no end";
+    mesh_document *document = opened(text);
+    file_input saved;
+    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    assert_true(same_bytes(&saved, text, sizeof text - 1));
+    ffd_file_unload(&saved);
+    obj->close(document);
+}
+
+/* More text than a block, changed and not. */
+static void test_save_large(void **state)
+{
+    (void)state;
+    const size_t count = 40000, capacity = count * 64 + 1000000;
+    char *text = malloc(capacity), *expected = malloc(capacity);
+    assert_true(text && expected);
+    size_t used = 0, expected_used = 0;
+    for (size_t i = 0; i < count; i++) {
+        used += (size_t)sprintf(text + used, "v %zu.0 %zu -1\n", i, i);
+        expected_used += (size_t)sprintf(expected + expected_used, "v %zu.0 %zu %zu.5\n", i, i, i);
+    }
+    memset(text + used, '#', 900000);
+    memset(expected + expected_used, '#', 900000);
+    text[used + 900000] = expected[expected_used + 900000] = 0;
+    mesh_document *document = opened(text);
+    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
+    for (size_t i = 0; i < count; i++) {
+        const double xyz[3] = {(double)i, (double)i, (double)i + 0.5};
+        const uint8_t changed = 1;
+        obj->write_positions(document, 0, i, 1, xyz, &changed);
+    }
+    file_input saved;
+    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    assert_true(same_bytes(&saved, expected, strlen(expected)));
+    ffd_file_unload(&saved);
+    obj->close(document);
+    free(text);
+    free(expected);
+}
+
+/* Faces and description */
+
+static void test_faces(void **state)
+{
+    (void)state;
+    mesh_document *document =
+        opened("v 1 2 3\nv 4 5 6\nf 1 2 3 -1\nv 7 8 9\nf\nf 3/1/1 -3 \\\n2\nl 1 2\nl 1 2 3\np 1\nvn 0 0 1");
+    mesh_faces faces;
+    assert_int_equal(obj->faces(document, &faces, NULL), FFD_OK);
+    static const size_t start[] = {0, 4, 4, 7};
+    static const uint32_t corners[] = {0, 1, 2, 1, 2, 0, 1};
+    static const double positions[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+    assert_int_equal(faces.vertex_count, 3);
+    assert_int_equal(faces.face_count, 3);
+    assert_int_equal(faces.lines, 2);
+    assert_int_equal(faces.points, 1);
+    assert_memory_equal(faces.start, start, sizeof start);
+    assert_memory_equal(faces.corners, corners, sizeof corners);
+    assert_memory_equal(faces.positions, positions, sizeof positions);
+    ffd_mesh_faces_free(&faces);
+    obj->close(document);
+}
+
+static void assert_described(const char *text, const char *expected)
+{
+    byte_buffer buffer = {0};
+    json_text json;
+    mesh_document *document = opened(text);
+    ffd_json_begin(&json, &buffer);
+    ffd_json_object(&json, NULL, true);
+    assert_int_equal(obj->describe(document, &json, NULL), FFD_OK);
+    ffd_json_end(&json, '}');
+    obj->close(document);
+    char *described = ffd_buffer_finish(&buffer);
+    described[strcspn(described, "\n")] = 0;
+    assert_string_equal(described, expected);
+    ffd_free(described);
+}
+
+static void test_description(void **state)
+{
+    (void)state;
+    assert_described("", "{\"vertices\": 0, \"vertices_with_color\": 0, \"normals\": 0, \"texcoords\": 0, "
+                         "\"faces\": 0, \"triangles\": 0, \"quads\": 0, \"ngons\": 0, \"lines\": 0, "
+                         "\"points\": 0, \"groups\": 0, \"objects\": 0, \"materials\": 0, "
+                         "\"line_endings\": \"none\"}");
+    assert_described(
+        "v 0 0 0 1 1 1\r\nv 0 0 0 1\r\nv 0 0 0 1 1 1 1\r\nvn 0 0 1\r\nvt 0\r\nvt 0\r\n"
+        "g a b\r\ng b\r\ng a c\r\no one\r\no one two\r\nusemtl m 1\r\nusemtl m 2\r\nusemtl m 1\r\n"
+        "f 1 2\r\nf 1 2 3\r\nf 1 2 3 1\r\nf 1 2 3 1 2\r\nf 1 2 3 1 2 3\r\nl 1 2\r\np 1 2\r\np 3\r\n",
+        "{\"vertices\": 3, \"vertices_with_color\": 2, \"normals\": 1, \"texcoords\": 2, "
+        "\"faces\": 5, \"triangles\": 1, \"quads\": 1, \"ngons\": 2, \"lines\": 1, "
+        "\"points\": 2, \"groups\": 3, \"objects\": 2, \"materials\": 2, "
+        "\"line_endings\": \"CRLF\"}");
+    static const struct {
+        const char *text, *ends;
+    } cases[] = {{"v 0 0 0\n", "\"LF\""}, {"v 0 0 0\r", "\"CR\""}, {"v 0 0 0\r\n\n", "\"mixed\""}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char expected[512];
+        snprintf(expected, sizeof expected,
+                 "{\"vertices\": 1, \"vertices_with_color\": 0, \"normals\": 0, \"texcoords\": 0, "
+                 "\"faces\": 0, \"triangles\": 0, \"quads\": 0, \"ngons\": 0, \"lines\": 0, "
+                 "\"points\": 0, \"groups\": 0, \"objects\": 0, \"materials\": 0, \"line_endings\": %s}",
+                 cases[i].ends);
+        assert_described(cases[i].text, expected);
+    }
+}
+
+/* Comparison */
+
+static void test_compare(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *a, *b;
+        double tolerance;
+        const char *difference;
+        uint64_t compared;
+        double max;
+    } cases[] = {
+        {"", "", 0, "", 0, 0},
+        {"v 1 2 3\n", "v 1 2 3\n", 0, "", 1, 0},
+        {"v 1 2 3\n# c\n\nf 1 1 1", "\xEF\xBB\xBF  v\t1.0 2e0 \\\r +3.00 # x\r\nf 1 -1 \\\r\n01\r\n", 0, "",
+         1, 0},
+        {"v 1 2 3\n", "v 1.25 2 3\n", 0, "vertex 1 (line 1): x differs by 0.25", 1, 0.25},
+        {"v 1 2 3\n", "v 1.25 2 3\n", 0.25, "", 1, 0.25},
+        {"v 1 2 3\n", "v 1.25 2 3\n", 0.2, "vertex 1 (line 1): x differs by 0.25", 1, 0.25},
+        {"v 0 0 0\nv 1 2 3\nv 4 5 6\n", "#\nv 0 0 0\nv 1 2 4\nv 4 9 6\n", 0,
+         "vertex 2 (lines 2 and 3): z differs by 1", 3, 4},
+        {"v nan 0 inf\n", "v NaN 0 INF\n", 0, "", 1, 0},
+        {"v nan 0 0\n", "v 1 0 0\n", 9, "vertex 1 (line 1): x: \"nan\" and \"1\"", 1, INFINITY},
+        {"v inf 0 0\n", "v -inf 0 0\n", 9, "vertex 1 (line 1): x: \"inf\" and \"-inf\"", 1, INFINITY},
+        {"v 1 2 3 1\n", "v 1 2 3 1.0\n", 0, "", 1, 0},
+        {"v 1 2 3 1\n", "v 1 2 3 2\n", 9, "vertex 1 (line 1): \"1\" and \"2\"", 0, 0},
+        {"v 1 2 3 1\n", "v 1 2 3\n", 9, "vertex 1 (line 1): \"1\" is only in the first", 0, 0},
+        {"v 1 2 3\n", "v 1 2 3 4 5 6\n", 9, "vertex 1 (line 1): \"4\" is only in the second", 0, 0},
+        {"v 1 2 3\n", "v 1 2 3\nv 4 5 6", 9, "v (line 2) is only in the second", 1, 0},
+        {"v 1 2 3\nf 1", "v 1 2 3\n", 9, "f (line 2) is only in the first", 1, 0},
+        {"v 1 2 3\nvn 0 0 1\n", "v 1 2 3\nvn 0 0 1.5\n", 9, "normal 1 (line 2): \"1\" and \"1.5\"", 1, 0},
+        {"vt 0 1\n", "vt 0 1.5\n", 9, "texcoord 1 (line 1): \"1\" and \"1.5\"", 0, 0},
+        {"v 1 2 3\nvt 0\n", "v 1 2 3\nvn 0 0 0\n", 9, "texcoord 1 (line 2): \"vt\" and \"vn\"", 1, 0},
+        {"v 0 0 0\nv 0 0 0\nf 1 2 1\n", "v 0 0 0\nv 0 0 0\nf -2 -1 -2\n", 0, "", 2, 0},
+        {"v 0 0 0\nv 0 0 0\nf 1 2 1\n", "v 0 0 0\nv 0 0 0\nf -2 -1 -1\n", 0, "f (line 3): \"1\" and \"-1\"",
+         2, 0},
+        {"v 0 0 0\nvt 0\nf 1/1\n", "v 0 0 0\nvt 0\nf 1\n", 0, "f (line 3): \"1/1\" and \"1\"", 1, 0},
+        {"v 0 0 0\nf 1/9\n", "v 0 0 0\nf 1/9/\n", 0, "", 1, 0},
+        {"v 0 0 0\nvn 0 0 0\nf 1//1\n", "v 0 0 0\nvn 0 0 0\nf 1\n", 0, "f (line 3): \"1//1\" and \"1\"", 1,
+         0},
+        {"l\n", "l\n", 0, "", 0, 0},
+        {"usemtl 1\n", "usemtl 1.0\n", 0, "usemtl (line 1): \"1\" and \"1.0\"", 0, 0},
+        {"mtllib a.mtl\n", "mtllib b.mtl\n", 0, "mtllib (line 1): \"a.mtl\" and \"b.mtl\"", 0, 0},
+        {"g a b\n", "g a c\n", 0, "g (line 1): \"b\" and \"c\"", 0, 0},
+        {"foo \x01"
+         "a\n",
+         "foo b\n", 0, "foo (line 1): \"?a\" and \"b\"", 0, 0},
+        {"v 1 2 3\nv 0 0 0\nf 1 2 2", "v 1 2 4\nv 0 5 0\nf 1 2 1", 0, "vertex 1 (line 1): z differs by 1", 2,
+         5},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *a = opened(cases[i].a), *b = opened(cases[i].b);
+        ffd_comparison comparison;
+        assert_int_equal(obj->compare(a, b, cases[i].tolerance, &comparison, NULL), FFD_OK);
+        assert_string_equal(comparison.difference, cases[i].difference);
+        assert_int_equal(comparison.equal, !cases[i].difference[0]);
+        assert_int_equal(comparison.positions_compared, cases[i].compared);
+        assert_true(comparison.position_difference_max == cases[i].max);
+        obj->close(b);
+        obj->close(a);
+    }
+}
+
+/* Failing allocations */
+
+static ffd_status use_everything(const char *text)
+{
+    mesh_document *document = NULL;
+    mesh_faces faces = {0};
+    file_input saved;
+    byte_buffer buffer = {0};
+    json_text json;
+    const edit moves[] = {{'v', 0, {1, 1, 1}}, {'n', 0, {1, 2, 3}}, {'n', 1, {4, 5, 6}}, {0}};
+    ffd_status status = open_bytes(text, strlen(text), "a.obj", &document, NULL);
+    if (status)
+        return status;
+    status = obj->begin_results(document, true, true, NULL);
+    if (status == FFD_OK)
+        apply(document, moves);
+    if (status == FFD_OK)
+        status = save_bytes(document, saved_path(), &saved, NULL);
+    if (status == FFD_OK)
+        ffd_file_unload(&saved);
+    if (status == FFD_OK)
+        status = obj->faces(document, &faces, NULL);
+    ffd_json_begin(&json, &buffer);
+    ffd_json_object(&json, NULL, true);
+    if (status == FFD_OK)
+        status = obj->describe(document, &json, NULL);
+    ffd_buffer_free(&buffer);
+    ffd_mesh_faces_free(&faces);
+    obj->close(document);
+    return status;
+}
+
+static void test_memory_failures(void **state)
+{
+    (void)state;
+    static const char text[] = CORNERS "g a\no b\nusemtl c\nf 1//1 2//1 3//1\n";
+    long successes = 0;
+    ffd_status status = FFD_E_MEMORY;
+    for (; status == FFD_E_MEMORY && successes < 1000; successes++) {
+        ffd_alloc_fail_after(successes);
+        status = use_everything(text);
+        ffd_alloc_fail_after(-1);
+    }
+    assert_int_equal(status, FFD_OK);
+    assert_true(successes > 10);
+}
+
+/* Broken files: bytes of good ones changed at random */
+
+static const char *const seeds[] = {
+    CORNERS "vt 0 0\nf 1/1/1 2/1/-1 3//1 -1\nl 1 2\np 1\ng a b\nusemtl c\n",
+    "\xEF\xBB\xBFv 1 2 \\\r\n3 # c\r\nv 4 5 6 1 0 0\r\nvn 0 1 0\rvn 1 0 0\nf 1//1 \\\n 2//2 -2//-1\\",
+    "f 1//2 2//1 -1\nv nan inf -1e999\nv .5 5. 5e-1\nvn 0 0 1\nvn 0 0 1\ncstype bezier\nsurf 0 1 0 1 "
+    "1/1/-1\nend",
+};
+
+static size_t mutate(draw *d, char *bytes, size_t size, size_t capacity)
+{
+    static const char likely[] = "0123456789-+/.\\#\r\n\t vnftlpe";
+    for (int count = draw_int(d, 1, 4); count > 0; count--) {
+        const size_t at = size ? (size_t)draw_int(d, 0, (int)size - 1) : 0;
+        const char byte =
+            draw_int(d, 0, 3) ? likely[draw_int(d, 0, (int)sizeof likely - 2)] : (char)draw_int(d, 0, 255);
+        const int kind = draw_int(d, 0, 3);
+        if (kind == 0 && size < capacity) {
+            memmove(bytes + at + 1, bytes + at, size - at);
+            bytes[at] = byte;
+            size++;
+        } else if (kind == 1 && size) {
+            memmove(bytes + at, bytes + at + 1, size - at - 1);
+            size--;
+        } else if (kind == 2 && size)
+            size = draw_int(d, 0, 3) ? size : at;
+        else if (size)
+            bytes[at] = byte;
+    }
+    return size;
+}
+
+static bool same_value(const double *a, const double *b)
+{
+    for (int i = 0; i < 3; i++)
+        if (!(a[i] == b[i] || (isnan(a[i]) && isnan(b[i]))))
+            return false;
+    return true;
+}
+
+/* What was written is there again when the saved file is read. */
+static void assert_holds(const file_input *saved, const mesh_document *before, const double *positions)
+{
+    mesh_document *document;
+    ffd_error error = {0};
+    if (open_bytes(saved->data, saved->size, "saved.obj", &document, &error) != FFD_OK)
+        fail_msg("saved file: line %zu: %s", error.line, error.message);
+    assert_int_equal(document->parts->vertex_count, before->parts->vertex_count);
+    for (size_t i = 0; i < document->parts->vertex_count; i++) {
+        double p[3];
+        obj->read_positions(document, 0, i, 1, p);
+        assert_true(same_value(p, positions + 3 * i));
+    }
+    obj->close(document);
+}
+
+static void change_and_save(mesh_document *document, draw *d)
+{
+    const mesh_part *part = document->parts;
+    double *positions = malloc((part->vertex_count + 1) * 3 * sizeof *positions);
+    assert_non_null(positions);
+    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
+    for (size_t i = 0; i < part->vertex_count; i++) {
+        const uint8_t changed = draw_int(d, 0, 1) == 1;
+        obj->read_positions(document, 0, i, 1, positions + 3 * i);
+        for (int a = 0; a < 3 && changed; a++)
+            positions[3 * i + (size_t)a] += draw_int(d, 0, 2);
+        obj->write_positions(document, 0, i, 1, positions + 3 * i, &changed);
+    }
+    for (size_t n = 0; n < part->normal_count; n++) {
+        const double value[3] = {draw_int(d, 0, 1), draw_int(d, 0, 1), 0.5};
+        const uint8_t changed = draw_int(d, 0, 1) == 1;
+        obj->write_normals(document, 0, n, 1, value, &changed);
+    }
+    file_input saved;
+    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    assert_holds(&saved, document, positions);
+    ffd_file_unload(&saved);
+    free(positions);
+}
+
+static void read_everything(mesh_document *document)
+{
+    mesh_faces faces;
+    ffd_comparison comparison;
+    byte_buffer buffer = {0};
+    json_text json;
+    assert_int_equal(obj->faces(document, &faces, NULL), FFD_OK);
+    for (size_t i = 0; i < faces.start[faces.face_count]; i++)
+        assert_true(faces.corners[i] < faces.vertex_count);
+    ffd_mesh_faces_free(&faces);
+    ffd_json_begin(&json, &buffer);
+    ffd_json_object(&json, NULL, true);
+    assert_int_equal(obj->describe(document, &json, NULL), FFD_OK);
+    ffd_buffer_free(&buffer);
+    assert_int_equal(obj->compare(document, document, 0, &comparison, NULL), FFD_OK);
+    assert_true(comparison.equal);
+}
+
+static void test_mutations(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    int valid = 0, refused = 0;
+    for (int round = 0; round < 6000; round++) {
+        const char *seed = seeds[round % (int)COUNT(seeds)];
+        char scratch[512];
+        size_t size = strlen(seed);
+        memcpy(scratch, seed, size);
+        size = mutate(&d, scratch, size, sizeof scratch);
+        char *bytes = malloc(size ? size : 1); /* of its exact size, so that reading past it is seen */
+        assert_non_null(bytes);
+        memcpy(bytes, scratch, size);
+        mesh_document *document;
+        ffd_error error = {0};
+        if (open_bytes(bytes, size, "m.obj", &document, &error) == FFD_OK) {
+            valid++;
+            read_everything(document);
+            if (round % 4 == 0)
+                change_and_save(document, &d);
+            obj->close(document);
+        } else {
+            refused++;
+            assert_int_equal(error.status, FFD_E_INVALID);
+            assert_true(error.line > 0 && error.message[0]);
+        }
+        free(bytes);
+    }
+    assert_true(valid > 500 && refused > 500);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_statements),
+        cmocka_unit_test(test_unread_words),
+        cmocka_unit_test(test_numbers),
+        cmocka_unit_test(test_corners),
+        cmocka_unit_test(test_dialects),
+        cmocka_unit_test(test_many_normals_of_one_vertex),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_save_positions),
+        cmocka_unit_test(test_kept_values_are_not_looked_at),
+        cmocka_unit_test(test_save_normals),
+        cmocka_unit_test(test_normals_kept),
+        cmocka_unit_test(test_saved_without_results),
+        cmocka_unit_test(test_save_large),
+        cmocka_unit_test(test_faces),
+        cmocka_unit_test(test_description),
+        cmocka_unit_test(test_compare),
+        cmocka_unit_test(test_memory_failures),
+        cmocka_unit_test(test_mutations),
+    };
+    return cmocka_run_group_tests(tests, NULL, remove_saved);
+}
