@@ -79,8 +79,9 @@ step() {
     failed=$((failed + 1))
     say "$stage" "$what FAILED, see $logs/$stage-$what.log"
     # What a compiler says matters more than what ninja says of it.
-    if grep -qE '(error|ERROR)[: ]' "$logs/$stage-$what.log"; then
-        grep -nE -A 3 '(error|ERROR)[: ]' "$logs/$stage-$what.log" | head -n 40 | sed 's/^/    /'
+    pattern='(: (fatal )?error:|undefined reference|ERROR:)'
+    if grep -qE "$pattern" "$logs/$stage-$what.log"; then
+        grep -hE -A 3 "$pattern" "$logs/$stage-$what.log" | head -n 40 | sed 's/^/    /'
     else
         tail -n 40 "$logs/$stage-$what.log" | sed 's/^/    /'
     fi

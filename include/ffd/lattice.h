@@ -94,8 +94,8 @@ FFD_API const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_vo
 /* Evaluates C at u,v,w (in the domain; values outside are taken to its nearest point, closed directions
    modulo their period) and, where jacobian is not NULL, J = [C_u | C_v | C_w] as 9 doubles, row by row:
    jacobian[3*r+c] = dC_r/du_c. At an inner knot the right-hand derivative, at the end of the domain the
-   left-hand one. Basis: Piegl & Tiller A2.1 to A2.3; rational: 4.4. All NaN while ffd_lattice_fit is still needed.
-   Any thread. */
+   left-hand one. Basis: Piegl & Tiller A2.1 to A2.3; rational: 4.4. All NaN while ffd_lattice_fit is still
+   needed. Any thread. */
 FFD_API void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3],
                                   double point[3], double jacobian[9]);
 

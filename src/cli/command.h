@@ -24,7 +24,7 @@ void cli_print_help(const cli_command *command);
 /* What is common to commands that talk: filled by the options -q, -v. */
 typedef struct cli_talk {
     bool quiet, verbose;
-    const char *subject; /* the file that is being worked on, NULL for none */
+    const char *subject; /* the mesh that is being worked on, "-" for standard input */
 } cli_talk;
 
 /* An ffd_log_function whose user is a cli_talk. */

@@ -1,5 +1,6 @@
 /* main.c - the program ffd: finds the command and runs it. */
 #include "cli/command.h"
+#include "cli/nearest.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,10 +20,7 @@ void cli_log(void *user, ffd_log_level level, const char *line)
     const cli_talk *talk = user;
     if (talk->quiet || (level != FFD_LOG_WARNING && !talk->verbose))
         return;
-    if (talk->subject)
-        cli_complain("%s: %s", talk->subject, line);
-    else
-        cli_complain("%s", line);
+    cli_complain("%s: %s", strcmp(talk->subject, "-") == 0 ? "standard input" : talk->subject, line);
 }
 
 int cli_fail(const ffd_error *error)
@@ -48,7 +46,7 @@ bool cli_begin(const cli_command *command, void *settings, const bool *help, int
         *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
         return false;
     }
-    if (!cli_parse(command->options, settings, count, arguments, words)) {
+    if (!cli_parse(command->options, settings, help, count, arguments, words)) {
         *exit_code = EXIT_USAGE;
     } else if (*help) {
         cli_print_help(command);
@@ -94,14 +92,65 @@ static const cli_command *find_command(int count, char **arguments, int *words)
 
 static int unknown_command(int count, char **arguments)
 {
-    const bool lattice = strcmp(arguments[0], "lattice") == 0;
-    if (lattice && count > 1)
-        cli_complain("unknown command \"lattice %s\" (known: lattice new)", arguments[1]);
-    else if (lattice)
-        cli_complain("lattice: which? (known: lattice new)");
-    else
-        cli_complain("unknown command \"%s\" (known: deform, embed, compare, info, lattice new, help)",
-                     arguments[0]);
+    char typed[64];
+    const bool two = strcmp(arguments[0], "lattice") == 0 && count > 1;
+    snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
+    cli_nearest nearest = {.word = typed, .length = strlen(typed)};
+    for (int i = 0; i < COMMANDS; i++)
+        cli_nearest_offer(&nearest, commands[i]->name);
+    cli_nearest_offer(&nearest, "help");
+    cli_complain("unknown command \"%s\" (nearest: %s)", typed, nearest.best);
+    return EXIT_USAGE;
+}
+
+static bool is_help(const char *argument)
+{
+    return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
+}
+
+/* "lattice" alone stands for its only command where help is asked for. */
+static bool is_lattice_help(int count, char **arguments)
+{
+    return count == 1 && strcmp(arguments[0], "lattice") == 0;
+}
+
+static int run_help(int count, char **arguments)
+{
+    int words = 0;
+    if (count == 0 || (count == 1 && (is_help(arguments[0]) || strcmp(arguments[0], "help") == 0))) {
+        print_overview();
+        return EXIT_DONE;
+    }
+    const cli_command *command =
+        is_lattice_help(count, arguments) ? &cli_lattice_new : find_command(count, arguments, &words);
+    if (!command)
+        return unknown_command(count, arguments);
+    if (words && words != count) {
+        cli_complain("help: \"%s\" is one word too many", arguments[words]);
+        return EXIT_USAGE;
+    }
+    cli_print_help(command);
+    return EXIT_DONE;
+}
+
+static int run_version(int count, char **arguments)
+{
+    if (count > 0) {
+        cli_complain("--version: \"%s\" is one word too many", arguments[0]);
+        return EXIT_USAGE;
+    }
+    printf("ffd %s\n", ffd_version());
+    return EXIT_DONE;
+}
+
+static int unknown_option(const char *argument)
+{
+    static const char *const known[] = {"--help", "--version"};
+    cli_nearest nearest = {.word = argument, .length = strlen(argument)};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        cli_nearest_offer(&nearest, known[i]);
+    cli_complain("unknown option %.60s (nearest: %s; other options follow a command)", argument,
+                 nearest.best);
     return EXIT_USAGE;
 }
 
@@ -112,29 +161,34 @@ static int run(int count, char **arguments)
         cli_complain("no command (ffd help shows what there is)");
         return EXIT_USAGE;
     }
-    if (strcmp(arguments[0], "--version") == 0) {
-        printf("ffd %s\n", ffd_version());
-        return EXIT_DONE;
-    }
-    const bool help = strcmp(arguments[0], "help") == 0;
-    if (strcmp(arguments[0], "--help") == 0 || strcmp(arguments[0], "-h") == 0 || (help && count == 1)) {
-        print_overview();
-        return EXIT_DONE;
-    }
-    if (help) {
-        const cli_command *command = find_command(count - 1, arguments + 1, &words);
-        if (!command || words != count - 1)
-            return unknown_command(count - 1, arguments + 1);
-        cli_print_help(command);
-        return EXIT_DONE;
-    }
+    if (strcmp(arguments[0], "--version") == 0)
+        return run_version(count - 1, arguments + 1);
+    if (is_help(arguments[0]))
+        return run_help(0, NULL);
+    if (strcmp(arguments[0], "help") == 0)
+        return run_help(count - 1, arguments + 1);
+    if (arguments[0][0] == '-')
+        return unknown_option(arguments[0]);
+    if (is_lattice_help(1, arguments) && count > 1 && is_help(arguments[1]))
+        return run_help(1, arguments);
     const cli_command *command = find_command(count, arguments, &words);
     return command ? command->run(command, count - words, arguments + words)
                    : unknown_command(count, arguments);
 }
 
+/* Where a standard stream is closed, the next file to be opened would take its number, and would receive what
+   is said on it. These files, open for reading only and never closed, take the free numbers first: writing to
+   them stays an error. */
+static void occupy_closed_streams(void)
+{
+    for (int i = 0; i < 3; i++)
+        if (!fopen("/dev/null", "r"))
+            break;
+}
+
 int main(int argc, char **argv)
 {
+    occupy_closed_streams();
     int code = run(argc - 1, argv + 1);
     if (fflush(stdout) != 0 || ferror(stdout)) {
         cli_complain("standard output: cannot be written");

@@ -1,4 +1,5 @@
 #include "cli/options.h"
+#include "cli/nearest.h"
 #include <errno.h>
 #include <ffd/ffd.h>
 #include <math.h>
@@ -36,6 +37,17 @@ bool cli_set_flag(void *settings, const cli_option *option, const char *value)
 bool cli_set_text(void *settings, const cli_option *option, const char *value)
 {
     *(const char **)field(settings, option) = value;
+    return true;
+}
+
+bool cli_set_only_text(void *settings, const cli_option *option, const char *value)
+{
+    const char **text = field(settings, option);
+    if (*text) {
+        cli_complain("--%s is given twice: \"%s\" and \"%s\"", option->name, *text, value);
+        return false;
+    }
+    *text = value;
     return true;
 }
 
@@ -90,9 +102,25 @@ bool cli_parse_number(const char *text, double *value)
     return *end == 0 && isfinite(*value);
 }
 
-static bool unknown_option(const char *name, size_t length)
+static bool unknown_option(const cli_option *options, const char *name, size_t length)
 {
-    cli_complain("unknown option --%.*s (--help lists them)", (int)(length < 60 ? length : 60), name);
+    cli_nearest nearest = {.word = name, .length = length};
+    for (const cli_option *option = options; option->name; option++)
+        cli_nearest_offer(&nearest, option->name);
+    cli_complain("unknown option --%.*s (nearest: --%s)", (int)(length < 60 ? length : 60), name,
+                 nearest.best);
+    return false;
+}
+
+/* The nearest to a letter is the name that begins with it. */
+static bool unknown_letter(const cli_option *options, char letter)
+{
+    for (const cli_option *option = options; option->name; option++)
+        if (option->name[0] == letter) {
+            cli_complain("unknown option -%c (nearest: --%s)", letter, option->name);
+            return false;
+        }
+    cli_complain("unknown option -%c (--help lists the known ones)", letter);
     return false;
 }
 
@@ -119,7 +147,7 @@ static bool parse_long(const cli_option *options, void *settings, const char *te
     const size_t length = equals ? (size_t)(equals - text) : strlen(text);
     const cli_option *option = by_name(options, text, length);
     if (!option)
-        return unknown_option(text, length);
+        return unknown_option(options, text, length);
     const char *value = equals ? equals + 1 : NULL;
     if (!option->value && value) {
         cli_complain("--%s takes no value", option->name);
@@ -141,10 +169,8 @@ static bool parse_letters(const cli_option *options, void *settings, const char 
 {
     for (; *text; text++) {
         const cli_option *option = by_letter(options, *text);
-        if (!option) {
-            cli_complain("unknown option -%c", *text);
-            return false;
-        }
+        if (!option)
+            return unknown_letter(options, *text);
         if (!option->value) {
             if (!option->set(settings, option, NULL))
                 return false;
@@ -163,12 +189,13 @@ static bool parse_letters(const cli_option *options, void *settings, const char 
     return true;
 }
 
-bool cli_parse(const cli_option *options, void *settings, int count, char **arguments, cli_words *words)
+bool cli_parse(const cli_option *options, void *settings, const bool *help, int count, char **arguments,
+               cli_words *words)
 {
     char **next = arguments, **end = arguments + count;
     bool only_words = false;
     words->count = 0;
-    while (next < end) {
+    while (next < end && !*help) {
         const char *argument = *next++;
         if (only_words || argument[0] != '-' || !argument[1])
             words->words[words->count++] = argument;

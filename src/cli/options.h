@@ -21,16 +21,17 @@ struct cli_option {
     const char *const *choices; /* of cli_set_choice: names in the order of the enum, ended by NULL */
 };
 
-/* Words that are no options; at most a fixed number where the command says so itself. */
+/* Arguments that are no options, in their order. */
 typedef struct cli_words {
     const char **words;
     size_t count;
 } cli_words;
 
-/* Common setters: the field at offset is a bool, const char *, int (number of threads, >= 0) or an enum
- * (int). */
+/* Common setters. The field at offset is a bool; const char *; const char *, refusing a second value; int (a
+   number of threads); int (index into choices); ffd_format. */
 bool cli_set_flag(void *settings, const cli_option *option, const char *value);
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
+bool cli_set_only_text(void *settings, const cli_option *option, const char *value);
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
 bool cli_set_format(void *settings, const cli_option *option, const char *value);
@@ -39,8 +40,10 @@ bool cli_set_format(void *settings, const cli_option *option, const char *value)
 bool cli_parse_number(const char *text, double *value);
 
 /* Sorts the arguments of a command (without its name) into settings and words. words->words must have room
-   for count entries. False after a complaint. options end with a name of NULL. */
-bool cli_parse(const cli_option *options, void *settings, int count, char **arguments, cli_words *words);
+   for count entries. Stops where *help (a field of settings) becomes true: what follows is not looked at.
+   False after a complaint. options end with a name of NULL. */
+bool cli_parse(const cli_option *options, void *settings, const bool *help, int count, char **arguments,
+               cli_words *words);
 
 /* One line "ffd: ..." on stderr. */
 #ifdef __GNUC__

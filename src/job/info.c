@@ -29,36 +29,6 @@ void ffd_info_bounds(json_text *json, const char *key, const ffd_bounds *bounds)
     ffd_json_end(json, '}');
 }
 
-/* The length of the UTF-8 sequence at the start of text (RFC 3629), 0 where there is none. */
-static size_t utf8_length(const unsigned char *text, size_t left)
-{
-    const unsigned char lead = text[0];
-    if (lead < 0x80)
-        return 1;
-    const size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
-    if (lead < 0xc2 || lead > 0xf4 || length > left)
-        return 0;
-    for (size_t i = 1; i < length; i++)
-        if ((text[i] & 0xc0) != 0x80)
-            return 0;
-    const unsigned char second = text[1];
-    const bool too_long = (lead == 0xe0 && second < 0xa0) || (lead == 0xf0 && second < 0x90);
-    const bool surrogate = lead == 0xed && second >= 0xa0, too_large = lead == 0xf4 && second >= 0x90;
-    return too_long || surrogate || too_large ? 0 : length;
-}
-
-/* Names in old files are not all UTF-8, but JSON must be. */
-static void make_utf8(byte_buffer *buffer)
-{
-    unsigned char *text = (unsigned char *)buffer->data;
-    for (size_t i = 0; i < buffer->size;) {
-        const size_t length = utf8_length(text + i, buffer->size - i);
-        if (length == 0)
-            text[i] = '?';
-        i += length ? length : 1;
-    }
-}
-
 static ffd_status write_facts(const ffd_source *file, byte_buffer *out, ffd_error *error)
 {
     const bool lattice = file->format == FFD_FORMAT_AUTO && ffd_path_has_ending(file->path, ".json");
@@ -74,7 +44,6 @@ static ffd_status write_facts(const ffd_source *file, byte_buffer *out, ffd_erro
     if (status != FFD_OK)
         return status;
     ffd_json_end(&json, '}');
-    make_utf8(out);
     return out->failed ? ffd_fail_memory(error) : FFD_OK;
 }
 

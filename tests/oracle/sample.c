@@ -302,6 +302,25 @@ void sample_cylinder(sample *s, random_source *random, bool full_turn)
     s->angle[1] = s->angle[0] + (full_turn ? 360 : random_int(random, 20, 270));
 }
 
+double sample_widest_angle(const sample *s)
+{
+    const oracle_axis *axis = &s->axis[1];
+    long double widest = 0;
+    for (int i = 0; i < axis->n - (axis->closed ? 0 : 1); i++)
+        widest = fmaxl(widest, oracle_greville(axis, i + 1) - oracle_greville(axis, i));
+    return (double)(widest / (oracle_last(axis) - oracle_first(axis)) * (s->angle[1] - s->angle[0]));
+}
+
+void sample_round_cylinder(sample *s, random_source *random, bool full_turn)
+{
+    sample_cylinder(s, random, full_turn);
+    if (sample_widest_angle(s) <= 100)
+        return;
+    const int degree = s->axis[1].degree, n = s->axis[1].n < degree + 4 ? degree + 4 : s->axis[1].n;
+    s->default_degree = false;
+    sample_named_axis(s, 1, full_turn ? "closed" : "clamped", n, degree);
+}
+
 static void write_rest(sample *s, text *j)
 {
     if (s->rest == SAMPLE_POINTS) {

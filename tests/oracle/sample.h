@@ -84,6 +84,12 @@ void sample_weights(sample *s, random_source *random, double spread);
  * scale. */
 void sample_box(sample *s, random_source *random, double scale, double offset);
 void sample_cylinder(sample *s, random_source *random, bool full_turn);
+/* With evenly spaced knots along v where the random ones leave more than 100 degrees between control points.
+ */
+void sample_round_cylinder(sample *s, random_source *random, bool full_turn);
+/* The widest angle in degrees between neighbouring control points of a cylinder placed by Greville abscissae.
+ */
+double sample_widest_angle(const sample *s);
 
 /* Writes s->json. */
 void sample_write(sample *s);

@@ -472,9 +472,7 @@ static bool make_cylinder(sample *s, random_source *random, const char **method,
 {
     sample_limits limits = {.max_degree = 3, .max_extra = 4, .always_closed = {false, full, false}};
     sample_axes(s, random, &limits);
-    if (s->axis[1].n < (full ? 4 : 6))
-        return false;
-    sample_cylinder(s, random, full);
+    sample_round_cylinder(s, random, full);
     *method = "general";
     return true;
 }

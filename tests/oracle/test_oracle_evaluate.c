@@ -54,7 +54,7 @@ static void random_sample(sample *s, random_source *random)
         limits.max_degree = 4;
         limits.always_closed[1] = full;
         sample_axes(s, random, &limits);
-        sample_cylinder(s, random, full);
+        sample_round_cylinder(s, random, full);
     } else {
         for (int a = 0; a < 3; a++)
             limits.closed[a] = true;

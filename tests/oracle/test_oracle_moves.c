@@ -16,7 +16,7 @@ static void random_rest(sample *s, random_source *random)
         .max_degree = 3, .max_extra = 2, .always_closed = {false, kind == 0, false}};
     sample_axes(s, random, &limits);
     if (kind == 0)
-        sample_cylinder(s, random, true);
+        sample_round_cylinder(s, random, true);
     else
         sample_box(s, random, kind == 1 ? 10 : 1, 0);
     s->box_units = kind > 1 && random_chance(random, 0.6);
@@ -186,14 +186,16 @@ static void check_coverage(trial *t, const sample *s, const cylinder *c, const o
         long double point[3], roots[ORACLE_MAX_ROOTS][3];
         point_of(s, c, rah, point);
         const int count = oracle_find_all(volume, point, 1e-15L, roots);
-        trial_check(t, s, count == 1, "radius %.17Lg, angle %.17Lg, height %.17Lg is held %d times", rah[0],
-                    rah[1], rah[2], count);
+        trial_check(t, s, count == 1,
+                    "radius %.17Lg, angle %.17Lg, height %.17Lg is held %d times (widest angle %g)", rah[0],
+                    rah[1], rah[2], count, sample_widest_angle(s));
     }
 }
 
 static void cylinders(bool full, const char *name)
 {
     trial t = {.name = name};
+    int refused = 0;
     const sample_limits limits = {.max_degree = 4, .max_extra = 6, .always_closed = {false, full, false}};
     for (uint64_t seed = trial_seed(); t.cases < trial_cases(150); seed++) {
         sample s;
@@ -201,17 +203,16 @@ static void cylinders(bool full, const char *name)
         random_source random = {seed};
         sample_axes(&s, &random, &limits);
         sample_cylinder(&s, &random, full);
-        const int steps = full ? s.axis[1].n : s.axis[1].n - s.axis[1].degree;
-        /* Control points more than 60 degrees apart leave little round about them. */
-        if ((s.angle[1] - s.angle[0]) / steps > (full ? 120 : 60)) {
-            sample_free(&s);
-            continue;
-        }
         t.cases++;
         if (random_chance(&random, 0.2))
             s.radius[0] = 0;
         sample_write(&s);
-        ffd_lattice *lattice = trial_parse(&t, &s);
+        /* Control points half a turn apart and more go round nothing: no lattice covers the radii then. */
+        ffd_lattice *lattice = NULL;
+        if (sample_widest_angle(&s) < 150)
+            lattice = trial_parse(&t, &s);
+        else
+            refused += ffd_lattice_parse(s.json.data, s.json.length, "wide", &lattice, NULL) != FFD_OK;
         if (lattice) {
             oracle_volume volume = sample_volume(&s, lattice, FFD_VOLUME_REST);
             const cylinder c = frame_of(&s);
@@ -223,6 +224,7 @@ static void cylinders(bool full, const char *name)
         }
         sample_free(&s);
     }
+    printf("%s: %d with wide angles refused\n", name, refused);
     trial_end(&t);
 }
 

@@ -66,8 +66,8 @@ def build(text, source):
     count = 0
     with tempfile.TemporaryDirectory() as folder:
         copy, root = os.path.join(folder, "source"), os.path.join(folder, "root")
-        skip = shutil.ignore_patterns(".git", ".build*", "build*", "node_modules")
-        shutil.copytree(source, copy, ignore=skip)
+        shutil.copytree(source, copy, ignore=lambda path, names: [
+            name for name in names if path == source and (name == ".git" or name.lstrip(".").startswith("build"))])
         environment = dict(os.environ, DESTDIR=root)
         for language, name, content in blocks(text):
             if language == "sh" and name == "build":

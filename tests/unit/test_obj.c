@@ -238,6 +238,7 @@ static void test_dialects(void **state)
         {"v 1 1 1\nvn 1 0 0\nf -1//-1\nv 2 2 2\nvn 2 0 0\nf -1//-1 -2//-1 1//1\n", "1,1,1 2,2,2", "1,2|2|"},
         {"v 1 1 1\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0\nf 1//3 1//1 1//3 1//2 1\n", "1,1,1", "1,2,3|"},
         {"v 1 1 1\nvn 1 0 0\nl 1\np 1\nf 1/9\ncurv 0 1 9 9\nvp 1\nfoo x\n", "1,1,1", ""},
+        {"v 1 1 1\nf 1/1/1 1//5 1//0 1//-1\n", "1,1,1", ""},
         {"mtllib ../../x.mtl\nv 1 1 1\nusemtl a b\ns off\n", "1,1,1", ""},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
@@ -807,7 +808,7 @@ static void test_mutations(void **state)
         if (open_bytes(bytes, size, "m.obj", &document, &error) == FFD_OK) {
             valid++;
             read_everything(document);
-            if (round % 4 == 0)
+            if (round % 20 == 0)
                 change_and_save(document, &d);
             obj->close(document);
         } else {

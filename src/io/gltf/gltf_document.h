@@ -32,10 +32,8 @@ typedef struct gltf_stream {
 } gltf_stream;
 
 typedef struct gltf_part {
-    size_t mesh, primitive; /* the first that shows it */
-    size_t node;            /* GLTF_NONE in mesh space */
+    size_t node; /* GLTF_NONE in mesh space */
     gltf_stream streams[GLTF_DEFORMED];
-    size_t twin; /* the part whose positions it repeats; GLTF_NONE */
 } gltf_part;
 
 /* A primitive under a node that shows it (or by itself, in mesh space). */
@@ -82,11 +80,6 @@ typedef struct gltf_document {
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {
     return (const gltf_document *)document;
-}
-
-static inline size_t ffd_gltf_components(const gltf_accessor *accessor)
-{
-    return (size_t)(accessor->columns * accessor->rows);
 }
 
 /* Number of the value of primitive p of mesh m in the JSON. */

@@ -25,7 +25,6 @@ typedef struct gltf_view {
     int buffer;
     uint64_t offset, length;
     uint64_t stride; /* 0: not stated */
-    int target;      /* 0: not stated */
 } gltf_view;
 
 typedef struct gltf_sparse {

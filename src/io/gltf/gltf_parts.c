@@ -65,19 +65,18 @@ static void place_part(const gltf_document *d, size_t node, mesh_part *part)
     part->singular = !mat_invert(part->linear, part->inverse);
 }
 
-static size_t add_part(gltf_document *d, size_t mesh, size_t primitive, size_t node,
-                       const size_t accessors[GLTF_DEFORMED], size_t twin)
+static size_t add_part(gltf_document *d, size_t node, const size_t accessors[GLTF_DEFORMED], bool repeats)
 {
     const size_t index = d->base.part_count++;
     gltf_part *part = &d->parts[index];
     mesh_part *shown = &d->mesh_parts[index];
-    *part = (gltf_part){.mesh = mesh, .primitive = primitive, .node = node, .twin = twin};
+    part->node = node;
     for (int s = 0; s < GLTF_DEFORMED; s++)
         part->streams[s].accessor = accessors[s];
     shown->vertex_count = (size_t)d->model.accessors[accessors[GLTF_POSITION]].count;
     shown->normal_count = accessors[GLTF_NORMAL] == GLTF_NONE ? 0 : shown->vertex_count;
     shown->has_tangents = accessors[GLTF_TANGENT] != GLTF_NONE;
-    shown->repeats_positions = twin != GLTF_NONE;
+    shown->repeats_positions = repeats;
     place_part(d, node, shown);
     return index;
 }
@@ -102,7 +101,7 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
         part = table->next[part];
     }
     if (part == GLTF_NONE) {
-        part = add_part(d, mesh, p, node, accessors, *head);
+        part = add_part(d, node, accessors, *head != GLTF_NONE);
         table->next[part] = GLTF_NONE;
         if (last == GLTF_NONE)
             *head = part;

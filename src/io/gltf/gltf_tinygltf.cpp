@@ -41,7 +41,6 @@ gltf_view to_c(const tinygltf::BufferView &from)
     to.offset = from.byteOffset;
     to.length = from.byteLength;
     to.stride = from.byteStride;
-    to.target = from.target;
     return to;
 }
 

@@ -5,7 +5,8 @@
 /* The header is padded so that the values start at a multiple of this (NumPy's format 1.0). */
 #define ALIGNMENT 64
 
-ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, size_t columns, ffd_error *error)
+ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, size_t columns,
+                         ffd_error *error)
 {
     char shape[64], header[4 * ALIGNMENT];
     if (columns)

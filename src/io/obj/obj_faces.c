@@ -41,7 +41,8 @@ static void look_for_corners(obj_document *d, obj_scan *scan)
 }
 
 /* Checks the corners of a face, line or point. Those of faces are counted, and those with a normal for their
-   vertex: in pair_start[vertex + 1], where that is there. A texcoord's index is nothing that is used here. */
+   vertex: in pair_start[vertex + 1]. Only what is used is refused: a texcoord's index is not, nor a normal's
+   in a file without any `vn`, as some tools write that leave the normals out. */
 static ffd_status check_corners(obj_document *d, obj_walk *walk, uint64_t *with_normal, ffd_error *error)
 {
     obj_scan *scan = &walk->scan;
@@ -60,7 +61,7 @@ static ffd_status check_corners(obj_document *d, obj_walk *walk, uint64_t *with_
         if (scan->keyword != OBJ_FACE)
             continue;
         d->corners++;
-        if (corner.normal.text.first == corner.normal.text.last)
+        if (corner.normal.text.first == corner.normal.text.last || d->normals == 0)
             continue;
         status = check_index(d, scan, corner.normal, walk->normals, "normal", &normal, error);
         if (status)

@@ -1,0 +1,389 @@
+/* What the moves of a lattice file do to its control points, against values worked out by hand. */
+#include "lattice/lattice.h"
+#include "lattice/spec.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const char *message_of(const ffd_error *error)
+{
+    static char text[2048];
+    ffd_error_format(error, text, sizeof text);
+    return text;
+}
+
+static ffd_lattice *make(const char *size, const char *rest, const char *more)
+{
+    static char text[8192];
+    ffd_lattice *lattice;
+    ffd_error error;
+    snprintf(text, sizeof text,
+             "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":%s,\"degree\":[1,1,1],\"rest\":%s,%s}", size,
+             rest, more);
+    if (ffd_lattice_parse(text, strlen(text), "t.json", &lattice, &error))
+        fail_msg("%s\n%s", message_of(&error), text);
+    return lattice;
+}
+
+/* 3 x 3 x 5 points of degree 1: x and y 0, 1, 2; z 0, 1, 2, 3, 4. */
+static const char tower[] = "{\"box\":{\"min\":[0,0,0],\"max\":[2,2,4]}}";
+
+static ffd_lattice *move_tower(const char *moves)
+{
+    char more[2048];
+    snprintf(more, sizeof more, "\"moves\":[%s]", moves);
+    return make("[3,3,5]", tower, more);
+}
+
+static const double *point_of(const ffd_lattice *l, size_t i, size_t j, size_t k)
+{
+    return l->deformed + 3 * (i + l->size[0] * (j + l->size[1] * k));
+}
+
+/* Within a few rounding errors of coordinates of size 10. */
+static void check_near(const ffd_lattice *l, size_t i, size_t j, size_t k, double x, double y, double z)
+{
+    const double *const p = point_of(l, i, j, k);
+    if (!(fabs(p[0] - x) <= 5e-15 && fabs(p[1] - y) <= 5e-15 && fabs(p[2] - z) <= 5e-15))
+        fail_msg("point %zu,%zu,%zu: %.17g %.17g %.17g, expected %.17g %.17g %.17g", i, j, k, p[0], p[1],
+                 p[2], x, y, z);
+}
+
+static void check_exact(const ffd_lattice *l, size_t i, size_t j, size_t k, double x, double y, double z)
+{
+    const double *const p = point_of(l, i, j, k);
+    if (!(p[0] == x && p[1] == y && p[2] == z))
+        fail_msg("point %zu,%zu,%zu: %.17g %.17g %.17g, expected %.17g %.17g %.17g", i, j, k, p[0], p[1],
+                 p[2], x, y, z);
+}
+
+static size_t count_moved(const ffd_lattice *l)
+{
+    size_t moved = 0;
+    for (size_t i = 0; i < l->count; i++)
+        moved += l->moved[i];
+    return moved;
+}
+
+static void test_selection(void **state)
+{
+    (void)state;
+    static const struct selection {
+        const char *which;
+        size_t count;
+    } selections[] = {
+        {"", 45},
+        {"\"at\":[0,0,0],", 1},
+        {"\"at\":[-1,-1,-1],", 1},
+        {"\"at\":[-3,-3,-5],", 1},
+        {"\"at\":[\"all\",\"all\",-1],", 9},
+        {"\"at\":[[0,1],1,[1,3]],", 6},
+        {"\"at\":[[-2,-1],[0,-1],[2,2]],", 6},
+        {"\"at\":[\"all\",\"all\",\"all\"],", 45},
+        {"\"within\":{\"min\":[0,0,4],\"max\":[2,2,4]},", 9},
+        {"\"within\":{\"min\":[0.5,-9,0.5],\"max\":[9,9,2.5]},", 12},
+        {"\"within\":{\"min\":[-1,-1,-1],\"max\":[9,9,9]},", 45},
+    };
+    for (size_t s = 0; s < COUNT(selections); s++) {
+        char moves[256];
+        snprintf(moves, sizeof moves, "{%s\"by\":[1,2,3]}", selections[s].which);
+        ffd_lattice *l = move_tower(moves);
+        if (count_moved(l) != selections[s].count)
+            fail_msg("%s: %zu moved", selections[s].which, count_moved(l));
+        ffd_lattice_destroy(&l);
+    }
+    ffd_lattice *l = move_tower("{\"at\":[-1,0,[3,-1]],\"by\":[1,2,3]}");
+    check_exact(l, 2, 0, 3, 3, 2, 6);
+    check_exact(l, 2, 0, 4, 3, 2, 7);
+    check_exact(l, 2, 0, 2, 2, 0, 2);
+    ffd_lattice_destroy(&l);
+}
+
+/* Points that rest on a face of `within` are inside, also where their coordinate is rounded: thirds, and a
+   box whose axes turn it. And it is the rest position that counts. */
+static void test_within_edges(void **state)
+{
+    (void)state;
+    ffd_lattice *l = make(
+        "[4,4,4]", "{\"box\":{\"min\":[-0.1,0,0],\"max\":[0.2,1,1]}}",
+        "\"moves\":[{\"within\":{\"min\":[0.1,0,0.6666666666666666],\"max\":[0.2,1,1]},\"by\":[1,0,0]}]");
+    assert_int_equal(count_moved(l), 2 * 4 * 2);
+    ffd_lattice_destroy(&l);
+    l = make("[4,4,4]",
+             "{\"box\":{\"min\":[0,0,0],\"max\":[3,1,1],\"axes\":[[0.6,0.8,0],[-0.8,0.6,0],[0,0,1]]}}",
+             "\"units\":\"box\",\"moves\":[{\"within\":{\"min\":[0.3333333333333333,0,0],\"max\":[1,1,0."
+             "6666666666666666]},"
+             "\"by\":[0,0,1]}]");
+    assert_int_equal(count_moved(l), 3 * 4 * 3);
+    ffd_lattice_destroy(&l);
+    l = move_tower("{\"by\":[100,0,0]},{\"within\":{\"min\":[0,0,0],\"max\":[0,0,0]},\"by\":[0,7,0]}");
+    check_exact(l, 0, 0, 0, 100, 7, 0);
+    check_exact(l, 1, 0, 0, 101, 0, 0);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_by_and_to(void **state)
+{
+    (void)state;
+    ffd_lattice *l =
+        move_tower("{\"at\":[0,0,0],\"to\":[9,8,7]},{\"at\":[0,0,0],\"by\":[-1,0.5,0],\"weight\":0.5}");
+    check_exact(l, 0, 0, 0, 8.5, 8.25, 7);
+    check_exact(l, 1, 0, 0, 1, 0, 0);
+    assert_int_equal(count_moved(l), 1);
+    assert_true(l->difference[0] == 8.5 && l->difference[3] == 0);
+    ffd_lattice_destroy(&l);
+    l = move_tower(
+        "{\"by\":[0,0,0]},{\"weight\":0,\"to\":[1,1,1]},{\"scale\":{\"factor\":1}},{\"rotate\":{\"axis\":"
+        "\"x\","
+        "\"degrees\":720}},{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]},{\"twist\":{\"axis\":[1,2,3],"
+        "\"degrees\":0}},{\"taper\":{\"axis\":\"z\",\"factor\":1}},{\"bend\":{\"axis\":\"z\",\"toward\":"
+        "\"x\","
+        "\"degrees\":0}}");
+    assert_int_equal(count_moved(l), 0);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_scale(void **state)
+{
+    (void)state;
+    /* About the centroid, (1,1,2). */
+    ffd_lattice *l = move_tower("{\"scale\":{\"factor\":3}}");
+    check_exact(l, 0, 0, 0, -2, -2, -4);
+    check_exact(l, 1, 1, 2, 1, 1, 2);
+    check_exact(l, 2, 0, 4, 4, -2, 8);
+    ffd_lattice_destroy(&l);
+    /* The centroid of what is selected: the face z = 4. */
+    l = move_tower("{\"at\":[\"all\",\"all\",-1],\"scale\":{\"factor\":[0.5,1,-2]}}");
+    check_exact(l, 0, 2, 4, 0.5, 2, 4);
+    check_exact(l, 2, 0, 4, 1.5, 0, 4);
+    ffd_lattice_destroy(&l);
+    /* About a point; after an earlier move; with a weight: p + 1/4 (2p - p - about). */
+    l = move_tower("{\"by\":[1,0,0]},{\"scale\":{\"factor\":2,\"about\":[3,0,0]},\"weight\":0.25}");
+    check_exact(l, 0, 0, 4, 0.5, 0, 5);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_rotate(void **state)
+{
+    (void)state;
+    ffd_lattice *l = move_tower("{\"rotate\":{\"axis\":\"z\",\"degrees\":90,\"about\":[0,0,0]}}");
+    check_exact(l, 2, 1, 3, -1, 2, 3);
+    check_exact(l, 0, 0, 4, 0, 0, 4);
+    ffd_lattice_destroy(&l);
+    l = move_tower("{\"rotate\":{\"axis\":[0,0,-7],\"degrees\":90}}");
+    check_exact(l, 2, 1, 3, 1, 0, 3);
+    ffd_lattice_destroy(&l);
+    /* By 120 degrees about (1,1,1) x, y, z change places. */
+    l = move_tower("{\"rotate\":{\"axis\":[1,1,1],\"degrees\":120,\"about\":[0,0,0]}}");
+    check_near(l, 2, 1, 3, 3, 2, 1);
+    ffd_lattice_destroy(&l);
+    l = move_tower("{\"rotate\":{\"axis\":\"y\",\"degrees\":30,\"about\":[1,5,2]}}");
+    /* d = (1, ., 2): x' = 1 + d_x cos + d_z sin, z' = 2 - d_x sin + d_z cos. */
+    check_near(l, 2, 1, 4, 1 + sqrt(0.75) + 1, 1, 2 - 0.5 + 2 * sqrt(0.75));
+    ffd_lattice_destroy(&l);
+}
+
+static void test_matrix(void **state)
+{
+    (void)state;
+    ffd_lattice *l = move_tower("{\"matrix\":[1,2,0,10, 0,1,0,20, 0,0,3,30, 0,0,0,1]}");
+    check_exact(l, 2, 1, 4, 2 + 2 + 10, 1 + 20, 12 + 30);
+    ffd_lattice_destroy(&l);
+    l = move_tower("{\"matrix\":[1,2,0,10, 0,1,0,20, 0,0,3,30, 0,0,0,1],\"weight\":0.5}");
+    check_exact(l, 2, 1, 4, 8, 11, 23);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_twist(void **state)
+{
+    (void)state;
+    /* z from 0 to 4 about the middle line x = y = 1: 0, 90, 180, 270, 360 degrees. */
+    ffd_lattice *l = move_tower("{\"twist\":{\"axis\":\"z\",\"degrees\":360}}");
+    check_exact(l, 2, 1, 0, 2, 1, 0);
+    check_near(l, 2, 1, 1, 1, 2, 1);
+    check_near(l, 2, 1, 2, 0, 1, 2);
+    check_near(l, 2, 1, 3, 1, 0, 3);
+    check_near(l, 2, 1, 4, 2, 1, 4);
+    check_exact(l, 1, 1, 3, 1, 1, 3);
+    ffd_lattice_destroy(&l);
+    /* The extent is that of the selected points: z from 2 to 4. The axis points down: s grows there, and so
+     * does f. */
+    l = move_tower(
+        "{\"at\":[\"all\",\"all\",[2,4]],\"twist\":{\"axis\":[0,0,-1],\"degrees\":-90,\"about\":[0,0,0]}}");
+    check_exact(l, 2, 1, 4, 2, 1, 4);
+    check_near(l, 2, 0, 2, 0, 2, 2);
+    check_near(l, 2, 0, 3, sqrt(2), sqrt(2), 3);
+    ffd_lattice_destroy(&l);
+    /* No extent: nothing turns. */
+    l = move_tower("{\"at\":[\"all\",\"all\",2],\"twist\":{\"axis\":\"z\",\"degrees\":90}}");
+    assert_int_equal(count_moved(l), 0);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_taper(void **state)
+{
+    (void)state;
+    ffd_lattice *l = move_tower("{\"taper\":{\"axis\":\"z\",\"factor\":0}}");
+    /* 1 + (0-1) f across, about x = y = 1. */
+    check_exact(l, 0, 0, 0, 0, 0, 0);
+    check_exact(l, 0, 2, 1, 0.25, 1.75, 1);
+    check_exact(l, 0, 2, 2, 0.5, 1.5, 2);
+    check_exact(l, 0, 2, 4, 1, 1, 4);
+    ffd_lattice_destroy(&l);
+    l = move_tower("{\"taper\":{\"axis\":\"x\",\"factor\":3,\"about\":[0,0,0]}}");
+    check_exact(l, 1, 1, 2, 1, 2, 4);
+    check_exact(l, 2, 1, 2, 2, 3, 6);
+    ffd_lattice_destroy(&l);
+}
+
+/* The formula of the interface, as it stands there, with the C library's functions. */
+static void check_bend(const ffd_lattice *l, double degrees, double about_x)
+{
+    const double pi = 3.14159265358979323846, radius = 4 / (degrees * pi / 180);
+    for (size_t k = 0; k < 5; k++)
+        for (size_t i = 0; i < 3; i++) {
+            const double s = (double)k, t = (double)i - about_x;
+            const double s_bent = (radius - t) * sin(s / radius),
+                         t_bent = radius - (radius - t) * cos(s / radius);
+            const double *const p = point_of(l, i, 2, k);
+            const double tolerance = 4e-16 * fabs(radius) + 5e-15;
+            if (!(fabs(p[0] - (about_x + t_bent)) <= tolerance) || p[1] != 2 ||
+                !(fabs(p[2] - s_bent) <= tolerance))
+                fail_msg("%g degrees, point %zu,2,%zu: %.17g %.17g %.17g, expected %.17g 2 %.17g", degrees, i,
+                         k, p[0], p[1], p[2], about_x + t_bent, s_bent);
+        }
+}
+
+static void test_bend(void **state)
+{
+    (void)state;
+    static const double angles[] = {90, -90, 180, 30, 1, 1e-3, -250, 700};
+    for (size_t i = 0; i < COUNT(angles); i++) {
+        char moves[256];
+        snprintf(moves, sizeof moves,
+                 "{\"bend\":{\"axis\":\"z\",\"toward\":[3,0,5],\"degrees\":%g,\"about\":[1,1,77]}}",
+                 angles[i]);
+        ffd_lattice *l = move_tower(moves);
+        check_bend(l, angles[i], 1);
+        /* The low end is fixed to the bit. */
+        check_exact(l, 2, 0, 0, 2, 0, 0);
+        ffd_lattice_destroy(&l);
+    }
+    /* 90 degrees over the length 4: R = 8/pi; the axis' end comes to lie at (R, R), pointing along x. */
+    ffd_lattice *l = move_tower("{\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":90}}");
+    const double radius = 8 / 3.14159265358979323846;
+    check_near(l, 1, 1, 4, 1 + radius, 1, radius);
+    check_near(l, 2, 1, 4, 1 + radius, 1, radius - 1);
+    ffd_lattice_destroy(&l);
+    /* Tiny angles move by about s^2/2R and nothing more: no digits lost against the long radius. */
+    l = move_tower("{\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":1e-9}}");
+    const double *const p = point_of(l, 1, 1, 4);
+    const double expected = 4 * (1e-9 * 3.14159265358979323846 / 180) / 2;
+    assert_true(fabs(p[0] - 1 - expected) <= 3e-16 && p[2] == 4);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_box_units(void **state)
+{
+    (void)state;
+    /* Sides 2, 2, 4 from (0,0,0): fractions. */
+    ffd_lattice *l =
+        make("[3,3,5]", tower,
+             "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"by\":[0.5,1,0.25]},{\"at\":[1,0,0],\"to\":"
+             "[0.5,0.25,1]},{\"at\":[2,0,0],\"scale\":{\"factor\":2,\"about\":[0,0,0.5]}},{\"at\":[0,1,0],"
+             "\"rotate\":{\"axis\":\"z\",\"degrees\":90,\"about\":[0.5,0.5,0]}},{\"at\":[2,2,4],\"matrix\":"
+             "[1,0,0,0.5,0,1,0,0,0,0,0.5,0,0,0,0,1]},{\"within\":{\"min\":[0.5,1,0.5],\"max\":[0.5,1,0.5]},"
+             "\"by\":[0,0,1]}]");
+    check_exact(l, 0, 0, 0, 1, 2, 1);
+    check_exact(l, 1, 0, 0, 1, 0.5, 4);
+    check_exact(l, 2, 0, 0, 4, 0, -2);
+    check_near(l, 0, 1, 0, 1, 0, 0);
+    check_exact(l, 2, 2, 4, 3, 2, 2);
+    check_exact(l, 1, 2, 2, 1, 2, 6);
+    ffd_lattice_destroy(&l);
+    /* Along the box's own axes, from its lower corner. */
+    l = make(
+        "[2,2,2]", "{\"box\":{\"min\":[1,2,3],\"max\":[4,5,7],\"axes\":[[0,1,0],[-1,0,0],[0,0,1]]}}",
+        "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"by\":[1,0,0.5]},{\"at\":[1,1,1],\"to\":[0.5,0,0]}]");
+    check_exact(l, 0, 0, 0, -2, 4, 5);
+    check_exact(l, 1, 1, 1, -2, 2.5, 3);
+    ffd_lattice_destroy(&l);
+    /* A cylinder: the bounds of the solid cylinder, [-2,2] x [-2,2] x [-5,5]; points: their bounds. */
+    l = make(
+        "[2,8,2]",
+        "{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[1,2],\"height\":10,\"angle\":[0,90]}}",
+        "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"to\":[0.25,0.5,1]}]");
+    check_near(l, 0, 0, 0, -1, 0, 5);
+    ffd_lattice_destroy(&l);
+    l = make("[2,2,2]", "{\"points\":[[0,0,0],[1,0,0],[0,2,0],[1,2,0],[0,0,4],[1,0,4],[0,2,4],[5,2,4]]}",
+             "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"by\":[1,0.5,0.25]}]");
+    check_exact(l, 0, 0, 0, 5, 1, 1);
+    ffd_lattice_destroy(&l);
+    /* The box of a mesh, margin included: its sides 4, 4, 4. */
+    l = make("[2,2,2]", "{\"box\":\"mesh\",\"margin\":0.5}",
+             "\"units\":\"box\",\"moves\":[{\"at\":[0,0,0],\"by\":[0.5,0,0]}]");
+    assert_int_equal(ffd_lattice_fit(l, (const double[]){0, 0, 0}, (const double[]){2, 2, 2}, NULL), FFD_OK);
+    check_exact(l, 0, 0, 0, 1, -1, -1);
+    assert_int_equal(ffd_lattice_fit(l, (const double[]){0, 0, 0}, (const double[]){4, 2, 2}, NULL), FFD_OK);
+    check_exact(l, 0, 0, 0, 2, -1, -1);
+    ffd_lattice_destroy(&l);
+}
+
+/* Moves act on the deformed points; `within` looks at the rest. */
+static void test_on_deformed(void **state)
+{
+    (void)state;
+    ffd_lattice *l =
+        make("[2,2,2]", "{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]}}",
+             "\"deformed\":{\"points\":[[5,5,5],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]]},"
+             "\"moves\":[{\"within\":{\"min\":[0,0,0],\"max\":[0,0,0]},\"by\":[1,1,1]}]");
+    check_exact(l, 0, 0, 0, 6, 6, 6);
+    assert_true(l->rest[0] == 0);
+    assert_int_equal(count_moved(l), 1);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_failures(void **state)
+{
+    (void)state;
+    static const struct failure {
+        const char *more, *words;
+    } failures[] = {
+        {"\"moves\":[{\"by\":[1,0,0]},{\"within\":{\"min\":[9,9,9],\"max\":[10,10,10]},\"by\":[1,0,0]}]",
+         "t.json:/moves/1: selects no control point: none rests within these bounds"},
+        {"\"moves\":[{\"by\":[1e308,0,0]},{\"at\":[1,0,0],\"scale\":{\"factor\":10,\"about\":[0,0,0]}}]",
+         "t.json:/moves/1: moves control point 1,0,0 to a place that is no finite number"},
+    };
+    for (size_t i = 0; i < COUNT(failures); i++) {
+        char text[1024];
+        ffd_lattice *l;
+        ffd_error error;
+        snprintf(text, sizeof text,
+                 "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,3,5],\"rest\":%s,%s}", tower,
+                 failures[i].more);
+        assert_int_equal(ffd_lattice_parse(text, strlen(text), "t.json", &l, &error), FFD_E_INVALID);
+        assert_string_equal(message_of(&error), failures[i].words);
+        assert_int_equal(ffd_lattice_parse(text, strlen(text), "t.json", &l, NULL), FFD_E_INVALID);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_selection),   cmocka_unit_test(test_within_edges),
+        cmocka_unit_test(test_by_and_to),   cmocka_unit_test(test_scale),
+        cmocka_unit_test(test_rotate),      cmocka_unit_test(test_matrix),
+        cmocka_unit_test(test_twist),       cmocka_unit_test(test_taper),
+        cmocka_unit_test(test_bend),        cmocka_unit_test(test_box_units),
+        cmocka_unit_test(test_on_deformed), cmocka_unit_test(test_failures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,117 @@
+#include "base/trig.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static void check(double degrees, double sine, double cosine)
+{
+    double s, c;
+    ffd_sincos_degrees(degrees, &s, &c);
+    if (s != sine || c != cosine || (s == 0 && signbit(s)) || (c == 0 && signbit(c)))
+        fail_msg("%.17g degrees: sine %.17g cosine %.17g, expected %.17g %.17g", degrees, s, c, sine, cosine);
+}
+
+static void test_exact(void **state)
+{
+    (void)state;
+    const double r = sqrt(0.5), h = sqrt(0.75);
+    for (double turn = -3600; turn <= 3600; turn += 360) {
+        check(turn, 0, 1);
+        check(turn + 90, 1, 0);
+        check(turn + 180, 0, -1);
+        check(turn + 270, -1, 0);
+        check(turn + 45, r, r);
+        check(turn + 135, r, -r);
+        check(turn + 225, -r, -r);
+        check(turn + 315, -r, r);
+        check(turn + 30, 0.5, h);
+        check(turn + 60, h, 0.5);
+        check(turn + 150, 0.5, -h);
+        check(turn + 210, -0.5, -h);
+        check(turn + 300, -h, 0.5);
+    }
+    /* 10^22 is a double, and 280 more than a multiple of 360. */
+    double sine, cosine;
+    ffd_sincos_degrees(280, &sine, &cosine);
+    check(1e22, sine, cosine);
+}
+
+/* splitmix64 */
+static double random_unit(uint64_t *state)
+{
+    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    z ^= z >> 31;
+    return (double)(z >> 11) * 0x1p-53;
+}
+
+static double ulps(double value, long double exact)
+{
+    const double nearest = fabs((double)exact);
+    return (double)(fabsl((long double)value - exact) / (nextafter(nearest, 2) - nearest));
+}
+
+static void test_random(void **state)
+{
+    (void)state;
+    const long double radian = acosl(-1.0L) / 180;
+    uint64_t seed = 12345;
+    for (int i = 0; i < 200000; i++) {
+        static const double range[] = {45, 360, 1e6};
+        const double degrees = (2 * random_unit(&seed) - 1) * range[i % 3];
+        double s, c;
+        ffd_sincos_degrees(degrees, &s, &c);
+        /* Reduced exactly first: near a zero the long double product would not be exact enough. */
+        const long double turn = fmodl((long double)degrees, 360), quadrant = floorl(turn / 90 + 0.5L);
+        const long double x = (turn - 90 * quadrant) * radian, sine = sinl(x), cosine = cosl(x);
+        const int q = (int)quadrant & 3;
+        const long double exact_sine = q == 0 ? sine : q == 1 ? cosine : q == 2 ? -sine : -cosine;
+        const long double exact_cosine = q == 0 ? cosine : q == 1 ? -sine : q == 2 ? -cosine : sine;
+        if (ulps(s, exact_sine) > 1 || ulps(c, exact_cosine) > 1)
+            fail_msg("%.17g degrees: sine off by %g ulp, cosine by %g", degrees, ulps(s, exact_sine),
+                     ulps(c, exact_cosine));
+    }
+}
+
+static void test_symmetry(void **state)
+{
+    (void)state;
+    uint64_t seed = 99;
+    for (int i = 0; i < 20000; i++) {
+        const double degrees = random_unit(&seed) * 400;
+        double s, c, s_back, c_back;
+        ffd_sincos_degrees(degrees, &s, &c);
+        ffd_sincos_degrees(-degrees, &s_back, &c_back);
+        assert_true(s_back == -s);
+        assert_true(c_back == c);
+    }
+}
+
+/* Small angles keep their digits. */
+static void test_small(void **state)
+{
+    (void)state;
+    for (double degrees = 40; degrees > 1e-290; degrees /= 7) {
+        double s, c;
+        ffd_sincos_degrees(degrees, &s, &c);
+        const long double exact = sinl((long double)degrees * (acosl(-1.0L) / 180));
+        assert_true(ulps(s, exact) <= 1);
+        assert_true(c <= 1);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_exact),
+        cmocka_unit_test(test_random),
+        cmocka_unit_test(test_symmetry),
+        cmocka_unit_test(test_small),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
