@@ -78,3 +78,10 @@ extern "C" size_t ffd_number_format_float(float value, char text[FFD_NUMBER_CAPA
 {
     return format_shortest(value, text);
 }
+
+extern "C" number_text ffd_number_text(double value)
+{
+    number_text result;
+    result.text[format_shortest(value, result.text)] = 0;
+    return result;
+}

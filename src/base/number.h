@@ -21,6 +21,13 @@ const char *ffd_number_parse(const char *first, const char *last, double *value)
 size_t ffd_number_format(double value, char text[FFD_NUMBER_CAPACITY]);
 size_t ffd_number_format_float(float value, char text[FFD_NUMBER_CAPACITY]);
 
+/* The shortest text of a number as a string, for messages. */
+typedef struct number_text {
+    char text[FFD_NUMBER_CAPACITY + 1];
+} number_text;
+
+number_text ffd_number_text(double value);
+
 #ifdef __cplusplus
 }
 #endif

@@ -30,6 +30,12 @@ typedef struct cli_talk {
 /* An ffd_log_function whose user is a cli_talk. */
 void cli_log(void *user, ffd_log_level level, const char *line);
 
+/* The name of an input in messages. */
+const char *cli_shown(const char *path);
+
+/* Whether the format of a mesh is known: as given, or by the name's ending. Else says what is missing. */
+bool cli_knows_format(const char *path, ffd_format given);
+
 /* Says what went wrong, returns its exit code. */
 int cli_fail(const ffd_error *error);
 

@@ -2,11 +2,13 @@
 #include "cli/command.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct settings {
     double tolerance;
     ffd_format input_format;
-    bool quiet, help;
+    bool help;
+    cli_talk talk;
 } settings;
 
 static bool set_tolerance(void *context, const cli_option *option, const char *value)
@@ -22,22 +24,35 @@ static bool set_tolerance(void *context, const cli_option *option, const char *v
 static const cli_option options[] = {
     {"tolerance", 0, "T", "positions may differ by this much in a coordinate; default 0", set_tolerance, 0,
      NULL},
-    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only the exit code", cli_set_flag, AT(quiet), NULL},
+    {"input-format", 0, "FORMAT", "obj, gltf or glb; of - where one of them is, else of both", cli_set_format,
+     AT(input_format), NULL},
+    {"quiet", 'q', NULL, "only errors and the exit code", cli_set_flag, AT(talk.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
+/* file's format, where other is what it is compared with. */
+static ffd_source source(const settings *s, const char *file, const char *other)
+{
+    const bool other_only = strcmp(other, "-") == 0 && strcmp(file, "-") != 0;
+    return (ffd_source){file, other_only ? FFD_FORMAT_AUTO : s->input_format, FFD_SPACE_SCENE};
+}
+
 static int compare(const settings *s, const char *a, const char *b)
 {
-    const ffd_source first = {a, s->input_format, FFD_SPACE_SCENE},
-                     second = {b, s->input_format, FFD_SPACE_SCENE};
+    const ffd_source first = source(s, a, b), second = source(s, b, a);
+    if (!cli_knows_format(a, first.format) || !cli_knows_format(b, second.format))
+        return EXIT_USAGE;
     ffd_comparison comparison;
     ffd_error error;
     if (ffd_compare_run(&first, &second, s->tolerance, &comparison, &error))
         return cli_fail(&error);
-    if (!s->quiet && !comparison.equal)
-        printf("%s and %s differ: %s\n", a, b, comparison.difference);
+    if (s->talk.verbose && !s->talk.quiet)
+        cli_complain("%llu positions compared, largest difference of a coordinate %g",
+                     (unsigned long long)comparison.positions_compared, comparison.position_difference_max);
+    if (!s->talk.quiet && !comparison.equal)
+        printf("%s and %s differ: %s\n", cli_shown(a), cli_shown(b), comparison.difference);
     return comparison.equal ? EXIT_DONE : EXIT_NO;
 }
 
@@ -48,13 +63,17 @@ static int run(const cli_command *command, int count, char **arguments)
     int code = EXIT_USAGE;
     if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
         return code;
-    code =
-        words.count == 2 ? compare(&s, words.words[0], words.words[1]) : cli_usage(command, "needs A and B");
+    if (words.count != 2)
+        code = cli_usage(command, "needs A and B");
+    else if (strcmp(words.words[0], "-") == 0 && strcmp(words.words[1], "-") == 0)
+        code = cli_usage(command, "standard input can be read only once");
+    else
+        code = compare(&s, words.words[0], words.words[1]);
     free(words.words);
     return code;
 }
 
 const cli_command cli_compare = {"compare", "are two files the same mesh?",
-                                 "usage: ffd compare A B [--tolerance T]\n"
+                                 "usage: ffd compare A B [--tolerance T] [options]\n"
                                  "       exit 0: the same, 1: not\n",
                                  options, run};

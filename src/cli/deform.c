@@ -1,5 +1,6 @@
 /* deform.c - ffd deform: one mesh to a file, many to a folder. */
 #include "cli/command.h"
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,9 +19,8 @@ typedef struct settings {
 static bool add_lattice(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    (void)option;
-    s->lattices[s->lattice_count++] = value;
-    return true;
+    s->lattices[s->lattice_count] = NULL;
+    return cli_set_text(&s->lattices[s->lattice_count++], option, value);
 }
 
 static const char *const outside_names[] = {"keep", "error", NULL};
@@ -89,7 +89,7 @@ static int run_job(settings *s, const char *input, const char *output, ffd_repor
     if (ffd_deform_run(&desc, &result, &error))
         code = cli_fail(&error);
     else if (s->talk.verbose && !s->talk.quiet)
-        cli_complain("%s: %llu of %llu vertices moved, by %g at most", input,
+        cli_complain("%s: %llu of %llu vertices moved, by %g at most", cli_shown(input),
                      (unsigned long long)result.moved, (unsigned long long)result.vertices,
                      result.displacement_max);
     if (report && ffd_report_add(report, input, s->in_place ? input : output, &result, &error))
@@ -102,42 +102,72 @@ static int compare_names(const void *a, const void *b)
     return strcmp(name_of(*(const char *const *)a), name_of(*(const char *const *)b));
 }
 
-/* Outputs of one name in --out-dir would overwrite each other. */
-static bool names_differ(const cli_words *inputs)
+static int compare_paths(const void *a, const void *b)
 {
-    const char **sorted = malloc(inputs->count * sizeof *sorted);
-    bool differ = sorted != NULL;
-    if (!sorted) {
-        cli_complain("out of memory");
-        return false;
-    }
-    memcpy(sorted, inputs->words, inputs->count * sizeof *sorted);
-    qsort(sorted, inputs->count, sizeof *sorted, compare_names);
-    for (size_t i = 1; i < inputs->count && differ; i++)
-        if (strcmp(name_of(sorted[i - 1]), name_of(sorted[i])) == 0) {
-            cli_complain("%s and %s would both be written as \"%s\"", sorted[i - 1], sorted[i],
-                         name_of(sorted[i]));
-            differ = false;
-        }
-    free(sorted);
-    return differ;
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-static int run_to_folder(settings *s, const cli_words *inputs, ffd_report *report)
+/* Two jobs with one output would overwrite each other's. Returns 0 or an exit code, after a complaint. */
+static int refuse_equal_outputs(const cli_words *inputs, int (*compare)(const void *, const void *))
+{
+    const char **sorted = calloc(inputs->count, sizeof *sorted);
+    int code = EXIT_DONE;
+    if (!sorted) {
+        cli_complain("out of memory");
+        return ffd_status_exit_code(FFD_E_MEMORY);
+    }
+    memcpy(sorted, inputs->words, inputs->count * sizeof *sorted);
+    qsort(sorted, inputs->count, sizeof *sorted, compare);
+    for (size_t i = 1; i < inputs->count && !code; i++)
+        if (compare(&sorted[i - 1], &sorted[i]) == 0) {
+            if (strcmp(sorted[i - 1], sorted[i]) == 0)
+                cli_complain("%s: is named twice", sorted[i]);
+            else
+                cli_complain("%s and %s would both be written as \"%s\"", sorted[i - 1], sorted[i],
+                             name_of(sorted[i]));
+            code = EXIT_USAGE;
+        }
+    free(sorted);
+    return code;
+}
+
+/* "folder/name", to be freed; NULL after a complaint. */
+static char *join(const char *folder, const char *name)
+{
+    const size_t length = strlen(folder), capacity = length + strlen(name) + 2;
+    char *path = malloc(capacity);
+    if (path)
+        snprintf(path, capacity, "%s%s%s", folder, folder[length - 1] == '/' ? "" : "/", name);
+    else
+        cli_complain("out of memory");
+    return path;
+}
+
+/* A missing folder would fail every job; it is said once, before any work. */
+static int refuse_missing_folder(const char *folder)
+{
+    char *inside = join(folder, ".");
+    if (!inside)
+        return ffd_status_exit_code(FFD_E_MEMORY);
+    FILE *file = fopen(inside, "r");
+    const bool missing = !file && (errno == ENOENT || errno == ENOTDIR);
+    if (file)
+        fclose(file);
+    free(inside);
+    if (!missing)
+        return EXIT_DONE;
+    cli_complain("%s: there is no such folder", folder);
+    return ffd_status_exit_code(FFD_E_IO);
+}
+
+static int run_all(settings *s, const cli_words *inputs, ffd_report *report)
 {
     int code = EXIT_DONE;
     for (size_t i = 0; i < inputs->count; i++) {
         const char *input = inputs->words[i];
-        char *output = NULL;
-        if (s->out_dir) {
-            const size_t capacity = strlen(s->out_dir) + strlen(name_of(input)) + 2;
-            output = malloc(capacity);
-            if (!output) {
-                cli_complain("out of memory");
-                return ffd_status_exit_code(FFD_E_MEMORY);
-            }
-            snprintf(output, capacity, "%s/%s", s->out_dir, name_of(input));
-        }
+        char *output = s->out_dir ? join(s->out_dir, name_of(input)) : NULL;
+        if (s->out_dir && !output)
+            return ffd_status_exit_code(FFD_E_MEMORY);
         const int own = run_job(s, input, output, report);
         free(output);
         if (own)
@@ -146,29 +176,87 @@ static int run_to_folder(settings *s, const cli_words *inputs, ffd_report *repor
     return code;
 }
 
-static bool words_are_right(const cli_command *command, const settings *s, const cli_words *words)
+/* Whether IN or OUT is meant for all words or for the first of two. */
+static bool has_many(const settings *s)
 {
-    const char *why = NULL;
+    return s->in_place || s->out_dir;
+}
+
+static bool is_stream(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+static const char *wrong_options(const settings *s, const cli_words *words)
+{
     if (s->lattice_count == 0)
-        why = "no lattice is given (-l FILE)";
-    else if (s->in_place && s->out_dir)
-        why = "--in-place and --out-dir exclude each other";
-    else if (s->in_place && words->count < 1)
-        why = "needs at least one IN";
-    else if (s->out_dir && words->count < 1)
-        why = "needs at least one IN";
-    else if (!s->in_place && !s->out_dir && words->count != 2)
-        why = words->count < 2 ? "needs IN and OUT"
-                               : "more than IN and OUT: several IN need --out-dir or --in-place";
-    for (size_t i = 0; !why && s->out_dir && i < words->count; i++)
-        if (strcmp(words->words[i], "-") == 0)
-            why = "standard input has no name to be kept in --out-dir";
-    if (!why && s->report && strcmp(s->report, "-") == 0 && !s->in_place && !s->out_dir &&
-        strcmp(words->words[1], "-") == 0)
-        why = "the mesh and the report cannot both go to standard output";
+        return "no lattice is given (-l FILE)";
+    if (s->in_place && s->out_dir)
+        return "--in-place and --out-dir exclude each other";
+    if (s->in_place && s->output_format)
+        return "--in-place keeps the format: --output-format has no meaning";
+    if (s->out_dir && !*s->out_dir)
+        return "the name of the folder for --out-dir is empty";
+    if (s->stable && !s->report)
+        return "--report-stable needs --report";
+    if (has_many(s))
+        return words->count < 1 ? "needs at least one IN" : NULL;
+    if (words->count < 2)
+        return words->count ? "needs an OUT (or --out-dir, --in-place)" : "needs IN and OUT";
+    return words->count > 2 ? "more than IN and OUT: several IN need --out-dir or --in-place" : NULL;
+}
+
+static const char *wrong_streams(const settings *s, const cli_words *words)
+{
+    const size_t inputs = has_many(s) ? words->count : 1;
+    size_t meshes = 0, lattices = 0;
+    for (size_t i = 0; i < inputs; i++)
+        meshes += is_stream(words->words[i]);
+    for (size_t i = 0; i < s->lattice_count; i++)
+        lattices += is_stream(s->lattices[i]);
+    if (meshes && s->out_dir)
+        return "standard input has no name to be kept in --out-dir";
+    if (meshes && s->in_place)
+        return "standard input cannot be overwritten";
+    if (meshes + lattices > 1 || (lattices && inputs > 1))
+        return "standard input can be read only once";
+    if (s->report && is_stream(s->report) && !has_many(s) && is_stream(words->words[1]))
+        return "the mesh and the report cannot both go to standard output";
+    return NULL;
+}
+
+/* A report replaces what stands under its name, which must not be a file of the job. */
+static const char *wrong_report(const settings *s, const cli_words *words)
+{
+    if (!s->report || is_stream(s->report))
+        return NULL;
+    for (size_t i = 0; i < words->count; i++)
+        if (strcmp(s->report, words->words[i]) == 0)
+            return "the report would replace a mesh";
+    for (size_t i = 0; i < s->lattice_count; i++)
+        if (strcmp(s->report, s->lattices[i]) == 0)
+            return "the report would replace a lattice";
+    return NULL;
+}
+
+/* All that can be refused before the first job. Returns 0 or an exit code, after a complaint. */
+static int refuse(const cli_command *command, const settings *s, const cli_words *words)
+{
+    const char *why = wrong_options(s, words);
+    if (!why)
+        why = wrong_streams(s, words);
+    if (!why)
+        why = wrong_report(s, words);
     if (why)
-        cli_usage(command, why);
-    return !why && (!s->out_dir || names_differ(words));
+        return cli_usage(command, why);
+    const size_t inputs = has_many(s) ? words->count : 1;
+    for (size_t i = 0; i < inputs; i++)
+        if (!cli_knows_format(words->words[i], s->input_format))
+            return EXIT_USAGE;
+    if (!has_many(s))
+        return EXIT_DONE;
+    const int code = refuse_equal_outputs(words, s->out_dir ? compare_names : compare_paths);
+    return code || !s->out_dir || words->count == 1 ? code : refuse_missing_folder(s->out_dir);
 }
 
 static int run_jobs(settings *s, const cli_words *words)
@@ -177,8 +265,7 @@ static int run_jobs(settings *s, const cli_words *words)
     ffd_error error;
     if (s->report && ffd_report_create(s->stable, &report, &error))
         return cli_fail(&error);
-    int code = s->out_dir || s->in_place ? run_to_folder(s, words, report)
-                                         : run_job(s, words->words[0], words->words[1], report);
+    int code = has_many(s) ? run_all(s, words, report) : run_job(s, words->words[0], words->words[1], report);
     if (report && ffd_report_write(report, s->report, &error)) {
         const int own = cli_fail(&error);
         code = code ? code : own;
@@ -198,10 +285,9 @@ static int run(const cli_command *command, int count, char **arguments)
         return ffd_status_exit_code(FFD_E_MEMORY);
     }
     if (cli_begin(command, &s, &s.help, count, arguments, &words, &code)) {
-        if (words_are_right(command, &s, &words))
+        code = refuse(command, &s, &words);
+        if (!code)
             code = run_jobs(&s, &words);
-        else
-            code = EXIT_USAGE;
         free(words.words);
     }
     free(s.lattices);

@@ -1,6 +1,7 @@
 /* embed.c - ffd embed: u,v,w of every vertex as a NumPy file. */
 #include "cli/command.h"
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct settings {
     const char *lattice, *output, *status;
@@ -48,6 +49,21 @@ static int embed(settings *s, const char *input)
     return ffd_embed_run(&desc, &result, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 
+static const char *wrong(const settings *s, const cli_words *words)
+{
+    if (words->count != 1)
+        return "needs one IN";
+    if (!s->lattice)
+        return "no lattice is given (-l FILE)";
+    if (!s->output)
+        return "no output is given (-o FILE.npy)";
+    if (strcmp(words->words[0], "-") == 0 && strcmp(s->lattice, "-") == 0)
+        return "standard input can be read only once";
+    if (s->status && strcmp(s->output, s->status) == 0)
+        return "-o and --status name the same file";
+    return NULL;
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
@@ -55,13 +71,10 @@ static int run(const cli_command *command, int count, char **arguments)
     int code = EXIT_USAGE;
     if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
         return code;
-    if (words.count != 1)
-        code = cli_usage(command, "needs one IN");
-    else if (!s.lattice)
-        code = cli_usage(command, "no lattice is given (-l FILE)");
-    else if (!s.output)
-        code = cli_usage(command, "no output is given (-o FILE.npy)");
-    else
+    const char *why = wrong(&s, &words);
+    if (why)
+        code = cli_usage(command, why);
+    else if (cli_knows_format(words.words[0], s.input_format))
         code = embed(&s, words.words[0]);
     free(words.words);
     return code;

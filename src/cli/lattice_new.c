@@ -10,6 +10,8 @@ typedef struct settings {
     int shape, spacing;
     ffd_format input_format;
     bool force, help;
+    bool has_axis;
+    cli_talk talk;
 } settings;
 
 /* Splits "4,4,4" (or "4" for all three) into texts. */
@@ -110,6 +112,7 @@ static bool set_axis(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
     char part[3][32];
+    s->has_axis = true;
     if (strlen(value) == 1 && *value >= 'x' && *value <= 'z') {
         for (int a = 0; a < 3; a++)
             s->desc.axis[a] = *value == "xyz"[a];
@@ -150,6 +153,8 @@ static const cli_option options[] = {
     {"axes", 0, "principal", "a box along the mesh's principal axes", set_axes, 0, NULL},
     {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
     {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
@@ -163,6 +168,21 @@ static int create(settings *s, const char *mesh)
     return ffd_lattice_new_run(&source, &s->desc, s->output, s->force, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 
+static const char *wrong(const settings *s, const cli_words *words)
+{
+    if (words->count != 1)
+        return "needs one MESH";
+    if (!s->output)
+        return "no output is given (-o LATTICE)";
+    if (ffd_format_from_name(s->output) != FFD_FORMAT_AUTO)
+        return "a lattice file is JSON, and the output has a mesh's ending";
+    if (s->has_axis && s->shape != FFD_SHAPE_CYLINDER)
+        return "--axis needs --shape cylinder";
+    if (s->desc.principal && s->shape != FFD_SHAPE_BOX)
+        return "--axes is for boxes: a cylinder has its --axis";
+    return NULL;
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
@@ -171,11 +191,10 @@ static int run(const cli_command *command, int count, char **arguments)
     ffd_lattice_desc_init(&s.desc);
     if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
         return code;
-    if (words.count != 1)
-        code = cli_usage(command, "needs one MESH");
-    else if (!s.output)
-        code = cli_usage(command, "no output is given (-o LATTICE)");
-    else
+    const char *why = wrong(&s, &words);
+    if (why)
+        code = cli_usage(command, why);
+    else if (cli_knows_format(words.words[0], s.input_format))
         code = create(&s, words.words[0]);
     free(words.words);
     return code;

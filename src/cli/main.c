@@ -1,6 +1,7 @@
 /* main.c - the program ffd: finds the command and runs it. */
 #include "cli/command.h"
 #include "cli/nearest.h"
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,12 +16,28 @@ void cli_print_help(const cli_command *command)
     cli_print_options(command->options);
 }
 
+const char *cli_shown(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+bool cli_knows_format(const char *path, ffd_format given)
+{
+    if (given != FFD_FORMAT_AUTO || ffd_format_from_name(path) != FFD_FORMAT_AUTO)
+        return true;
+    if (strcmp(path, "-") == 0)
+        cli_complain("standard input needs --input-format obj, gltf or glb");
+    else
+        cli_complain("%s: the ending is not that of a mesh format: .obj, .gltf and .glb are known", path);
+    return false;
+}
+
 void cli_log(void *user, ffd_log_level level, const char *line)
 {
     const cli_talk *talk = user;
     if (talk->quiet || (level != FFD_LOG_WARNING && !talk->verbose))
         return;
-    cli_complain("%s: %s", strcmp(talk->subject, "-") == 0 ? "standard input" : talk->subject, line);
+    cli_complain("%s: %s", cli_shown(talk->subject), line);
 }
 
 int cli_fail(const ffd_error *error)
@@ -190,8 +207,10 @@ int main(int argc, char **argv)
 {
     occupy_closed_streams();
     int code = run(argc - 1, argv + 1);
+    errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout)) {
-        cli_complain("standard output: cannot be written");
+        cli_complain("standard output: cannot be written%s%s", errno ? ": " : "",
+                     errno ? strerror(errno) : "");
         if (code == EXIT_DONE)
             code = ffd_status_exit_code(FFD_E_IO);
     }

@@ -36,13 +36,11 @@ bool cli_set_flag(void *settings, const cli_option *option, const char *value)
 
 bool cli_set_text(void *settings, const cli_option *option, const char *value)
 {
-    *(const char **)field(settings, option) = value;
-    return true;
-}
-
-bool cli_set_only_text(void *settings, const cli_option *option, const char *value)
-{
     const char **text = field(settings, option);
+    if (!*value) {
+        cli_complain("--%s: the value is empty", option->name);
+        return false;
+    }
     if (*text) {
         cli_complain("--%s is given twice: \"%s\" and \"%s\"", option->name, *text, value);
         return false;

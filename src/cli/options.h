@@ -27,11 +27,10 @@ typedef struct cli_words {
     size_t count;
 } cli_words;
 
-/* Common setters. The field at offset is a bool; const char *; const char *, refusing a second value; int (a
+/* Common setters. The field at offset is a bool; const char *, given once and not empty; int (a
    number of threads); int (index into choices); ffd_format. */
 bool cli_set_flag(void *settings, const cli_option *option, const char *value);
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
-bool cli_set_only_text(void *settings, const cli_option *option, const char *value);
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
 bool cli_set_format(void *settings, const cli_option *option, const char *value);

@@ -1,5 +1,6 @@
 /* affine.c - lattices whose rest map is affine: u,v,w by a 3x3 matrix. */
 #include "base/vec.h"
+#include "embed/face.h"
 #include "embed/locator.h"
 #include <math.h>
 
@@ -105,53 +106,24 @@ bool ffd_affine_detect(ffd_locator *locator)
     return has_volume(map->frame) && mat_invert(map->frame, map->inverse);
 }
 
-static double clip(double t)
+/* frame t - p */
+static void affine_equation(const affine_map *map, const double p[3], const double t[3], double equation[3])
 {
-    return t < 0 ? 0 : t > 1 ? 1 : t;
-}
-
-/* The point of the face nearest to p, in the least squares sense: the coordinates that lie on a face of the
-   domain stay, the others are solved for again. */
-static void settle_on_face(const affine_map *map, const double p[3], double t[3])
-{
-    double residual[3], column[2][3];
-    int free[3], count = 0;
-    mat_apply(map->frame, t, residual);
+    mat_apply(map->frame, t, equation);
     for (int r = 0; r < 3; r++)
-        residual[r] = p[r] - residual[r];
-    for (int a = 0; a < 3; a++)
-        if (t[a] > 0 && t[a] < 1)
-            free[count++] = a;
-    if (count != 1 && count != 2)
-        return;
-    for (int c = 0; c < count; c++)
-        for (int r = 0; r < 3; r++)
-            column[c][r] = map->frame[3 * r + free[c]];
-    const double aa = vec_dot(column[0], column[0]), ar = vec_dot(column[0], residual);
-    if (count == 1) {
-        t[free[0]] = clip(t[free[0]] + ar / aa);
-        return;
-    }
-    const double ab = vec_dot(column[0], column[1]), bb = vec_dot(column[1], column[1]);
-    const double br = vec_dot(column[1], residual), det = aa * bb - ab * ab;
-    if (det > 0) {
-        t[free[0]] = clip(t[free[0]] + (ar * bb - br * ab) / det);
-        t[free[1]] = clip(t[free[1]] + (br * aa - ar * ab) / det);
-    }
+        equation[r] -= p[r];
 }
 
 /* A strongly sheared frame loses digits in its inverse: one step of iterative refinement wins them back. */
 static void refine(const affine_map *map, const double p[3], const double tolerance[3], double t[3])
 {
-    double residual[3], correction[3];
-    mat_apply(map->frame, t, residual);
-    for (int r = 0; r < 3; r++)
-        residual[r] = p[r] - residual[r];
-    if (ffd_within_tolerance(residual, tolerance))
+    double equation[3], correction[3];
+    affine_equation(map, p, t, equation);
+    if (ffd_within_tolerance(equation, tolerance))
         return;
-    mat_apply(map->inverse, residual, correction);
+    mat_apply(map->inverse, equation, correction);
     for (int a = 0; a < 3; a++)
-        t[a] += correction[a];
+        t[a] -= correction[a];
 }
 
 void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location *location)
@@ -163,15 +135,13 @@ void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location
     mat_apply(map->inverse, p, t);
     refine(map, p, tolerance, t);
     for (int a = 0; a < 3; a++) {
-        const double inner = clip(t[a]);
+        const double inner = clip_to_unit(t[a]);
         clipped = clipped || inner != t[a];
         t[a] = inner;
     }
-    if (clipped)
-        settle_on_face(map, p, t);
-    mat_apply(map->frame, t, residual);
-    for (int r = 0; r < 3; r++)
-        residual[r] -= p[r];
+    affine_equation(map, p, t, residual);
+    if (clipped && ffd_face_step(map->frame, residual, t))
+        affine_equation(map, p, t, residual);
     if (!ffd_within_tolerance(residual, tolerance))
         return;
     location->status = FFD_INSIDE;

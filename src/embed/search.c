@@ -3,6 +3,7 @@
 #include "base/memory.h"
 #include "base/vec.h"
 #include "embed/cells.h"
+#include "embed/face.h"
 #include <math.h>
 #include <string.h>
 
@@ -107,16 +108,11 @@ static void evaluate_in(point_search *search, const cell_region *region, const d
         at->jacobian[i] *= region->width[i % 3];
 }
 
-static double clip(double t)
-{
-    return t < 0 ? 0 : t > 1 ? 1 : t;
-}
-
 /* t + step, clipped to the box. */
 static void step_from(const double t[3], const double step[3], double to[3])
 {
     for (int a = 0; a < 3; a++)
-        to[a] = clip(t[a] + step[a]);
+        to[a] = clip_to_unit(t[a] + step[a]);
 }
 
 /* The full Newton step -J^{-1} F by Cramer's rule; false where J is singular. */
@@ -145,27 +141,8 @@ static bool accepted(const point_search *search, const sample *at, double weight
 static void settle_on_face(point_search *search, const cell_region *region, double t[3], sample *at)
 {
     for (int round = 0; round < 2; round++) {
-        double column[2][3];
-        int free[3], count = 0;
-        for (int a = 0; a < 3; a++)
-            if (t[a] > 0 && t[a] < 1)
-                free[count++] = a;
-        if (count != 1 && count != 2)
+        if (!ffd_face_step(at->jacobian, at->equation, t))
             return;
-        for (int c = 0; c < count; c++)
-            for (int r = 0; r < 3; r++)
-                column[c][r] = at->jacobian[3 * r + free[c]];
-        const double aa = vec_dot(column[0], column[0]), ar = -vec_dot(column[0], at->equation);
-        if (count == 1) {
-            t[free[0]] = clip(t[free[0]] + (aa > 0 ? ar / aa : 0));
-        } else {
-            const double ab = vec_dot(column[0], column[1]), bb = vec_dot(column[1], column[1]);
-            const double br = -vec_dot(column[1], at->equation), det = aa * bb - ab * ab;
-            if (!(det > 0))
-                return;
-            t[free[0]] = clip(t[free[0]] + (ar * bb - br * ab) / det);
-            t[free[1]] = clip(t[free[1]] + (br * aa - ar * ab) / det);
-        }
         evaluate_in(search, region, t, at);
     }
 }

@@ -4,17 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 
-typedef struct number_text {
-    char text[FFD_NUMBER_CAPACITY + 1];
-} number_text;
-
-static number_text text_of(double value)
-{
-    number_text result;
-    result.text[ffd_number_format(value, result.text)] = 0;
-    return result;
-}
-
 typedef struct point_name {
     char text[96];
 } point_name;
@@ -37,15 +26,15 @@ static ffd_status check_point(const ffd_lattice *lattice, ffd_volume volume, siz
     const double weight = weights ? weights[point] : 1;
     if (!(weight > 0 && isfinite(weight)))
         return ffd_fail(error, FFD_E_INVALID, "the weight of %s is %s, not positive and finite",
-                        name_of(lattice, volume, point).text, text_of(weight).text);
+                        name_of(lattice, volume, point).text, ffd_number_text(weight).text);
     for (int c = 0; c < 3; c++) {
         if (!isfinite(p[c]))
             return ffd_fail(error, FFD_E_INVALID, "%s: %c is %s, not a finite number",
-                            name_of(lattice, volume, point).text, "xyz"[c], text_of(p[c]).text);
+                            name_of(lattice, volume, point).text, "xyz"[c], ffd_number_text(p[c]).text);
         if (!isfinite(weight * p[c]))
             return ffd_fail(error, FFD_E_INVALID, "%s: weight %s times %c, %s, is not finite",
-                            name_of(lattice, volume, point).text, text_of(weight).text, "xyz"[c],
-                            text_of(p[c]).text);
+                            name_of(lattice, volume, point).text, ffd_number_text(weight).text, "xyz"[c],
+                            ffd_number_text(p[c]).text);
     }
     return FFD_OK;
 }
@@ -92,7 +81,7 @@ static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
         return FFD_OK;
     return ffd_fail(error, FFD_E_INVALID,
                     "the rest points reach from %s to %s in %c, further than numbers can hold",
-                    text_of(min[longest]).text, text_of(max[longest]).text, "xyz"[longest]);
+                    ffd_number_text(min[longest]).text, ffd_number_text(max[longest]).text, "xyz"[longest]);
 }
 
 static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
@@ -103,10 +92,10 @@ static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
         for (size_t c = 3 * i; c < 3 * i + 3; c++) {
             const double difference = lattice->deformed[c] - lattice->rest[c];
             if (!isfinite(difference))
-                return ffd_fail(error, FFD_E_INVALID,
-                                "%s: the way from %s to %s is longer than numbers can hold",
-                                name_of(lattice, FFD_VOLUME_DEFORMED, i).text, text_of(lattice->rest[c]).text,
-                                text_of(lattice->deformed[c]).text);
+                return ffd_fail(
+                    error, FFD_E_INVALID, "%s: the way from %s to %s is longer than numbers can hold",
+                    name_of(lattice, FFD_VOLUME_DEFORMED, i).text, ffd_number_text(lattice->rest[c]).text,
+                    ffd_number_text(lattice->deformed[c]).text);
             lattice->difference[c] = difference;
             moved |= difference != 0;
         }

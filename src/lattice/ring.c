@@ -173,7 +173,7 @@ static void halve(const bezier_arc *arc, bezier_arc *left, bezier_arc *right)
 
 static void bound_arc(const bezier_arc *arc, int depth, radius_bounds *bounds)
 {
-    double quotient[MAX_SQUARE_ORDER];
+    double quotient[MAX_SQUARE_ORDER] = {0};
     const int last = 2 * arc->degree;
     square_quotients(arc, quotient);
     double least = quotient[0], greatest = quotient[0];

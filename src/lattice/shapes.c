@@ -10,17 +10,6 @@
 #define FLAT_SIDE 1e-9
 #define FLAT_WIDTH 0.01
 
-typedef struct number_text {
-    char text[FFD_NUMBER_CAPACITY + 1];
-} number_text;
-
-static number_text text_of(double value)
-{
-    number_text result;
-    result.text[ffd_number_format(value, result.text)] = 0;
-    return result;
-}
-
 /* The diagonal; for bounds that are one point, to rounding, a length to go by: the size of its coordinates,
  * or 1. */
 static double diagonal_of(const double min[3], const double max[3])
@@ -43,7 +32,7 @@ ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double m
     for (int c = 0; c < 3; c++) {
         if (!(min[c] <= max[c]) || !isfinite(max[c] - min[c]))
             return ffd_fail(error, FFD_E_INVALID, "no lattice can stand round bounds from %s to %s along %c",
-                            text_of(min[c]).text, text_of(max[c]).text, "xyz"[c]);
+                            ffd_number_text(min[c]).text, ffd_number_text(max[c]).text, "xyz"[c]);
         const double side = max[c] - min[c];
         const bool flat = !(side > FLAT_SIDE * diagonal);
         const double half = flat ? 0.5 * FLAT_WIDTH * diagonal : 0;
@@ -53,7 +42,7 @@ ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double m
         if (!isfinite(grown_max[c] - grown_min[c]))
             return ffd_fail(error, FFD_E_INVALID,
                             "a box from %s to %s along %c is larger than numbers can hold",
-                            text_of(grown_min[c]).text, text_of(grown_max[c]).text, "xyz"[c]);
+                            ffd_number_text(grown_min[c]).text, ffd_number_text(grown_max[c]).text, "xyz"[c]);
     }
     return FFD_OK;
 }

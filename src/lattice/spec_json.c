@@ -52,13 +52,6 @@ ffd_status ffd_place_fail(const json_place *place, const char *format, ...)
     return ffd_fail_at(place->error, FFD_E_INVALID, place->file, place->pointer, "%s", message);
 }
 
-json_words ffd_number_words(double number)
-{
-    json_words words;
-    words.text[ffd_number_format(number, words.text)] = 0;
-    return words;
-}
-
 json_words ffd_json_describe(const json_t *value)
 {
     json_words words = {""};
@@ -75,7 +68,7 @@ json_words ffd_json_describe(const json_t *value)
     case JSON_INTEGER:
     case JSON_REAL:
         snprintf(words.text, sizeof words.text, "the number %s",
-                 ffd_number_words(json_number_value(value)).text);
+                 ffd_number_text(json_number_value(value)).text);
         break;
     case JSON_TRUE:
         snprintf(words.text, sizeof words.text, "true");

@@ -29,7 +29,6 @@ typedef struct json_words {
 } json_words;
 
 json_words ffd_json_describe(const json_t *value);
-json_words ffd_number_words(double number); /* the shortest text */
 
 /* Each reads value, which stands at place, or fails there. */
 ffd_status ffd_json_read_object(json_place *place, const json_t *value, const char *const *known,

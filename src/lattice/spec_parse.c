@@ -1,5 +1,6 @@
 #include "lattice/spec_parse.h"
 #include "base/memory.h"
+#include "base/number.h"
 #include "base/path.h"
 #include "lattice/direction.h"
 #include "lattice/lattice.h"
@@ -192,7 +193,7 @@ static ffd_status check_closed(const json_place *place, const lattice_spec *spec
         return ffd_place_fail(place, "direction %c of a cylinder cannot be closed, only v can", "uvw"[a]);
     if (spec->rest == SPEC_CYLINDER && !ffd_spec_full_turn(spec))
         return ffd_place_fail(place, "a cylinder from %s to %s degrees cannot be closed: it is no full turn",
-                              ffd_number_words(spec->angle[0]).text, ffd_number_words(spec->angle[1]).text);
+                              ffd_number_text(spec->angle[0]).text, ffd_number_text(spec->angle[1]).text);
     return FFD_OK;
 }
 
@@ -226,7 +227,7 @@ static ffd_status read_weights(json_place *place, const json_t *value, size_t co
         const size_t before = ffd_place_enter_index(place, i);
         status = ffd_json_read_double(place, json_array_get(value, i), *weights + i);
         if (!status && !((*weights)[i] > 0))
-            status = ffd_place_fail(place, "weight %s is not positive", ffd_number_words((*weights)[i]).text);
+            status = ffd_place_fail(place, "weight %s is not positive", ffd_number_text((*weights)[i]).text);
         ffd_place_leave(place, before);
     }
     return status;

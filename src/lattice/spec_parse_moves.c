@@ -1,4 +1,5 @@
 #include "base/memory.h"
+#include "base/number.h"
 #include "lattice/direction.h"
 #include "lattice/spec_parse.h"
 #include <stdio.h>
@@ -78,8 +79,8 @@ static ffd_status read_within(json_place *place, const json_t *value, lattice_mo
     for (int c = 0; c < 3 && !status; c++)
         if (move->within_max[c] < move->within_min[c])
             return ffd_place_fail(place, "max %s is less than min %s",
-                                  ffd_number_words(move->within_max[c]).text,
-                                  ffd_number_words(move->within_min[c]).text);
+                                  ffd_number_text(move->within_max[c]).text,
+                                  ffd_number_text(move->within_min[c]).text);
     return status;
 }
 
@@ -164,9 +165,9 @@ static ffd_status read_matrix(json_place *place, const json_t *value, lattice_mo
     const double *const last = move->matrix + 12;
     if (last[0] == 0 && last[1] == 0 && last[2] == 0 && last[3] == 1)
         return FFD_OK;
-    return ffd_place_fail(place, "the last row is %s %s %s %s, not 0 0 0 1", ffd_number_words(last[0]).text,
-                          ffd_number_words(last[1]).text, ffd_number_words(last[2]).text,
-                          ffd_number_words(last[3]).text);
+    return ffd_place_fail(place, "the last row is %s %s %s %s, not 0 0 0 1", ffd_number_text(last[0]).text,
+                          ffd_number_text(last[1]).text, ffd_number_text(last[2]).text,
+                          ffd_number_text(last[3]).text);
 }
 
 static const struct action_reader {
@@ -228,7 +229,7 @@ static ffd_status read_weight(json_place *place, const json_t *value, lattice_mo
     if (status || (move->weight >= 0 && move->weight <= 1))
         return status;
     ffd_place_enter(place, "weight");
-    return ffd_place_fail(place, "weight %s is not between 0 and 1", ffd_number_words(move->weight).text);
+    return ffd_place_fail(place, "weight %s is not between 0 and 1", ffd_number_text(move->weight).text);
 }
 
 static ffd_status read_move(json_place *place, const json_t *value, const lattice_spec *spec,

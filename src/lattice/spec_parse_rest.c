@@ -1,3 +1,4 @@
+#include "base/number.h"
 #include "base/vec.h"
 #include "lattice/direction.h"
 #include "lattice/spec_parse.h"
@@ -15,10 +16,10 @@ static ffd_status check_axes(json_place *place, const double axes[9])
             const double dot = vec_dot(axes + 3 * r, axes + 3 * s);
             if (r == s && !(fabs(dot - 1) <= AXES_TOLERANCE))
                 return ffd_place_fail(place, "axis %d has the length %s, not 1", r,
-                                      ffd_number_words(vec_length(axes + 3 * r)).text);
+                                      ffd_number_text(vec_length(axes + 3 * r)).text);
             if (r != s && !(fabs(dot) <= AXES_TOLERANCE))
                 return ffd_place_fail(place, "axes %d and %d are not perpendicular: their dot product is %s",
-                                      r, s, ffd_number_words(dot).text);
+                                      r, s, ffd_number_text(dot).text);
         }
     return FFD_OK;
 }
@@ -39,12 +40,12 @@ static ffd_status check_sides(json_place *place, const lattice_spec *spec)
     for (int c = 0; c < 3; c++) {
         if (!(spec->box_min[c] < spec->box_max[c]))
             return ffd_place_fail(place, "max %s of direction %c is not more than min %s",
-                                  ffd_number_words(spec->box_max[c]).text, "uvw"[c],
-                                  ffd_number_words(spec->box_min[c]).text);
+                                  ffd_number_text(spec->box_max[c]).text, "uvw"[c],
+                                  ffd_number_text(spec->box_min[c]).text);
         if (!isfinite(spec->box_max[c] - spec->box_min[c]))
             return ffd_place_fail(place, "the side from %s to %s is longer than numbers can hold",
-                                  ffd_number_words(spec->box_min[c]).text,
-                                  ffd_number_words(spec->box_max[c]).text);
+                                  ffd_number_text(spec->box_min[c]).text,
+                                  ffd_number_text(spec->box_max[c]).text);
     }
     return FFD_OK;
 }
@@ -87,7 +88,7 @@ static ffd_status read_margin(json_place *place, const json_t *value, double *ma
 {
     const ffd_status status = ffd_json_read_double(place, value, margin);
     if (!status && *margin < 0)
-        return ffd_place_fail(place, "margin %s is less than 0", ffd_number_words(*margin).text);
+        return ffd_place_fail(place, "margin %s is less than 0", ffd_number_text(*margin).text);
     return status;
 }
 
@@ -135,8 +136,8 @@ static ffd_status read_radius(json_place *place, const json_t *cylinder, double 
     if (status || (radius[0] >= 0 && radius[0] < radius[1]))
         return status;
     ffd_place_enter(place, "radius");
-    return ffd_place_fail(place, "radii %s and %s are not 0 <= r0 < r1", ffd_number_words(radius[0]).text,
-                          ffd_number_words(radius[1]).text);
+    return ffd_place_fail(place, "radii %s and %s are not 0 <= r0 < r1", ffd_number_text(radius[0]).text,
+                          ffd_number_text(radius[1]).text);
 }
 
 static ffd_status read_height(json_place *place, const json_t *cylinder, double *height)
@@ -145,7 +146,7 @@ static ffd_status read_height(json_place *place, const json_t *cylinder, double 
     if (status || *height > 0)
         return status;
     ffd_place_enter(place, "height");
-    return ffd_place_fail(place, "height %s is not more than 0", ffd_number_words(*height).text);
+    return ffd_place_fail(place, "height %s is not more than 0", ffd_number_text(*height).text);
 }
 
 static ffd_status read_angle(json_place *place, const json_t *cylinder, double angle[2])
@@ -162,7 +163,7 @@ static ffd_status read_angle(json_place *place, const json_t *cylinder, double a
         return FFD_OK;
     ffd_place_enter(place, "angle");
     return ffd_place_fail(place, "%s to %s degrees is not an angle of more than 0, at most 360",
-                          ffd_number_words(angle[0]).text, ffd_number_words(angle[1]).text);
+                          ffd_number_text(angle[0]).text, ffd_number_text(angle[1]).text);
 }
 
 static ffd_status read_cylinder(json_place *place, const json_t *value, lattice_spec *spec)

@@ -16,17 +16,6 @@ typedef struct knot_list {
     ffd_error *error;
 } knot_list;
 
-typedef struct number_text {
-    char text[FFD_NUMBER_CAPACITY + 1];
-} number_text;
-
-static number_text text_of(double value)
-{
-    number_text result;
-    result.text[ffd_number_format(value, result.text)] = 0;
-    return result;
-}
-
 static const char *word_of(const knot_list *list)
 {
     return list->closed ? "breakpoint" : "knot";
@@ -68,11 +57,11 @@ static ffd_status check_order(const knot_list *list)
     for (size_t i = 0; i < list->count; i++) {
         if (!isfinite(t[i]))
             return ffd_fail(list->error, FFD_E_INVALID, "direction %c: %s %zu is %s, not a finite number",
-                            list->direction, word_of(list), i, text_of(t[i]).text);
+                            list->direction, word_of(list), i, ffd_number_text(t[i]).text);
         if (i > 0 && t[i] < t[i - 1])
             return ffd_fail(list->error, FFD_E_INVALID, "direction %c: %s %zu is %s, less than %s %zu, %s",
-                            list->direction, word_of(list), i, text_of(t[i]).text, word_of(list), i - 1,
-                            text_of(t[i - 1]).text);
+                            list->direction, word_of(list), i, ffd_number_text(t[i]).text, word_of(list),
+                            i - 1, ffd_number_text(t[i - 1]).text);
     }
     return FFD_OK;
 }
@@ -85,7 +74,7 @@ static ffd_status check_domain(const knot_list *list)
         return FFD_OK;
     return ffd_fail(list->error, FFD_E_INVALID,
                     "direction %c: the domain is empty, %s %zu and %s %zu are both %s", list->direction,
-                    word_of(list), first, word_of(list), last, text_of(list->given[first]).text);
+                    word_of(list), first, word_of(list), last, ffd_number_text(list->given[first]).text);
 }
 
 /* One past the last entry that equals entry first. */
@@ -107,8 +96,8 @@ static ffd_status check_seam(const knot_list *list, size_t at_start, size_t at_e
         list->error, FFD_E_INVALID,
         "direction %c: the breakpoints at the seam, %s and %s, meet there %zu times, but degree %d "
         "allows %d",
-        list->direction, text_of(list->given[0]).text, text_of(list->given[list->count - 1]).text,
-        multiplicity, list->degree, list->degree);
+        list->direction, ffd_number_text(list->given[0]).text,
+        ffd_number_text(list->given[list->count - 1]).text, multiplicity, list->degree, list->degree);
 }
 
 /* A knot inside the domain more than d times tears the volume; one at an end more than d + 1 times leaves a
@@ -124,7 +113,7 @@ static ffd_status check_run(const knot_list *list, size_t first, size_t end)
         return FFD_OK;
     return ffd_fail(list->error, FFD_E_INVALID,
                     "direction %c: %ss %zu to %zu are all %s, %zu times, but degree %d allows %zu %s",
-                    list->direction, word_of(list), first, end - 1, text_of(value).text, end - first,
+                    list->direction, word_of(list), first, end - 1, ffd_number_text(value).text, end - first,
                     list->degree, allowed, inside ? "inside the domain" : "at an end of the domain");
 }
 
@@ -166,13 +155,14 @@ static ffd_status check_widths(const knot_vector *knots, char direction, ffd_err
     if (!isfinite(d * (t[last] - t[0])))
         return ffd_fail(error, FFD_E_INVALID,
                         "direction %c: the %s reach from %s to %s, too far to compute with", direction, word,
-                        text_of(t[closed ? d : 0]).text, text_of(t[closed ? knots->functions : last]).text);
+                        ffd_number_text(t[closed ? d : 0]).text,
+                        ffd_number_text(t[closed ? knots->functions : last]).text);
     for (size_t i = 0; i < knots->span_count; i++) {
         const int span = knots->spans[i], index = closed ? span - d : span;
         if (!isfinite(d / (t[span + 1] - t[span])))
             return ffd_fail(error, FFD_E_INVALID, "direction %c: %s %d and %d, %s and %s, are too close",
-                            direction, word, index, index + 1, text_of(t[span]).text,
-                            text_of(t[span + 1]).text);
+                            direction, word, index, index + 1, ffd_number_text(t[span]).text,
+                            ffd_number_text(t[span + 1]).text);
     }
     return FFD_OK;
 }

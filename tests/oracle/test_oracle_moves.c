@@ -192,7 +192,9 @@ static void check_coverage(trial *t, const sample *s, const cylinder *c, const o
     }
 }
 
-static void cylinders(bool full, const char *name)
+/* wide: only those whose control points stand half a turn apart or more somewhere. Such a ring goes round
+   nothing, so that the file must be refused unless the volume covers the radii all the same. */
+static void cylinders(bool full, bool wide, const char *name)
 {
     trial t = {.name = name};
     int refused = 0;
@@ -203,16 +205,22 @@ static void cylinders(bool full, const char *name)
         random_source random = {seed};
         sample_axes(&s, &random, &limits);
         sample_cylinder(&s, &random, full);
+        if ((sample_widest_angle(&s) >= 180) != wide) {
+            sample_free(&s);
+            continue;
+        }
         t.cases++;
         if (random_chance(&random, 0.2))
             s.radius[0] = 0;
         sample_write(&s);
-        /* Control points half a turn apart and more go round nothing: no lattice covers the radii then. */
         ffd_lattice *lattice = NULL;
-        if (sample_widest_angle(&s) < 150)
+        if (s.knots[1].data[0] == '"' && !wide) {
             lattice = trial_parse(&t, &s);
-        else
-            refused += ffd_lattice_parse(s.json.data, s.json.length, "wide", &lattice, NULL) != FFD_OK;
+        } else { /* listed knots may leave the ends too far from the angles: refused in words, and seldom */
+            const ffd_status status = ffd_lattice_parse(s.json.data, s.json.length, "listed", &lattice, NULL);
+            trial_check(&t, &s, status == FFD_OK || status == FFD_E_INVALID, "parse: status %d", (int)status);
+            refused += status == FFD_E_INVALID;
+        }
         if (lattice) {
             oracle_volume volume = sample_volume(&s, lattice, FFD_VOLUME_REST);
             const cylinder c = frame_of(&s);
@@ -224,28 +232,49 @@ static void cylinders(bool full, const char *name)
         }
         sample_free(&s);
     }
-    printf("%s: %d with wide angles refused\n", name, refused);
+    printf("%s: %d refused\n", name, refused);
     trial_end(&t);
+    assert_true(wide || 20 * refused <= t.cases);
 }
 
 static void full_cylinders(void **state)
 {
     (void)state;
-    cylinders(true, "full_cylinders");
+    cylinders(true, false, "full_cylinders");
 }
 
 static void part_cylinders(void **state)
 {
     (void)state;
-    cylinders(false, "part_cylinders");
+    cylinders(false, false, "part_cylinders");
 }
 
-int main(void)
+static void wide_full_cylinders(void **state)
+{
+    (void)state;
+    cylinders(true, true, "wide_full_cylinders");
+}
+
+static void wide_part_cylinders(void **state)
+{
+    (void)state;
+    cylinders(false, true, "wide_part_cylinders");
+}
+
+/* Without argument: what holds. With the argument "open": what the library does not pass yet (meson.build).
+ */
+int main(int count, char **arguments)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_moves),
         cmocka_unit_test(full_cylinders),
         cmocka_unit_test(part_cylinders),
     };
+    const struct CMUnitTest open[] = {
+        cmocka_unit_test(wide_full_cylinders),
+        cmocka_unit_test(wide_part_cylinders),
+    };
+    if (count > 1 && strcmp(arguments[1], "open") == 0)
+        return cmocka_run_group_tests(open, NULL, NULL);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -692,12 +692,12 @@ static void test_memory_failures(void **state)
 
 /* Broken files: bytes of good ones changed at random */
 
-static const char *const seeds[] = {
-    CORNERS "vt 0 0\nf 1/1/1 2/1/-1 3//1 -1\nl 1 2\np 1\ng a b\nusemtl c\n",
-    "\xEF\xBB\xBFv 1 2 \\\r\n3 # c\r\nv 4 5 6 1 0 0\r\nvn 0 1 0\rvn 1 0 0\nf 1//1 \\\n 2//2 -2//-1\\",
-    "f 1//2 2//1 -1\nv nan inf -1e999\nv .5 5. 5e-1\nvn 0 0 1\nvn 0 0 1\ncstype bezier\nsurf 0 1 0 1 "
-    "1/1/-1\nend",
-};
+static const char plain_seed[] = CORNERS "vt 0 0\nf 1/1/1 2/1/-1 3//1 -1\nl 1 2\np 1\ng a b\nusemtl c\n";
+static const char dialect_seed[] = "\xEF\xBB\xBFv 1 2 \\\r\n3 # c\r\nv 4 5 6 1 0 0\r\nvn 0 1 0\rvn 1 0 0\n"
+                                   "f 1//1 \\\n 2//2 -2//-1\\";
+static const char late_seed[] = "f 1//2 2//1 1\nv nan inf -1e999\nv .5 5. 5e-1\nvn 0 0 1\nvn 0 0 1\n"
+                                "cstype bezier\nsurf 0 1 0 1 1/1/-1\nend";
+static const char *const seeds[] = {plain_seed, dialect_seed, late_seed};
 
 static size_t mutate(draw *d, char *bytes, size_t size, size_t capacity)
 {

@@ -64,7 +64,13 @@ void ffd_obj_scan_finish(obj_scan *scan)
     scan->inside = false;
     const bool names = takes_names(scan->keyword);
     while (scan->at < scan->last) {
-        const int class = class_of(scan->at);
+        const char *at = scan->at; /* not through scan: nearly all of a file is passed here, often */
+        while (at < scan->last && class_of(at) <= BLANK)
+            at++;
+        scan->at = at;
+        if (at == scan->last)
+            return;
+        const int class = class_of(at);
         if (class == LINE_END) {
             pass_line_end(scan);
             return;
@@ -109,16 +115,19 @@ static obj_word take_word(obj_scan *scan, bool names)
 static obj_keyword keyword_of(obj_word word)
 {
     static const struct {
-        const char *text;
+        char text[8];
+        size_t size;
         obj_keyword keyword;
     } known[] = {
-        {"v", OBJ_VERTEX},        {"f", OBJ_FACE},         {"vn", OBJ_NORMAL}, {"vt", OBJ_TEXCOORD},
-        {"l", OBJ_LINE},          {"p", OBJ_POINT},        {"g", OBJ_GROUP},   {"o", OBJ_OBJECT},
-        {"usemtl", OBJ_MATERIAL}, {"mtllib", OBJ_LIBRARY},
+        {"v", 1, OBJ_VERTEX},       {"f", 1, OBJ_FACE},   {"vn", 2, OBJ_NORMAL},
+        {"vt", 2, OBJ_TEXCOORD},    {"l", 1, OBJ_LINE},   {"p", 1, OBJ_POINT},
+        {"g", 1, OBJ_GROUP},        {"o", 1, OBJ_OBJECT}, {"usemtl", 6, OBJ_MATERIAL},
+        {"mtllib", 6, OBJ_LIBRARY},
     };
     const size_t size = (size_t)(word.last - word.first);
-    for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++)
-        if (strlen(known[i].text) == size && memcmp(known[i].text, word.first, size) == 0)
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (known[i].size == size && known[i].text[0] == *word.first &&
+            memcmp(known[i].text, word.first, size) == 0)
             return known[i].keyword;
     return OBJ_OTHER;
 }

@@ -1,0 +1,263 @@
+"""Runs the program as its users do and checks what every run owes them.
+
+A test file registers functions by @case; each gets a Run with a temporary folder of its own. The program is
+named by the environment variable FFD. Every run must end in time, print nothing but lines "ffd: ..." on stderr
+(a single one where it fails), and leave no temporary file."""
+
+import json
+import math
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import traceback
+
+FFD = os.path.abspath(os.environ["FFD"])
+MODELS = os.environ.get("FFD_MODELS")
+SECONDS = 120
+NOBODY = 65534
+
+OK, NO, USAGE, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT = range(8)
+
+_cases = []
+
+
+def case(function):
+    _cases.append(function)
+    return function
+
+
+def check(condition, *shown):
+    if not condition:
+        raise AssertionError(" ".join(repr(x) if not isinstance(x, str) else x for x in shown))
+
+
+def equal(found, expected, what=""):
+    check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
+
+
+def near(found, expected, tolerance, what=""):
+    check(len(found) == len(expected), f"{what}: {len(found)} instead of {len(expected)} values")
+    for i, (a, b) in enumerate(zip(found, expected)):
+        if isinstance(a, (list, tuple)):
+            near(a, b, tolerance, f"{what}[{i}]")
+        else:
+            check(abs(a - b) <= tolerance, f"{what}[{i}]: {a!r} and {b!r} differ by more than {tolerance}")
+
+
+class Done:
+    """What a run left: exit code, stdout (bytes), stderr (lines)."""
+
+    def __init__(self, code, out, err):
+        self.code, self.out, self.err = code, out, err
+
+    @property
+    def text(self):
+        return self.out.decode("utf-8")
+
+    @property
+    def json(self):
+        return json.loads(self.out)
+
+
+class Run:
+    def __init__(self, folder):
+        self.folder = folder
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, content):
+        os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+        if isinstance(content, (dict, list)):
+            content = json.dumps(content)
+        with open(self.path(name), "wb") as file:
+            file.write(content.encode("utf-8") if isinstance(content, str) else content)
+        return name
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def text(self, name):
+        return self.read(name).decode("utf-8")
+
+    def exists(self, name):
+        return os.path.lexists(self.path(name))
+
+    def names(self, folder=""):
+        return sorted(os.listdir(self.path(folder)))
+
+    def folder_of(self, name):
+        os.makedirs(self.path(name))
+        return name
+
+    def ffd(self, *arguments, code=OK, err=None, out=None, data=False, stdin=b"", lines=None, **options):
+        """Runs ffd in the folder. err: the lines of stderr without "ffd: " (a string: the only one; a compiled
+        pattern: what the only one matches); out: the text of stdout; data: a failure too may print some; lines:
+        how many lines stderr has where err does not say; options go to subprocess.run."""
+        command = [options.pop("program", FFD), *arguments]
+        options.setdefault("stdout", subprocess.PIPE)
+        options.setdefault("stderr", subprocess.PIPE)
+        done = subprocess.run(command, cwd=self.folder, input=stdin, timeout=SECONDS, check=False, **options)
+        shown = "ffd " + " ".join(arguments)
+        told = (done.stderr or b"").decode("utf-8", "backslashreplace")
+        check(done.returncode == code, f"{shown}: exit {done.returncode}, expected {code}; {told}")
+        check(told == "" or told.endswith("\n"), f"{shown}: the last line of stderr has no end: {told!r}")
+        said = told.split("\n")[:-1]
+        for line in said:
+            check(line.startswith("ffd: ") and line.isprintable(), f"{shown}: not a message: {line!r}")
+        said = [line[len("ffd: "):] for line in said]
+        if isinstance(err, str):
+            equal(said, [err], shown)
+        elif isinstance(err, list):
+            equal(said, err, shown)
+        elif err is not None:
+            check(len(said) == 1 and err.search(said[0]), f"{shown}: said {said}, expected {err.pattern}")
+        elif options["stderr"] == subprocess.PIPE:
+            expected = lines if lines is not None else 0 if code in (OK, NO) else 1
+            check(len(said) == expected, f"{shown}: said {said}, expected {expected} lines")
+        if out is not None:
+            equal((done.stdout or b"").decode("utf-8"), out, shown)
+        elif code > NO and not data and done.stdout is not None:
+            equal(done.stdout, b"", f"{shown}: stdout of a failure")
+        self.check_no_leftovers()
+        return Done(done.returncode, done.stdout or b"", said)
+
+    def check_no_leftovers(self):
+        for folder, _, names in os.walk(self.folder):
+            for name in names:
+                check("ffd-tmp" not in name, f"{os.path.join(folder, name)} was left")
+
+    def unprivileged(self):
+        """Options with which ffd runs as a user that is not root, or None where that cannot be had. The folder
+        is opened for all."""
+        program = self.path("ffd-for-all")
+        if not os.path.exists(program):
+            shutil.copy(FFD, program)
+            os.chmod(program, 0o755)
+            os.chmod(self.folder, 0o755)
+        if os.geteuid() != 0:
+            return {"program": program}
+        options = {"program": program, "user": NOBODY, "group": NOBODY, "extra_groups": []}
+        try:
+            subprocess.run([program, "--version"], user=NOBODY, group=NOBODY, extra_groups=[], check=True,
+                           capture_output=True, timeout=SECONDS)
+        except (OSError, subprocess.SubprocessError):
+            return None
+        return options
+
+
+def lattice(size=(4, 4, 4), low=(-2, -2, -2), high=(2, 2, 2), moves=(), **members):
+    content = {"format": "ffd-lattice", "version": 1, "size": list(size),
+               "rest": {"box": {"min": list(low), "max": list(high)}}, "moves": list(moves)}
+    content.update(members)
+    return content
+
+
+CUBE_CORNERS = [[float(x), float(y), float(z)] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+CUBE_FACES = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]]
+CUBE = ("# a cube\n" + "".join("v %g %g %g\n" % tuple(p) for p in CUBE_CORNERS)
+        + "".join("f %d %d %d %d\n" % tuple(f) for f in CUBE_FACES))
+
+
+def obj_vertices(text):
+    return [[float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
+
+
+def npy(data):
+    """Reads NumPy's array file, version 1.0, C order: (dtype text, shape, list of rows or of values)."""
+    equal(data[:8], b"\x93NUMPY\x01\x00", "the magic and version of the .npy")
+    length = struct.unpack_from("<H", data, 8)[0]
+    equal((10 + length) % 64, 0, "the alignment of the .npy header")
+    header = data[10:10 + length].decode("latin-1")
+    check(header.endswith("\n"), "the .npy header has no end")
+    match = re.fullmatch(r"\{'descr': '([<>|][fu]\d)', 'fortran_order': False, 'shape': \(([\d, ]*)\), \} *\n",
+                         header)
+    check(match, "the .npy header is", header)
+    descr, shape = match.group(1), tuple(int(n) for n in match.group(2).replace(" ", "").split(",") if n)
+    code, size = {"<f8": ("<d", 8), "|u1": ("<B", 1)}[descr]
+    count = math.prod(shape)
+    check(len(data) >= 10 + length + size * count, "the .npy is too short")
+    values = [x[0] for x in struct.iter_unpack(code, data[10 + length:10 + length + size * count])]
+    if len(shape) == 2:
+        values = [values[i:i + shape[1]] for i in range(0, count, shape[1])]
+    return descr, shape, values
+
+
+def pad(data, filler):
+    return data + filler * (-len(data) % 4)
+
+
+def gltf_json(positions, nodes=None, uri=None, normals=None):
+    """A glTF asset of points, or of triangles where normals are given, in one buffer, and the buffer's bytes."""
+    def bounds(values):
+        return [list(edge(v[a] for v in values) for a in range(3)) for edge in (min, max)]
+
+    positions = [[struct.unpack("<f", struct.pack("<f", x))[0] for x in p] for p in positions]
+    streams = [positions] + ([normals] if normals else [])
+    data, views, accessors = b"", [], []
+    for stream in streams:
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": 12 * len(stream)})
+        data += b"".join(struct.pack("<3f", *p) for p in stream)
+        accessor = {"bufferView": len(views) - 1, "componentType": 5126, "count": len(stream), "type": "VEC3"}
+        if stream is positions:
+            accessor["min"], accessor["max"] = bounds(positions)
+        accessors.append(accessor)
+    attributes = {"POSITION": 0, **({"NORMAL": 1} if normals else {})}
+    buffer = {"byteLength": len(data), **({"uri": uri} if uri else {})}
+    asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(range(len(nodes or [0])))}],
+             "nodes": nodes or [{"mesh": 0}],
+             "meshes": [{"primitives": [{"attributes": attributes, "mode": 4 if normals else 0}]}],
+             "buffers": [buffer], "bufferViews": views, "accessors": accessors}
+    return asset, data
+
+
+def glb(asset, data):
+    text = pad(json.dumps(asset).encode("utf-8"), b" ")
+    data = pad(data, b"\0")
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text + struct.pack("<II", len(data), 0x004E4942) + data
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+
+
+def glb_split(file):
+    """The asset and the binary chunk of a GLB."""
+    magic, version, length = struct.unpack_from("<III", file)
+    equal((magic, version, length), (0x46546C67, 2, len(file)), "the GLB's header")
+    size, kind = struct.unpack_from("<II", file, 12)
+    equal(kind, 0x4E4F534A, "the first chunk's kind")
+    return json.loads(file[20:20 + size]), file[28 + size:]
+
+
+def gltf_vectors(asset, data, index):
+    """The VEC3 of a float accessor in the one buffer."""
+    accessor = asset["accessors"][index]
+    view = asset["bufferViews"][accessor["bufferView"]]
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    stride = view.get("byteStride", 12)
+    return [list(struct.unpack_from("<3f", data, start + stride * i)) for i in range(accessor["count"])]
+
+
+def glb_positions(file):
+    asset, data = glb_split(file)
+    return [gltf_vectors(asset, data, primitive["attributes"]["POSITION"])
+            for mesh in asset["meshes"] for primitive in mesh["primitives"]]
+
+
+def main():
+    failed = 0
+    only = sys.argv[1:]
+    chosen = [function for function in _cases if not only or function.__name__ in only]
+    for function in chosen:
+        with tempfile.TemporaryDirectory(prefix="ffd-test-") as folder:
+            try:
+                function(Run(os.path.realpath(folder)))
+            except Exception:  # one failing case must not hide the others
+                failed += 1
+                print(f"FAILED: {function.__name__}: {(function.__doc__ or '').strip()}")
+                traceback.print_exc(limit=-2, file=sys.stdout)
+    print(f"{len(chosen)} cases, {failed} failed")
+    sys.exit(1 if failed or not chosen else 0)

@@ -1,0 +1,345 @@
+#!/usr/bin/env python3
+"""ffd deform: one mesh, many meshes, in place, the options and the report."""
+import json
+import math
+import os
+
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, UNSUPPORTED, USAGE, case, check, equal, glb,
+                     glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_vertices)
+
+MOVE = [{"by": [1, 0, 0]}]
+# Displaces the middle of the box only, in x, by an amount that depends on the place.
+BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0, 0]}]
+
+
+def bernstein(t):
+    return [(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3]
+
+
+def bump(p, low=-2, high=2):
+    """The displacement in x that BUMP gives to p: 4x4x4 cubic clamped points, one cell of Bernstein polynomials."""
+    weights = [bernstein((x - low) / (high - low)) for x in p]
+    return 0.5 * math.prod(w[1] + w[2] for w in weights)
+
+
+def start(run, moves=MOVE, **members):
+    run.write("a.obj", CUBE)
+    run.write("l.json", lattice(moves=moves, **members))
+
+
+@case
+def the_documented_displacement(run):
+    start(run, BUMP)
+    points = CUBE_CORNERS + [[0.0, 0.0, 0.0], [0.25, -0.5, 1.75], [2.0, 0.0, 0.0], [-2.0, -2.0, -2.0]]
+    run.write("p.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.ffd("deform", "p.obj", "q.obj", "-l", "l.json")
+    near(obj_vertices(run.text("q.obj")), [[p[0] + bump(p), p[1], p[2]] for p in points], 1e-15, "positions")
+
+
+@case
+def only_numbers_of_moved_vertices_change(run):
+    text = ("# kept \t\nmtllib no such.mtl\no thing\nv\t-1.50 1e0 +.5 # why\nv 5 5 5.000 0.1 0.2 0.3\nvt 0 1\nvn 0 0 1\n"
+            "g a b\nusemtl m\ns 1\nf 1/1/1 2/1/1 1/1/1\nl 1 2\nunknown stuff\n")
+    start(run, [{"by": [0.25, 0, 0]}])
+    run.write("t.obj", text.replace("\n", "\r\n"))
+    run.ffd("deform", "t.obj", "u.obj", "-l", "l.json", err="t.obj: 1 of 2 vertices are not inside: 1 outside (left where they are)")
+    equal(run.text("u.obj"), text.replace("-1.50 1e0 +.5", "-1.25 1e0 +.5").replace("\n", "\r\n"))
+
+
+@case
+def several_lattices_follow_each_other(run):
+    start(run)
+    run.write("second.json", lattice(moves=[{"scale": {"factor": 2, "about": [0, 0, 0]}}]))
+    moved = [[2 * (p[0] + 1), 2 * p[1], 2 * p[2]] for p in CUBE_CORNERS]
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "-l", "second.json")
+    near(obj_vertices(run.text("b.obj")), moved, 1e-14)
+    run.ffd("deform", "a.obj", "c.obj", "-l", "second.json", "-l", "l.json")
+    near(obj_vertices(run.text("c.obj")), [[2 * p[0] + 1, 2 * p[1], 2 * p[2]] for p in CUBE_CORNERS], 1e-14)
+
+
+@case
+def a_lattice_round_the_mesh(run):
+    start(run, rest={"box": "mesh", "margin": 0.1}, units="box", moves=[{"by": [0.5, 0, 0]}])
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json")
+    near(obj_vertices(run.text("b.obj")), [[p[0] + 0.5 * 2 * 1.2, p[1], p[2]] for p in CUBE_CORNERS], 1e-14)
+
+
+@case
+def vertices_outside(run):
+    start(run, high=(2, 2, 0))
+    run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json",
+            err="a.obj: 4 of 8 vertices are not inside: 4 outside (left where they are)")
+    expected = [[p[0] + (p[2] < 0), p[1], p[2]] for p in CUBE_CORNERS]
+    near(obj_vertices(run.text("b.obj")), expected, 1e-15)
+    run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "--outside", "keep", "-q", err=[])
+    equal(run.read("c.obj"), run.read("b.obj"))
+    done = run.ffd("deform", "a.obj", "d.obj", "-l", "l.json", "--outside", "error", code=EMBEDDING)
+    check(done.err[0].startswith("a.obj: 4 of 8 "), done.err[0])
+    check(not run.exists("d.obj"), "an output was written")
+    run.ffd("deform", "a.obj", "d.obj", "-l", "l.json", "--outside=error", "-q", code=EMBEDDING)
+
+
+@case
+def nothing_moves_nothing_changes(run):
+    start(run, moves=[])
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--outside", "error")
+    equal(run.text("b.obj"), CUBE)
+
+
+@case
+def normals(run):
+    start(run, moves=[{"scale": {"factor": [1, 2, 1], "about": [0, 0, 0]}}])
+    run.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.6 0.8 0\nvn 0 0 1\nf 1//1 2//1 3//2\n")
+    run.ffd("deform", "n.obj", "t.obj", "-l", "l.json")
+    lines = [line.split() for line in run.text("t.obj").splitlines()]
+    x, y = 0.6, 0.4  # cof(F) n = (2 x, y, 2 z), made a unit vector
+    length = math.hypot(x, y)
+    near([float(v) for v in lines[3][1:]], [x / length, y / length, 0], 1e-15)
+    equal(lines[4], ["vn", "0", "0", "1"])
+    run.ffd("deform", "n.obj", "k.obj", "-l", "l.json", "--normals", "keep")
+    check("vn 0.6 0.8 0\n" in run.text("k.obj") and "v 0 2 0\n" in run.text("k.obj"), run.text("k.obj"))
+
+
+@case
+def glb_positions_and_bounds(run):
+    start(run)
+    asset, data = gltf_json(CUBE_CORNERS)
+    run.write("a.glb", glb(asset, data))
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json")
+    moved = [[p[0] + 1, p[1], p[2]] for p in CUBE_CORNERS]
+    equal(glb_positions(run.read("b.glb")), [moved])
+    after, _ = glb_split(run.read("b.glb"))
+    equal([after["accessors"][0]["min"], after["accessors"][0]["max"]], [[0, -1, -1], [2, 1, 1]])
+    asset["accessors"][0]["min"], asset["accessors"][0]["max"] = [0, -1, -1], [2, 1, 1]
+    equal(after, asset, "the rest of the JSON")
+
+
+@case
+def spaces_of_gltf(run):
+    start(run)
+    run.write("l.json", lattice(low=(8, -2, -2), high=(12, 2, 2), moves=MOVE))
+    run.write("a.glb", glb(*gltf_json(CUBE_CORNERS, nodes=[{"mesh": 0, "translation": [10, 0, 0], "scale": [0.5, 1, 1]}])))
+    run.ffd("deform", "a.glb", "scene.glb", "-l", "l.json")
+    # One unit in the scene is two of the mesh.
+    near(glb_positions(run.read("scene.glb"))[0], [[p[0] + 2, p[1], p[2]] for p in CUBE_CORNERS], 1e-6)
+    run.ffd("deform", "a.glb", "mesh.glb", "-l", "l.json", "--space", "mesh", lines=1)
+    equal(run.read("mesh.glb"), run.read("a.glb"), "outside in its own space")
+    run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy")
+    check(b"\x00\x00\xf8\x7f" not in run.read("e.npy"), "all are inside in the scene")
+
+
+@case
+def gltf_with_a_buffer_of_its_own(run):
+    start(run)
+    asset, data = gltf_json(CUBE_CORNERS, uri="data%20of.bin")
+    run.write("in/a.gltf", asset)
+    run.write("in/data of.bin", data)
+    run.folder_of("out")
+    run.ffd("deform", "in/a.gltf", "out/b.gltf", "-l", "l.json")
+    equal(run.names("out"), ["b.bin", "b.gltf"])
+    equal(run.read("in/data of.bin"), data, "the input's buffer")
+    after = json.loads(run.read("out/b.gltf"))
+    equal(after["buffers"][0]["uri"], "b.bin")
+    equal(gltf_vectors(after, run.read("out/b.bin"), 0), [[p[0] + 1, p[1], p[2]] for p in CUBE_CORNERS])
+    run.ffd("deform", "in/a.gltf", "in/c.gltf", "-l", "l.json")
+    equal(run.names("in"), ["a.gltf", "c.bin", "c.gltf", "data of.bin"])
+    run.ffd("deform", "in/a.gltf", "out/b.gltf", "-l", "l.json", code=IO)
+    run.ffd("deform", "in/a.gltf", "out/b.gltf", "-l", "l.json", "--force")
+
+
+@case
+def gltf_resources(run):
+    start(run)
+    asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")
+    asset["images"] = [{"uri": "maps/one.png"}]
+    run.write("in/a.gltf", asset)
+    run.write("in/a.bin", data)
+    run.write("in/maps/one.png", b"picture")
+    for folder in ("copy", "refer", "taken"):
+        run.folder_of(folder)
+    run.ffd("deform", "in/a.gltf", "copy/b.gltf", "-l", "l.json")
+    equal(run.read("copy/maps/one.png"), b"picture")
+    equal(json.loads(run.read("copy/b.gltf"))["images"], asset["images"])
+    run.ffd("deform", "in/a.gltf", "refer/b.gltf", "-l", "l.json", "--resources", "reference")
+    uri = json.loads(run.read("refer/b.gltf"))["images"][0]["uri"]
+    equal(os.path.normpath(os.path.join(run.path("refer"), uri)), run.path("in/maps/one.png"))
+    equal(run.names("refer"), ["b.bin", "b.gltf"])
+    run.write("taken/maps/one.png", b"another")
+    run.ffd("deform", "in/a.gltf", "taken/b.gltf", "-l", "l.json", code=IO)
+    equal(run.names("taken"), ["maps"])
+    equal(run.read("taken/maps/one.png"), b"another")
+
+
+@case
+def many_to_a_folder(run):
+    start(run)
+    run.write("sub/b.obj", CUBE)
+    run.write("c.glb", glb(*gltf_json(CUBE_CORNERS)))
+    run.folder_of("out")
+    run.ffd("deform", "a.obj", "sub/b.obj", "c.glb", "--out-dir", "out", "-l", "l.json")
+    equal(run.names("out"), ["a.obj", "b.obj", "c.glb"])
+    equal(run.read("out/a.obj"), run.read("out/b.obj"))
+    run.ffd("deform", "a.obj", "--out-dir", "out/", "-l", "l.json", code=IO,
+            err="out/a.obj: exists already (--force overwrites it)")
+    run.ffd("deform", "a.obj", "--out-dir", "out/", "-l", "l.json", "--force")
+
+
+@case
+def one_failing_mesh_of_many(run):
+    start(run)
+    run.write("bad.obj", "v 0 0\n")
+    run.write("z.obj", CUBE)
+    run.folder_of("out")
+    done = run.ffd("deform", "a.obj", "bad.obj", "missing.obj", "z.obj", "--out-dir", "out", "-l", "l.json", "--report",
+                   "r.json", code=NO, lines=2)
+    check(done.err[0].startswith("bad.obj:1: ") and done.err[1].startswith("missing.obj: "), done.err)
+    equal(run.names("out"), ["a.obj", "z.obj"])
+    jobs = json.loads(run.read("r.json"))["jobs"]
+    equal([(job["input"], job["output"], job["status"], job["exit"]) for job in jobs],
+          [("a.obj", "out/a.obj", "ok", OK), ("bad.obj", "out/bad.obj", "failed", INVALID),
+           ("missing.obj", "out/missing.obj", "failed", IO), ("z.obj", "out/z.obj", "ok", OK)])
+    equal([job["error"] for job in jobs], [None, *done.err, None])
+
+
+@case
+def one_mesh_to_a_folder_has_its_own_code(run):
+    start(run)
+    run.write("bad.obj", "v 0 0\n")
+    run.folder_of("out")
+    run.ffd("deform", "bad.obj", "--out-dir", "out", "-l", "l.json", code=INVALID)
+    run.ffd("deform", "missing.obj", "--out-dir", "out", "-l", "l.json", code=IO)
+    run.ffd("deform", "bad.obj", "--in-place", "-l", "l.json", code=INVALID)
+
+
+@case
+def equal_names_are_refused_before_any_work(run):
+    start(run)
+    run.write("sub/a.obj", CUBE)
+    run.write("b.obj", CUBE)
+    run.folder_of("out")
+    done = run.ffd("deform", "b.obj", "a.obj", "sub/a.obj", "--out-dir", "out", "-l", "l.json", code=USAGE)
+    check("a.obj" in done.err[0] and "sub/a.obj" in done.err[0], done.err)
+    equal(run.names("out"), [])
+    run.ffd("deform", "a.obj", "b.obj", "a.obj", "--out-dir", "out", "-l", "l.json", code=USAGE, err="a.obj: is named twice")
+    run.ffd("deform", "a.obj", "b.obj", "a.obj", "--in-place", "-l", "l.json", code=USAGE, err="a.obj: is named twice")
+    equal(run.text("a.obj"), CUBE)
+
+
+@case
+def a_missing_folder_is_said_once(run):
+    start(run)
+    run.write("b.obj", CUBE)
+    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "none", "-l", "l.json", code=IO, err="none: there is no such folder")
+    run.ffd("deform", "a.obj", "b.obj", "--out-dir", "b.obj", "-l", "l.json", code=IO, err="b.obj: there is no such folder")
+    run.ffd("deform", "a.obj", "--out-dir", "none", "-l", "l.json", code=IO)
+    check(not run.exists("none"), "the folder was made")
+
+
+@case
+def in_place(run):
+    start(run)
+    run.write("b.obj", CUBE)
+    run.ffd("deform", "a.obj", "out.obj", "-l", "l.json")
+    run.ffd("deform", "a.obj", "b.obj", "--in-place", "-l", "l.json")
+    equal(run.read("a.obj"), run.read("out.obj"))
+    equal(run.read("b.obj"), run.read("out.obj"))
+    equal(run.names(), ["a.obj", "b.obj", "l.json", "out.obj"])
+    run.ffd("deform", "a.obj", "--in-place", "--force", "-l", "l.json")
+    check(run.read("a.obj") != run.read("out.obj"), "the second time moves again")
+
+
+@case
+def in_place_gltf(run):
+    start(run)
+    asset, data = gltf_json(CUBE_CORNERS, uri="own.bin")
+    run.write("m/a.gltf", asset)
+    run.write("m/own.bin", data)
+    run.ffd("deform", "m/a.gltf", "--in-place", "-l", "l.json")
+    after = json.loads(run.read("m/a.gltf"))
+    buffer = run.read("m/" + after["buffers"][0]["uri"])
+    equal(gltf_vectors(after, buffer, 0), [[p[0] + 1, p[1], p[2]] for p in CUBE_CORNERS])
+
+
+@case
+def report(run):
+    start(run, high=(2, 2, 0))
+    run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "r.json", lines=1)
+    report = json.loads(run.read("r.json"))
+    equal([report["format"], report["version"], len(report["jobs"])], ["ffd-report", 1, 1])
+    job = report["jobs"][0]
+    equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
+                      "invalid", "moved", "residual", "iterations", "folds", "flipped_faces", "bounds", "displacement",
+                      "seconds"])
+    equal([job[key] for key in ("input", "output", "status", "exit", "error")], ["a.obj", "b.obj", "ok", 0, None])
+    equal([job[key] for key in ("vertices", "inside", "outside", "multiple", "singular", "invalid", "moved")],
+          [8, 4, 4, 0, 0, 0, 4])
+    equal(job["bounds"]["before"], {"min": [-1, -1, -1], "max": [1, 1, 1]})
+    near(job["bounds"]["after"]["max"], [2, 1, 1], 1e-15)
+    near([job["displacement"]["max"]], [1], 1e-15)
+    near([job["displacement"]["rms"]], [math.sqrt(0.5)], 1e-15)
+    check(0 <= job["residual"]["rms"] <= job["residual"]["max"] < 1e-14, job["residual"])
+    equal(set(job["seconds"]), {"read", "embed", "deform", "write"})
+    check(all(value >= 0 for value in job["seconds"].values()), job["seconds"])
+
+
+@case
+def report_that_is_stable(run):
+    start(run, BUMP)
+    texts = set()
+    for n in range(3):
+        run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--report", "r.json", "--report-stable", "-j", str(n + 1))
+        texts.add(run.read("r.json"))
+    equal(len(texts), 1)
+    check("seconds" not in json.loads(texts.pop())["jobs"][0], "seconds")
+
+
+@case
+def report_on_standard_output(run):
+    start(run)
+    equal(run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "-").json["jobs"][0]["moved"], 8)
+    run.ffd("deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json", "--report", "-", code=USAGE)
+    failed = run.ffd("deform", "none.obj", "c.obj", "-l", "l.json", "--report=-", code=IO, data=True)
+    equal(failed.json["jobs"][0]["error"], failed.err[0])
+
+
+@case
+def report_that_cannot_be_written(run):
+    start(run)
+    run.folder_of("folder")
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "none/r.json", code=IO)
+    run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "--report", "folder", code=IO)
+    for name in ("a.obj", "d.obj", "l.json"):
+        run.ffd("deform", "a.obj", "d.obj", "-l", "l.json", "--report", name, code=USAGE)
+    equal([run.text("a.obj"), run.exists("d.obj")], [CUBE, False])
+
+
+@case
+def verbose_and_quiet(run):
+    start(run)
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "-v", err="a.obj: 8 of 8 vertices moved, by 1 at most")
+    run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "-v", "-q", err=[])
+    run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "-q", code=IO)
+
+
+@case
+def other_formats(run):
+    start(run)
+    run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
+    run.ffd("deform", "a.obj", "b.glb", "-l", "l.json", code=UNSUPPORTED)
+    run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", code=UNSUPPORTED)
+    equal(run.names(), ["a.glb", "a.obj", "l.json"])
+
+
+@case
+def threads_change_nothing(run):
+    start(run, BUMP)
+    outputs = set()
+    for n in ("1", "2", "5", "1024"):
+        run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--threads", n)
+        outputs.add(run.read("b.obj"))
+    equal(len(outputs), 1)
+
+
+main()

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""ffd info: what is in a mesh or lattice file, as text and as JSON."""
+import os
+
+from harness import (CUBE, CUBE_CORNERS, INVALID, IO, MODELS, UNSUPPORTED, USAGE, case, check, equal, glb, gltf_json, lattice,
+                     main, near)
+
+
+def facts(run, name, *arguments, **options):
+    return run.ffd("info", name, "--json", *arguments, **options).json
+
+
+@case
+def a_mesh(run):
+    run.write("a.obj", CUBE + "v 9 0 0\n")
+    found = facts(run, "a.obj")
+    equal([found[key] for key in ("format", "version", "file", "kind", "mesh_format", "vertices")],
+          ["ffd-info", 1, "a.obj", "mesh", "OBJ", 9])
+    equal(found["bounds"], {"min": [-1, -1, -1], "max": [9, 1, 1]})
+    topology = found["topology"]
+    equal([topology[key] for key in ("faces", "edges", "components", "boundary_loops", "non_manifold_edges",
+                                     "isolated_vertices", "euler", "area")], [6, 12, 1, 0, 0, 1, 2, 24])
+
+
+@case
+def topology(run):
+    for name, text, expected in (
+            ("triangle", "v 0 0 0\nv 3 0 0\nv 0 4 0\nf 1 2 3\n", (1, 1, 1, 0, 6)),
+            ("two apart", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 5 1 0\nf 1 2 3\nf 4 5 6\n", (2, 2, 2, 0, 1)),
+            ("three at an edge", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n", (3, 1, None, 1, 1.5)),
+            ("no faces", "v 0 0 0\n", (0, 0, 0, 0, 0))):
+        run.write("t.obj", text)
+        found = facts(run, "t.obj")["topology"]
+        loops = found["boundary_loops"] if expected[2] is not None else None
+        equal((found["faces"], found["components"], loops, found["non_manifold_edges"]), expected[:4], name)
+        near([found["area"]], [expected[4]], 1e-12, name)
+
+
+@case
+def gltf(run):
+    run.write("a.glb", glb(*gltf_json(CUBE_CORNERS, nodes=[{"mesh": 0, "translation": [10, 0, 0]}])))
+    found = facts(run, "a.glb")
+    equal([found["kind"], found["vertices"], found["bounds"]],
+          ["mesh", 8, {"min": [9, -1, -1], "max": [11, 1, 1]}], "the scene's bounds")
+    check(found["mesh_format"].lower().startswith("gl"), found["mesh_format"])
+
+
+@case
+def a_lattice(run):
+    run.write("l.json", lattice(size=(5, 4, 3), degree=[3, 2, 2], knots=["clamped", "open", "uniform"],
+                                moves=[{"at": [0, 0, 0], "by": [0, 3, 4]}]))
+    found = facts(run, "l.json")
+    equal([found[key] for key in ("format", "kind", "size", "degree", "knots", "control_points", "moved", "largest_move",
+                                  "rational")],
+          ["ffd-info", "lattice", [5, 4, 3], [3, 2, 2], ["clamped", "open", "uniform"], 60, 1, 5, False])
+    equal(found["domain"], {"u": [0, 1], "v": [0, 1], "w": [0.4, 0.6]})
+
+
+@case
+def a_lattice_round_a_mesh_to_come(run):
+    run.write("l.json", lattice(rest={"box": "mesh"}, moves=[{"by": [1, 0, 0]}]))
+    equal(facts(run, "l.json")["size"], [4, 4, 4])
+    check("mesh" in run.ffd("info", "l.json").text, "the text")
+
+
+@case
+def text_says_what_json_says(run):
+    run.write("a.obj", CUBE)
+    run.write("l.json", lattice())
+    for name in ("a.obj", "l.json"):
+        text = run.ffd("info", name).text
+        check(text.endswith("\n") and len(text.splitlines()) > 5, text)
+        for key, value in facts(run, name).items():
+            if isinstance(value, int) and not isinstance(value, bool) and key != "version":
+                check(any(line.split()[-1] == str(value) for line in text.splitlines()), f"{name}: {key} {value}")
+
+
+@case
+def quiet_and_verbose_print_the_data(run):
+    run.write("a.obj", CUBE)
+    text = run.ffd("info", "a.obj").text
+    equal(run.ffd("info", "a.obj", "-q").text, text)
+    equal(run.ffd("info", "a.obj", "-v").text, text)
+
+
+@case
+def streams_and_formats(run):
+    run.write("a.obj", CUBE)
+    run.write("strange.name", CUBE)
+    equal(facts(run, "-", "--input-format", "obj", stdin=CUBE.encode())["vertices"], 8)
+    equal(facts(run, "strange.name", "--input-format", "obj")["vertices"], 8)
+    run.ffd("info", "-", stdin=CUBE.encode(), code=USAGE)
+
+
+@case
+def failures(run):
+    run.write("bad.obj", "v 1\n")
+    run.write("bad.json", "{")
+    run.write("not.json", {"format": "other"})
+    run.write("bad.glb", b"glTF")
+    run.folder_of("d.json")
+    for name, code in (("none.obj", IO), ("none.json", IO), ("d.json", IO), ("bad.obj", INVALID), ("bad.json", INVALID),
+                       ("not.json", INVALID), ("bad.glb", INVALID), ("x.txt", USAGE)):
+        for arguments in ([], ["--json"]):
+            done = run.ffd("info", name, *arguments, code=code)
+            check(done.err[0].startswith(name), done.err[0])
+
+
+@case
+def every_sample_model(run):
+    """Described, or refused with a reason; never anything else."""
+    count = refused = 0
+    for folder, _, names in os.walk(MODELS or ""):
+        for name in names:
+            if not name.lower().endswith((".obj", ".gltf", ".glb")):
+                continue
+            path = os.path.join(folder, name)
+            count += 1
+            try:
+                found = facts(run, path)
+                check(found["kind"] == "mesh" and found["vertices"] >= 0, path)
+            except AssertionError:
+                check(any(attempt(run, path, code) for code in (UNSUPPORTED, INVALID)), f"{path} is neither described nor refused")
+                refused += 1
+    check(MODELS is None or count > 100 and refused < count / 4, f"{count} models, {refused} refused")
+
+
+def attempt(run, path, code):
+    try:
+        run.ffd("info", path, code=code)
+        return True
+    except AssertionError:
+        return False
+
+
+main()

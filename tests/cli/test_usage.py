@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""Help, version, and everything that is a mistake on the command line (exit 2, one line, before any work)."""
+import re
+
+from harness import CUBE, USAGE, case, check, equal, lattice, main
+
+COMMANDS = ["deform", "embed", "compare", "info", "lattice new"]
+OPTIONS = {
+    "deform": {"--lattice", "--out-dir", "--outside", "--normals", "--space", "--resources", "--report",
+               "--report-stable", "--threads", "--in-place", "--force", "--input-format", "--output-format"},
+    "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format"},
+    "compare": {"--tolerance", "--input-format"},
+    "info": {"--json", "--input-format"},
+    "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes",
+                    "--force", "--input-format"},
+}
+COMMON = {"--quiet", "--verbose", "--help"}
+
+
+def files(run):
+    run.write("a.obj", CUBE)
+    run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
+    return ["deform", "a.obj", "b.obj", "-l", "l.json"]
+
+
+def refused(run, *arguments, says=None):
+    """A usage error that names what is wrong and changes nothing."""
+    before = run.names()
+    done = run.ffd(*arguments, code=USAGE)
+    if says:
+        check(says in done.err[0], f"{arguments}: {done.err[0]!r} does not say {says!r}")
+    equal(run.names(), before, f"{arguments}: the folder")
+
+
+@case
+def version(run):
+    check(re.fullmatch(r"ffd \d+\.\d+\.\d+\n", run.ffd("--version").text), "the version")
+    refused(run, "--version", "x")
+
+
+@case
+def help_is_data(run):
+    overview = run.ffd("help").text
+    for command in COMMANDS:
+        check(f"ffd {command}" in overview, f"help does not list {command}")
+    for arguments in (["--help"], ["-h"], ["help", "help"], ["help", "--help"]):
+        equal(run.ffd(*arguments).text, overview, str(arguments))
+
+
+@case
+def help_of_each_command(run):
+    for command in COMMANDS:
+        words = command.split()
+        text = run.ffd("help", *words).text
+        for arguments in ([*words, "--help"], [*words, "-h"], [*words, "a", "-h", "--bogus"]):
+            equal(run.ffd(*arguments).text, text, str(arguments))
+        equal(set(re.findall(r"^ +(?:-\w, )?(--[\w-]+)", text, re.M)), OPTIONS[command] | COMMON, command)
+        check(f"usage: ffd {command} " in text, f"{command}: no usage line")
+        check(all(len(line) < 130 for line in text.splitlines()), f"{command}: a line too long")
+    equal(run.ffd("help", "lattice").text, run.ffd("help", "lattice", "new").text)
+    equal(run.ffd("lattice", "--help").text, run.ffd("help", "lattice", "new").text)
+
+
+@case
+def no_command(run):
+    refused(run)
+
+
+@case
+def unknown_commands(run):
+    for word, nearest in (("defrom", "deform"), ("emebd", "embed"), ("comp", "compare"), ("inf", "info"), ("hlep", "help")):
+        refused(run, word, says=nearest)
+        refused(run, "help", word, says=nearest)
+    refused(run, "lattice", says="lattice new")
+    refused(run, "lattice", "nwe", "a.obj", says="lattice new")
+    refused(run, "help", "deform", "x", says="x")
+    refused(run, "DEFORM", says="DEFORM")
+    refused(run, "", says="nearest")
+
+
+@case
+def commands_of_later_versions_are_absent(run):
+    for words in (["batch", "m.jsonl"], ["check", "a.obj"], ["fit", "a.obj", "b.obj"], ["view", "a.obj"],
+                  ["lattice", "refine", "l.json"], ["lattice", "convert", "l.json"], ["lattice", "set", "l.json"]):
+        refused(run, *words, says="unknown command")
+
+
+@case
+def unknown_options(run):
+    work = files(run)
+    for option, nearest in (("--latice", "--lattice"), ("--thread", "--threads"), ("--outdir", "--out-dir"),
+                            ("--forse", "--force"), ("--report_stable", "--report-stable")):
+        refused(run, *work, option, says=f"nearest: {nearest}")
+        refused(run, *work, f"{option}=1", says=f"nearest: {nearest}")
+    refused(run, *work, "-x", says="-x")
+    refused(run, *work, "-o", "x", says="-o")
+    refused(run, *work, "-qx", says="-x")
+    refused(run, "--bogus", says="--bogus")
+    refused(run, "--verson", says="--version")
+    refused(run, "-l", "l.json", says="-l")
+
+
+@case
+def options_of_later_versions_are_absent(run):
+    work = files(run)
+    for option in ("--embedding=e.npy", "--refine=0.1", "--only=node:x", "--as-morph=x", "--falloff=1", "--seam=C1",
+                   "--isa=auto", "--depfile=d", "--fail-on=folds"):
+        refused(run, *work, option, says="unknown option")
+    refused(run, *work, "--outside", "extend", says="extend")
+    refused(run, *work, "--normals", "recompute", says="recompute")
+
+
+@case
+def values(run):
+    work = files(run)
+    for option, value in (("--outside", "kep"), ("--outside", "KEEP"), ("--normals", ""), ("--space", "world"),
+                          ("--resources", "move"), ("--input-format", "ply"), ("--output-format", ""),
+                          ("--threads", "0"), ("--threads", "-1"), ("--threads", "two"), ("--threads", "2x"),
+                          ("--threads", "1.5"), ("--threads", " 2"), ("--threads", "+2"), ("--threads", ""),
+                          ("--threads", "99999999999999999999"), ("--lattice", ""), ("--report", ""), ("--out-dir", "")):
+        refused(run, *work, option, value, says=option)
+        refused(run, *work, f"{option}={value}", says=option)
+    refused(run, *work, "-j", "x", says='"x"')
+    refused(run, *work, "-jx", says='"x"')
+    for option in ("--force", "--in-place", "--report-stable", "--quiet", "--verbose", "--help"):
+        refused(run, *work, f"{option}=yes", says=option)
+    for option in ("--lattice", "-l", "--threads", "-j", "--outside", "--report", "--out-dir"):
+        refused(run, *work, option, says=option)
+
+
+@case
+def values_of_other_commands(run):
+    files(run)
+    for value in ("-1", "nan", "inf", "x", "", "1e999", "0x1", " 1", "1 ", "1,5", "-0.001", "1e"):
+        refused(run, "compare", "a.obj", "a.obj", "--tolerance", value, says="--tolerance")
+        refused(run, "lattice", "new", "a.obj", "-o", "n.json", "--margin", value, says="--margin")
+    for option, bad in (("--size", ["4,4", "4,4,4,4", "4,4,x", "1,4,4", "0,4,4", "-4,4,4", "4;4;4", "", "4,,4", "4,4,4,",
+                                    "4.0,4,4", "4, 4,4"]),
+                        ("--degree", ["3,3", "0,3,3", "10,3,3", "x", ""]),
+                        ("--knots", ["clamped,open", "closed,open,round", "", "clamped clamped clamped"]),
+                        ("--spacing", ["even", ""]), ("--shape", ["sphere", ""]), ("--axes", ["main", ""]),
+                        ("--axis", ["w", "0,0,0", "1,2", "1,2,3,4", "x,y,z", "nan,0,1", ""])):
+        for value in bad:
+            refused(run, "lattice", "new", "a.obj", "-o", "n.json", "--shape", "cylinder", option, value, says=option)
+
+
+@case
+def words_of_deform(run):
+    work = files(run)
+    refused(run, "deform", says="lattice")
+    refused(run, "deform", "a.obj", "b.obj", says="lattice")
+    refused(run, "deform", "-l", "l.json", says="IN")
+    refused(run, "deform", "a.obj", "-l", "l.json", says="OUT")
+    refused(run, *work, "c.obj", says="--out-dir")
+    refused(run, "deform", "--out-dir", ".", "-l", "l.json", says="IN")
+    refused(run, "deform", "--in-place", "-l", "l.json", says="IN")
+    refused(run, "deform", "a.obj", "--in-place", "--out-dir", ".", "-l", "l.json", says="--in-place")
+    refused(run, "deform", "a.obj", "--in-place", "--output-format", "obj", "-l", "l.json", says="--output-format")
+    refused(run, *work, "--report-stable", says="--report")
+    refused(run, *work, "--", "-l", "l.json", says="--out-dir")
+
+
+@case
+def words_of_the_others(run):
+    files(run)
+    refused(run, "embed", "-l", "l.json", "-o", "e.npy", says="IN")
+    refused(run, "embed", "a.obj", "a.obj", "-l", "l.json", "-o", "e.npy", says="IN")
+    refused(run, "embed", "a.obj", "-o", "e.npy", says="lattice")
+    refused(run, "embed", "a.obj", "-l", "l.json", says="-o")
+    refused(run, "embed", "a.obj", "-l", "l.json", "-l", "l.json", "-o", "e.npy", says="--lattice")
+    refused(run, "embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "e.npy", says="--status")
+    refused(run, "compare", says="A and B")
+    refused(run, "compare", "a.obj", says="A and B")
+    refused(run, "compare", "a.obj", "a.obj", "a.obj", says="A and B")
+    refused(run, "info", says="FILE")
+    refused(run, "info", "a.obj", "a.obj", says="FILE")
+    refused(run, "lattice", "new", "-o", "n.json", says="MESH")
+    refused(run, "lattice", "new", "a.obj", says="-o")
+    refused(run, "lattice", "new", "a.obj", "a.obj", "-o", "n.json", says="MESH")
+
+
+@case
+def unknown_endings(run):
+    work = files(run)
+    refused(run, "deform", "a.obj", "b.xyz", "-l", "l.json", says="b.xyz")
+    refused(run, "deform", "a.obj", "b", "-l", "l.json", says="b: ")
+    refused(run, "deform", "a.txt", "b.obj", "-l", "l.json", says="a.txt")
+    refused(run, "deform", "a.obj", "c.txt", "--out-dir", ".", "-l", "l.json", says="c.txt")
+    refused(run, "embed", "a.txt", "-l", "l.json", "-o", "e.npy", says="a.txt")
+    refused(run, "compare", "a.obj", "a.txt", says="a.txt")
+    refused(run, "compare", "a", "a.obj", says="a: ")
+    refused(run, "info", "a.txt", says="a.txt")
+    refused(run, "lattice", "new", "a.txt", "-o", "n.json", says="a.txt")
+    refused(run, "lattice", "new", "a.obj", "-o", "n.obj", says="JSON")
+    check(run.ffd(*work), "the right words")
+
+
+@case
+def forms_of_options(run):
+    files(run)
+    expected = None
+    for n, arguments in enumerate((["-l", "l.json"], ["-ll.json"], ["--lattice", "l.json"], ["--lattice=l.json"],
+                                   ["-ql", "l.json"], ["-qll.json"], ["-qj2", "-l", "l.json"], ["-j", "2", "-ll.json"],
+                                   ["--threads=2", "-ll.json"])):
+        run.ffd("deform", *arguments, "a.obj", f"{n}.obj")
+        expected = expected or run.read(f"{n}.obj")
+        equal(run.read(f"{n}.obj"), expected, str(arguments))
+    run.ffd("deform", "a.obj", "-l", "l.json", "between.obj")
+    equal(run.read("between.obj"), expected)
+    run.write("-v", CUBE)
+    run.ffd("deform", "-l", "l.json", "--input-format", "obj", "--", "-v", "-q.obj")
+    equal(run.read("-q.obj"), expected)
+
+
+@case
+def names_that_are_unusual(run):
+    files(run)
+    for name in ("with space.obj", "ä.obj", "a\nb.obj", "%s%n.obj", "UPPER.OBJ", ".obj.obj", "a" * 250 + ".obj"):
+        run.write(name, CUBE)
+        run.ffd("deform", name, "out" + name[:200] + ".obj", "-l", "l.json")
+        run.ffd("deform", "missing" + name[-200:], "x.obj", "-l", "l.json", code=3)
+
+
+@case
+def color_is_never_printed(run):
+    files(run)
+    for environment in ({}, {"NO_COLOR": "1"}):
+        done = run.ffd("deform", code=USAGE, env=environment)
+        check("\x1b" not in done.err[0], "an escape sequence")
+
+
+main()

@@ -1,0 +1,605 @@
+/* The lattice file: what it says, what is refused and how, and that it is written as it is read. */
+#include "base/memory.h"
+#include "lattice/lattice.h"
+#include "lattice/spec.h"
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+#define HEAD "{\"format\":\"ffd-lattice\",\"version\":1,"
+#define SIZE HEAD "\"size\":[2,2,2],"
+#define UNIT "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]}}"
+#define BOX SIZE UNIT
+#define EIGHT "[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]"
+#define CYLINDER(text) SIZE "\"rest\":{\"cylinder\":{" text "}}}"
+#define MOVE(text) BOX ",\"moves\":[" text "]}"
+
+static const char *message_of(const ffd_error *error)
+{
+    static char text[2048];
+    ffd_error_format(error, text, sizeof text);
+    return text;
+}
+
+static ffd_status parse(const char *text, ffd_lattice **lattice, ffd_error *error)
+{
+    return ffd_lattice_parse(text, strlen(text), "f.json", lattice, error);
+}
+
+/* A file that uses every part of the format at once. */
+static const char rich[] = HEAD "\"size\":[4,5,3],\"degree\":[3,2,1],"
+                                "\"knots\":[[0,0,0,0,1,1,1,1],{\"closed\":[0,1,2,3.5,4,5]},\"unclamped\"],"
+                                "\"rest\":{\"cylinder\":{\"center\":[1,2,3],\"axis\":[1,2,2],\"zero\":[1,0,0]"
+                                ",\"radius\":[0.5,2],\"height\":7,"
+                                "\"angle\":[-90,270]}},"
+                                "\"weights\":[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,"
+                                "1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,"
+                                "1,1,1,1,1,1,1,1,1,1,1,2],"
+                                "\"units\":\"box\","
+                                "\"moves\":[{\"by\":[0.1,0.2,-0.3]},{\"at\":[-1,[1,-2],\"all\"],\"weight\":0."
+                                "3,\"rotate\":{\"axis\":[1,1,1],"
+                                "\"degrees\":33,\"about\":[0.1,0.2,0.3]}},{\"within\":{\"min\":[0,0,0],"
+                                "\"max\":[1,1,0.5]},\"twist\":{\"axis\":\"y\","
+                                "\"degrees\":-45}},{\"taper\":{\"axis\":\"z\",\"factor\":0.7}},{\"bend\":{"
+                                "\"axis\":\"x\",\"toward\":[1,1,0],"
+                                "\"degrees\":20}},{\"scale\":{\"factor\":[1,2,3]}},{\"at\":[0,0,0],\"to\":[0."
+                                "5,0.5,0.5]},{\"matrix\":[1,0,0,0.1,0,1,"
+                                "0,0,0,0,1,0,0,0,0,1]}]}";
+
+/* All forms that the interface shows. */
+static void test_accepts(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        HEAD "\"size\":[4,4,4],\"degree\":[3,3,3],\"knots\":[\"clamped\",\"clamped\",\"clamped\"],\"rest\":{"
+             "\"box\":{"
+             "\"min\":[0,0,0],\"max\":[1,2,3],\"spacing\":\"greville\",\"axes\":[[1,0,0],[0,1,0],[0,0,1]]}}}",
+        HEAD "\"size\":[4,4,4],\"rest\":{\"box\":\"mesh\",\"margin\":0.05}}",
+        HEAD "\"size\":[4,4,4],\"rest\":{\"box\":\"mesh\"}}",
+        HEAD "\"size\":[2,6,2],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":[0,0,1],\"zero\":[1,0,0],"
+             "\"radius\":"
+             "[0.5,1],\"height\":2,\"angle\":[0,360]}}}",
+        HEAD "\"size\":[2,6,2],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":[0,0,1],\"radius\":[0,1],"
+             "\"height\":2,"
+             "\"angle\":[10,100]}}}",
+        SIZE "\"rest\":{\"points\":[" EIGHT "]}}",
+        SIZE "\"rest\":{\"points\":[" EIGHT
+             "]},\"weights\":[1,2,1,1,1,1,1,0.5],\"deformed\":{\"points\":[" EIGHT
+             "],\"weights\":[1,1,1,1,1,1,1,3]},\"units\":\"world\",\"moves\":[]}",
+        HEAD "\"size\":[3,3,3],\"degree\":[1,2,2],\"knots\":[\"unclamped\",\"periodic\",[0,0,0,1,1,1]],"
+             "\"rest\":{\"points\":["
+             "[1,0,0],[2,0,0],[3,0,0],[-1,1,0],[-2,2,0],[-3,3,0],[-1,-1,0],[-2,-2,0],[-3,-3,0],"
+             "[1,0,1],[2,0,1],[3,0,1],[-1,1,1],[-2,2,1],[-3,3,1],[-1,-1,1],[-2,-2,1],[-3,-3,1],"
+             "[1,0,2],[2,0,2],[3,0,2],[-1,1,2],[-2,2,2],[-3,3,2],[-1,-1,2],[-2,-2,2],[-3,-3,2]]}}",
+        HEAD "\"size\":[3,3,3],\"knots\":[\"uniform\",\"open\",[0,0,0,1,1,1]]," UNIT "}",
+        "\xef\xbb\xbf" BOX "}",
+        BOX ",\"deformed\":{}}",
+        HEAD "\"size\":[2.0,2e0,2]," UNIT "}",
+        SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[100000000000000000000000,1,1]}}}",
+        rich,
+    };
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        ffd_lattice *lattice;
+        ffd_error error;
+        if (parse(texts[i], &lattice, &error))
+            fail_msg("%s\n%s", message_of(&error), texts[i]);
+        ffd_lattice_destroy(&lattice);
+    }
+}
+
+static void test_meaning(void **state)
+{
+    (void)state;
+    ffd_lattice *l;
+    ffd_error error;
+    size_t size[3];
+    int degree[3];
+    assert_int_equal(parse(HEAD "\"size\":[2,3,9]," UNIT "}", &l, &error), FFD_OK);
+    ffd_lattice_get_size(l, size);
+    ffd_lattice_get_degree(l, degree);
+    assert_true(size[0] == 2 && size[1] == 3 && size[2] == 9);
+    assert_true(degree[0] == 1 && degree[1] == 2 && degree[2] == 3);
+    assert_true(l->knots[2].kind == KNOTS_CLAMPED);
+    ffd_lattice_destroy(&l);
+
+    /* A full turn closes v unless knots say otherwise; a part of one does not. */
+    static const struct turn {
+        const char *text;
+        knot_kind kind;
+    } turns[] = {
+        {"\"angle\":[0,360]}}}", KNOTS_CLOSED},
+        {"\"angle\":[33.3,393.3]}}}", KNOTS_CLOSED},
+        {"\"angle\":[0,359]}}}", KNOTS_CLAMPED},
+        {"\"angle\":[0,360]}},\"knots\":[\"clamped\",\"clamped\",\"clamped\"]}", KNOTS_CLAMPED},
+        {"\"angle\":[0,360]}},\"knots\":[\"clamped\",\"open\",\"clamped\"]}", KNOTS_OPEN},
+        {"\"angle\":[0,360]}},\"knots\":[\"clamped\",\"closed\",\"clamped\"]}", KNOTS_CLOSED},
+    };
+    for (size_t i = 0; i < COUNT(turns); i++) {
+        char text[1024];
+        snprintf(
+            text, sizeof text,
+            HEAD
+            "\"size\":[2,8,2],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[1,2],"
+            "\"height\":1,%s",
+            turns[i].text);
+        assert_int_equal(parse(text, &l, &error), FFD_OK);
+        assert_int_equal(l->knots[1].kind, turns[i].kind);
+        ffd_lattice_destroy(&l);
+    }
+    /* The default of zero: the coordinate axis least along axis, made perpendicular. */
+    assert_int_equal(
+        parse(CYLINDER("\"center\":[0,0,0],\"axis\":[3,0,4],\"radius\":[1,2],\"height\":1,\"angle\":[0,90]"),
+              &l, &error),
+        FFD_OK);
+    assert_true(l->spec->zero[0] == 0 && l->spec->zero[1] == 1 && l->spec->zero[2] == 0);
+    ffd_lattice_destroy(&l);
+    assert_int_equal(
+        parse(CYLINDER("\"center\":[0,0,0],\"axis\":[1,2,2],\"radius\":[1,2],\"height\":1,\"angle\":[0,90]"),
+              &l, &error),
+        FFD_OK);
+    assert_true(fabs(l->spec->zero[0] - 8 / sqrt(72)) <= 1e-15 &&
+                fabs(l->spec->zero[1] + 2 / sqrt(72)) <= 1e-15);
+    ffd_lattice_destroy(&l);
+}
+
+typedef struct refusal {
+    const char *text;
+    ffd_status status;
+    const char *words;
+} refusal;
+
+static void check_refusals(const refusal *refusals, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        ffd_lattice *lattice = (ffd_lattice *)&lattice;
+        ffd_error error;
+        const ffd_status status = parse(refusals[i].text, &lattice, &error);
+        if (status != refusals[i].status || error.status != status || lattice ||
+            strcmp(message_of(&error), refusals[i].words) != 0)
+            fail_msg("%s\nstatus %d, %s\nexpected %d, %s", refusals[i].text, status,
+                     status ? message_of(&error) : "", refusals[i].status, refusals[i].words);
+        /* Who wants no words gets the same status. */
+        assert_int_equal(parse(refusals[i].text, &lattice, NULL), status);
+    }
+}
+
+static void test_syntax(void **state)
+{
+    (void)state;
+    static const refusal refusals[] = {
+        {"", FFD_E_INVALID, "f.json:1: not valid JSON: '[' or '{' expected near end of file"},
+        {"\xef\xbb\xbf", FFD_E_INVALID, "f.json:1: not valid JSON: '[' or '{' expected near end of file"},
+        {"{\n\"size\": [1,\n2,]}", FFD_E_INVALID, "f.json:3: not valid JSON: unexpected token near ']'"},
+        {"{\n\"a\":1,\n\n\"a\":2}", FFD_E_INVALID,
+         "f.json:4: not valid JSON: duplicate object key near '\"a\"'"},
+        {"{\"a\": 1e999}", FFD_E_INVALID, "f.json:1: not valid JSON: real number overflow near '1e999'"},
+        {"{\"a\": NaN}", FFD_E_INVALID, "f.json:1: not valid JSON: invalid token near 'NaN'"},
+        {"{} x", FFD_E_INVALID, "f.json:1: not valid JSON: end of file expected near 'x'"},
+        {"[1]", FFD_E_INVALID, "f.json: a lattice is an object, not an array of 1"},
+    };
+    check_refusals(refusals, COUNT(refusals));
+    /* Depth without end is refused by the reader, not by the stack. */
+    char *deep = malloc(1000001);
+    memset(deep, '[', 1000000);
+    deep[1000000] = 0;
+    ffd_lattice *lattice;
+    ffd_error error;
+    assert_int_equal(parse(deep, &lattice, &error), FFD_E_INVALID);
+    assert_int_equal(error.line, 1);
+    free(deep);
+}
+
+static void test_refuses_frame(void **state)
+{
+    (void)state;
+    static const refusal refusals[] = {
+        {"{}", FFD_E_INVALID, "f.json: \"format\" is missing"},
+        {"{\"format\":\"ffd-latice\"}", FFD_E_INVALID,
+         "f.json:/format: unknown word \"ffd-latice\"; the nearest known one is \"ffd-lattice\""},
+        {"{\"format\":7}", FFD_E_INVALID,
+         "f.json:/format: must be a word like \"ffd-lattice\", not the number 7"},
+        {"{\"format\":\"ffd-lattice\"}", FFD_E_INVALID, "f.json: \"version\" is missing"},
+        {"{\"format\":\"ffd-lattice\",\"version\":2,\"news\":1}", FFD_E_UNSUPPORTED,
+         "f.json:/version: version 2 is newer than 1, the newest known here"},
+        {"{\"format\":\"ffd-lattice\",\"version\":0}", FFD_E_INVALID,
+         "f.json:/version: there is no version 0, only 1"},
+        {"{\"format\":\"ffd-lattice\",\"version\":\"1\"}", FFD_E_INVALID,
+         "f.json:/version: must be a whole number, not the text \"1\""},
+        {HEAD "\"sise\":[2,2,2]," UNIT "}", FFD_E_INVALID,
+         "f.json:/sise: unknown key \"sise\"; the nearest known one is \"size\""},
+        {HEAD "\"a/b~c\":1}", FFD_E_INVALID,
+         "f.json:/a~1b~0c: unknown key \"a/b~c\"; the nearest known one is \"size\""},
+        {HEAD UNIT "}", FFD_E_INVALID, "f.json: \"size\" is missing"},
+        {HEAD "\"size\":[2,2,2]}", FFD_E_INVALID, "f.json: \"rest\" is missing"},
+        {HEAD "\"size\":4," UNIT "}", FFD_E_INVALID,
+         "f.json:/size: must be an array of 3 sizes, not the number 4"},
+        {HEAD "\"size\":[2,2]," UNIT "}", FFD_E_INVALID, "f.json:/size: has 2 sizes where 3 are needed"},
+        {HEAD "\"size\":[2,1,2]," UNIT "}", FFD_E_INVALID,
+         "f.json:/size/1: is 1, but a direction has at least 2 control points"},
+        {HEAD "\"size\":[2,2.5,2]," UNIT "}", FFD_E_INVALID,
+         "f.json:/size/1: must be a whole number, not the number 2.5"},
+        {HEAD "\"size\":[2,true,2]," UNIT "}", FFD_E_INVALID,
+         "f.json:/size/1: must be a whole number, not true"},
+        {HEAD "\"size\":[1000,1000,1000]," UNIT "}", FFD_E_LIMIT,
+         "f.json:/size/2: size 1000 makes more than 67108864 control points"},
+        {HEAD "\"size\":[9007199254740992,9007199254740992,9007199254740992]," UNIT "}", FFD_E_LIMIT,
+         "f.json:/size/0: size 9007199254740992 makes more than 67108864 control points"},
+        {HEAD "\"size\":[1e300,2,2]," UNIT "}", FFD_E_INVALID,
+         "f.json:/size/0: must be a whole number, not the number 1e+300"},
+        {BOX ",\"degree\":[1,0,1]}", FFD_E_INVALID, "f.json:/degree/1: degree 0 is not between 1 and 9"},
+        {BOX ",\"degree\":[1,1,10]}", FFD_E_INVALID, "f.json:/degree/2: degree 10 is not between 1 and 9"},
+        {BOX ",\"degree\":[2,1,1]}", FFD_E_INVALID,
+         "f.json:/degree/0: degree 2 needs at least 3 control points, not 2"},
+        {BOX ",\"degree\":[1,1]}", FFD_E_INVALID, "f.json:/degree: has 2 degrees where 3 are needed"},
+        {BOX ",\"units\":\"boxes\"}", FFD_E_INVALID,
+         "f.json:/units: unknown word \"boxes\"; the nearest known one is \"box\""},
+        {BOX ",\"weights\":[1,1]}", FFD_E_INVALID, "f.json:/weights: has 2 weights where 8 are needed"},
+        {BOX ",\"weights\":[1,1,1,0,1,1,1,1]}", FFD_E_INVALID, "f.json:/weights/3: weight 0 is not positive"},
+        {BOX ",\"weights\":[1,1,1,1,-2.5,1,1,1]}", FFD_E_INVALID,
+         "f.json:/weights/4: weight -2.5 is not positive"},
+        {BOX ",\"weights\":null}", FFD_E_INVALID, "f.json:/weights: must be an array of 8 weights, not null"},
+        {BOX ",\"deformed\":[]}", FFD_E_INVALID, "f.json:/deformed: must be an object, not an array of 0"},
+        {BOX ",\"deformed\":{\"point\":[]}}", FFD_E_INVALID,
+         "f.json:/deformed/point: unknown key \"point\"; the nearest known one is \"points\""},
+        {BOX ",\"deformed\":{\"points\":[[0,0,0]]}}", FFD_E_INVALID,
+         "f.json:/deformed/points: has 1 points where 8 are needed"},
+        {BOX ",\"deformed\":{\"weights\":[1,1,1,1,1,1,1,-1]}}", FFD_E_INVALID,
+         "f.json:/deformed/weights/7: weight -1 is not positive"},
+    };
+    check_refusals(refusals, COUNT(refusals));
+}
+
+static void test_refuses_knots(void **state)
+{
+    (void)state;
+    static const refusal refusals[] = {
+        {BOX ",\"knots\":\"clamped\"}", FFD_E_INVALID,
+         "f.json:/knots: must be an array of 3 knot vectors, not the text \"clamped\""},
+        {BOX ",\"knots\":[\"clamped\",\"clamp\",\"clamped\"]}", FFD_E_INVALID,
+         "f.json:/knots/1: unknown word \"clamp\"; the nearest known one is \"clamped\""},
+        {BOX ",\"knots\":[\"clamped\",\"closed\",\"clamped\"]}", FFD_E_INVALID,
+         "f.json:/knots/1: direction v of a box cannot be closed: its points do not go round"},
+        {BOX ",\"knots\":[{\"closed\":[0,1,2]},\"open\",\"clamped\"]}", FFD_E_INVALID,
+         "f.json:/knots/0: direction u of a box cannot be closed: its points do not go round"},
+        {BOX ",\"knots\":[{\"closd\":[0,1,2]},\"open\",\"clamped\"]}", FFD_E_INVALID,
+         "f.json:/knots/0/closd: unknown key \"closd\"; the nearest known one is \"closed\""},
+        {BOX ",\"knots\":[[0,0,1],\"open\",\"clamped\"]}", FFD_E_INVALID,
+         "f.json:/knots/0: has 3 knots where 4 are needed"},
+        {BOX ",\"knots\":[[0,0,\"1\",1],\"open\",\"clamped\"]}", FFD_E_INVALID,
+         "f.json:/knots/0/2: must be a number, not the text \"1\""},
+        {BOX ",\"knots\":[\"open\",\"open\",[0,0,1,0.5]]}", FFD_E_INVALID,
+         "f.json:/knots/2: direction w: knot 3 is 0.5, less than knot 2, 1"},
+        {BOX ",\"knots\":[\"open\",\"open\",[0,1,1,2]]}", FFD_E_INVALID,
+         "f.json:/knots/2: direction w: the domain is empty, knot 1 and knot 2 are both 1"},
+        {HEAD "\"size\":[2,3,2],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],"
+              "\"height\":1,"
+              "\"angle\":[0,90]}},\"knots\":[\"open\",\"closed\",\"open\"]}",
+         FFD_E_INVALID,
+         "f.json:/knots/1: a cylinder from 0 to 90 degrees cannot be closed: it is no full turn"},
+        {HEAD "\"size\":[2,3,2],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],"
+              "\"height\":1}},"
+              "\"knots\":[\"closed\",\"closed\",\"open\"]}",
+         FFD_E_INVALID, "f.json:/knots/0: direction u of a cylinder cannot be closed, only v can"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"spacing\":\"uniform\"}},\"knots\":["
+              "\"clamped\",\"open\","
+              "\"clamped\"]}",
+         FFD_E_INVALID,
+         "f.json:/rest/box/spacing: uniform spacing needs clamped knots, which direction v does not have"},
+        {SIZE "\"rest\":{\"points\":[" EIGHT "]},\"knots\":[{\"closed\":[0,1]},\"open\",\"clamped\"]}",
+         FFD_E_INVALID, "f.json:/knots/0/closed: has 2 breakpoints where 3 are needed"},
+    };
+    check_refusals(refusals, COUNT(refusals));
+}
+
+static void test_refuses_rest(void **state)
+{
+    (void)state;
+    static const refusal refusals[] = {
+        {SIZE "\"rest\":[]}", FFD_E_INVALID, "f.json:/rest: must be an object, not an array of 0"},
+        {SIZE "\"rest\":{}}", FFD_E_INVALID,
+         "f.json:/rest: needs exactly one of \"box\", \"cylinder\", \"points\""},
+        {SIZE "\"rest\":{\"box\":\"mesh\",\"points\":[]}}", FFD_E_INVALID,
+         "f.json:/rest: needs exactly one of \"box\", \"cylinder\", \"points\""},
+        {SIZE "\"rest\":{\"bocks\":{}}}", FFD_E_INVALID,
+         "f.json:/rest/bocks: unknown key \"bocks\"; the nearest known one is \"box\""},
+        {SIZE "\"rest\":{\"box\":\"mseh\"}}", FFD_E_INVALID,
+         "f.json:/rest/box: unknown word \"mseh\"; the nearest known one is \"mesh\""},
+        {SIZE "\"rest\":{\"box\":\"mesh\",\"margin\":-0.1}}", FFD_E_INVALID,
+         "f.json:/rest/margin: margin -0.1 is less than 0"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"margin\":0.1}}", FFD_E_INVALID,
+         "f.json:/rest/margin: a margin goes only with \"box\": \"mesh\""},
+        {SIZE "\"rest\":{\"box\":{\"max\":[1,1,1]}}}", FFD_E_INVALID, "f.json:/rest/box: \"min\" is missing"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1]}}}", FFD_E_INVALID,
+         "f.json:/rest/box/max: has 2 numbers where 3 are needed"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,null,1]}}}", FFD_E_INVALID,
+         "f.json:/rest/box/max/1: must be a number, not null"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,2,0],\"max\":[1,2,1]}}}", FFD_E_INVALID,
+         "f.json:/rest/box: max 2 of direction v is not more than min 2"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[-1e308,0,0],\"max\":[1e308,1,1]}}}", FFD_E_INVALID,
+         "f.json:/rest/box: the side from -1e+308 to 1e+308 is longer than numbers can hold"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"spacing\":\"even\"}}}", FFD_E_INVALID,
+         "f.json:/rest/box/spacing: unknown word \"even\"; the nearest known one is \"greville\""},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"axes\":[[1,0,0],[0,2,0],[0,0,1]]}}}",
+         FFD_E_INVALID, "f.json:/rest/box/axes: axis 1 has the length 2, not 1"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"axes\":[[1,0,0],[0.6,0.8,0],[0,0,1]]}}}",
+         FFD_E_INVALID,
+         "f.json:/rest/box/axes: axes 0 and 1 are not perpendicular: their dot product is 0.6"},
+        {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"axes\":[[1,0,0],[0,1,0]]}}}",
+         FFD_E_INVALID, "f.json:/rest/box/axes: has 2 axes where 3 are needed"},
+        {SIZE "\"rest\":{\"points\":[[0,0,0]]}}", FFD_E_INVALID,
+         "f.json:/rest/points: has 1 points where 8 are needed"},
+        {SIZE "\"rest\":{\"points\":[[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0],[0,1,1],[1,1,1]]}}",
+         FFD_E_INVALID, "f.json:/rest/points/5: has 2 numbers where 3 are needed"},
+        {CYLINDER("\"axis\":\"z\",\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
+         "f.json:/rest/cylinder: \"center\" is missing"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"w\",\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
+         "f.json:/rest/cylinder/axis: unknown word \"w\"; the nearest known one is \"x\""},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":[0,0,0],\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
+         "f.json:/rest/cylinder/axis: is 0 0 0, which is no direction"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"zero\":[0,0,5],\"radius\":[0,1],\"height\":1"),
+         FFD_E_INVALID, "f.json:/rest/cylinder/zero: points along the axis; it must lead away from it"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[1,1],\"height\":1"), FFD_E_INVALID,
+         "f.json:/rest/cylinder/radius: radii 1 and 1 are not 0 <= r0 < r1"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[-1,1],\"height\":1"), FFD_E_INVALID,
+         "f.json:/rest/cylinder/radius: radii -1 and 1 are not 0 <= r0 < r1"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],\"height\":0"), FFD_E_INVALID,
+         "f.json:/rest/cylinder/height: height 0 is not more than 0"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],\"height\":1,\"angle\":[0,361]"),
+         FFD_E_INVALID,
+         "f.json:/rest/cylinder/angle: 0 to 361 degrees is not an angle of more than 0, at most 360"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],\"height\":1,\"angle\":[90,90]"),
+         FFD_E_INVALID,
+         "f.json:/rest/cylinder/angle: 90 to 90 degrees is not an angle of more than 0, at most 360"},
+        {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],\"heigth\":1"), FFD_E_INVALID,
+         "f.json:/rest/cylinder/heigth: unknown key \"heigth\"; the nearest known one is \"height\""},
+    };
+    check_refusals(refusals, COUNT(refusals));
+}
+
+static void test_refuses_moves(void **state)
+{
+    (void)state;
+    static const refusal refusals[] = {
+        {BOX ",\"moves\":{}}", FFD_E_INVALID, "f.json:/moves: must be an array of moves, not an object"},
+        {MOVE("7"), FFD_E_INVALID, "f.json:/moves/0: must be an object, not the number 7"},
+        {MOVE("{}"), FFD_E_INVALID,
+         "f.json:/moves/0: has no action: by, to, scale, rotate, matrix, twist, taper or bend"},
+        {MOVE("{\"at\":[0,0,0],\"by\":[0,0,0],\"to\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0: has two actions, \"by\" and \"to\"; a move has one"},
+        {MOVE("{\"by\":[0,0,1]},{\"att\":[0,0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/1/att: unknown key \"att\"; the nearest known one is \"at\""},
+        {MOVE("{\"at\":[0,0,0],\"within\":{},\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0: has both \"at\" and \"within\"; a move selects its points by one of them"},
+        {MOVE("{\"at\":[0,2,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at/1: index 2 is outside 0 to 1 (or -2 to -1)"},
+        {MOVE("{\"at\":[0,0,-3],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at/2: index -3 is outside 0 to 1 (or -2 to -1)"},
+        {MOVE("{\"at\":[[0,5],0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at/0/1: index 5 is outside 0 to 1 (or -2 to -1)"},
+        {MOVE("{\"at\":[[-1,0],0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at/0: the range from 1 to 0 is empty"},
+        {MOVE("{\"at\":[[0],0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at/0: has 1 indices where 2 are needed"},
+        {MOVE("{\"at\":[0.5,0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at/0: must be a whole number, not the number 0.5"},
+        {MOVE("{\"at\":[\"any\",0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at/0: unknown word \"any\"; the nearest known one is \"all\""},
+        {MOVE("{\"at\":[0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/at: has 2 selections where 3 are needed"},
+        {MOVE("{\"within\":{\"min\":[0,0,0]},\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/within: \"max\" is missing"},
+        {MOVE("{\"within\":{\"min\":[0,3,0],\"max\":[1,2,1]},\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/within: max 2 is less than min 3"},
+        {MOVE("{\"weight\":1.5,\"by\":[0,0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/weight: weight 1.5 is not between 0 and 1"},
+        {MOVE("{\"by\":[0,0]}"), FFD_E_INVALID, "f.json:/moves/0/by: has 2 numbers where 3 are needed"},
+        {MOVE("{\"scale\":{\"about\":[0,0,0]}}"), FFD_E_INVALID,
+         "f.json:/moves/0/scale: \"factor\" is missing"},
+        {MOVE("{\"scale\":{\"factor\":\"2\"}}"), FFD_E_INVALID,
+         "f.json:/moves/0/scale/factor: must be a number, not the text \"2\""},
+        {MOVE("{\"rotate\":{\"axis\":\"z\",\"angle\":3}}"), FFD_E_INVALID,
+         "f.json:/moves/0/rotate/angle: unknown key \"angle\"; the nearest known one is \"axis\""},
+        {MOVE("{\"rotate\":{\"axis\":\"z\"}}"), FFD_E_INVALID,
+         "f.json:/moves/0/rotate: \"degrees\" is missing"},
+        {MOVE("{\"matrix\":[1,2,3]}"), FFD_E_INVALID,
+         "f.json:/moves/0/matrix: has 3 numbers where 16 are needed"},
+        {MOVE("{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]}"), FFD_E_INVALID,
+         "f.json:/moves/0/matrix: the last row is 5 0 0 1, not 0 0 0 1"},
+        {MOVE("{\"bend\":{\"axis\":\"x\",\"toward\":[-2,0,0],\"degrees\":3}}"), FFD_E_INVALID,
+         "f.json:/moves/0/bend/toward: points along the axis; it must lead away from it"},
+        {MOVE("{\"taper\":{\"axis\":\"x\",\"factor\":null}}"), FFD_E_INVALID,
+         "f.json:/moves/0/taper/factor: must be a number, not null"},
+        {SIZE "\"rest\":{\"points\":[[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,0],[1,0,0],[0,1,0],[1,1,0]]},"
+              "\"units\":\"box\","
+              "\"moves\":[{\"by\":[0,0,1]}]}",
+         FFD_E_INVALID,
+         "f.json:/units: the rest points lie in a plane: there is no box to take fractions of"},
+    };
+    check_refusals(refusals, COUNT(refusals));
+}
+
+static void check_same_points(const ffd_lattice *a, const ffd_lattice *b)
+{
+    assert_int_equal(a->count, b->count);
+    assert_memory_equal(a->rest, b->rest, 3 * a->count * sizeof(double));
+    assert_memory_equal(a->deformed, b->deformed, 3 * a->count * sizeof(double));
+    assert_int_equal(a->rest_weights != NULL, b->rest_weights != NULL);
+    if (a->rest_weights) {
+        assert_memory_equal(a->rest_weights, b->rest_weights, a->count * sizeof(double));
+        assert_memory_equal(a->deformed_weights, b->deformed_weights, a->count * sizeof(double));
+    }
+    for (int c = 0; c < 3; c++) {
+        assert_int_equal(a->knots[c].functions, b->knots[c].functions);
+        assert_memory_equal(a->knots[c].t, b->knots[c].t,
+                            (a->knots[c].functions + (size_t)a->knots[c].degree + 1) * sizeof(double));
+    }
+}
+
+/* parse(text(spec)) is the same lattice to the bit, and its text the same text. */
+static void test_round_trip(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        rich,
+        BOX "}",
+        HEAD "\"size\":[3,3,3],\"knots\":[\"uniform\",\"open\",[0,0,0,1,1,1]]," UNIT "}",
+        SIZE "\"rest\":{\"box\":{\"min\":[-0.1,0,0],\"max\":[0.2,1e-7,3e22],\"spacing\":\"uniform\",\"axes\":"
+             "[[0.6,0.8,0],"
+             "[-0.8,0.6,0],[0,0,1]]}}}",
+        SIZE "\"rest\":{\"points\":[" EIGHT
+             "]},\"weights\":[1,2,1,1,1,1,1,0.5],\"deformed\":{\"points\":[" EIGHT
+             "],\"weights\":[1,1,1,1,1,1,1,3]},\"units\":\"world\",\"moves\":[]}",
+        SIZE "\"rest\":{\"cylinder\":{\"center\":[0.1,0.2,0.3],\"axis\":[0.3,-5,1.1],\"radius\":[0,0.7],"
+             "\"height\":0.1,"
+             "\"angle\":[12.5,100]}}}",
+    };
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        ffd_lattice *first, *second;
+        ffd_error error;
+        size_t size, size_again;
+        assert_int_equal(parse(texts[i], &first, &error), FFD_OK);
+        char *const text = ffd_spec_text(first->spec, &size);
+        assert_non_null(text);
+        if (ffd_lattice_parse(text, size, "again.json", &second, &error))
+            fail_msg("%s\n%s", message_of(&error), text);
+        check_same_points(first, second);
+        char *const text_again = ffd_spec_text(second->spec, &size_again);
+        assert_string_equal(text, text_again);
+        assert_int_equal(size, strlen(text));
+        assert_true(size == size_again && text[size - 1] == '\n');
+        ffd_free(text);
+        ffd_free(text_again);
+        ffd_lattice_destroy(&first);
+        ffd_lattice_destroy(&second);
+    }
+}
+
+static void test_text(void **state)
+{
+    (void)state;
+    ffd_lattice *l;
+    size_t size;
+    assert_int_equal(
+        parse(HEAD
+              "\"size\":[4,4,4],\"rest\":{\"box\":\"mesh\",\"margin\":0.1},\"moves\":[{\"at\":[-1,\"all\",0],"
+              "\"by\":[0.1,0,0],\"weight\":0.5}]}",
+              &l, NULL),
+        FFD_OK);
+    char *const text = ffd_spec_text(l->spec, &size);
+    assert_string_equal(text, "{\n"
+                              "  \"format\": \"ffd-lattice\",\n"
+                              "  \"version\": 1,\n"
+                              "  \"size\": [4, 4, 4],\n"
+                              "  \"degree\": [3, 3, 3],\n"
+                              "  \"knots\": [\"clamped\", \"clamped\", \"clamped\"],\n"
+                              "  \"rest\": {\n"
+                              "    \"box\": \"mesh\",\n"
+                              "    \"margin\": 0.1\n"
+                              "  },\n"
+                              "  \"moves\": [\n"
+                              "    {\"at\": [3, [0, 3], 0], \"weight\": 0.5, \"by\": [0.1, 0, 0]}\n"
+                              "  ]\n"
+                              "}\n");
+    ffd_free(text);
+    ffd_lattice_destroy(&l);
+}
+
+static void test_load_and_save(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/ffd-test-XXXXXX", path[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/l.json", folder);
+    ffd_lattice *saved, *loaded;
+    ffd_error error;
+    assert_int_equal(parse(rich, &saved, &error), FFD_OK);
+    assert_int_equal(ffd_lattice_save(saved, path, false, &error), FFD_OK);
+    assert_int_equal(ffd_lattice_save(saved, path, false, &error), FFD_E_EXISTS);
+    assert_int_equal(ffd_lattice_save(saved, path, true, &error), FFD_OK);
+    assert_int_equal(ffd_lattice_load(path, &loaded, &error), FFD_OK);
+    check_same_points(saved, loaded);
+    ffd_lattice_destroy(&saved);
+    ffd_lattice_destroy(&loaded);
+    unlink(path);
+    assert_int_equal(ffd_lattice_load(path, &loaded, &error), FFD_E_IO);
+    assert_null(loaded);
+    assert_string_equal(error.file, path);
+    rmdir(folder);
+}
+
+/* Every allocation of ours fails once; nothing leaks (the sanitizers look) and the status is right.
+   (jansson's own allocations do not go through ffd_alloc.) */
+static void test_no_memory(void **state)
+{
+    (void)state;
+    long successes = 0;
+    for (;; successes++) {
+        ffd_lattice *lattice;
+        ffd_error error;
+        ffd_alloc_fail_after(successes);
+        const ffd_status status = parse(rich, &lattice, &error);
+        ffd_alloc_fail_after(-1);
+        if (!status) {
+            ffd_lattice_destroy(&lattice);
+            break;
+        }
+        assert_int_equal(status, FFD_E_MEMORY);
+        assert_null(lattice);
+        assert_string_equal(message_of(&error), "f.json: out of memory");
+    }
+    assert_true(successes > 15);
+    ffd_lattice *lattice;
+    assert_int_equal(parse(rich, &lattice, NULL), FFD_OK);
+    size_t size;
+    ffd_alloc_fail_after(0);
+    assert_null(ffd_spec_text(lattice->spec, &size));
+    ffd_alloc_fail_after(-1);
+    ffd_lattice_destroy(&lattice);
+}
+
+/* Any beginning of a file, and any file with one byte changed, is read or refused with words. */
+static void test_broken(void **state)
+{
+    (void)state;
+    char text[sizeof rich];
+    for (size_t length = 0; length < sizeof rich - 1; length++) {
+        ffd_lattice *lattice;
+        ffd_error error;
+        assert_int_equal(ffd_lattice_parse(rich, length, "f.json", &lattice, &error), FFD_E_INVALID);
+        assert_true(error.line == 1);
+    }
+    static const char bytes[] = "0-9]}\",e[{\0\xff";
+    for (size_t i = 0; i < sizeof rich - 1; i++)
+        for (size_t b = 0; b < sizeof bytes - 1; b++) {
+            ffd_lattice *lattice;
+            ffd_error error;
+            memcpy(text, rich, sizeof rich);
+            text[i] = bytes[b];
+            const ffd_status status = ffd_lattice_parse(text, sizeof rich - 1, "f.json", &lattice, &error);
+            assert_true((status == FFD_OK) == (lattice != NULL));
+            assert_true(!status || (error.message[0] && strcmp(error.file, "f.json") == 0));
+            ffd_lattice_destroy(&lattice);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_accepts),       cmocka_unit_test(test_meaning),
+        cmocka_unit_test(test_syntax),        cmocka_unit_test(test_refuses_frame),
+        cmocka_unit_test(test_refuses_knots), cmocka_unit_test(test_refuses_rest),
+        cmocka_unit_test(test_refuses_moves), cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_text),          cmocka_unit_test(test_load_and_save),
+        cmocka_unit_test(test_no_memory),     cmocka_unit_test(test_broken),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
