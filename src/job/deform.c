@@ -53,11 +53,13 @@ static ffd_status judge(const ffd_deform_desc *desc, const pass_totals *totals, 
     const char *name = ffd_source_name(&desc->input);
     if (totals->first_invalid != UINT64_MAX)
         return ffd_fail_file(error, FFD_E_INVALID, name,
-                             "vertex %" PRIu64 " has a coordinate that is not finite", totals->first_invalid);
+                             "vertex %" PRIu64 " (counted from 0) has a coordinate that is not finite",
+                             totals->first_invalid);
     if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_any)
         return ffd_fail_file(error, FFD_E_EMBEDDING, name,
                              "%" PRIu64 " of %" PRIu64
-                             " vertices are outside the lattice, the first is vertex %" PRIu64,
+                             " vertices are outside the lattice, the first is vertex %" PRIu64
+                             " (counted from 0)",
                              totals->outside_any, totals->vertices, totals->first_outside);
     if (totals->first_overflow != UINT64_MAX)
         return ffd_fail_file(error, FFD_E_INVALID, name,
@@ -81,77 +83,91 @@ static ffd_status save(mesh_document *document, const mesh_save_options *options
     return status;
 }
 
-static ffd_status run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
-{
-    const mesh_log log = {desc->log, desc->log_user};
-    const int threads = thread_count(desc->threads);
-    const double start = ffd_clock_seconds();
+/* What a job holds while it runs. */
+typedef struct deform_job {
+    const ffd_deform_desc *desc;
+    int threads;
+    mesh_log log;
     mesh_save_options options;
-    mesh_document *document = NULL;
     lattice_chain chain;
-    pass_totals totals;
+    mesh_document *document;
+} deform_job;
 
-    if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
-    ffd_status status = resolve_output(desc, &options, error);
-    if (status)
-        return status;
-    status = ffd_chain_load(desc->lattices, desc->lattice_count, &chain, error);
-    if (status)
-        return status;
-    status = ffd_source_open(&desc->input, &document, error);
-    if (status)
-        goto out;
-    const mesh_format *format = document->format;
-    if (ffd_format_table(options.format) != format) {
-        status = ffd_fail_file(error, FFD_E_UNSUPPORTED, ffd_source_name(&desc->input),
-                               "cannot become another format: this build writes %s as %s", format->name,
-                               format->name);
-        goto out;
-    }
-    status = format->check(document, error);
+/* Everything that can be refused before a vertex is touched. */
+static ffd_status prepare(deform_job *job, ffd_error *error)
+{
+    const ffd_deform_desc *desc = job->desc;
+    const bool attributes = desc->normals != FFD_NORMALS_KEEP;
+    ffd_status status = resolve_output(desc, &job->options, error);
     if (!status)
-        status = format->begin_results(document, desc->normals != FFD_NORMALS_KEEP,
-                                       desc->normals != FFD_NORMALS_KEEP, error);
+        status = ffd_chain_load(desc->lattices, desc->lattice_count, &job->chain, error);
+    if (!status)
+        status = ffd_source_open(&desc->input, &job->document, error);
     if (status)
-        goto out;
-    const double opened = ffd_clock_seconds();
-    result->seconds_read = opened - start;
+        return status;
+    const mesh_format *format = job->document->format;
+    if (ffd_format_table(job->options.format) != format)
+        return ffd_fail_file(error, FFD_E_UNSUPPORTED, ffd_source_name(&desc->input),
+                             "cannot become another format: this build writes %s as %s", format->name,
+                             format->name);
+    status = format->check(job->document, error);
+    return status ? status : format->begin_results(job->document, attributes, attributes, error);
+}
 
-    status = ffd_chain_place(&chain, document, threads, error);
+static ffd_status deform(deform_job *job, pass_totals *totals, ffd_error *error)
+{
+    const ffd_status status = ffd_chain_place(&job->chain, job->document, job->threads, error);
     if (status)
-        goto out;
-    const mesh_pass pass = {.document = document,
-                            .chain = &chain,
-                            .links = chain.count,
-                            .threads = threads,
+        return status;
+    const mesh_pass pass = {.document = job->document,
+                            .chain = &job->chain,
+                            .links = job->chain.count,
+                            .threads = job->threads,
                             .write = true,
-                            .attributes = desc->normals != FFD_NORMALS_KEEP};
-    status = ffd_pass_run(&pass, &totals, error);
+                            .attributes = job->desc->normals != FFD_NORMALS_KEEP};
+    return ffd_pass_run(&pass, totals, error);
+}
+
+static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    pass_totals totals;
+    const double start = ffd_clock_seconds();
+    ffd_status status = prepare(job, error);
+    const double prepared = ffd_clock_seconds();
+    result->seconds_read = prepared - start;
+    if (!status)
+        status = deform(job, &totals, error);
     if (status)
-        goto out;
+        return status;
     const double deformed = ffd_clock_seconds();
-    ffd_result_fill(result, &totals, deformed - opened);
-    status = judge(desc, &totals, error);
+    ffd_result_fill(result, &totals, deformed - prepared);
+    status = judge(job->desc, &totals, error);
     if (status)
-        goto out;
-    ffd_result_warn(&totals, &log);
-    status = save(document, &options, &log, error);
+        return status;
+    ffd_result_warn(&totals, &job->log);
+    status = save(job->document, &job->options, &job->log, error);
     result->seconds_write = ffd_clock_seconds() - deformed;
-out:
-    if (status)
-        ffd_fail_name_file(error, ffd_source_name(&desc->input));
-    ffd_source_close(&document);
-    ffd_chain_free(&chain);
     return status;
 }
 
 ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     memset(result, 0, sizeof *result);
-    for (int a = 0; a < 3; a++)
-        result->before.min[a] = result->after.min[a] = 1, result->before.max[a] = result->after.max[a] = -1;
-    result->status = run(desc, result, &result->error);
+    for (int a = 0; a < 3; a++) {
+        result->before.min[a] = result->after.min[a] = 1; /* no bounds yet: min > max */
+        result->before.max[a] = result->after.max[a] = -1;
+    }
+    if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices)) {
+        result->status = ffd_fail(&result->error, FFD_E_ARGUMENT, "the job's description is not complete");
+    } else {
+        deform_job job = {
+            .desc = desc, .threads = thread_count(desc->threads), .log = {desc->log, desc->log_user}};
+        result->status = run(&job, result, &result->error);
+        if (result->status)
+            ffd_fail_name_file(&result->error, ffd_source_name(&desc->input));
+        ffd_source_close(&job.document);
+        ffd_chain_free(&job.chain);
+    }
     if (result->status && error)
         *error = result->error;
     return result->status;
