@@ -117,11 +117,11 @@ suites() {
     folder=$work/$2
     shift 2
     clock=$(date +%s)
-    rm -f "$folder/meson-logs/$stage.json"
+    rm -f "$folder/meson-logs/$stage"*.json
     meson test -C "$folder" --no-rebuild --logbase "$stage" "$@" >"$logs/$stage-test.log" 2>&1 </dev/null
     status=$?
-    # shellcheck disable=SC2086 # an option or nothing
-    python3 "$root/tests/summary.py" "$folder/meson-logs/$stage.json" $may_skip >"$logs/$stage-summary.log"
+    # shellcheck disable=SC2086 # an option or nothing. With --wrap the log's name has the wrapper's behind it.
+    python3 "$root/tests/summary.py" "$folder/meson-logs/$stage"*.json $may_skip >"$logs/$stage-summary.log"
     counts=$(tail -n 1 "$logs/$stage-summary.log")
     # shellcheck disable=SC2086 # three numbers
     set -- $counts
@@ -181,19 +181,21 @@ if [ -n "$all" ]; then
     fi
     drop release
 
-    if build asan gcc g++ -Dbuildtype=debugoptimized -Db_sanitize=address,undefined -Db_lundef=false; then
+    # gcc needs minutes for this one.
+    if build asan clang clang++ -Dbuildtype=debug -Doptimization=1 -Db_sanitize=address,undefined \
+        -Db_lundef=false; then
         suites asan asan --no-suite rules --timeout-multiplier 6
     fi
     drop asan
 
     # The address space must not be shuffled more than the thread sanitizer of Debian 12 copes with.
     if build tsan gcc g++ -Dbuildtype=debugoptimized -Db_sanitize=thread -Db_lundef=false; then
-        suites tsan tsan --suite unit --suite cli --wrap "setarch -R" --timeout-multiplier 10
+        suites tsan tsan --suite unit --suite property --suite cli --no-suite slow --wrap "setarch -R" --timeout-multiplier 10
     fi
     drop tsan
 
     if [ -f "$work/gcc/build.ninja" ]; then
-        suites valgrind gcc --suite unit --timeout-multiplier 30 \
+        suites valgrind gcc --suite unit --no-suite slow --timeout-multiplier 30 \
             --wrap "valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite"
     fi
 

@@ -33,7 +33,8 @@ def main():
             counts["passed"] += 1
         elif result == "SKIP" and may_skip:
             counts["skipped"] += 1
-            print(f"  skipped: {test['name']}: {test.get('stdout', '').strip()}")
+            reasons = [line for line in test.get("stdout", "").splitlines() if line.startswith("SKIP")]
+            print(f"  skipped: {test['name']}: {' '.join(reasons)}")
         else:
             counts["failed"] += 1
             why = "skipped though nothing is missing" if result == "SKIP" else result.lower()

@@ -24,10 +24,10 @@ static ffd_status make_points(ffd_locator *locator, cell_search *cells, ffd_erro
     return FFD_OK;
 }
 
-static ffd_status make_extractions(const ffd_lattice *lattice, cell_search *cells, ffd_error *error)
+static ffd_status make_extractions(const ffd_locator *locator, cell_search *cells, ffd_error *error)
 {
     for (int a = 0; a < 3; a++) {
-        const knot_vector *knots = &lattice->knots[a];
+        const knot_vector *knots = &locator->knots[a];
         const size_t size = (size_t)cells->order[a] * (size_t)cells->order[a];
         cells->extraction[a] = ffd_alloc(knots->span_count, size * sizeof(double));
         if (!cells->extraction[a])
@@ -111,7 +111,7 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
 {
     double least;
     for (int a = 0; a < 3; a++) {
-        const double *t = locator->lattice->knots[a].t;
+        const double *t = locator->knots[a].t;
         const double start = t[span[a]], side = t[span[a] + 1] - start;
         result->span[a] = span[a];
         result->lo[a] = start + box->lo[a] * side;
@@ -129,7 +129,7 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
     const cell_search *cells = locator->cells;
     double value[3][MAX_ORDER], slope[3][MAX_ORDER];
     for (int a = 0; a < 3; a++)
-        ffd_basis_derivatives(&locator->lattice->knots[a], span[a], uvw[a], value[a], slope[a]);
+        ffd_basis_derivatives(&locator->knots[a], span[a], uvw[a], value[a], slope[a]);
     memset(result, 0, sizeof *result);
     size_t function[3];
     for (int k = 0; k < cells->order[2]; k++) {
@@ -187,7 +187,7 @@ static bounds brick_hull(const ffd_locator *locator, uint32_t number)
     size_t first[3], last[3], from[3], to[3], function[3];
     brick_cells(cells, number, first, last);
     for (int a = 0; a < 3; a++) {
-        const knot_vector *knots = &locator->lattice->knots[a];
+        const knot_vector *knots = &locator->knots[a];
         from[a] = (size_t)(knots->spans[first[a]] - knots->degree);
         to[a] = (size_t)knots->spans[last[a]];
     }
@@ -357,10 +357,10 @@ static double determinant_in(const ffd_locator *locator, const int span[3], cons
     homogeneous at;
     double uvw[3], column[3][3], cross[3], length[3], noise[3];
     for (int a = 0; a < 3; a++) {
-        const double *knot = locator->lattice->knots[a].t + span[a];
+        const double *knot = locator->knots[a].t + span[a];
         uvw[a] = knot[0] + t[a] * (knot[1] - knot[0]);
-        noise[a] = 16 * DBL_EPSILON * vec_length(locator->extent) * locator->lattice->knots[a].degree /
-                   (knot[1] - knot[0]);
+        noise[a] =
+            16 * DBL_EPSILON * vec_length(locator->extent) * locator->knots[a].degree / (knot[1] - knot[0]);
     }
     ffd_cells_evaluate(locator, span, uvw, &at);
     for (int a = 0; a < 3; a++) {
@@ -387,7 +387,7 @@ static double cell_volume(const ffd_locator *locator, const size_t cell[3], bool
     double side = 1;
     cell_spans(locator->lattice, cell, span);
     for (int a = 0; a < 3; a++) {
-        const double *knot = locator->lattice->knots[a].t + span[a];
+        const double *knot = locator->knots[a].t + span[a];
         side *= knot[1] - knot[0];
     }
     const double volume = determinant_in(locator, span, places[0], flat) * side;
@@ -431,7 +431,7 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     }
     ffd_status status = make_points(locator, cells, error);
     if (!status)
-        status = make_extractions(lattice, cells, error);
+        status = make_extractions(locator, cells, error);
     if (!status)
         status = look_at_volume(locator, cells, error);
     if (!status)

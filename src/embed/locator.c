@@ -17,6 +17,23 @@ static void find_origin(ffd_locator *locator)
     }
 }
 
+/* Copies of the lattice's knot vectors that start at 0; the spans are the lattice's own. */
+static bool shift_knots(ffd_locator *locator)
+{
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *knots = &locator->lattice->knots[a];
+        const size_t count = knots->functions + (size_t)knots->degree + 1;
+        const double first = ffd_knots_first(knots);
+        locator->knots[a] = *knots;
+        locator->knots[a].t = ffd_alloc(count, sizeof(double));
+        if (!locator->knots[a].t)
+            return false;
+        for (size_t i = 0; i < count; i++)
+            locator->knots[a].t[i] = knots->t[i] - first;
+    }
+    return true;
+}
+
 ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator, ffd_error *error)
 {
     *locator = NULL;
@@ -26,6 +43,10 @@ ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator,
     if (!made)
         return ffd_fail_memory(error);
     made->lattice = lattice;
+    if (!shift_knots(made)) {
+        ffd_locator_destroy(&made);
+        return ffd_fail_memory(error);
+    }
     find_origin(made);
 
     ffd_status status = FFD_OK;
@@ -50,6 +71,8 @@ void ffd_locator_destroy(ffd_locator **locator)
         return;
     ffd_separable_free(*locator);
     ffd_cells_destroy(&(*locator)->cells);
+    for (int a = 0; a < 3; a++)
+        ffd_free((*locator)->knots[a].t);
     ffd_free(*locator);
     *locator = NULL;
 }

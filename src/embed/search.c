@@ -171,7 +171,7 @@ static bool is_preferred(const point_search *search, const root *a, const root *
 static bool are_one(const point_search *search, const root *a, const root *b)
 {
     for (int d = 0; d < 3; d++) {
-        const knot_vector *knots = &search->locator->lattice->knots[d];
+        const knot_vector *knots = &search->locator->knots[d];
         const double side = ffd_knots_last(knots) - ffd_knots_first(knots);
         double apart = fabs(a->uvw[d] - b->uvw[d]);
         if (ffd_knots_closed(knots) && apart > 0.5 * side)
@@ -215,7 +215,7 @@ static void record(point_search *search, const cell_region *region, const double
     double inverse[9], column[3][3], cross[3];
     place(region, t, found.uvw);
     for (int a = 0; a < 3; a++) {
-        const knot_vector *knots = &search->locator->lattice->knots[a];
+        const knot_vector *knots = &search->locator->knots[a];
         found.uvw[a] = ffd_knots_wrap(knots, found.uvw[a]);
     }
     found.residual = vec_length(at->residual);
@@ -520,7 +520,7 @@ static void judge(const point_search *search, ffd_location *location)
     else
         location->status = best->singular || search->unresolved ? FFD_SINGULAR : FFD_INSIDE;
     location->residual = best->residual;
-    memcpy(location->uvw, best->uvw, sizeof best->uvw);
+    ffd_locator_report(search->locator, best->uvw, location->uvw);
 }
 
 ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_scratch **scratch,

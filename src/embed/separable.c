@@ -54,7 +54,7 @@ static double value_at(const knot_vector *knots, const monotone_curve *curve, in
 static ffd_status make_curve(ffd_locator *locator, int a, ffd_error *error)
 {
     const ffd_lattice *lattice = locator->lattice;
-    const knot_vector *knots = &lattice->knots[a];
+    const knot_vector *knots = &locator->knots[a];
     monotone_curve *curve = &locator->curves[a];
     const size_t stride = stride_of(lattice, a);
     curve->points = ffd_alloc(lattice->size[a], sizeof(double));
@@ -161,17 +161,15 @@ void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_locat
     for (int a = 0; a < 3; a++) {
         /* Far outside needs no solving. */
         const monotone_curve *curve = &locator->curves[a];
-        const double first = curve->breakpoints[0],
-                     last = curve->breakpoints[locator->lattice->knots[a].span_count];
+        const double first = curve->breakpoints[0], last = curve->breakpoints[locator->knots[a].span_count];
         if (p[a] < fmin(first, last) - tolerance[a] || p[a] > fmax(first, last) + tolerance[a])
             return;
     }
     for (int a = 0; a < 3; a++)
-        uvw[a] = solve(&locator->lattice->knots[a], &locator->curves[a], p[a], &residual[a]);
+        uvw[a] = solve(&locator->knots[a], &locator->curves[a], p[a], &residual[a]);
     if (!ffd_within_tolerance(residual, tolerance))
         return;
     location->status = FFD_INSIDE;
     location->residual = vec_length(residual);
-    for (int a = 0; a < 3; a++)
-        location->uvw[a] = uvw[a];
+    ffd_locator_report(locator, uvw, location->uvw);
 }

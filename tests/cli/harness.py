@@ -96,7 +96,7 @@ class Run:
         return name
 
     def ffd(self, *arguments, code=OK, err=None, out=None, data=False, stdin=b"", lines=None, **options):
-        """Runs ffd in the folder. err: the lines of stderr without "ffd: " (a string: the only one; a compiled
+        """Runs ffd in the folder. code: the exit code, or a tuple of those allowed. err: the lines of stderr without "ffd: " (a string: the only one; a compiled
         pattern: what the only one matches); out: the text of stdout; data: a failure too may print some; lines:
         how many lines stderr has where err does not say; options go to subprocess.run."""
         command = [options.pop("program", FFD), *arguments]
@@ -105,7 +105,9 @@ class Run:
         done = subprocess.run(command, cwd=self.folder, input=stdin, timeout=SECONDS, check=False, **options)
         shown = "ffd " + " ".join(arguments)
         told = (done.stderr or b"").decode("utf-8", "backslashreplace")
-        check(done.returncode == code, f"{shown}: exit {done.returncode}, expected {code}; {told}")
+        allowed = code if isinstance(code, tuple) else (code,)
+        check(done.returncode in allowed, f"{shown}: exit {done.returncode}, expected {code}; {told}")
+        code = done.returncode
         check(told == "" or told.endswith("\n"), f"{shown}: the last line of stderr has no end: {told!r}")
         said = told.split("\n")[:-1]
         for line in said:

@@ -214,9 +214,9 @@ static void cylinders(bool full, bool wide, const char *name)
             s.radius[0] = 0;
         sample_write(&s);
         ffd_lattice *lattice = NULL;
-        if (s.knots[1].data[0] == '"' && !wide) {
+        if (s.knots[1].data[0] == '"' && sample_widest_angle(&s) < 150) {
             lattice = trial_parse(&t, &s);
-        } else { /* listed knots may leave the ends too far from the angles: refused in words, and seldom */
+        } else { /* near half a turn, and where listed knots leave the ends: refused in words, and seldom */
             const ffd_status status = ffd_lattice_parse(s.json.data, s.json.length, "listed", &lattice, NULL);
             trial_check(&t, &s, status == FFD_OK || status == FFD_E_INVALID, "parse: status %d", (int)status);
             refused += status == FFD_E_INVALID;

@@ -1,9 +1,14 @@
 #!/usr/bin/env python3
-"""Where things lie: which files are C++, that meson.build names every source, what stands at the top, that
-memory is asked for in one place, and that nothing tells of the place where the project was written."""
+"""Where things lie: which files are C++, that every source belongs to a target, what stands at the top, that
+memory is asked for in one place, and that nothing tells of the place where the project was written.
 
+    test_sources.py BUILD-FOLDER
+"""
+
+import json
 import os
 import re
+import sys
 
 import tree
 
@@ -42,10 +47,17 @@ def find_words(path):
             yield f"{path}: holds '{word}'"
 
 
+def sources_of_targets(build):
+    with open(os.path.join(build, "meson-info", "intro-targets.json"), encoding="utf-8") as file:
+        targets = json.load(file)
+    return {os.path.relpath(source, tree.ROOT)
+            for target in targets for group in target["target_sources"] for source in group.get("sources", [])}
+
+
 def main():
     paths = tree.files()
     findings = [f"{name}: not expected at the top level" for name in sorted({p.split("/")[0] for p in paths} - TOP)]
-    listed = {}
+    listed = sources_of_targets(sys.argv[1])
     for path in paths:
         findings += find_words(path)
         if re.search(r"\.(cc|cxx|hh|hpp|hxx)$", path) and not path.startswith("subprojects/"):
@@ -57,20 +69,8 @@ def main():
             if path.endswith((".c", ".h")) and not path.startswith(("src/base/memory.", "src/cli/")):
                 for match in ALLOCATION.finditer(without_comments(tree.read(path))):
                     findings.append(f"{path}: {match.group(1)} instead of base/memory.h")
-        if path.endswith((".c", ".cpp")) and path.startswith(("src/", "tests/")):
-            folder, name = os.path.split(path)
-            # Listed in the folder's own meson.build, or in that of a folder above.
-            above = folder
-            while above:
-                build = f"{above}/meson.build"
-                if build not in listed:
-                    listed[build] = tree.read(build) if build in paths else ""
-                relative = os.path.relpath(path, above)
-                if f"'{relative}'" in listed[build]:
-                    break
-                above = os.path.dirname(above)
-            else:
-                findings.append(f"{path}: in no meson.build")
+        if path.endswith((".c", ".cpp")) and path.startswith(("src/", "tests/")) and path not in listed:
+            findings.append(f"{path}: part of no target")
     tree.finish(len(paths), "files", findings)
 
 

@@ -53,13 +53,13 @@ static void set_points(ffd_lattice *lattice, point_map map)
 static void box_map(const double g[3], double out[3])
 {
     out[0] = -1 + 3 * g[0];
-    out[1] = 2 + 0.5 * g[1];
+    out[1] = -0.25 + 0.5 * g[1];
     out[2] = 10 * g[2];
 }
 
 static void sheared_map(const double g[3], double out[3])
 {
-    out[0] = 1 + g[0] + 0.5 * g[1];
+    out[0] = -0.75 + g[0] + 0.5 * g[1];
     out[1] = g[1] - 0.25 * g[2];
     out[2] = g[2] + 0.125 * g[0];
 }
@@ -246,10 +246,10 @@ static void test_outside_and_invalid(void **state)
         assert_int_equal(inf.status, FFD_POINT_INVALID);
         /* A hair beyond the faces of the box is outside: 1e-9 is far more than the tolerance. */
         if (maps[m] == box_map) {
-            assert_int_equal(find_one(locator, -1 - 1e-9, 2.1, 5).status, FFD_OUTSIDE);
-            assert_int_equal(find_one(locator, -1, 2.1, 5).status, FFD_INSIDE);
-            assert_int_equal(find_one(locator, 2, 2.5, 10).status, FFD_INSIDE);
-            assert_int_equal(find_one(locator, 2, 2.5, 10 + 1e-9).status, FFD_OUTSIDE);
+            assert_int_equal(find_one(locator, -1 - 1e-9, 0.1, 5).status, FFD_OUTSIDE);
+            assert_int_equal(find_one(locator, -1, 0.1, 5).status, FFD_INSIDE);
+            assert_int_equal(find_one(locator, 2, 0.25, 10).status, FFD_INSIDE);
+            assert_int_equal(find_one(locator, 2, 0.25, 10 + 1e-9).status, FFD_OUTSIDE);
         }
         ffd_locator_destroy(&locator);
         ffd_lattice_destroy(&lattice);

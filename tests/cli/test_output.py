@@ -1,0 +1,318 @@
+#!/usr/bin/env python3
+"""Outputs are complete or absent: nothing half written, nothing left behind, nothing overwritten unasked."""
+import json
+import os
+import resource
+import signal
+import socket
+import stat
+import subprocess
+import time
+
+from harness import (CUBE, CUBE_CORNERS, FFD, INVALID, IO, SECONDS, USAGE, case, check, equal, glb, gltf_json, gltf_vectors,
+                     lattice, main)
+
+
+def start(run):
+    run.write("a.obj", CUBE)
+    run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
+    run.ffd("deform", "a.obj", "expected.obj", "-l", "l.json")
+    return run.read("expected.obj")
+
+
+def deform(run, out, *arguments, **options):
+    return run.ffd("deform", "a.obj", out, "-l", "l.json", *arguments, **options)
+
+
+@case
+def existing_files_need_force(run):
+    expected = start(run)
+    run.write("b.obj", "old")
+    deform(run, "b.obj", code=IO, err="b.obj: exists already (--force overwrites it)")
+    equal(run.read("b.obj"), b"old")
+    deform(run, "b.obj", "--force")
+    equal(run.read("b.obj"), expected)
+
+
+@case
+def the_input_is_overwritten_in_place_only(run):
+    start(run)
+    os.symlink("a.obj", run.path("s.obj"))
+    os.link(run.path("a.obj"), run.path("h.obj"))
+    for name in ("a.obj", "./a.obj", "s.obj", "h.obj", os.path.join(run.folder, "a.obj")):
+        for more in ([], ["--force"]):
+            done = deform(run, name, *more, code=IO)
+            check("--in-place" in done.err[0], done.err[0])
+    run.ffd("deform", "a.obj", "--out-dir", ".", "--force", "-l", "l.json", code=IO)
+    equal(run.text("a.obj"), CUBE)
+
+
+@case
+def a_lattice_is_not_overwritten(run):
+    start(run)
+    text = run.read("l.json")
+    os.symlink("l.json", run.path("l.obj"))
+    deform(run, "l.obj", code=IO)
+    equal(run.read("l.json"), text)
+
+
+@case
+def failures_leave_the_old_file(run):
+    start(run)
+    run.write("bad.obj", CUBE + "v 1 x 2\n")
+    run.write("bad.json", "{")
+    run.write("b.obj", "old")
+    run.ffd("deform", "bad.obj", "b.obj", "-l", "l.json", "--force", code=INVALID)
+    run.ffd("deform", "a.obj", "b.obj", "-l", "bad.json", "--force", code=INVALID)
+    run.ffd("deform", "none.obj", "b.obj", "-l", "l.json", "--force", code=IO)
+    run.ffd("deform", "bad.obj", "--in-place", "-l", "l.json", code=INVALID)
+    equal(run.read("b.obj"), b"old")
+    equal(run.names(), ["a.obj", "b.obj", "bad.json", "bad.obj", "expected.obj", "l.json"])
+
+
+@case
+def folders_and_missing_folders(run):
+    start(run)
+    run.folder_of("d.obj")
+    deform(run, "d.obj", code=IO, err="d.obj: is a folder")
+    deform(run, "d.obj", "--force", code=IO, err="d.obj: is a folder")
+    deform(run, "none/b.obj", code=IO)
+    deform(run, "a.obj/b.obj", code=IO)
+    deform(run, "b.obj/", code=USAGE)
+    equal(run.names("d.obj"), [])
+
+
+@case
+def read_only_folder(run):
+    start(run)
+    user = run.unprivileged()
+    check(user, "no unprivileged user can be had")
+    run.folder_of("locked")
+    run.write("locked/old.obj", "old")
+    os.chmod(run.path("locked"), 0o555)
+    deform(run, "locked/b.obj", code=IO, **user)
+    deform(run, "locked/old.obj", "--force", code=IO, **user)
+    run.ffd("deform", "a.obj", "--out-dir", "locked", "-l", "l.json", code=IO, **user)
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "locked/e.npy", code=IO, **user)
+    run.ffd("lattice", "new", "a.obj", "-o", "locked/n.json", code=IO, **user)
+    os.chmod(run.path("locked"), 0o755)
+    equal(run.names("locked"), ["old.obj"])
+    equal(run.read("locked/old.obj"), b"old")
+
+
+@case
+def unreadable_files(run):
+    start(run)
+    user = run.unprivileged()
+    check(user, "no unprivileged user can be had")
+    os.chmod(run.path("a.obj"), 0)
+    deform(run, "-", "--output-format", "obj", code=IO, err="a.obj: cannot be opened: Permission denied", **user)
+    os.chmod(run.path("a.obj"), 0o644)
+    os.chmod(run.path("l.json"), 0)
+    deform(run, "-", "--output-format", "obj", code=IO, err="l.json: cannot be opened: Permission denied", **user)
+
+
+@case
+def permissions(run):
+    expected = start(run)
+    for mode in (0o600, 0o644, 0o755, 0o640):
+        run.write("b.obj", "old")
+        os.chmod(run.path("b.obj"), mode)
+        deform(run, "b.obj", "--force")
+        equal(stat.S_IMODE(os.stat(run.path("b.obj")).st_mode), mode, "the bits of the target")
+        equal(run.read("b.obj"), expected)
+    old = os.umask(0o027)
+    try:
+        deform(run, "new.obj")
+    finally:
+        os.umask(old)
+    equal(stat.S_IMODE(os.stat(run.path("new.obj")).st_mode), 0o640, "a new file follows the umask")
+    os.chmod(run.path("a.obj"), 0o604)
+    run.ffd("deform", "a.obj", "--in-place", "-l", "l.json")
+    equal(stat.S_IMODE(os.stat(run.path("a.obj")).st_mode), 0o604, "in place")
+
+
+@case
+def links(run):
+    expected = start(run)
+    run.folder_of("far")
+    run.write("far/target.obj", "old")
+    os.symlink("far/target.obj", run.path("link.obj"))
+    deform(run, "link.obj", code=IO)
+    deform(run, "link.obj", "--force")
+    check(os.path.islink(run.path("link.obj")), "the link was replaced")
+    equal(run.read("far/target.obj"), expected)
+    equal(run.names("far"), ["target.obj"])
+    # In place through a link: its target changes.
+    run.write("far/mesh.obj", CUBE)
+    os.symlink("far/mesh.obj", run.path("mesh.obj"))
+    run.ffd("deform", "mesh.obj", "--in-place", "-l", "l.json")
+    check(os.path.islink(run.path("mesh.obj")), "the link was replaced")
+    equal(run.read("far/mesh.obj"), expected)
+
+
+@case
+def a_link_to_nothing(run):
+    """Either is right: the link's target appears, or it is refused; but nothing else."""
+    expected = start(run)
+    os.symlink("nowhere.obj", run.path("link.obj"))
+    deform(run, "link.obj")
+    equal(run.read("link.obj"), expected)
+
+
+@case
+def hard_links_keep_the_old_content(run):
+    start(run)
+    run.write("b.obj", "old")
+    os.link(run.path("b.obj"), run.path("other.obj"))
+    deform(run, "b.obj", "--force")
+    equal(run.read("other.obj"), b"old")
+
+
+@case
+def devices(run):
+    expected = start(run)
+    deform(run, "/dev/null", "--output-format", "obj")
+    check(stat.S_ISCHR(os.stat("/dev/null").st_mode), "/dev/null was replaced")
+    deform(run, "/dev/full", "--output-format", "obj", code=IO,
+           err="/dev/full: cannot be written: No space left on device")
+    equal(deform(run, "/dev/stdout", "--output-format", "obj").out, expected)
+
+
+@case
+def full_disk(run):
+    """A limit on the size of files stands for a disk that is full: the write fails in the middle."""
+    run.write("big.obj", CUBE + "v 0.123456789 0 0\n" * 20000)
+    run.write("l.json", lattice(moves=[{"by": [1e-7, 0, 0]}]))
+    run.write("b.obj", "old")
+
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (65536, 65536))
+
+    run.ffd("deform", "big.obj", "b.obj", "-l", "l.json", "--force", preexec_fn=limit, code=IO)
+    run.ffd("deform", "big.obj", "c.obj", "-l", "l.json", preexec_fn=limit, code=IO)
+    run.ffd("embed", "big.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", preexec_fn=limit, code=IO)
+    equal(run.read("b.obj"), b"old")
+    equal(run.names(), ["b.obj", "big.obj", "l.json"])
+
+
+@case
+def killed_runs_leave_no_half_file(run):
+    """Whenever a run is killed the target is the old file or the new one, and the next run cleans up after it."""
+    run.write("a.obj", "".join(f"v {n % 97 / 97} {n % 89 / 89} {n % 83 / 83}\n" for n in range(60000)))
+    run.write("l.json", lattice(moves=[{"by": [0.1, 0.2, 0.3]}]))
+    begun = time.monotonic()
+    deform(run, "expected.obj")
+    whole = time.monotonic() - begun
+    killed = 0
+    for n in range(12):
+        run.write("b.obj", "old")
+        child = subprocess.Popen([FFD, "deform", "a.obj", "b.obj", "-l", "l.json", "--force"], cwd=run.folder)
+        time.sleep(whole * n / 10)
+        child.kill()
+        killed += child.wait(timeout=SECONDS) < 0
+        check(run.read("b.obj") in (b"old", run.read("expected.obj")), "half a file")
+        check(set(run.names()) <= {"a.obj", "b.obj", "l.json", "expected.obj", ".b.obj.ffd-tmp"}, run.names())
+    check(killed > 0, "no run was killed before its end")
+    run.write(".b.obj.ffd-tmp", "left by a run that was killed, and longer than what comes next" * 100000)
+    deform(run, "b.obj", "--force")
+    equal(run.read("b.obj"), run.read("expected.obj"))
+    equal(run.names(), ["a.obj", "b.obj", "expected.obj", "l.json"])
+
+
+@case
+def pipes_and_sockets_as_files(run):
+    expected = start(run)
+    os.mkfifo(run.path("in.obj"))
+    writer = subprocess.Popen(["sh", "-c", "cat a.obj > in.obj"], cwd=run.folder)
+    run.ffd("deform", "in.obj", "b.obj", "-l", "l.json")
+    writer.wait(timeout=SECONDS)
+    equal(run.read("b.obj"), expected)
+    if len(run.path("s.obj")) < 100:
+        with socket.socket(socket.AF_UNIX) as server:
+            server.bind(run.path("s.obj"))
+            run.ffd("deform", "s.obj", "c.obj", "-l", "l.json", code=IO)
+            deform(run, "s.obj", "--force", code=IO)
+
+
+@case
+def two_runs_at_once(run):
+    """The same target from several runs at the same time: one of the results, complete; nothing left."""
+    expected = start(run)
+    children = [subprocess.Popen([FFD, "deform", "a.obj", "b.obj", "-l", "l.json", "--force"], cwd=run.folder,
+                                 stderr=subprocess.PIPE) for _ in range(12)]
+    for child in children:
+        told = child.communicate(timeout=SECONDS)[1]
+        check(child.returncode in (0, IO), told)
+    equal(run.read("b.obj"), expected)
+    run.check_no_leftovers()
+
+
+@case
+def gltf_is_complete_or_absent(run):
+    start(run)
+    asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")
+    run.write("m/a.gltf", asset)
+    run.write("m/a.bin", data)
+    run.folder_of("out")
+    run.write("out/b.bin", "somebody's")
+    run.ffd("deform", "m/a.gltf", "out/b.gltf", "-l", "l.json", code=IO, err="out/b.bin: exists already (--force overwrites it)")
+    equal(run.names("out"), ["b.bin"])
+    equal(run.read("out/b.bin"), b"somebody's")
+    run.ffd("deform", "m/a.gltf", "out/b.gltf", "-l", "l.json", "--force")
+    after = json.loads(run.read("out/b.gltf"))
+    equal(gltf_vectors(after, run.read("out/b.bin"), 0)[0], [0, -1, -1])
+    # A target in the input's folder never takes the input's buffer, whatever its name.
+    run.ffd("deform", "m/a.gltf", "m/c.gltf", "-l", "l.json")
+    equal(run.read("m/a.bin"), data)
+    asset["buffers"][0]["uri"] = "d.bin"
+    run.write("m/x.gltf", asset)
+    run.write("m/d.bin", data)
+    for arguments in ([], ["--force"]):
+        run.ffd("deform", "m/x.gltf", "m/d.gltf", "-l", "l.json", *arguments, code=IO)
+    equal(run.read("m/d.bin"), data, "the input's buffer")
+    check(not run.exists("m/d.gltf"), "a .gltf without its buffer")
+
+
+@case
+def gltf_in_place_keeps_a_valid_file(run):
+    start(run)
+    asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")
+    run.write("m/a.gltf", asset)
+    run.write("m/a.bin", data)
+    run.ffd("deform", "m/a.gltf", "--in-place", "-l", "l.json")
+    after = json.loads(run.read("m/a.gltf"))
+    equal(gltf_vectors(after, run.read("m/" + after["buffers"][0]["uri"]), 0)[0], [0, -1, -1])
+    run.ffd("deform", "m/a.gltf", "--in-place", "-l", "l.json")
+    run.ffd("info", "m/a.gltf")
+
+
+@case
+def input_and_output_may_be_in_other_folders(run):
+    expected = start(run)
+    run.folder_of("work/deep")
+    run.ffd("deform", os.path.join(run.folder, "a.obj"), "work/deep/../b.obj", "-l", "./l.json")
+    equal(run.read("work/b.obj"), expected)
+
+
+@case
+def long_names(run):
+    expected = start(run)
+    name = "n" * 240 + ".obj"  # with the temporary name's letters still a name
+    deform(run, name)
+    equal(run.read(name), expected)
+    deform(run, "n" * 300 + ".obj", code=IO)
+
+
+@case
+def glb_to_the_same_name_with_force(run):
+    start(run)
+    run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
+    run.write("b.glb", b"old")
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", code=IO)
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force")
+    run.ffd("compare", "a.glb", "b.glb", "--tolerance", "1")
+
+
+main()

@@ -1,0 +1,209 @@
+#!/usr/bin/env python3
+"""Standard input and output: data in and out, closed streams, full devices, broken pipes."""
+import os
+import signal
+import subprocess
+
+from harness import (CUBE, CUBE_CORNERS, FFD, INVALID, IO, SECONDS, UNSUPPORTED, USAGE, case, check, equal, glb, gltf_json, lattice, main)
+
+
+def start(run):
+    run.write("a.obj", CUBE)
+    run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
+    run.ffd("deform", "a.obj", "expected.obj", "-l", "l.json")
+    return run.text("expected.obj")
+
+
+@case
+def obj_through(run):
+    expected = start(run)
+    run.ffd("deform", "-", "-", "--input-format", "obj", "--output-format", "obj", "-l", "l.json", stdin=CUBE.encode(),
+            out=expected)
+    run.ffd("deform", "a.obj", "-", "--output-format=obj", "-l", "l.json", out=expected)
+    run.ffd("deform", "-", "b.obj", "--input-format=obj", "-l", "l.json", stdin=CUBE.encode())
+    equal(run.text("b.obj"), expected)
+    run.ffd("deform", "/dev/stdin", "c.obj", "--input-format=obj", "-l", "l.json", stdin=CUBE.encode())
+    equal(run.text("c.obj"), expected)
+
+
+@case
+def glb_through(run):
+    start(run)
+    file = glb(*gltf_json(CUBE_CORNERS))
+    run.write("a.glb", file)
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json")
+    done = run.ffd("deform", "-", "-", "--input-format", "glb", "--output-format", "glb", "-l", "l.json", stdin=file)
+    equal(done.out, run.read("b.glb"))
+
+
+@case
+def a_pipe_of_two_runs(run):
+    expected = start(run)
+    run.write("back.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [-1, 0, 0]}]))
+    formats = ["--input-format", "obj", "--output-format", "obj"]
+    first = subprocess.Popen([FFD, "deform", "-", "-", *formats, "-l", "l.json"], cwd=run.folder, stdin=subprocess.PIPE,
+                             stdout=subprocess.PIPE)
+    second = subprocess.Popen([FFD, "deform", "-", "-", *formats, "-l", "back.json"], cwd=run.folder, stdin=first.stdout,
+                              stdout=subprocess.PIPE)
+    first.stdout.close()
+    first.stdin.write(CUBE.encode())
+    first.stdin.close()
+    out = second.communicate(timeout=SECONDS)[0]
+    equal([first.wait(timeout=SECONDS), second.returncode], [0, 0])
+    check(expected != CUBE and out.decode() == CUBE, out)
+
+
+@case
+def formats_are_needed(run):
+    start(run)
+    run.ffd("deform", "-", "b.obj", "-l", "l.json", stdin=CUBE.encode(), code=USAGE,
+            err="standard input needs --input-format obj, gltf or glb")
+    run.ffd("deform", "a.obj", "-", "-l", "l.json", code=USAGE, err="standard output needs --output-format obj, gltf or glb")
+    run.ffd("embed", "-", "-l", "l.json", "-o", "e.npy", stdin=CUBE.encode(), code=USAGE,
+            err="standard input needs --input-format obj, gltf or glb")
+
+
+@case
+def formats_overrule_endings(run):
+    expected = start(run)
+    run.write("mesh.data", CUBE)
+    run.ffd("deform", "mesh.data", "out.data", "--input-format", "obj", "--output-format", "obj", "-l", "l.json")
+    equal(run.text("out.data"), expected)
+    run.write("wrong.glb", CUBE)
+    run.ffd("deform", "wrong.glb", "b.obj", "-l", "l.json", "--input-format", "OBJ")
+    equal(run.text("b.obj"), expected)
+    run.ffd("deform", "wrong.glb", "c.glb", "-l", "l.json", code=INVALID)
+
+
+@case
+def standard_input_is_read_once(run):
+    start(run)
+    formats = ["--input-format", "obj"]
+    text = CUBE.encode()
+    run.ffd("deform", "-", "b.obj", *formats, "-l", "-", stdin=text, code=USAGE)
+    run.ffd("deform", "a.obj", "b.obj", "-l", "-", "-l", "-", stdin=text, code=USAGE)
+    run.ffd("deform", "-", "--out-dir", ".", *formats, "-l", "l.json", stdin=text, code=USAGE)
+    run.ffd("deform", "-", "--in-place", *formats, "-l", "l.json", stdin=text, code=USAGE)
+    run.ffd("embed", "-", *formats, "-l", "-", "-o", "e.npy", stdin=text, code=USAGE)
+
+
+@case
+def the_lattice_from_standard_input(run):
+    expected = start(run)
+    run.ffd("deform", "a.obj", "b.obj", "-l", "-", stdin=run.read("l.json"))
+    equal(run.text("b.obj"), expected)
+    run.ffd("deform", "a.obj", "c.obj", "-l", "-", stdin=b"{", code=INVALID)
+
+
+@case
+def empty_and_broken_input(run):
+    start(run)
+    both = ["--output-format", "glb", "--input-format", "glb", "-l", "l.json"]
+    done = run.ffd("deform", "-", "-", *both, code=INVALID)
+    check(done.err[0].startswith("standard input: "), done.err[0])
+    run.ffd("deform", "-", "-", *both, stdin=glb(*gltf_json(CUBE_CORNERS))[:-4], code=INVALID)
+    done = run.ffd("deform", "-", "-", "--input-format", "obj", "--output-format", "obj", "-l", "l.json", stdin=b"\nv 1\n",
+                   code=INVALID)
+    check(done.err[0].startswith("standard input:2: "), done.err[0])
+
+
+@case
+def messages_name_standard_input(run):
+    start(run)
+    run.ffd("deform", "-", "b.obj", "--input-format", "obj", "-l", "l.json", stdin=b"v 9 9 9\n",
+            err="standard input: 1 of 1 vertices are not inside: 1 outside (left where they are)")
+    run.ffd("deform", "-", "c.obj", "--input-format", "obj", "-l", "l.json", "-v", stdin=CUBE.encode(),
+            err="standard input: 8 of 8 vertices moved, by 1 at most")
+
+
+@case
+def a_gltf_to_standard_output(run):
+    """One stream holds no second file: data URIs go through, buffers of their own do not."""
+    start(run)
+    asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")
+    run.write("a.gltf", asset)
+    run.write("a.bin", data)
+    run.ffd("deform", "a.gltf", "-", "--output-format", "gltf", "-l", "l.json", code=(USAGE, IO, UNSUPPORTED))
+    equal(run.names(), ["a.bin", "a.gltf", "a.obj", "expected.obj", "l.json"])
+
+
+@case
+def full_output(run):
+    start(run)
+    for arguments in (["deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json"], ["info", "a.obj"], ["info", "a.obj", "--json"],
+                      ["embed", "a.obj", "-l", "l.json", "-o", "-"], ["lattice", "new", "a.obj", "-o", "-"], ["help"],
+                      ["--version"], ["help", "deform"]):
+        with open("/dev/full", "wb") as full:
+            run.ffd(*arguments, stdout=full, code=IO, err="standard output: cannot be written: No space left on device")
+    with open("/dev/full", "wb") as full:
+        run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "-", stdout=full, code=IO)
+        run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", stdout=full)
+
+
+def closed(*descriptors):
+    def close():
+        for descriptor in descriptors:
+            os.close(descriptor)
+    return close
+
+
+@case
+def closed_streams(run):
+    """No message and no data may land in a file that happened to get the number of a closed stream."""
+    expected = start(run)
+    run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
+    run.write("out.obj", CUBE + "v 9 9 9\n")
+    run.ffd("info", "a.obj", stdout=None, preexec_fn=closed(1), code=IO)
+    run.ffd("deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json", stdout=None, preexec_fn=closed(1), code=IO)
+    for n, which in enumerate(((0,), (1,), (2,), (1, 2), (0, 1, 2))):
+        options = {"stdin": None} if 0 in which else {}
+        process = subprocess.run([FFD, "deform", "out.obj", f"{n}.obj", "-l", "l.json", "-v"], cwd=run.folder, timeout=SECONDS,
+                                 check=False, preexec_fn=closed(*which), stderr=subprocess.PIPE, **options)
+        equal(process.returncode, 0, str(which))
+        equal(run.text(f"{n}.obj"), expected + "v 9 9 9\n", str(which))
+
+
+@case
+def closed_standard_input(run):
+    start(run)
+    process = subprocess.run([FFD, "deform", "-", "b.obj", "--input-format", "glb", "--output-format", "glb", "-l", "l.json"],
+                             cwd=run.folder, timeout=SECONDS, check=False, preexec_fn=closed(0), stderr=subprocess.PIPE)
+    check(process.returncode in (IO, INVALID) and process.stderr.count(b"\n") == 1, process)
+    check(not run.exists("b.obj"), "an output")
+
+
+@case
+def broken_pipes(run):
+    """A reader that goes away: a quiet end by the signal, or exit 3 with a message where it is ignored."""
+    run.write("a.obj", CUBE + "v 0.123 0.456 0.789\n" * 20000)
+    run.write("l.json", lattice(moves=[{"by": [1e-3, 0, 0]}]))
+    for ignored in (False, True):
+        def prepare(ignored=ignored):
+            signal.signal(signal.SIGPIPE, signal.SIG_IGN if ignored else signal.SIG_DFL)
+        child = subprocess.Popen([FFD, "deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json"], cwd=run.folder,
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare, restore_signals=False)
+        child.stdout.close()
+        told = child.stderr.read().decode()
+        child.stderr.close()
+        code = child.wait(timeout=SECONDS)
+        if ignored:
+            equal((code, told), (IO, "ffd: standard output: cannot be written: Broken pipe\n"))
+        else:
+            equal((code, told), (-signal.SIGPIPE, ""))
+    run.check_no_leftovers()
+
+
+@case
+def slow_writers(run):
+    """Input that arrives in small pieces is read to its end."""
+    expected = start(run)
+    child = subprocess.Popen([FFD, "deform", "-", "-", "--input-format", "obj", "--output-format", "obj", "-l", "l.json"],
+                             cwd=run.folder, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    for n in range(0, len(CUBE), 40):
+        child.stdin.write(CUBE[n:n + 40].encode())
+        child.stdin.flush()
+    out = child.communicate(timeout=SECONDS)[0]
+    equal(out.decode(), expected)
+
+
+main()
