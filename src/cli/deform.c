@@ -253,6 +253,10 @@ static int refuse(const cli_command *command, const settings *s, const cli_words
     for (size_t i = 0; i < inputs; i++)
         if (!cli_knows_format(words->words[i], s->input_format))
             return EXIT_USAGE;
+    if (!has_many(s) && is_stream(words->words[1]) && !s->output_format) {
+        cli_complain("standard output needs --output-format obj, gltf or glb");
+        return EXIT_USAGE;
+    }
     if (!has_many(s))
         return EXIT_DONE;
     const int code = refuse_equal_outputs(words, s->out_dir ? compare_names : compare_paths);

@@ -49,6 +49,13 @@ static int embed(settings *s, const char *input)
     return ffd_embed_run(&desc, &result, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 
+/* --force is for older outputs, not for what is read. */
+static bool replaces_input(const settings *s, const char *output, const char *mesh)
+{
+    return output && strcmp(output, "-") != 0 &&
+           (strcmp(output, mesh) == 0 || strcmp(output, s->lattice) == 0);
+}
+
 static const char *wrong(const settings *s, const cli_words *words)
 {
     if (words->count != 1)
@@ -61,6 +68,8 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "standard input can be read only once";
     if (s->status && strcmp(s->output, s->status) == 0)
         return "-o and --status name the same file";
+    if (replaces_input(s, s->output, words->words[0]) || replaces_input(s, s->status, words->words[0]))
+        return "the output would replace an input";
     return NULL;
 }
 

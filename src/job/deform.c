@@ -163,7 +163,7 @@ ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, f
         deform_job job = {
             .desc = desc, .threads = thread_count(desc->threads), .log = {desc->log, desc->log_user}};
         result->status = run(&job, result, &result->error);
-        if (result->status)
+        if (result->status && result->status != FFD_E_ARGUMENT)
             ffd_fail_name_file(&result->error, ffd_source_name(&desc->input));
         ffd_source_close(&job.document);
         ffd_chain_free(&job.chain);

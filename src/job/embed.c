@@ -106,7 +106,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     status = write_arrays(desc, uvw, statuses, count, error);
     result->seconds_write = ffd_clock_seconds() - embedded;
 out:
-    if (status)
+    if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(error, ffd_source_name(&desc->input));
     ffd_free(uvw);
     ffd_free(statuses);

@@ -104,23 +104,6 @@ static bool stretch_to(const knot_vector *knots, double first, double last, ring
     return turn_start_to(knots, first, points);
 }
 
-ffd_status ffd_ring_place(const knot_vector *knots, double first, double last, bool full_turn,
-                          ring_point *points, ffd_error *error)
-{
-    const bool closed = ffd_knots_closed(knots), clamped = ffd_shape_is_clamped(knots);
-    bool placed = true;
-    set_angles(knots, first, closed ? first + 360 : last, points);
-    if (clamped && full_turn)
-        points[knots->points - 1] = (ring_point){points[0].x, points[0].y, points[knots->points - 1].weight};
-    if (!clamped && (!is_regular(knots) || is_rational(knots, points)))
-        placed = closed ? turn_start_to(knots, first, points) : stretch_to(knots, first, last, points);
-    if (placed)
-        return FFD_OK;
-    return ffd_fail(error, FFD_E_INVALID,
-                    "%zu control points along v with these knots are too few for this angle of the cylinder",
-                    knots->points);
-}
-
 /* Bounds so far: met somewhere, and proven. Squares of the distance. */
 typedef struct radius_bounds {
     double least_met, greatest_met, least, greatest;
@@ -212,6 +195,65 @@ static void arc_of_span(const knot_vector *knots, const ring_point *points, int 
             b[2] += factor;
         }
     }
+}
+
+#define TURN_DEPTH 60
+
+/* The degrees by which the arc turns round the origin. Where its control points lie on one side of a line
+   through the origin, so does the arc, and its ends tell; else it is halved. False where it comes too near to
+   the origin. */
+static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
+{
+    const double *const first = arc->point[0], *const last = arc->point[arc->degree];
+    const double length[2] = {hypot(first[0], first[1]), hypot(last[0], last[1])};
+    const double middle[2] = {first[0] / length[0] + last[0] / length[1],
+                              first[1] / length[0] + last[1] / length[1]};
+    bool one_side = true;
+    for (int i = 0; i <= arc->degree; i++)
+        one_side = one_side && arc->point[i][0] * middle[0] + arc->point[i][1] * middle[1] > 0;
+    if (one_side) {
+        const double sine = first[0] * last[1] - first[1] * last[0],
+                     cosine = first[0] * last[0] + first[1] * last[1];
+        *turn += atan2(sine, cosine) * (180 / 3.14159265358979323846);
+        return true;
+    }
+    bezier_arc left, right;
+    if (depth == TURN_DEPTH)
+        return false;
+    halve(arc, &left, &right);
+    return turn_of_arc(&left, depth + 1, turn) && turn_of_arc(&right, depth + 1, turn);
+}
+
+/* Whether the curve goes from its start to its end the way that is meant, and not the short way round: then
+   it passes every angle between. What is wrong is wrong by whole turns, so that the rounding of atan2 does
+   not matter. */
+static bool turns_by(const knot_vector *knots, const ring_point *points, double degrees)
+{
+    double turn = 0;
+    for (size_t i = 0; i < knots->span_count; i++) {
+        bezier_arc arc;
+        arc_of_span(knots, points, knots->spans[i], &arc);
+        if (!turn_of_arc(&arc, 0, &turn))
+            return false;
+    }
+    return fabs(turn - degrees) < 1;
+}
+
+ffd_status ffd_ring_place(const knot_vector *knots, double first, double last, bool full_turn,
+                          ring_point *points, ffd_error *error)
+{
+    const bool closed = ffd_knots_closed(knots), clamped = ffd_shape_is_clamped(knots);
+    bool placed = true;
+    set_angles(knots, first, closed ? first + 360 : last, points);
+    if (clamped && full_turn)
+        points[knots->points - 1] = (ring_point){points[0].x, points[0].y, points[knots->points - 1].weight};
+    if (!clamped && (!is_regular(knots) || is_rational(knots, points)))
+        placed = closed ? turn_start_to(knots, first, points) : stretch_to(knots, first, last, points);
+    if (placed && turns_by(knots, points, closed || full_turn ? 360 : last - first))
+        return FFD_OK;
+    return ffd_fail(error, FFD_E_INVALID,
+                    "%zu control points of degree %d along v are too few for this angle of the cylinder",
+                    knots->points, knots->degree);
 }
 
 /* Whether span number i is a turned copy of another that is looked at: all but the first of a regular curve,

@@ -2,7 +2,7 @@
 """ffd compare: 0 the same, 1 not (with the difference on stdout), other codes for failures."""
 import struct
 
-from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, USAGE, case, check, equal, glb, gltf_json, main
+from harness import CUBE, CUBE_CORNERS, INVALID, IO, NO, USAGE, case, check, glb, gltf_json, main
 
 
 def differ(run, a, b, *arguments):

@@ -58,7 +58,7 @@ def statuses(run):
     equal(npy(run.read("s.npy"))[2], [0, 1, 4, 4])
     check(all(math.isnan(x) for row in npy(run.read("e.npy"))[2][1:] for x in row), "NaN where there is none")
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", code=INVALID,
-            err="a.obj: vertex 2 has a coordinate that is not finite")
+            err="a.obj: vertex 2 (counted from 0) has a coordinate that is not finite")
 
 
 @case
@@ -112,8 +112,11 @@ def outputs(run):
 @case
 def inputs_are_not_overwritten(run):
     start(run)
-    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "a.obj", code=IO)
-    equal(run.text("a.obj"), CUBE)
+    lattice_text = run.text("l.json")
+    for name in ("a.obj", "l.json"):
+        run.ffd("embed", "a.obj", "-l", "l.json", "-o", name, "--force", code=USAGE)
+        run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", name, "--force", code=USAGE)
+    equal([run.text("a.obj"), run.text("l.json"), run.exists("e.npy")], [CUBE, lattice_text, False])
 
 
 @case

@@ -4,7 +4,8 @@ import os
 import signal
 import subprocess
 
-from harness import (CUBE, CUBE_CORNERS, FFD, INVALID, IO, SECONDS, UNSUPPORTED, USAGE, case, check, equal, glb, gltf_json, lattice, main)
+from harness import (CUBE, CUBE_CORNERS, FFD, INVALID, IO, SECONDS, UNSUPPORTED, USAGE, case, check, equal, glb, gltf_json,
+                     lattice, main)
 
 
 def start(run):
@@ -130,8 +131,8 @@ def a_gltf_to_standard_output(run):
 @case
 def full_output(run):
     start(run)
-    for arguments in (["deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json"], ["info", "a.obj"], ["info", "a.obj", "--json"],
-                      ["embed", "a.obj", "-l", "l.json", "-o", "-"], ["lattice", "new", "a.obj", "-o", "-"], ["help"],
+    for arguments in (["deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json"],
+                      ["info", "a.obj"], ["info", "a.obj", "--json"], ["embed", "a.obj", "-l", "l.json", "-o", "-"], ["lattice", "new", "a.obj", "-o", "-"], ["help"],
                       ["--version"], ["help", "deform"]):
         with open("/dev/full", "wb") as full:
             run.ffd(*arguments, stdout=full, code=IO, err="standard output: cannot be written: No space left on device")

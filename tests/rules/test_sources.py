@@ -50,7 +50,8 @@ def find_words(path):
 def sources_of_targets(build):
     with open(os.path.join(build, "meson-info", "intro-targets.json"), encoding="utf-8") as file:
         targets = json.load(file)
-    return {os.path.relpath(source, tree.ROOT)
+    root = os.path.realpath(tree.ROOT)
+    return {os.path.relpath(os.path.realpath(source), root)
             for target in targets for group in target["target_sources"] for source in group.get("sources", [])}
 
 
