@@ -42,6 +42,14 @@ typedef struct ffd_source {
     ffd_space space;   /* glTF: where the lattice stands */
 } ffd_source;
 
+/* The files that one run has written so far. Jobs that share the record neither replace nor read what an
+   earlier one of them wrote: two names can lead to one file. One thread at a time. */
+typedef struct ffd_written ffd_written;
+
+FFD_API ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
+/* Frees the record and clears the pointer. NULL and pointers to NULL are allowed. */
+FFD_API void ffd_written_destroy(ffd_written **written);
+
 typedef struct ffd_deform_desc {
     size_t struct_size; /* sizeof(ffd_deform_desc) of the caller */
     ffd_source input;
@@ -55,6 +63,7 @@ typedef struct ffd_deform_desc {
     int threads;          /* 0: all cores. Never changes a byte of the output. */
     bool force;           /* overwrite an existing output */
     bool in_place;        /* output is the input (output is NULL then) */
+    ffd_written *written; /* of the run, or NULL */
     ffd_log_function log; /* may be NULL */
     void *log_user;
 } ffd_deform_desc;
@@ -127,12 +136,18 @@ FFD_API ffd_status ffd_lattice_new_run(const ffd_source *mesh, const ffd_lattice
 /* The report of interface 4. Entries are added in the order of the jobs; the strings are copied. */
 typedef struct ffd_report ffd_report;
 
-FFD_API ffd_status ffd_report_create(bool stable, ffd_report **report, ffd_error *error);
+/* Starts a report that will be written to path ("-": standard output), under a temporary name until it is
+   complete: what cannot be written is known before the first job. Of existing files it replaces reports only
+   (FFD_E_EXISTS). stable: without times. written may be NULL. Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY.
+ */
+FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
+                                     ffd_error *error);
+/* Frees a report; one that was not written leaves nothing behind. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_report_destroy(ffd_report **report);
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);
-/* Writes the report to path (replacing an older one) or, for "-", to standard output. */
-FFD_API ffd_status ffd_report_write(const ffd_report *report, const char *path, ffd_error *error);
+/* Writes the report. At most once. */
+FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 
 FFD_API void ffd_text_free(char *text);
 

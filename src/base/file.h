@@ -35,7 +35,20 @@ char *ffd_path_resolve(const char *path);
    order of begin. */
 typedef struct file_output file_output;
 
+/* The files that a run has written so far. Two names can lead to one file (links, "./"), and names are
+   derived from others (a .gltf's buffers): only the files themselves tell. */
+typedef struct written_files {
+    char **paths;
+    size_t count, capacity;
+} written_files;
+
+bool ffd_written_holds(const written_files *written, const char *path);
+void ffd_written_free(written_files *written);
+
 ffd_status ffd_output_create(file_output **output, ffd_error *error);
+/* From now on the set refuses targets that written holds (FFD_E_EXISTS), and its commit adds what it wrote.
+   written may be NULL and must outlive the set. */
+void ffd_output_record(file_output *output, written_files *written);
 /* Starts the next file. path "-" is standard output, to which bytes go at the commit's time or before. An
    existing target is refused with FFD_E_EXISTS unless force. Permission bits of an existing target are kept.
    Targets that are neither file nor link (/dev/null) are written straight. */

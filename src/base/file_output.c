@@ -25,6 +25,7 @@ struct file_output {
     size_t count, capacity;
     unsigned char *block; /* bytes of the last file that are not yet written */
     size_t filled;
+    written_files *written; /* or NULL */
 };
 
 static ffd_status fail_errno(ffd_error *error, const char *file, const char *what)
@@ -43,6 +44,51 @@ ffd_status ffd_output_create(file_output **output, ffd_error *error)
         return FFD_OK;
     ffd_output_destroy(output);
     return ffd_fail_memory(error);
+}
+
+bool ffd_written_holds(const written_files *written, const char *path)
+{
+    for (size_t i = 0; i < written->count; i++)
+        if (ffd_file_same(written->paths[i], path))
+            return true;
+    return false;
+}
+
+void ffd_written_free(written_files *written)
+{
+    for (size_t i = 0; i < written->count; i++)
+        ffd_free(written->paths[i]);
+    ffd_free(written->paths);
+    *written = (written_files){NULL, 0, 0};
+}
+
+void ffd_output_record(file_output *output, written_files *written)
+{
+    output->written = written;
+}
+
+static ffd_status refuse_written(const file_output *output, const char *path, ffd_error *error)
+{
+    if (!output->written || !ffd_written_holds(output->written, path))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_EXISTS, path,
+                         "was written by this run already, under this name or another");
+}
+
+/* Room in the record is made before the renames, so that nothing is written that it does not hold. */
+static ffd_status prepare_record(const file_output *output, ffd_error *error)
+{
+    written_files *written = output->written;
+    for (size_t i = 0; i < output->count; i++) {
+        const ffd_status status =
+            output->files[i].temporary ? refuse_written(output, output->files[i].target, error) : FFD_OK;
+        if (status)
+            return status;
+    }
+    if (written && !ffd_grow((void **)&written->paths, &written->capacity, written->count + output->count,
+                             sizeof *written->paths))
+        return ffd_fail_memory(error);
+    return FFD_OK;
 }
 
 static bool is_stdout(const char *path)
@@ -85,14 +131,33 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
     return result;
 }
 
-/* The folder of target, resolved, with the temporary file's name in it. */
+/* Longest name that file systems take, with room for what is added. */
+#define LONGEST_NAME 255
+#define NAME_SUFFIX ".ffd-tmp"
+
+/* FNV-1a (Fowler, Noll, Vo): tells names apart whose beginnings are the same. */
+static unsigned long long digest_of(const char *text)
+{
+    unsigned long long digest = 14695981039346656037ULL;
+    for (; *text; text++)
+        digest = (digest ^ (unsigned char)*text) * 1099511628211ULL;
+    return digest;
+}
+
+/* The target's folder and ".NAME.ffd-tmp"; of a name too long for that its beginning and a digest. */
 static char *temporary_name(const char *target)
 {
     const char *name = ffd_path_name(target);
-    const size_t folder = (size_t)(name - target), capacity = strlen(target) + sizeof "..ffd-tmp";
+    const size_t folder = (size_t)(name - target), length = strlen(name);
+    const size_t capacity = strlen(target) + sizeof "..0123456789abcdef" NAME_SUFFIX;
     char *text = ffd_alloc(capacity, 1);
-    if (text)
-        snprintf(text, capacity, "%.*s.%s.ffd-tmp", (int)folder, target, name);
+    if (!text)
+        return NULL;
+    if (length + sizeof "." NAME_SUFFIX - 1 <= LONGEST_NAME)
+        snprintf(text, capacity, "%.*s.%s" NAME_SUFFIX, (int)folder, target, name);
+    else
+        snprintf(text, capacity, "%.*s.%.200s.%016llx" NAME_SUFFIX, (int)folder, target, name,
+                 digest_of(name));
     return text;
 }
 
@@ -102,7 +167,7 @@ static char *temporary_name(const char *target)
 static int open_locked(const char *path)
 {
     for (;;) {
-        const int fd = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
+        const int fd = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
         if (fd < 0)
             return -1;
         struct stat ours, there;
@@ -137,6 +202,11 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
             return ffd_fail_file(error, FFD_E_IO, path, "is being written by another run");
         errno = reason;
         return fail_errno(error, path, "cannot be written");
+    }
+    /* Only root can give a file away; for others it is theirs already, or must stay so. */
+    if (old && (old->st_uid != geteuid() || old->st_gid != getegid())) {
+        const int given = fchown(file->fd, old->st_uid, old->st_gid);
+        (void)given;
     }
     if (old && fchmod(file->fd, old->st_mode & 0777) != 0)
         return fail_errno(error, path, "its permissions cannot be kept");
@@ -190,6 +260,9 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         file->fd = dup(STDOUT_FILENO);
         return file->fd < 0 ? fail_errno(error, "standard output", "cannot be written") : FFD_OK;
     }
+    status = exists ? refuse_written(output, path, error) : FFD_OK;
+    if (status)
+        return status;
     if (exists && !S_ISREG(info.st_mode)) {
         file->fd = open(path, O_WRONLY | O_CLOEXEC);
         return file->fd < 0 ? fail_errno(error, path, "cannot be written") : FFD_OK;
@@ -220,9 +293,20 @@ void ffd_output_remove_first(file_output *output)
     output->files[output->count - 1].remove_first = true;
 }
 
+/* The record takes the target's name over. */
+static void record_file(file_output *output, output_file *file)
+{
+    if (!output->written || !file->temporary)
+        return;
+    output->written->paths[output->written->count++] = file->target;
+    file->target = NULL;
+}
+
 ffd_status ffd_output_commit(file_output *output, ffd_error *error)
 {
-    const ffd_status status = flush(output, error);
+    ffd_status status = flush(output, error);
+    if (!status)
+        status = prepare_record(output, error);
     if (status)
         return status;
     for (size_t i = 0; i < output->count; i++) {
@@ -240,6 +324,7 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
         file->fd = -1;
         if (close(fd) != 0)
             return fail_errno(error, file->target, "cannot be written");
+        record_file(output, file);
     }
     return FFD_OK;
 }

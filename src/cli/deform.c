@@ -13,6 +13,7 @@ typedef struct settings {
     int threads;
     ffd_format input_format, output_format;
     bool force, in_place, stable, help;
+    ffd_written *written; /* by the jobs so far */
     cli_talk talk;
 } settings;
 
@@ -82,6 +83,7 @@ static int run_job(settings *s, const char *input, const char *output, ffd_repor
     desc.threads = s->threads;
     desc.force = s->force;
     desc.in_place = s->in_place;
+    desc.written = s->written;
     desc.log = cli_log;
     desc.log_user = &s->talk;
     s->talk.subject = input;
@@ -267,14 +269,18 @@ static int run_jobs(settings *s, const cli_words *words)
 {
     ffd_report *report = NULL;
     ffd_error error;
-    if (s->report && ffd_report_create(s->stable, &report, &error))
-        return cli_fail(&error);
-    int code = has_many(s) ? run_all(s, words, report) : run_job(s, words->words[0], words->words[1], report);
-    if (report && ffd_report_write(report, s->report, &error)) {
+    int code = EXIT_DONE;
+    if (ffd_written_create(&s->written, &error) ||
+        (s->report && ffd_report_create(s->report, s->stable, s->written, &report, &error)))
+        code = cli_fail(&error);
+    else
+        code = has_many(s) ? run_all(s, words, report) : run_job(s, words->words[0], words->words[1], report);
+    if (report && ffd_report_write(report, &error)) {
         const int own = cli_fail(&error);
         code = code ? code : own;
     }
     ffd_report_destroy(&report);
+    ffd_written_destroy(&s->written);
     return code;
 }
 

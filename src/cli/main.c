@@ -2,6 +2,7 @@
 #include "cli/command.h"
 #include "cli/nearest.h"
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -203,15 +204,25 @@ static void occupy_closed_streams(void)
             break;
 }
 
+/* Past a limit on the size of files a write shall fail like any other, with a message, and not end the
+ * program. */
+static void ignore_size_signal(void)
+{
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN);
+#endif
+}
+
 int main(int argc, char **argv)
 {
     occupy_closed_streams();
+    ignore_size_signal();
     int code = run(argc - 1, argv + 1);
     errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout)) {
         cli_complain("standard output: cannot be written%s%s", errno ? ": " : "",
                      errno ? strerror(errno) : "");
-        if (code == EXIT_DONE)
+        if (code == EXIT_DONE || code == EXIT_NO) /* nobody has seen the answer */
             code = ffd_status_exit_code(FFD_E_IO);
     }
     return code;

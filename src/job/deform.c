@@ -4,6 +4,7 @@
 #include "io/formats.h"
 #include "job/placement.h"
 #include "job/source.h"
+#include "job/written.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -69,20 +70,6 @@ static ffd_status judge(const ffd_deform_desc *desc, const pass_totals *totals, 
     return FFD_OK;
 }
 
-static ffd_status save(mesh_document *document, const mesh_save_options *options, const mesh_log *log,
-                       ffd_error *error)
-{
-    file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (status)
-        return status;
-    status = document->format->save(document, options, output, log, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
-    return status;
-}
-
 /* What a job holds while it runs. */
 typedef struct deform_job {
     const ffd_deform_desc *desc;
@@ -99,6 +86,9 @@ static ffd_status prepare(deform_job *job, ffd_error *error)
     const ffd_deform_desc *desc = job->desc;
     const bool attributes = desc->normals != FFD_NORMALS_KEEP;
     ffd_status status = resolve_output(desc, &job->options, error);
+    if (!status && desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
+        status = ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
+                               "was written by this run already, under this name or another");
     if (!status)
         status = ffd_chain_load(desc->lattices, desc->lattice_count, &job->chain, error);
     if (!status)
@@ -128,6 +118,20 @@ static ffd_status deform(deform_job *job, pass_totals *totals, ffd_error *error)
     return ffd_pass_run(&pass, totals, error);
 }
 
+static ffd_status save(const deform_job *job, ffd_error *error)
+{
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (status)
+        return status;
+    ffd_output_record(output, ffd_written_list(job->desc->written));
+    status = job->document->format->save(job->document, &job->options, output, &job->log, error);
+    if (!status)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status;
+}
+
 static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     pass_totals totals;
@@ -145,7 +149,7 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (status)
         return status;
     ffd_result_warn(&totals, &job->log);
-    status = save(job->document, &job->options, &job->log, error);
+    status = save(job, error);
     result->seconds_write = ffd_clock_seconds() - deformed;
     return status;
 }

@@ -46,15 +46,24 @@ static ffd_status write_arrays(const ffd_embed_desc *desc, const double *uvw, co
     return status;
 }
 
+static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd_error *error)
+{
+    if (ffd_file_same(path, desc->input.path) || ffd_file_same(path, desc->lattice))
+        return ffd_fail_file(error, FFD_E_EXISTS, path, "is an input of this command");
+    return ffd_output_check(path, desc->force, error);
+}
+
 static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 {
     if (desc->struct_size != sizeof *desc || !desc->input.path || !desc->lattice || !desc->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
-    if (desc->status_output && strcmp(desc->output, desc->status_output) == 0)
-        return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "is named for both u,v,w and the statuses");
-    ffd_status status = ffd_output_check(desc->output, desc->force, error);
+    ffd_status status = check_output(desc, desc->output, error);
     if (!status && desc->status_output)
-        status = ffd_output_check(desc->status_output, desc->force, error);
+        status = check_output(desc, desc->status_output, error);
+    if (!status && desc->status_output &&
+        (strcmp(desc->output, desc->status_output) == 0 || ffd_file_same(desc->output, desc->status_output)))
+        status =
+            ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "is named for both u,v,w and the statuses");
     return status;
 }
 

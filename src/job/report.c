@@ -2,6 +2,7 @@
 #include "base/json_text.h"
 #include "base/memory.h"
 #include "base/path.h"
+#include "job/written.h"
 #include "mesh/mesh.h"
 #include <string.h>
 
@@ -12,17 +13,50 @@ typedef struct report_entry {
 
 struct ffd_report {
     bool stable;
+    file_output *output; /* begun when the report is created */
     report_entry *entries;
     size_t count, capacity;
 };
 
-ffd_status ffd_report_create(bool stable, ffd_report **report, ffd_error *error)
+/* A file that stands in the way may be replaced if it is a report itself, or empty. */
+static ffd_status check_replaced(const char *path, ffd_error *error)
 {
-    *report = ffd_alloc_zero(1, sizeof **report);
-    if (!*report)
+    static const char mark[] = "\"ffd-report\"";
+    file_input old;
+    if (strcmp(path, "-") == 0 || ffd_output_check(path, false, NULL) != FFD_E_EXISTS)
+        return FFD_OK;
+    const ffd_status status = ffd_file_load(path, &old, error);
+    if (status)
+        return status;
+    bool is_report = old.size == 0;
+    for (size_t i = 0; !is_report && i + sizeof mark <= old.size && i < 64; i++)
+        is_report = memcmp(old.data + i, mark, sizeof mark - 1) == 0;
+    ffd_file_unload(&old);
+    return is_report
+               ? FFD_OK
+               : ffd_fail_file(error, FFD_E_EXISTS, path, "exists and is no report: it is not replaced");
+}
+
+ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
+                             ffd_error *error)
+{
+    *report = NULL;
+    ffd_status status = check_replaced(path, error);
+    if (status)
+        return status;
+    ffd_report *made = ffd_alloc_zero(1, sizeof *made);
+    if (!made)
         return ffd_fail_memory(error);
-    (*report)->stable = stable;
-    return FFD_OK;
+    made->stable = stable;
+    status = ffd_output_create(&made->output, error);
+    if (!status) {
+        ffd_output_record(made->output, ffd_written_list(written));
+        status = ffd_output_begin(made->output, path, true, error);
+    }
+    if (status)
+        ffd_report_destroy(&made);
+    *report = made;
+    return status;
 }
 
 void ffd_report_destroy(ffd_report **report)
@@ -33,6 +67,7 @@ void ffd_report_destroy(ffd_report **report)
         ffd_free((*report)->entries[i].input);
         ffd_free((*report)->entries[i].output);
     }
+    ffd_output_destroy(&(*report)->output);
     ffd_free((*report)->entries);
     ffd_free(*report);
     *report = NULL;
@@ -133,7 +168,7 @@ static void write_entry(json_text *json, const report_entry *entry, bool stable)
     ffd_json_end(json, '}');
 }
 
-ffd_status ffd_report_write(const ffd_report *report, const char *path, ffd_error *error)
+ffd_status ffd_report_write(ffd_report *report, ffd_error *error)
 {
     byte_buffer text = {0};
     json_text json;
@@ -147,15 +182,11 @@ ffd_status ffd_report_write(const ffd_report *report, const char *path, ffd_erro
     ffd_json_end(&json, ']');
     ffd_json_end(&json, '}');
 
-    file_output *output = NULL;
-    ffd_status status = text.failed ? ffd_fail_memory(error) : ffd_output_create(&output, error);
+    ffd_status status = text.failed ? ffd_fail_memory(error) : FFD_OK;
     if (!status)
-        status = ffd_output_begin(output, path, true, error);
+        status = ffd_output_write(report->output, text.data, text.size, error);
     if (!status)
-        status = ffd_output_write(output, text.data, text.size, error);
-    if (!status)
-        status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
+        status = ffd_output_commit(report->output, error);
     ffd_buffer_free(&text);
     return status;
 }
