@@ -499,8 +499,33 @@ static bool visit_brick(void *context, uint32_t number)
     return ffd_box_tree_visit(&visit.brick->tree, search->p, search->slack, visit_leaf, &visit);
 }
 
-static void judge(const point_search *search, ffd_location *location)
+/* Where the lattice collapses (a cylinder's axis), one point has whole lines of u,v,w. Of a singular root
+   each coordinate in turn goes to the domain's start if that is a root too: the least (u,v,w) of such a line.
+ */
+static void take_least_of_set(point_search *search, root *found)
 {
+    const knot_vector *knots = search->locator->knots;
+    for (int a = 0; a < 3; a++) {
+        double uvw[3];
+        int span[3];
+        sample at;
+        memcpy(uvw, found->uvw, sizeof uvw);
+        uvw[a] = ffd_knots_first(&knots[a]);
+        for (int b = 0; b < 3; b++)
+            span[b] = ffd_knots_span(&knots[b], uvw[b]);
+        evaluate(search, span, uvw, &at);
+        if (accepted(search, &at, 1)) {
+            found->uvw[a] = uvw[a];
+            found->residual = vec_length(at.residual);
+        }
+    }
+}
+
+static void judge(point_search *search, ffd_location *location)
+{
+    for (int i = 0; i < search->root_count; i++)
+        if (search->roots[i].singular)
+            take_least_of_set(search, &search->roots[i]);
     location->evaluations = search->evaluations;
     location->leaves = search->leaves;
     if (search->root_count == 0) {

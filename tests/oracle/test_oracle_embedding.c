@@ -733,9 +733,7 @@ static void collapsed_axes(void **state)
     trial_end(&t);
 }
 
-/* Without argument: what holds. With the argument "open": what the library does not pass yet (meson.build).
- */
-int main(int count, char **arguments)
+int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(box_lattices),   cmocka_unit_test(affine_points),
@@ -744,10 +742,8 @@ int main(int count, char **arguments)
         cmocka_unit_test(closed_rings),   cmocka_unit_test(full_cylinders),
         cmocka_unit_test(part_cylinders), cmocka_unit_test(bent_bars),
         cmocka_unit_test(near_faces),     cmocka_unit_test(rational_points),
-        cmocka_unit_test(rational_boxes),
+        cmocka_unit_test(rational_boxes), cmocka_unit_test(far_knots),
+        cmocka_unit_test(collapsed_axes),
     };
-    const struct CMUnitTest open[] = {cmocka_unit_test(far_knots), cmocka_unit_test(collapsed_axes)};
-    if (count > 1 && strcmp(arguments[1], "open") == 0)
-        return cmocka_run_group_tests(open, NULL, NULL);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -261,20 +261,12 @@ static void wide_part_cylinders(void **state)
     cylinders(false, true, "wide_part_cylinders");
 }
 
-/* Without argument: what holds. With the argument "open": what the library does not pass yet (meson.build).
- */
-int main(int count, char **arguments)
+int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_moves),
-        cmocka_unit_test(full_cylinders),
-        cmocka_unit_test(part_cylinders),
-    };
-    const struct CMUnitTest open[] = {
-        cmocka_unit_test(wide_full_cylinders),
+        cmocka_unit_test(random_moves),        cmocka_unit_test(full_cylinders),
+        cmocka_unit_test(part_cylinders),      cmocka_unit_test(wide_full_cylinders),
         cmocka_unit_test(wide_part_cylinders),
     };
-    if (count > 1 && strcmp(arguments[1], "open") == 0)
-        return cmocka_run_group_tests(open, NULL, NULL);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
