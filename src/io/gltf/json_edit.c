@@ -79,10 +79,15 @@ void ffd_edits_apply(const json_edits *edits, const char *text, uint32_t begin, 
                      byte_buffer *out)
 {
     uint32_t at = begin;
+    if (ffd_edits_failed(edits)) { /* the texts are not there */
+        out->failed = true;
+        return;
+    }
     for (size_t i = find(edits, begin); i < edits->count && edits->edits[i].end <= end; i++) {
         const json_edit *edit = &edits->edits[i];
         ffd_buffer_append(out, text + at, edit->begin - at);
-        ffd_buffer_append(out, edits->pool.data + edit->text, edit->text_size);
+        if (edit->text_size > 0)
+            ffd_buffer_append(out, edits->pool.data + edit->text, edit->text_size);
         at = edit->end;
     }
     ffd_buffer_append(out, text + at, end - at);
