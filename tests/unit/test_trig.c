@@ -1,4 +1,5 @@
 #include "base/trig.h"
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -59,6 +60,10 @@ static double ulps(double value, long double exact)
 static void test_random(void **state)
 {
     (void)state;
+    /* valgrind computes long double as double, which is too coarse to compare with. */
+    const volatile long double small = LDBL_EPSILON;
+    if (1 + small == 1)
+        skip();
     const long double radian = acosl(-1.0L) / 180;
     uint64_t seed = 12345;
     for (int i = 0; i < 200000; i++) {
