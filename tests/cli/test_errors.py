@@ -246,6 +246,7 @@ def glb_containers(run):
             (good[:8] + struct.pack("<I", 5) + good[12:], INVALID, f": GLB: the header states 5 bytes, the file has {size}"),
             (good[:12] + struct.pack("<I", 2**32 - 1) + good[16:], INVALID,
              f": GLB: the chunk at byte 12 states 4294967295 bytes, but only {size - 20} follow"),
+            (good[:4] + struct.pack("<I", 3) + good[8:], UNSUPPORTED, ": GLB: the version is 3, only 2 is known"),
             (good[:4] + struct.pack("<I", 1) + good[8:], UNSUPPORTED, ": GLB: the version is 1, only 2 is known")):
         refused(run, "m.glb", content, code, message)
         run.ffd("info", "m.glb", code=code, err="m.glb" + message)

@@ -136,8 +136,7 @@ static void check_conversion(const char *text, ffd_space space, mover move, cons
     if (log)
         assert_string_equal(lines.text, log);
     else
-        assert_non_null(
-            strstr(lines.text, "1 nodes with a mesh are not in the scene shown and stay as they are"));
+        assert_non_null(strstr(lines.text, "1 node with a mesh, not in the scene shown: left alone"));
 }
 
 static void only_what_changes_is_replaced(void **state)
@@ -453,17 +452,30 @@ static void buffer_files_are_named_after_the_output(void **state)
                         "name as output");
 }
 
-static void in_place_keeps_the_names(void **state)
+/* A changed buffer is named after the file in place too: another model may use the old one. */
+static void in_place_buffers_are_named_after_the_file(void **state)
 {
     (void)state;
     const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, moved[9] = {1, 0, 0, 2, 0, 0, 1, 1, 0};
+    const char strange[] = "not of this model";
     put_text("place.gltf", WITH_FILE("other.bin"));
     put("other.bin", triangle, sizeof triangle);
+    put("place.bin", strange, sizeof strange);
     assert_int_equal(
         convert("place.gltf", "place.gltf", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY, NULL, NULL),
         FFD_OK);
-    check_text("place.gltf", WITH_FILE("other.bin"));
-    check_bytes("other.bin", moved, sizeof moved);
+    check_text("place.gltf", WITH_FILE("place-1.bin"));
+    check_bytes("place-1.bin", moved, sizeof moved);
+    check_bytes("other.bin", triangle, sizeof triangle);
+    check_bytes("place.bin", strange, sizeof strange);
+
+    put_text("own.gltf", WITH_FILE("own.bin"));
+    put("own.bin", triangle, sizeof triangle);
+    assert_int_equal(
+        convert("own.gltf", "own.gltf", FFD_SPACE_SCENE, add_one, false, FFD_RESOURCES_COPY, NULL, NULL),
+        FFD_OK);
+    check_text("own.gltf", WITH_FILE("own.bin"));
+    check_bytes("own.bin", moved, sizeof moved);
 }
 
 static void conversions_are_refused(void **state)
@@ -527,6 +539,61 @@ static void images_are_copied_or_referred_to(void **state)
 #undef IMAGES
 }
 
+/* None of the model's own files takes the place of an image, be it the input's or a copy. */
+static void an_image_is_not_overwritten(void **state)
+{
+    (void)state;
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+#define WITH_IMAGE(uri)                                                                                      \
+    "{" ASSET ",\"images\":[{\"uri\":\"" uri                                                                 \
+    "\"}],\"buffers\":[{\"byteLength\":36,\"uri\":\"pic-data.bin\"}]," VIEWS                                 \
+    "],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"             \
+    "\"meshes\":[" MESH("0") "],\"nodes\":[{\"mesh\":0}]}"
+    static const struct {
+        const char *image, *text, *output, *file; /* file: the one that is refused */
+    } cases[] = {
+        /* Beside the input, where the image itself would be overwritten. */
+        {"skin.bin", WITH_IMAGE("./skin.bin"), "skin.gltf", "skin.bin"},
+        {"skin.gltf", WITH_IMAGE("skin.gltf"), "skin.gltf", "skin.gltf"},
+        /* In another folder, where its copy would be. */
+        {"skin.bin", WITH_IMAGE("a/../skin.bin"), "pics/skin.gltf", "pics/skin.bin"},
+        {"skin.gltf", WITH_IMAGE("skin.gltf"), "pics/skin.gltf", "pics/skin.gltf"},
+    };
+    assert_int_equal(mkdir(in_folder("pics"), 0777), 0);
+    put("pic-data.bin", triangle, sizeof triangle);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        mesh_document *document = NULL;
+        ffd_error error = {0};
+        put_text("pic.gltf", cases[i].text);
+        put_text(cases[i].image, "picture");
+        assert_int_equal(open_file(in_folder("pic.gltf"), FFD_SPACE_SCENE, &document, NULL), FFD_OK);
+        assert_int_equal(deform(document, add_one, false, NULL), FFD_OK);
+        assert_int_equal(save_to(document, in_folder(cases[i].output), &error), FFD_E_EXISTS);
+        assert_string_equal(error.file, in_folder(cases[i].file));
+        assert_non_null(strstr(error.message, "is the place of the image \"skin."));
+        gltf->close(document);
+        check_text(cases[i].image, "picture");
+        unlink(in_folder(cases[i].image));
+    }
+    assert_int_equal(rmdir(in_folder("pics")), 0); /* nothing was written */
+#undef WITH_IMAGE
+}
+
+static void check_comparison(const char *first, const char *second, double tolerance, const char *difference)
+{
+    mesh_document *a = NULL, *b = NULL;
+    ffd_comparison comparison;
+    assert_int_equal(open_bytes(first, strlen(first), "a", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &a, NULL),
+                     FFD_OK);
+    assert_int_equal(open_bytes(second, strlen(second), "b", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &b, NULL),
+                     FFD_OK);
+    assert_int_equal(gltf->compare(a, b, tolerance, &comparison, NULL), FFD_OK);
+    assert_string_equal(comparison.difference, difference);
+    assert_int_equal(comparison.equal, !*difference);
+    gltf->close(a);
+    gltf->close(b);
+}
+
 static void compare_finds_what_differs(void **state)
 {
     (void)state;
@@ -538,30 +605,36 @@ static void compare_finds_what_differs(void **state)
     const struct {
         const char *text;
         double tolerance;
-        bool equal;
-        const char *difference;
+        const char *difference; /* "": equal */
     } cases[] = {
-        {base, 0, true, ""},
-        {WITH(TRIANGLE, "[1.0,1,0e1]", ""), 0, true, ""},
-        {WITH(TRIANGLE, "[1,1,0]", "\"x\":1,"), 0, false, "/: only the second file has \"x\""},
-        {WITH(MOVED, "[2,1,0]", ""), 0, false, "/accessors/0/max/0: 1 and 2"},
-        {WITH(MOVED, "[1,1,0]", ""), 0, false, "/accessors/0: vertex 0 has x 0 and 2"},
-        {WITH(MOVED, "[2,1,0]", ""), 1.5, false, "/accessors/0: vertex 0 has x 0 and 2"},
-        {WITH(MOVED, "[2,1,0]", ""), 2, true, ""},
+        {base, 0, ""},
+        {WITH(TRIANGLE, "[1.0,1,0e1]", ""), 0, ""},
+        {WITH(TRIANGLE, "[1,1,0]", "\"x\":1,"), 0, "/: only the second file has \"x\""},
+        {WITH(MOVED, "[2,1,0]", ""), 0, "/accessors/0/max/0: 1 and 2"},
+        {WITH(MOVED, "[1,1,0]", ""), 0, "/accessors/0: vertex 0 has x 0 and 2"},
+        {WITH(MOVED, "[2,1,0]", ""), 1.5, "/accessors/0: vertex 0 has x 0 and 2"},
+        {WITH(MOVED, "[2,1,0]", ""), 2, ""},
     };
+    const struct {
+        const char *a, *b, *difference; /* "": equal */
+    } numbers[] = {
+        {"9007199254740993", "9007199254740993", ""},
+        {"9007199254740993", "9007199254740992", "/x: 9007199254740993 and 9007199254740992"},
+        {"-9007199254740993", "-9007199254740992", "/x: -9007199254740993 and -9007199254740992"},
+        {"0", "-0", ""},
+        {"1", "-1", "/x: 1 and -1"},
+        {"100", "1e2", ""},
+        {"1.50", "1.5", ""},
+        {"1.5", "2", "/x: 1.5 and 2"},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        char first[64], second[64];
+        snprintf(first, sizeof first, "{" ASSET ",\"x\":%s}", numbers[i].a);
+        snprintf(second, sizeof second, "{" ASSET ",\"x\":%s}", numbers[i].b);
+        check_comparison(first, second, 0, numbers[i].difference);
+    }
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        mesh_document *a = NULL, *b = NULL;
-        ffd_comparison comparison;
-        assert_int_equal(open_bytes(base, strlen(base), "a", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &a, NULL),
-                         FFD_OK);
-        assert_int_equal(
-            open_bytes(cases[i].text, strlen(cases[i].text), "b", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &b, NULL),
-            FFD_OK);
-        assert_int_equal(gltf->compare(a, b, cases[i].tolerance, &comparison, NULL), FFD_OK);
-        assert_string_equal(comparison.difference, cases[i].difference);
-        assert_int_equal(comparison.equal, cases[i].equal);
-        gltf->close(a);
-        gltf->close(b);
+        check_comparison(base, cases[i].text, cases[i].tolerance, cases[i].difference);
     }
 #undef WITH
 }
@@ -619,9 +692,10 @@ int main(void)
         cmocka_unit_test(interleaved_attributes_change_in_place),
         cmocka_unit_test(glb_lengths_and_padding_follow),
         cmocka_unit_test(buffer_files_are_named_after_the_output),
-        cmocka_unit_test(in_place_keeps_the_names),
+        cmocka_unit_test(in_place_buffers_are_named_after_the_file),
         cmocka_unit_test(conversions_are_refused),
         cmocka_unit_test(images_are_copied_or_referred_to),
+        cmocka_unit_test(an_image_is_not_overwritten),
         cmocka_unit_test(compare_finds_what_differs),
         cmocka_unit_test(memory_may_run_out_anywhere),
     };

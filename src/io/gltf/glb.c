@@ -51,8 +51,8 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
                              size);
     const uint32_t version = ffd_glb_read_u32(data + 4);
     if (version != 2)
-        return ffd_fail_file(error, version == 1 ? FFD_E_UNSUPPORTED : FFD_E_INVALID, name,
-                             "GLB: the version is %lu, only 2 is known", (unsigned long)version);
+        return ffd_fail_file(error, FFD_E_UNSUPPORTED, name, "GLB: the version is %lu, only 2 is known",
+                             (unsigned long)version);
     layout->end = ffd_glb_read_u32(data + 8);
     if (layout->end > size || layout->end < GLB_HEADER_SIZE)
         return ffd_fail_file(error, FFD_E_INVALID, name, "GLB: the header states %zu bytes, the file has %zu",

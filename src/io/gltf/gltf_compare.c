@@ -73,19 +73,57 @@ static bool is_bound(const comparer *c, uint32_t value)
            (ffd_json_span_key_is(tree, array, "min") || ffd_json_span_key_is(tree, array, "max"));
 }
 
+/* Whether a number has neither fraction nor exponent. */
+static bool is_plain_integer(const json_span *tree, uint32_t value)
+{
+    for (uint32_t i = tree->values[value].begin; i < tree->values[value].end; i++)
+        if (!strchr("-0123456789", tree->text[i]))
+            return false;
+    return true;
+}
+
+static bool same_text(const json_span *a, uint32_t x, const json_span *b, uint32_t y)
+{
+    const size_t size = a->values[x].end - a->values[x].begin;
+    return size == b->values[y].end - b->values[y].begin &&
+           memcmp(a->text + a->values[x].begin, b->text + b->values[y].begin, size) == 0;
+}
+
+/* As many characters of a number as a message has room for. */
+static int shown_size(const json_span *tree, uint32_t value)
+{
+    const uint32_t size = tree->values[value].end - tree->values[value].begin;
+    return size > 40 ? 40 : (int)size;
+}
+
+/* Whether two numbers of different text are equal. JSON has no leading zeros, so that plain integers, which
+   may have more digits than a double holds, are not; but for 0 and -0. */
+static bool equal_numbers(const comparer *c, uint32_t x, double a, uint32_t y, double b)
+{
+    if (is_plain_integer(&c->a->tree, x) && is_plain_integer(&c->b->tree, y) && (a < 0 || a > 0))
+        return false;
+    return !(a < b) && !(a > b);
+}
+
 /* Bounds follow from the positions, which are compared themselves: with a tolerance in the lattice's units,
    where bounds are not. */
 static void compare_numbers(const comparer *c, uint32_t x, uint32_t y)
 {
+    const json_span *first = &c->a->tree, *second = &c->b->tree;
     double a = 0, b = 0;
-    ffd_json_span_number(&c->a->tree, x, &a);
-    ffd_json_span_number(&c->b->tree, y, &b);
-    if (!(a < b) && !(a > b))
+    if (same_text(first, x, second, y))
         return;
-    if (c->tolerance > 0 && is_bound(c, x))
+    ffd_json_span_number(first, x, &a);
+    ffd_json_span_number(second, y, &b);
+    if (equal_numbers(c, x, a, y, b) || (c->tolerance > 0 && is_bound(c, x)))
         return;
     char what[96];
-    snprintf(what, sizeof what, "%.17g and %.17g", a, b);
+    if (a < b || a > b)
+        snprintf(what, sizeof what, "%.17g and %.17g", a, b);
+    else /* beyond what a double tells apart */
+        snprintf(what, sizeof what, "%.*s and %.*s", shown_size(first, x),
+                 first->text + first->values[x].begin, shown_size(second, y),
+                 second->text + second->values[y].begin);
     differ_at(c, x, what);
 }
 

@@ -102,9 +102,29 @@ static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
                               d->shared_by[1]);
 }
 
+/* A reader of 2.0 reads all of 2.x unless the file says that a newer one is needed (glTF 2.0, 3.2). */
+static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
+{
+    const uint32_t version =
+        ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, 0, "asset"), "minVersion");
+    if (version == JSON_NONE)
+        return FFD_OK;
+    char *text = ffd_json_span_string(&d->tree, version, NULL);
+    if (!text)
+        return ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
+    if (strcmp(text, "2.0") != 0)
+        status = ffd_json_span_fail(&d->tree, version, d->name, FFD_E_UNSUPPORTED, error,
+                                    "the file needs a reader of glTF %s, this is one of 2.0", text);
+    ffd_free(text);
+    return status;
+}
+
 ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 {
-    ffd_status status = refuse_shared_child(d, error);
+    ffd_status status = refuse_newer_version(d, error);
+    if (status == FFD_OK)
+        status = refuse_shared_child(d, error);
     if (status == FFD_OK)
         status = refuse_unknown_extensions(d, error);
     for (size_t m = 0; m < d->model.mesh_count; m++) {

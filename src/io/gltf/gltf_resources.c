@@ -82,8 +82,7 @@ static ffd_status copy_image(const resources *r, size_t image, const char *path,
     if (status)
         goto done;
     if (!ffd_path_leads_out(path) && !ffd_file_exists(source)) {
-        ffd_gltf_log(r->saver, FFD_LOG_WARNING, "%s: the image \"%s\" is missing and was not copied", d->name,
-                     path);
+        ffd_gltf_log(r->saver, FFD_LOG_WARNING, "the image \"%s\" is missing and was not copied", path);
         goto done;
     }
     if (!ffd_path_leads_out(path))
@@ -172,17 +171,60 @@ static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
     return status;
 }
 
+/* An image's file and, where the output looks for it in its own folder, its place there. */
+typedef struct image_places {
+    const char *path;
+    char *source, *copy; /* copy: NULL where the output refers to the source */
+} image_places;
+
+static ffd_status refuse_clash(const image_places *image, const char *target, ffd_error *error)
+{
+    if (!ffd_file_same(image->source, target) &&
+        !(image->copy &&
+          (strcmp(image->path, ffd_path_name(target)) == 0 || ffd_file_same(image->copy, target))))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_EXISTS, target,
+                         "is the place of the image \"%s\" too: give the output another name", image->path);
+}
+
+/* None of the files that are written for the model itself may be one of its images. */
+static ffd_status refuse_image_name(const resources *r, size_t number, bool own_copy, ffd_error *error)
+{
+    const gltf_saver *saver = r->saver;
+    char *path;
+    ffd_status status = image_path(saver->document, number, &path, error);
+    if (status || !path)
+        return status;
+    const image_places image = {.path = path,
+                                .source = ffd_path_join(r->from, path),
+                                .copy = own_copy ? ffd_path_join(r->to, path) : NULL};
+    if (!image.source || (own_copy && !image.copy))
+        status = ffd_fail_memory(error);
+    if (status == FFD_OK && !saver->in_place)
+        status = refuse_clash(&image, saver->options->path, error);
+    for (size_t b = 0; b < saver->document->buffer_values.count && status == FFD_OK; b++)
+        if (saver->buffers[b].target)
+            status = refuse_clash(&image, saver->buffers[b].target, error);
+    ffd_free(image.source);
+    ffd_free(image.copy);
+    ffd_free(path);
+    return status;
+}
+
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    if (strcmp(d->path, "-") == 0 || strcmp(saver->options->path, "-") == 0 || saver->in_place)
+    if (strcmp(d->path, "-") == 0 || strcmp(saver->options->path, "-") == 0)
         return FFD_OK;
     resources r = {
         .saver = saver, .from = ffd_path_folder(d->path), .to = ffd_path_folder(saver->options->path)};
     ffd_status status = r.from && r.to ? FFD_OK : ffd_fail_memory(error);
-    if (status == FFD_OK && !ffd_file_same(r.from, r.to))
-        for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
-            status = bring_image(&r, i, error);
+    const bool stay = status == FFD_OK && (saver->in_place || ffd_file_same(r.from, r.to));
+    const bool own_copies = stay || saver->options->resources == FFD_RESOURCES_COPY;
+    for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++)
+        status = refuse_image_name(&r, i, own_copies, error);
+    for (size_t i = 0; i < d->image_values.count && status == FFD_OK && !stay; i++)
+        status = bring_image(&r, i, error);
     for (size_t i = 0; i < r.done_count; i++)
         ffd_free(r.done[i]);
     ffd_free(r.done);

@@ -239,9 +239,8 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
     if (status == FFD_OK)
         status = ffd_gltf_name_buffers(&saver, error);
     if (status == FFD_OK && d->hidden_nodes > 0)
-        ffd_gltf_log(&saver, FFD_LOG_WARNING,
-                     "%s: %zu nodes with a mesh are not in the scene shown and stay as they are", d->name,
-                     d->hidden_nodes);
+        ffd_gltf_log(&saver, FFD_LOG_WARNING, "%zu node%s with a mesh, not in the scene shown: left alone",
+                     d->hidden_nodes, d->hidden_nodes == 1 ? "" : "s");
     if (status == FFD_OK)
         status = put_files(&saver, error);
     ffd_gltf_free_content(&saver);

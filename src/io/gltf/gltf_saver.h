@@ -55,7 +55,8 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t buffer, size_t offset
 ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);
 /* gltf_targets.c: names for the buffers' files, and their URIs. */
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
-/* gltf_resources.c: images beside the output, or their URIs. Begins and writes files of saver->output. */
+/* gltf_resources.c: images beside the output, or their URIs. Refuses an image that has the name of a file of
+   the model itself. Begins and writes files of saver->output; comes after ffd_gltf_name_buffers. */
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
 
 #endif

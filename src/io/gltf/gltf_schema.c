@@ -36,8 +36,10 @@ typedef struct checker {
     ffd_error *error;
 } checker;
 
-static const rule asset_rules[] = {
-    {"version", RULE_STRING, true, 0, NULL}, {"generator", RULE_STRING, false, 0, NULL}, {0}};
+static const rule asset_rules[] = {{"version", RULE_STRING, true, 0, NULL},
+                                   {"minVersion", RULE_STRING, false, 0, NULL},
+                                   {"generator", RULE_STRING, false, 0, NULL},
+                                   {0}};
 static const rule buffer_rules[] = {
     {"byteLength", RULE_SIZE, true, 0, NULL}, {"uri", RULE_STRING, false, 0, NULL}, {0}};
 static const rule view_rules[] = {{"buffer", RULE_INDEX, true, 0, NULL},

@@ -27,33 +27,6 @@ static char *make_name(const char *path, size_t number)
     return ffd_buffer_finish(&name);
 }
 
-/* A buffer's own file is overwritten, if its bytes changed. */
-static ffd_status keep_name(gltf_saver *saver, size_t b, ffd_error *error)
-{
-    const gltf_document *d = saver->document;
-    if (!saver->buffers[b].changed)
-        return FFD_OK;
-    saver->buffers[b].target = beside(d->path, d->buffers[b].path);
-    if (!saver->buffers[b].target)
-        return ffd_fail_memory(error);
-    saver->replaces = true;
-    for (size_t i = 0; i < d->buffer_values.count; i++) {
-        if (i == b || d->buffers[i].kind != BUFFER_FILE)
-            continue;
-        char *other = beside(d->path, d->buffers[i].path);
-        const bool same = other && ffd_file_same(other, saver->buffers[b].target);
-        const bool failed = !other;
-        ffd_free(other);
-        if (failed)
-            return ffd_fail_memory(error);
-        if (same)
-            return ffd_json_span_fail(
-                &d->tree, d->buffer_values.values[b], d->name, FFD_E_UNSUPPORTED, error,
-                "buffers %zu and %zu are one file, which cannot be overwritten for both", b, i);
-    }
-    return FFD_OK;
-}
-
 /* The output must not take the place of a file that the input consists of. */
 static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
 {
@@ -104,6 +77,51 @@ static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_erro
     return status;
 }
 
+/* Whether a file is that of buffer b, and of no other buffer of the model. */
+static ffd_status is_own_file(const gltf_document *d, size_t b, const char *target, bool *own,
+                              ffd_error *error)
+{
+    *own = false;
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
+        if (d->buffers[i].kind != BUFFER_FILE)
+            continue;
+        char *file = beside(d->path, d->buffers[i].path);
+        const bool same = file && ffd_file_same(file, target), failed = !file;
+        ffd_free(file);
+        if (failed)
+            return ffd_fail_memory(error);
+        if (same && i != b) {
+            *own = false;
+            return FFD_OK;
+        }
+        *own = *own || same;
+    }
+    return FFD_OK;
+}
+
+/* In place a buffer whose bytes stay keeps its file. A changed one is named after the output like any other,
+   so that a file which other models may use is not touched; of existing files only its own is replaced. */
+static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    ffd_status status = FFD_OK;
+    while (saver->buffers[b].changed && !saver->buffers[b].target && status == FFD_OK) {
+        bool own = false;
+        char *name = make_name(d->path, (*number)++), *target = name ? beside(d->path, name) : NULL;
+        const bool exists = target && ffd_file_exists(target);
+        status = !target ? ffd_fail_memory(error) : exists ? is_own_file(d, b, target, &own, error) : FFD_OK;
+        if (status == FFD_OK && (own || !exists)) {
+            saver->buffers[b].target = target;
+            saver->replaces = saver->replaces || own;
+            target = NULL;
+            status = set_uri(saver, b, name, error);
+        }
+        ffd_free(name);
+        ffd_free(target);
+    }
+    return status;
+}
+
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
@@ -120,7 +138,8 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
                 &d->tree, d->buffer_values.values[b], d->name, FFD_E_ARGUMENT, error,
                 "the buffer is a file of its own, which standard output cannot hold: give a file "
                 "name as output");
-        status = saver->in_place ? keep_name(saver, b, error) : give_name(saver, b, number++, error);
+        status = saver->in_place ? give_name_in_place(saver, b, &number, error)
+                                 : give_name(saver, b, number++, error);
     }
     return status;
 }
