@@ -407,4 +407,15 @@ def random_damage_never_crashes(run):
             run.ffd("deform", *words, "--force", "-q", code=(OK, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT))
 
 
+@case
+def a_file_for_newer_readers_is_described_but_not_deformed(run):
+    asset, data = gltf_json(CUBE_CORNERS)
+    asset["asset"]["minVersion"] = "2.1"
+    run.write("m.glb", glb(asset, data))
+    run.write("l.json", lattice())
+    run.ffd("deform", "m.glb", "out.glb", "-l", "l.json", code=UNSUPPORTED,
+            err="m.glb:/asset/minVersion: the file needs a reader of glTF 2.1, this is one of 2.0")
+    run.ffd("info", "m.glb")
+
+
 main()
