@@ -24,7 +24,8 @@ typedef enum ffd_volume { FFD_VOLUME_REST = 0, FFD_VOLUME_DEFORMED = 1 } ffd_vol
 
 /* Knot vectors that a new lattice can have (the file knows explicit lists too). */
 typedef enum ffd_knots {
-    FFD_KNOTS_CLAMPED = 0,
+    FFD_KNOTS_DEFAULT = 0, /* clamped; v of a cylinder: closed */
+    FFD_KNOTS_CLAMPED,
     FFD_KNOTS_OPEN,
     FFD_KNOTS_UNIFORM,
     FFD_KNOTS_CLOSED
@@ -39,7 +40,7 @@ typedef struct ffd_lattice_desc {
     ffd_lattice_shape shape;
     size_t size[3];     /* control points along u,v,w; default 4,4,4 */
     int degree[3];      /* 1..9, or 0: 3, or size-1 where that is less */
-    ffd_knots knots[3]; /* default clamped; cylinder: v is closed on its own account */
+    ffd_knots knots[3]; /* default FFD_KNOTS_DEFAULT */
     double margin;      /* added on every side, as a fraction of the extent there; >= 0, default 0.05 */
     ffd_spacing spacing;
     double axis[3]; /* cylinder: its axis, need not be of unit length; default 0,0,1 */

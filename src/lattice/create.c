@@ -40,12 +40,12 @@ static ffd_status check_knots(const ffd_lattice_desc *desc, ffd_error *error)
 {
     const bool cylinder = desc->shape == FFD_SHAPE_CYLINDER;
     for (int a = 0; a < 3; a++) {
-        if ((int)desc->knots[a] < FFD_KNOTS_CLAMPED || desc->knots[a] > FFD_KNOTS_CLOSED)
+        if ((int)desc->knots[a] < FFD_KNOTS_DEFAULT || desc->knots[a] > FFD_KNOTS_CLOSED)
             return ffd_fail(error, FFD_E_ARGUMENT, "there is no kind of knots %d", (int)desc->knots[a]);
         if (desc->knots[a] == FFD_KNOTS_CLOSED && !(cylinder && a == 1))
             return ffd_fail(error, FFD_E_ARGUMENT, "direction %c of a %s cannot be closed", "uvw"[a],
                             cylinder ? "cylinder" : "box");
-        if (desc->spacing == FFD_SPACING_UNIFORM && desc->knots[a] != FFD_KNOTS_CLAMPED)
+        if (desc->spacing == FFD_SPACING_UNIFORM && desc->knots[a] > FFD_KNOTS_CLAMPED)
             return ffd_fail(error, FFD_E_ARGUMENT,
                             "uniform spacing needs clamped knots, which direction %c does not have",
                             "uvw"[a]);
@@ -111,9 +111,8 @@ static ffd_status find_bounds_or_fail(const double *xyz, size_t count, const dou
 static void fill_common(const ffd_lattice_desc *desc, lattice_spec *spec)
 {
     static const knot_kind kinds[] = {
-        [FFD_KNOTS_CLAMPED] = KNOTS_CLAMPED,
-        [FFD_KNOTS_OPEN] = KNOTS_OPEN,
-        [FFD_KNOTS_UNIFORM] = KNOTS_UNIFORM,
+        [FFD_KNOTS_DEFAULT] = KNOTS_CLAMPED, [FFD_KNOTS_CLAMPED] = KNOTS_CLAMPED,
+        [FFD_KNOTS_OPEN] = KNOTS_OPEN,       [FFD_KNOTS_UNIFORM] = KNOTS_UNIFORM,
         [FFD_KNOTS_CLOSED] = KNOTS_CLOSED,
     };
     spec->count = 1;
@@ -203,7 +202,7 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
         spec->axis[c] = axis[c];
         spec->zero[c] = zero[c];
     }
-    if (spec->kind[1] == KNOTS_CLAMPED)
+    if (desc->knots[1] == FFD_KNOTS_DEFAULT)
         spec->kind[1] = KNOTS_CLOSED;
     if (isfinite(spec->radius[1]) && isfinite(spec->height))
         return FFD_OK;

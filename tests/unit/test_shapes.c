@@ -532,8 +532,12 @@ static void test_create_cylinder(void **state)
     assert_int_equal(ffd_lattice_create(&desc, points, 65, &l, &error), FFD_OK);
     assert_false(ffd_knots_closed(&l->knots[1]));
     ffd_lattice_destroy(&l);
-    /* All on the axis, or in a plane across it: still a volume. */
     desc.knots[1] = FFD_KNOTS_CLAMPED;
+    assert_int_equal(ffd_lattice_create(&desc, points, 65, &l, &error), FFD_OK);
+    assert_false(ffd_knots_closed(&l->knots[1]));
+    ffd_lattice_destroy(&l);
+    /* All on the axis, or in a plane across it: still a volume. */
+    desc.knots[1] = FFD_KNOTS_DEFAULT;
     assert_int_equal(ffd_lattice_create(&desc, points, 1, &l, &error), FFD_OK);
     assert_true(l->spec->radius[1] > 0 && l->spec->height > 0);
     ffd_lattice_destroy(&l);

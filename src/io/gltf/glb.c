@@ -58,7 +58,7 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
         return ffd_fail_file(error, FFD_E_INVALID, name, "GLB: the header states %zu bytes, the file has %zu",
                              layout->end, size);
 
-    glb_chunk chunk;
+    glb_chunk chunk = {0};
     size_t at = GLB_HEADER_SIZE;
     ffd_status status = read_chunk(data, layout->end, name, &at, &chunk, error);
     if (status)

@@ -31,6 +31,9 @@ static char *make_name(const char *path, size_t number)
 static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
 {
     const gltf_document *d = saver->document;
+    if (strcmp(d->path, "-") != 0 && strcmp(target, saver->options->path) != 0 &&
+        ffd_file_same(d->path, target))
+        return ffd_fail_file(error, FFD_E_EXISTS, target, "is the input and is not overwritten by a buffer");
     for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
