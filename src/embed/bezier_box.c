@@ -31,6 +31,39 @@ static size_t line_start(const int order[3], int a, size_t line)
     return u + w * (size_t)order[0] * (size_t)order[1];
 }
 
+/* Multiplies every line of points along a by the span's extraction matrix. */
+static void extract_direction(bezier_box *box, const double *matrix, int a)
+{
+    const size_t stride = N * stride_of(box->order, a),
+                 lines = ffd_bezier_count(box->order) / (size_t)box->order[a];
+    const int order = box->order[a];
+    for (size_t number = 0; number < lines; number++) {
+        double line[MAX_ORDER][N];
+        double *first = box->coefficients + N * line_start(box->order, a, number);
+        for (int i = 0; i < order; i++)
+            memcpy(line[i], first + stride * (size_t)i, sizeof line[i]);
+        for (int r = 0; r < order; r++)
+            for (int c = 0; c < N; c++) {
+                double sum = 0;
+                for (int i = 0; i < order; i++)
+                    sum += matrix[r * order + i] * line[i][c];
+                first[stride * (size_t)r + (size_t)c] = sum;
+            }
+    }
+}
+
+void ffd_bezier_extract(bezier_box *box, const double *const matrix[3])
+{
+    for (int a = 0; a < 3; a++) {
+        box->lo[a] = 0;
+        box->hi[a] = 1;
+        extract_direction(box, matrix[a], a);
+    }
+    if (!box->rational) /* the matrices' rows sum to 1 but for rounding */
+        for (size_t i = 0; i < ffd_bezier_count(box->order); i++)
+            box->coefficients[N * i + 3] = 1;
+}
+
 /* De Casteljau's scheme at 1/2. The upper half arises in place: after step k, points k.. hold the level-k
    values of the line, and point k+.. of the lower half is the first of them. */
 void ffd_bezier_halve(const bezier_box *box, int a, bezier_box *lower, bezier_box *upper)

@@ -21,6 +21,11 @@ typedef struct bezier_box {
 size_t ffd_bezier_count(const int order[3]); /* points */
 size_t ffd_bezier_size(const int order[3]);  /* doubles */
 
+/* From the control points h P, h of a span's basis functions (box->coefficients, u fastest) to the Bezier
+   form of that cell, in place; matrix[a] is the span's ffd_bezier_extraction. order and rational must be set;
+   lo and hi become those of the whole cell. */
+void ffd_bezier_extract(bezier_box *box, const double *const matrix[3]);
+
 /* The halves of box across direction a; lower and upper have their own coefficients (upper may share box's).
  */
 void ffd_bezier_halve(const bezier_box *box, int a, bezier_box *lower, bezier_box *upper);

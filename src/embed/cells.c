@@ -56,28 +56,6 @@ static void cell_spans(const ffd_lattice *lattice, const size_t cell[3], int spa
         span[a] = lattice->knots[a].spans[cell[a]];
 }
 
-/* Multiplies every line of points along a by the span's extraction matrix. */
-static void extract_direction(const double *matrix, const int order[3], int a, double *coefficients)
-{
-    const size_t stride = a == 0 ? 1 : a == 1 ? (size_t)order[0] : (size_t)order[0] * (size_t)order[1];
-    const size_t count = ffd_bezier_count(order);
-    for (size_t start = 0; start < count; start++) {
-        if (start / stride % (size_t)order[a] != 0)
-            continue;
-        double line[MAX_ORDER][N];
-        double *first = coefficients + N * start;
-        for (int i = 0; i < order[a]; i++)
-            memcpy(line[i], first + N * stride * (size_t)i, sizeof line[i]);
-        for (int r = 0; r < order[a]; r++)
-            for (int c = 0; c < N; c++) {
-                double sum = 0;
-                for (int i = 0; i < order[a]; i++)
-                    sum += matrix[r * order[a] + i] * line[i][c];
-                first[N * stride * (size_t)r + (size_t)c] = sum;
-            }
-    }
-}
-
 void ffd_cell_bezier(const ffd_locator *locator, const size_t cell[3], bezier_box *box)
 {
     const cell_search *cells = locator->cells;
@@ -93,17 +71,13 @@ void ffd_cell_bezier(const ffd_locator *locator, const size_t cell[3], bezier_bo
                 function[2] = (size_t)(span[2] - cells->order[2] + 1 + k);
                 memcpy(to, control_point(locator, function), N * sizeof(double));
             }
+    const double *matrix[3];
     for (int a = 0; a < 3; a++) {
-        const size_t size = (size_t)cells->order[a] * (size_t)cells->order[a];
         box->order[a] = cells->order[a];
-        box->lo[a] = 0;
-        box->hi[a] = 1;
-        extract_direction(cells->extraction[a] + cell[a] * size, cells->order, a, box->coefficients);
+        matrix[a] = cells->extraction[a] + cell[a] * (size_t)cells->order[a] * (size_t)cells->order[a];
     }
     box->rational = cells->rational;
-    if (!cells->rational) /* the matrices' rows sum to 1 but for rounding */
-        for (size_t i = 0; i < ffd_bezier_count(box->order); i++)
-            box->coefficients[N * i + 3] = 1;
+    ffd_bezier_extract(box, matrix);
 }
 
 void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier_box *box,
