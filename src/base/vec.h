@@ -61,14 +61,18 @@ static inline double mat_determinant(const double m[9])
     return vec_dot(m, c);
 }
 
+/* mat_invert for matrices whose products of three entries leave the range of doubles: rows and columns are
+   brought to size 1 by powers of two first. */
+bool ffd_mat_invert_scaled(const double m[9], double out[9]);
+
 /* out = m^-1; false (out is not written) when the determinant is 0 or the result is not finite. */
 static inline bool mat_invert(const double m[9], double out[9])
 {
     double c[9], result[9];
     mat_cofactor(m, c);
     const double det = vec_dot(m, c);
-    if (!(det < 0 || det > 0))
-        return false;
+    if (!(fabs(det) > 1e-250 && fabs(det) < 1e250)) /* 0, not a number, or not to be trusted */
+        return ffd_mat_invert_scaled(m, out);
     for (int r = 0; r < 3; r++)
         for (int k = 0; k < 3; k++) {
             result[3 * r + k] = c[3 * k + r] / det;
