@@ -17,19 +17,22 @@ static void find_origin(ffd_locator *locator)
     }
 }
 
-/* Copies of the lattice's knot vectors that start at 0; the spans are the lattice's own. */
+/* Copies of the lattice's knot vectors that start at 0 and end near 1; the spans are the lattice's own. */
 static bool shift_knots(ffd_locator *locator)
 {
     for (int a = 0; a < 3; a++) {
         const knot_vector *knots = &locator->lattice->knots[a];
         const size_t count = knots->functions + (size_t)knots->degree + 1;
         const double first = ffd_knots_first(knots);
+        int exponent;
+        frexp(ffd_knots_last(knots) - first, &exponent);
+        locator->knot_scale[a] = ldexp(1, exponent < -1000 ? 1000 : -exponent);
         locator->knots[a] = *knots;
         locator->knots[a].t = ffd_alloc(count, sizeof(double));
         if (!locator->knots[a].t)
             return false;
         for (size_t i = 0; i < count; i++)
-            locator->knots[a].t[i] = knots->t[i] - first;
+            locator->knots[a].t[i] = (knots->t[i] - first) * locator->knot_scale[a];
     }
     return true;
 }

@@ -25,9 +25,12 @@ typedef struct monotone_curve {
 struct ffd_locator {
     const ffd_lattice *lattice;
     locator_method method;
-    /* The lattice's knots with the domain's start subtracted: far from 0 a parameter would be too coarse to
-       meet the tolerance. Every search is in these; only what is reported has the start added again. */
+    /* The lattice's knots with the domain's start subtracted, times a power of two that brings the domain's
+       side to size 1: far from 0 a parameter would be too coarse to meet the tolerance, and derivatives by
+       very long or short parameters leave the range of doubles. Every search is in these; what is reported is
+       taken back. */
     knot_vector knots[3];
+    double knot_scale[3];
     double origin[3]; /* subtracted from control points and points before anything else */
     double extent[3]; /* max |P_a - origin_a| over the control points */
     affine_map affine;
@@ -46,8 +49,8 @@ static inline void ffd_locator_tolerance(const ffd_locator *locator, const doubl
 static inline void ffd_locator_report(const ffd_locator *locator, const double local[3], double uvw[3])
 {
     for (int a = 0; a < 3; a++)
-        uvw[a] = ffd_knots_wrap(&locator->lattice->knots[a],
-                                ffd_knots_first(&locator->lattice->knots[a]) + local[a]);
+        uvw[a] = ffd_knots_wrap(&locator->lattice->knots[a], ffd_knots_first(&locator->lattice->knots[a]) +
+                                                                 local[a] / locator->knot_scale[a]);
 }
 
 /* Whether |r_a| <= tol_a for each a. */

@@ -1,0 +1,80 @@
+#include "lattice/border.h"
+#include "spline/basis.h"
+#include <float.h>
+#include <math.h>
+
+void ffd_border_face(const ffd_lattice *lattice, ffd_volume volume, int direction, int end, border_face *face)
+{
+    const knot_vector *knots = &lattice->knots[direction];
+    const double u = end ? ffd_knots_last(knots) : ffd_knots_first(knots);
+    const bool rest = volume == FFD_VOLUME_REST;
+    *face = (border_face){.lattice = lattice,
+                          .points = rest ? lattice->rest : lattice->deformed,
+                          .weights = rest ? lattice->rest_weights : lattice->deformed_weights,
+                          .direction = direction,
+                          .span = ffd_knots_span(knots, u)};
+    ffd_basis_values(knots, face->span, u, face->value);
+}
+
+void ffd_border_point(const border_face *face, const size_t index[3], const double origin[3], double point[4])
+{
+    const ffd_lattice *lattice = face->lattice;
+    const int degree = lattice->knots[face->direction].degree;
+    size_t at[3] = {index[0], index[1], index[2]};
+    for (int c = 0; c < 4; c++)
+        point[c] = 0;
+    for (int i = 0; i <= degree; i++) {
+        at[face->direction] = (size_t)(face->span - degree + i);
+        const size_t number = at[0] + lattice->size[0] * (at[1] + lattice->size[1] * at[2]);
+        const double h = face->value[i] * (face->weights ? face->weights[number] : 1);
+        for (int a = 0; a < 3; a++)
+            point[a] += h * (face->points[3 * number + (size_t)a] - origin[a]);
+        point[3] += h;
+    }
+}
+
+static bool are_equal(const double a[4], const double b[4], const double tolerance[3])
+{
+    for (int c = 0; c < 3; c++)
+        if (!(fabs(a[c] / a[3] - b[c] / b[3]) <= tolerance[c]))
+            return false;
+    return fabs(a[3] - b[3]) <= 16 * DBL_EPSILON * a[3];
+}
+
+/* The first control point, and 16 eps of how far the others are from it. */
+static void size_up(const ffd_lattice *lattice, const double *points, double tolerance[3])
+{
+    for (int a = 0; a < 3; a++) {
+        double extent = 0;
+        for (size_t i = 0; i < lattice->count; i++)
+            extent = fmax(extent, fabs(points[3 * i + (size_t)a] - points[a]));
+        tolerance[a] = 16 * DBL_EPSILON * extent;
+    }
+}
+
+static bool faces_are_one(const ffd_lattice *lattice, ffd_volume volume, int direction)
+{
+    border_face first, last;
+    double tolerance[3], a[4], b[4];
+    size_t index[3];
+    ffd_border_face(lattice, volume, direction, 0, &first);
+    ffd_border_face(lattice, volume, direction, 1, &last);
+    size_up(lattice, first.points, tolerance);
+    const int across = (direction + 1) % 3, along = (direction + 2) % 3;
+    index[direction] = 0;
+    for (index[across] = 0; index[across] < lattice->size[across]; index[across]++)
+        for (index[along] = 0; index[along] < lattice->size[along]; index[along]++) {
+            ffd_border_point(&first, index, first.points, a);
+            ffd_border_point(&last, index, first.points, b);
+            if (!are_equal(a, b, tolerance))
+                return false;
+        }
+    return true;
+}
+
+bool ffd_lattice_is_seam(const ffd_lattice *lattice, int direction)
+{
+    return !ffd_knots_closed(&lattice->knots[direction]) &&
+           faces_are_one(lattice, FFD_VOLUME_REST, direction) &&
+           faces_are_one(lattice, FFD_VOLUME_DEFORMED, direction);
+}

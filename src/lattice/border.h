@@ -1,0 +1,29 @@
+/* border.h - the control nets of the domain's faces: where two faces are one surface, or one collapses. */
+#ifndef FFD_LATTICE_BORDER_H
+#define FFD_LATTICE_BORDER_H
+
+#include "lattice/lattice.h"
+
+/* A face of the domain of a direction that is not closed: its first (end 0) or last (end 1). As a surface it
+   has one control point for each pair of control points of the other two directions. */
+typedef struct border_face {
+    const ffd_lattice *lattice;
+    const double *points, *weights; /* the volume's; weights may be NULL */
+    int direction, span;
+    double value[MAX_ORDER]; /* the direction's basis functions at that end */
+} border_face;
+
+void ffd_border_face(const ffd_lattice *lattice, ffd_volume volume, int direction, int end,
+                     border_face *face);
+
+/* sum h (P - origin) N and sum h N over the direction's control points: the face's control point whose
+   indices of the other directions are those of index (the direction's own does not matter). */
+void ffd_border_point(const border_face *face, const size_t index[3], const double origin[3],
+                      double point[4]);
+
+/* Whether the first and the last face of a direction that is not closed are one surface at rest, and stay one
+   when deformed: a bar bent to a ring. The volume then goes on across them as across a closed direction's
+   seam. Control points count as equal within 16 eps of the lattice's extent. */
+bool ffd_lattice_is_seam(const ffd_lattice *lattice, int direction);
+
+#endif
