@@ -6,6 +6,7 @@
 #include <ffd/embedding.h>
 #include <ffd/error.h>
 #include <ffd/export.h>
+#include <ffd/fold.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <ffd/version.h>

@@ -1,0 +1,200 @@
+#include "fold/cell_form.h"
+#include "embed/bezier_box.h"
+#include "fold/bernstein.h"
+#include <string.h>
+
+enum { N = BEZIER_COMPONENTS };
+
+#define UNIT (0.5 * DBL_EPSILON) /* one rounding, relative */
+
+size_t ffd_cell_form_size(const int order[3], bool rational)
+{
+    return (rational ? 16 : 9) * ffd_bernstein_count(order);
+}
+
+size_t ffd_cell_form_scratch(const int order[3])
+{
+    return ffd_bezier_size(order) + 4 * ffd_bernstein_count(order);
+}
+
+bool ffd_cell_is_rational(const fold_plan *plan, const int span[3], double *scratch)
+{
+    const ffd_lattice *lattice = plan->lattice;
+    if (!plan->rational)
+        return false;
+    for (int volume = 0; volume < 2; volume++) {
+        const double *weights = ffd_lattice_get_weights(lattice, (ffd_volume)volume);
+        ffd_lattice_cell_weights(lattice, weights, span, scratch);
+        for (size_t i = 1; i < ffd_bernstein_count(plan->order); i++)
+            if (scratch[i] != scratch[0])
+                return true;
+    }
+    return false;
+}
+
+/* The power of two that brings values of this size to [1/2, 1); 0 stays as it is. */
+static int exponent_of(double size)
+{
+    int exponent = 0;
+    if (size > 0)
+        frexp(size, &exponent);
+    return exponent < -1000 ? -1000 : exponent;
+}
+
+/* Moves one coordinate of the cell's points to the origin and scales it. Returns the exponent; *known is how
+   well the scaled coordinate is known if its figures are all that there is. */
+static int localise(double *points, size_t count, int r, double *known)
+{
+    const double origin = points[3 * (count / 2) + (size_t)r];
+    double far = 0, extent = 0;
+    for (size_t i = 0; i < count; i++)
+        far = fmax(far, fabs(points[3 * i + (size_t)r]));
+    const int first = far > 0x1p1000 ? 8 : 0; /* differences must not overflow */
+    const double shrink = ldexp(1, -first);
+    for (size_t i = 0; i < count; i++) {
+        double *x = points + 3 * i + r;
+        *x = *x * shrink - origin * shrink;
+        extent = fmax(extent, fabs(*x));
+    }
+    const int exponent = exponent_of(extent);
+    const double scale = ldexp(1, -exponent);
+    for (size_t i = 0; i < count; i++)
+        points[3 * i + (size_t)r] *= scale;
+    *known = extent > 0 ? 2 * DBL_EPSILON * (far * shrink * scale) : 0;
+    return exponent + first;
+}
+
+static void localise_weights(double *weights, size_t count)
+{
+    double greatest = 0;
+    for (size_t i = 0; i < count; i++)
+        greatest = fmax(greatest, weights[i]);
+    const double scale = ldexp(1, -exponent_of(greatest));
+    for (size_t i = 0; i < count; i++)
+        weights[i] *= scale;
+}
+
+/* h P, h, one after the other, and the bounds of their rounding once they are in Bezier form: of shift and
+   weight, and in each direction of the extraction matrix's entries (5 roundings a step of the triangular
+   scheme) and of the sum over a line. */
+static void fill_box(const fold_plan *plan, const double *points, const double *weights,
+                     const double known[3], bezier_box *box, double rounding[N], double coarse[N])
+{
+    const size_t count = ffd_bernstein_count(plan->order);
+    double extent[N] = {0, 0, 0, 0};
+    double steps = 4;
+    for (int a = 0; a < 3; a++)
+        steps += 6 * (plan->order[a] - 1) + 4;
+    for (size_t i = 0; i < count; i++) {
+        double *c = box->coefficients + N * i;
+        const double h = weights ? weights[i] : 1;
+        for (int r = 0; r < 3; r++)
+            c[r] = h * points[3 * i + (size_t)r];
+        c[3] = h;
+        for (int r = 0; r < N; r++)
+            extent[r] = fmax(extent[r], fabs(c[r]));
+    }
+    for (int r = 0; r < N; r++) {
+        rounding[r] = r < 3 || weights ? steps * UNIT * extent[r] : 0;
+        coarse[r] = rounding[r] + (r < 3 ? known[r] : 0);
+    }
+}
+
+/* Row b: the derivative by direction b. */
+static void derive(const bezier_box *box, int b, int components, const double rounding[N],
+                   const double coarse[N], cell_form *form)
+{
+    const size_t next = N * (size_t)(b == 0 ? 1 : b == 1 ? box->order[0] : box->order[0] * box->order[1]);
+    const double degree = box->order[b] - 1;
+    int *order = form->order[b];
+    for (int a = 0; a < 3; a++)
+        order[a] = box->order[a] - (a == b);
+    double greatest[N] = {0, 0, 0, 0};
+    size_t to = 0;
+    for (int k = 0; k < order[2]; k++)
+        for (int j = 0; j < order[1]; j++) {
+            const double *c = box->coefficients + N * (size_t)box->order[0] * (size_t)(j + box->order[1] * k);
+            for (int i = 0; i < order[0]; i++, c += N, to++)
+                for (int r = 0; r < components; r++) {
+                    const double value = degree * (c[next + (size_t)r] - c[r]);
+                    form->row[b][r][to] = value;
+                    greatest[r] = fabs(value) > greatest[r] ? fabs(value) : greatest[r];
+                }
+        }
+    for (int r = 0; r < components; r++) {
+        form->greatest.at[b][r] = greatest[r];
+        form->rounding.at[b][r] = 2 * degree * rounding[r] + 2 * UNIT * greatest[r];
+        form->coarse.at[b][r] = 2 * degree * coarse[r] + 2 * UNIT * greatest[r];
+    }
+}
+
+/* Row 3: A and W themselves. */
+static void copy_values(const bezier_box *box, const double rounding[N], const double coarse[N],
+                        cell_form *form)
+{
+    const size_t count = ffd_bernstein_count(box->order);
+    memcpy(form->order[3], box->order, sizeof form->order[3]);
+    for (int r = 0; r < N; r++) {
+        form->greatest.at[3][r] = 0;
+        form->rounding.at[3][r] = rounding[r];
+        form->coarse.at[3][r] = coarse[r];
+        for (size_t i = 0; i < count; i++) {
+            const double value = box->coefficients[N * i + (size_t)r];
+            form->row[3][r][i] = value;
+            form->greatest.at[3][r] = fmax(form->greatest.at[3][r], fabs(value));
+        }
+    }
+}
+
+static void measure_hull(const bezier_box *box, const double rounding[N], cell_form *form)
+{
+    ffd_bezier_weights(box, &form->least_weight, &form->greatest_weight);
+    const bounds hull = ffd_bezier_hull(box);
+    for (int r = 0; r < 3; r++) {
+        const double size = fmax(fabs(hull.lo[r]), fabs(hull.hi[r]));
+        form->hull_middle[r] = 0.5 * hull.lo[r] + 0.5 * hull.hi[r];
+        form->hull_reach[r] = fmax(hull.hi[r] - form->hull_middle[r], form->hull_middle[r] - hull.lo[r]) +
+                              2 * (rounding[r] + size * rounding[3]) / form->least_weight + 4 * UNIT * size;
+    }
+}
+
+void ffd_cell_form_make(const fold_plan *plan, ffd_volume volume, const size_t index[3], bool rational,
+                        double *memory, double *scratch, cell_form *form)
+{
+    const ffd_lattice *lattice = plan->lattice;
+    const size_t count = ffd_bernstein_count(plan->order);
+    double *points = scratch + ffd_bezier_size(plan->order), *weights = points + 3 * count;
+    bezier_box box = {.rational = rational, .coefficients = scratch};
+    double known[3], rounding[N], coarse[N];
+    const double *matrix[3];
+    int span[3];
+    for (int a = 0; a < 3; a++) {
+        box.order[a] = plan->order[a];
+        span[a] = lattice->knots[a].spans[index[a]];
+        matrix[a] = plan->extraction[a] + index[a] * (size_t)plan->order[a] * (size_t)plan->order[a];
+    }
+    ffd_lattice_cell_points(lattice, ffd_lattice_get_points(lattice, volume), span, points);
+    if (rational) {
+        ffd_lattice_cell_weights(lattice, ffd_lattice_get_weights(lattice, volume), span, weights);
+        localise_weights(weights, count);
+    }
+    form->exponent = 0;
+    for (int r = 0; r < 3; r++)
+        form->exponent += localise(points, count, r, &known[r]);
+    fill_box(plan, points, rational ? weights : NULL, known, &box, rounding, coarse);
+    ffd_bezier_extract(&box, matrix);
+
+    form->rows = rational ? 4 : 3;
+    for (int b = 0; b < form->rows; b++)
+        for (int r = 0; r < form->rows; r++)
+            form->row[b][r] = memory + (size_t)(form->rows * b + r) * count;
+    for (int b = 0; b < 3; b++)
+        derive(&box, b, form->rows, rounding, coarse, form);
+    memset(form->hull_middle, 0, sizeof form->hull_middle);
+    memset(form->hull_reach, 0, sizeof form->hull_reach);
+    form->least_weight = form->greatest_weight = 1;
+    if (rational) {
+        copy_values(&box, rounding, coarse, form);
+        measure_hull(&box, rounding, form);
+    }
+}

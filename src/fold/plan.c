@@ -1,0 +1,50 @@
+#include "fold/plan.h"
+#include "base/memory.h"
+#include "spline/basis.h"
+#include <string.h>
+
+static ffd_status make_extraction(const knot_vector *knots, double **extraction, ffd_error *error)
+{
+    const size_t size = (size_t)(knots->degree + 1) * (size_t)(knots->degree + 1);
+    *extraction = ffd_alloc(knots->span_count, size * sizeof(double));
+    if (!*extraction)
+        return ffd_fail_memory(error);
+    for (size_t s = 0; s < knots->span_count; s++) {
+        double matrix[MAX_ORDER * MAX_ORDER];
+        ffd_bezier_extraction(knots, knots->spans[s], matrix);
+        memcpy(*extraction + s * size, matrix, size * sizeof(double));
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_error *error)
+{
+    *plan = (fold_plan){.lattice = lattice, .rational = lattice->rest_weights != NULL, .cell_count = 1};
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *knots = &lattice->knots[a];
+        plan->order[a] = knots->degree + 1;
+        plan->cells[a] = knots->span_count;
+        plan->cell_count *= knots->span_count;
+        const ffd_status status = make_extraction(knots, &plan->extraction[a], error);
+        if (status)
+            return status;
+    }
+    return ffd_fold_volume(plan, &plan->volume, error);
+}
+
+void ffd_fold_plan_free(fold_plan *plan)
+{
+    for (int a = 0; a < 3; a++) {
+        ffd_free(plan->extraction[a]);
+        plan->extraction[a] = NULL;
+    }
+}
+
+void ffd_fold_cell_at(const fold_plan *plan, size_t number, size_t index[3], int span[3])
+{
+    index[0] = number % plan->cells[0];
+    index[1] = number / plan->cells[0] % plan->cells[1];
+    index[2] = number / plan->cells[0] / plan->cells[1];
+    for (int a = 0; a < 3; a++)
+        span[a] = plan->lattice->knots[a].spans[index[a]];
+}
