@@ -16,7 +16,8 @@ static const char *const space_names[] = {"scene", "mesh", NULL};
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"lattice", 'l', "FILE", "lattice file", cli_set_text, AT(lattice), NULL},
-    {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside", cli_set_text, AT(output), NULL},
+    {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside; statuses and hashes behind it",
+     cli_set_text, AT(output), NULL},
     {"status", 0, "FILE.npy", "uint8 a vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
      cli_set_text, AT(status), NULL},
     {"space", 0, "scene|mesh", "glTF: where the lattice stands; default scene", cli_set_choice, AT(space),

@@ -1,7 +1,9 @@
 #include "base/clock.h"
 #include "base/memory.h"
+#include "base/path.h"
 #include "base/thread.h"
 #include "io/npy/npy.h"
+#include "job/embedding_file.h"
 #include "job/placement.h"
 #include "job/source.h"
 #include <string.h>
@@ -12,17 +14,15 @@ void ffd_embed_desc_init(ffd_embed_desc *desc)
     desc->struct_size = sizeof *desc;
 }
 
-/* Arrays are written as this machine holds them. */
-static bool is_little_endian(void)
-{
-    const uint16_t one = 1;
-    unsigned char first;
-    memcpy(&first, &one, 1);
-    return first == 1;
-}
+/* The arrays of one embedding, and of what they are. */
+typedef struct embedding {
+    double *uvw;
+    uint8_t *statuses;
+    size_t count;
+    hash128 positions, lattice;
+} embedding;
 
-static ffd_status write_arrays(const ffd_embed_desc *desc, const double *uvw, const uint8_t *statuses,
-                               size_t count, ffd_error *error)
+static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made, ffd_error *error)
 {
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
@@ -30,15 +30,14 @@ static ffd_status write_arrays(const ffd_embed_desc *desc, const double *uvw, co
         return status;
     status = ffd_output_begin(output, desc->output, desc->force, error);
     if (!status)
-        status = ffd_npy_begin(output, is_little_endian() ? "<f8" : ">f8", count, 3, error);
-    if (!status)
-        status = ffd_output_write(output, uvw, 3 * count * sizeof *uvw, error);
+        status = ffd_embedding_write(output, made->uvw, made->statuses, made->count, &made->positions,
+                                     &made->lattice, error);
     if (!status && desc->status_output) {
         status = ffd_output_begin(output, desc->status_output, desc->force, error);
         if (!status)
-            status = ffd_npy_begin(output, "|u1", count, 0, error);
+            status = ffd_npy_begin(output, "|u1", made->count, 0, error);
         if (!status)
-            status = ffd_output_write(output, statuses, count, error);
+            status = ffd_output_write(output, made->statuses, made->count, error);
     }
     if (!status)
         status = ffd_output_commit(output, error);
@@ -53,6 +52,32 @@ static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd
     return ffd_output_check(path, desc->force, error);
 }
 
+/* Where a file that need not exist will appear; NULL where there is no folder for it, or no memory. */
+static char *place_of(const char *path)
+{
+    char *folder = ffd_path_folder(path);
+    char *resolved = folder ? ffd_path_resolve(folder) : NULL;
+    char *place = resolved ? ffd_path_join(resolved, ffd_path_name(path)) : NULL;
+    ffd_free(folder);
+    ffd_free(resolved);
+    return place;
+}
+
+static bool is_one_file(const char *a, const char *b)
+{
+    if (strcmp(a, b) == 0)
+        return true;
+    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0)
+        return false;
+    if (ffd_file_same(a, b))
+        return true;
+    char *x = place_of(a), *y = place_of(b);
+    const bool one = x && y && strcmp(x, y) == 0;
+    ffd_free(x);
+    ffd_free(y);
+    return one;
+}
+
 static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 {
     if (desc->struct_size != sizeof *desc || !desc->input.path || !desc->lattice || !desc->output)
@@ -60,8 +85,7 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
     ffd_status status = check_output(desc, desc->output, error);
     if (!status && desc->status_output)
         status = check_output(desc, desc->status_output, error);
-    if (!status && desc->status_output &&
-        (strcmp(desc->output, desc->status_output) == 0 || ffd_file_same(desc->output, desc->status_output)))
+    if (!status && desc->status_output && is_one_file(desc->output, desc->status_output))
         status =
             ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "is named for both u,v,w and the statuses");
     return status;
@@ -75,8 +99,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     mesh_document *document = NULL;
     lattice_chain chain;
     pass_totals totals;
-    double *uvw = NULL;
-    uint8_t *statuses = NULL;
+    embedding made = {0};
 
     ffd_status status = check_outputs(desc, error);
     if (!status)
@@ -93,10 +116,10 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     const double opened = ffd_clock_seconds();
     result->seconds_read = opened - start;
 
-    const size_t count = (size_t)ffd_pass_vertex_count(document);
-    uvw = ffd_alloc(count, 3 * sizeof *uvw);
-    statuses = ffd_alloc(count, sizeof *statuses);
-    if (!uvw || !statuses) {
+    made.count = (size_t)ffd_pass_vertex_count(document);
+    made.uvw = ffd_alloc(made.count, 3 * sizeof *made.uvw);
+    made.statuses = ffd_alloc(made.count, sizeof *made.statuses);
+    if (!made.uvw || !made.statuses) {
         status = ffd_fail_memory(error);
         goto out;
     }
@@ -104,21 +127,24 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
                             .chain = &chain,
                             .links = 1,
                             .threads = threads,
-                            .uvw = uvw,
-                            .statuses = statuses};
+                            .uvw = made.uvw,
+                            .statuses = made.statuses};
     status = ffd_pass_run(&pass, &totals, error);
     if (status)
         goto out;
     const double embedded = ffd_clock_seconds();
     ffd_result_fill(result, &totals, embedded - opened);
     ffd_result_warn(&totals, &log);
-    status = write_arrays(desc, uvw, statuses, count, error);
+    made.lattice = ffd_embedding_hash_lattice(chain.links[0].lattice);
+    status = ffd_embedding_hash_positions(document, threads, &made.positions, error);
+    if (!status)
+        status = write_files(desc, &made, error);
     result->seconds_write = ffd_clock_seconds() - embedded;
 out:
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(error, ffd_source_name(&desc->input));
-    ffd_free(uvw);
-    ffd_free(statuses);
+    ffd_free(made.uvw);
+    ffd_free(made.statuses);
     ffd_source_close(&document);
     ffd_chain_free(&chain);
     return status;

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """ffd embed: u,v,w and statuses as NumPy files."""
 import math
+import os
+import struct
 
 from harness import (CUBE, CUBE_CORNERS, INVALID, IO, USAGE, case, check, equal, glb, gltf_json, lattice, main, near, npy)
 
@@ -26,6 +28,71 @@ def both_arrays(run):
     check(all(math.isnan(x) for x in rows[8]), rows[8])
     near(rows[9], uvw([0.5, 0.25, 2]), 1e-15)
     equal(npy(run.read("s.npy")), ("|u1", (10,), [0] * 8 + [1, 0]))
+
+
+def trailer(data):
+    """What follows the array: the statuses, and the footer's members by name."""
+    footer = dict(zip(("positions", "lattice", "content", "count", "version", "reserved", "magic"),
+                      struct.unpack("<16s16s16sQII8s", data[-72:])))
+    statuses = data[10 + struct.unpack_from("<H", data, 8)[0] + 24 * footer["count"]:-72]
+    return list(statuses), footer
+
+
+def embedding(run, mesh="a.obj", lattice_file="l.json", *more):
+    """The footer of an embedding."""
+    run.ffd("embed", mesh, "-l", lattice_file, "-o", "e.npy", "--force", "-q", *more)
+    return trailer(run.read("e.npy"))[1]
+
+
+@case
+def the_trailer(run):
+    start(run)
+    for mesh in (CUBE, CUBE + "v 3 0 0\nv nan 0 0\nv 0.5 0.25 2\n", ""):
+        run.write("a.obj", mesh)
+        run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", "-q", "--force")
+        data = run.read("e.npy")
+        statuses, footer = trailer(data)
+        equal(statuses, npy(run.read("s.npy"))[2])
+        equal([footer[name] for name in ("count", "version", "reserved", "magic")],
+              [len(statuses), 1, 0, b"ffd-embd"])
+        equal(len(data), 10 + struct.unpack_from("<H", data, 8)[0] + 25 * len(statuses) + 72)
+
+
+@case
+def hashes_of_what_u_v_w_depends_on(run):
+    start(run)
+    first = embedding(run)
+    bent = lattice(moves=[{"at": [0, 0, 0], "by": [0, 0, 1]}])
+    run.write("moved.json", bent)
+    run.write("more.obj", "mtllib none.mtl\r\n" + CUBE.replace("\n", "\r\n") + "vn 0 0 1\r\n")
+    for mesh, lattice_file, more in (("a.obj", "moved.json", ()), ("more.obj", "l.json", ()),
+                                     ("a.obj", "l.json", ("-j", "1")), ("a.obj", "l.json", ("-j", "5"))):
+        equal(embedding(run, mesh, lattice_file, *more), first)
+    lines = CUBE.splitlines()
+    run.write("swapped.obj", "\n".join([lines[0], lines[2], lines[1], *lines[3:]]) + "\n")
+    run.write("nudged.obj", CUBE.replace("v 1 ", "v 1.0000000000000002 "))
+    for mesh in ("swapped.obj", "nudged.obj"):
+        other = embedding(run, mesh)
+        check(other["positions"] != first["positions"], mesh)
+        equal(other["lattice"], first["lattice"])
+    for name, other in (("box", lattice(high=(2, 2, 3))), ("degree", lattice(degree=[3, 2, 3])),
+                        ("weights", lattice(weights=[2] + 63 * [1])), ("size", lattice(size=(4, 5, 4)))):
+        run.write("o.json", other)
+        footer = embedding(run, lattice_file="o.json")
+        check(footer["lattice"] != first["lattice"], name)
+        equal(footer["positions"], first["positions"])
+
+
+@case
+def hashes_of_placed_positions(run):
+    """glTF: where the nodes show the mesh; the same positions of an OBJ are the same positions."""
+    start(run, low=(-20, -20, -20), high=(20, 20, 20))
+    run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
+    same = embedding(run)["positions"]
+    equal(embedding(run, "a.glb")["positions"], same)
+    run.write("moved.glb", glb(*gltf_json(CUBE_CORNERS, nodes=[{"mesh": 0, "translation": [10, 0, 0]}])))
+    check(embedding(run, "moved.glb")["positions"] != same, "another place")
+    equal(embedding(run, "moved.glb", "l.json", "--space", "mesh")["positions"], same)
 
 
 @case
@@ -104,6 +171,15 @@ def outputs(run):
     equal(run.ffd("embed", "a.obj", "-l", "l.json", "-o", "-").out, before)
     equal(run.ffd("embed", "-", "--input-format", "obj", "-l", "l.json", "-o", "-", stdin=CUBE.encode()).out, before)
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "-", "--status", "-", code=USAGE)
+    run.folder_of("k")
+    os.symlink("k", run.path("link"))
+    for one, two in (("x.npy", "x.npy"), ("./x.npy", "x.npy"), ("x.npy", "k/../x.npy"), ("k/x.npy", "link//x.npy"),
+                     (run.path("x.npy"), "x.npy"), ("e.npy", "./e.npy")):
+        run.ffd("embed", "a.obj", "-l", "l.json", "-o", one, "--status", two, "--force", code=USAGE, lines=None)
+        check(not run.exists("x.npy") and not run.exists("k/x.npy"), "nothing is written")
+    equal(run.read("e.npy"), before)
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "x.npy", "--status", "k/x.npy")
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "-", "--status", "./-")
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "none/e.npy", code=IO)
     run.ffd("embed", "none.obj", "-l", "l.json", "-o", "x.npy", code=IO)
     run.ffd("embed", "a.obj", "-l", "none.json", "-o", "x.npy", code=IO)

@@ -32,6 +32,7 @@ OUTSIDE = [
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf"}),
     (r"jansson\.h", {"lattice", "io/gltf", "job"}),
     (r"charconv", {"base"}),
+    (r"xxhash\.h|xxh3\.h", {"base"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/|dirent\.h|dlfcn\.h|sched\.h|windows\.h", {"base"}),
 ]
 

@@ -5,16 +5,15 @@
 /* The header is padded so that the values start at a multiple of this (NumPy's format 1.0). */
 #define ALIGNMENT 64
 
-ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, size_t columns,
-                         ffd_error *error)
+size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char header[NPY_HEADER_CAPACITY])
 {
-    char shape[64], header[4 * ALIGNMENT];
+    char shape[64];
     if (columns)
         snprintf(shape, sizeof shape, "(%zu, %zu)", rows, columns);
     else
         snprintf(shape, sizeof shape, "(%zu,)", rows);
     const size_t prefix = 10; /* magic, version, length of the text */
-    int length = snprintf(header + prefix, sizeof header - prefix,
+    int length = snprintf(header + prefix, NPY_HEADER_CAPACITY - prefix,
                           "{'descr': '%s', 'fortran_order': False, 'shape': %s, }", descr, shape);
     size_t size = prefix + (size_t)length;
     while ((size + 1) % ALIGNMENT != 0)
@@ -23,5 +22,20 @@ ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, si
     memcpy(header, "\x93NUMPY\x01\x00", 8);
     header[8] = (char)((size - prefix) & 0xff);
     header[9] = (char)((size - prefix) >> 8);
-    return ffd_output_write(output, header, size, error);
+    return size;
+}
+
+ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, size_t columns,
+                         ffd_error *error)
+{
+    char header[NPY_HEADER_CAPACITY];
+    return ffd_output_write(output, header, ffd_npy_header(descr, rows, columns, header), error);
+}
+
+bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, size_t rows, size_t columns,
+                    size_t *values)
+{
+    char header[NPY_HEADER_CAPACITY];
+    *values = ffd_npy_header(descr, rows, columns, header);
+    return size >= *values && memcmp(data, header, *values) == 0;
 }

@@ -5,9 +5,20 @@
 #include "base/file.h"
 #include <stdint.h>
 
-/* Writes the header of a C-order array of rows x columns (columns 0: one-dimensional) little-endian values;
-   descr is NumPy's ("<f8", "|u1"). The values follow by ffd_output_write. */
+/* Capacity that is enough for every header below. */
+#define NPY_HEADER_CAPACITY 256
+
+/* Makes the header of a C-order array of rows x columns values (columns 0: one-dimensional); descr is NumPy's
+   ("<f8", "|u1"). Returns its length, a multiple of 64. */
+size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char header[NPY_HEADER_CAPACITY]);
+
+/* Writes that header. The values follow by ffd_output_write. */
 ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, size_t columns,
                          ffd_error *error);
+
+/* Whether data starts with the header that ffd_npy_header makes for this array, to the byte; *values is then
+   the place of the first value. Headers that say the same in other words are not known. */
+bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, size_t rows, size_t columns,
+                    size_t *values);
 
 #endif

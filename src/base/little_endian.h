@@ -1,0 +1,43 @@
+/* little_endian.h - numbers as bytes, the lowest first, whatever the machine. */
+#ifndef FFD_BASE_LITTLE_ENDIAN_H
+#define FFD_BASE_LITTLE_ENDIAN_H
+
+#include <stdint.h>
+#include <string.h>
+
+static inline void store_u32(unsigned char bytes[4], uint32_t value)
+{
+    for (int i = 0; i < 4; i++)
+        bytes[i] = (unsigned char)(value >> (8 * i));
+}
+
+static inline void store_u64(unsigned char bytes[8], uint64_t value)
+{
+    for (int i = 0; i < 8; i++)
+        bytes[i] = (unsigned char)(value >> (8 * i));
+}
+
+static inline void store_double(unsigned char bytes[8], double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    store_u64(bytes, bits);
+}
+
+static inline uint32_t load_u32(const unsigned char bytes[4])
+{
+    uint32_t value = 0;
+    for (int i = 0; i < 4; i++)
+        value |= (uint32_t)bytes[i] << (8 * i);
+    return value;
+}
+
+static inline uint64_t load_u64(const unsigned char bytes[8])
+{
+    uint64_t value = 0;
+    for (int i = 0; i < 8; i++)
+        value |= (uint64_t)bytes[i] << (8 * i);
+    return value;
+}
+
+#endif
