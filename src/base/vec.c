@@ -11,6 +11,16 @@ static int exponent_of(double a, double b, double c, bool *usable)
     return exponent;
 }
 
+double ffd_vec_length_scaled(const double a[3])
+{
+    bool usable = true;
+    const int exponent = exponent_of(a[0], a[1], a[2], &usable);
+    if (!usable)
+        return fabs(a[0]) + fabs(a[1]) + fabs(a[2]); /* 0, infinite, or not a number */
+    const double scaled[3] = {ldexp(a[0], -exponent), ldexp(a[1], -exponent), ldexp(a[2], -exponent)};
+    return ldexp(sqrt(vec_dot(scaled, scaled)), exponent);
+}
+
 bool ffd_mat_invert_scaled(const double m[9], double out[9])
 {
     double scaled[9], cofactor[9], result[9];

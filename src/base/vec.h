@@ -10,9 +10,13 @@ static inline double vec_dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* vec_length for vectors whose squares leave the range of doubles, or may have lost bits at its lower end. */
+double ffd_vec_length_scaled(const double a[3]);
+
 static inline double vec_length(const double a[3])
 {
-    return sqrt(vec_dot(a, a));
+    const double square = vec_dot(a, a);
+    return square > 1e-280 && square < 1e300 ? sqrt(square) : ffd_vec_length_scaled(a);
 }
 
 /* out must be neither a nor b. */
