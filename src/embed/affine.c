@@ -66,15 +66,16 @@ static bool map_fits(const ffd_locator *locator, const double frame[9], const do
     return true;
 }
 
-/* Whether the determinant is more than the rounding of its own terms. */
+/* Whether the determinant is more than the rounding of its own terms, with columns brought to length 1. */
 static bool has_volume(const double frame[9])
 {
-    double product = 1;
+    double unit[9];
     for (int a = 0; a < 3; a++) {
-        const double column[3] = {frame[a], frame[3 + a], frame[6 + a]};
-        product *= vec_length(column);
+        const double column[3] = {frame[a], frame[3 + a], frame[6 + a]}, length = vec_length(column);
+        for (int r = 0; r < 3; r++)
+            unit[3 * r + a] = column[r] / length;
     }
-    return fabs(mat_determinant(frame)) > 16 * DBL_EPSILON * product;
+    return fabs(mat_determinant(unit)) > 16 * DBL_EPSILON;
 }
 
 bool ffd_affine_detect(ffd_locator *locator)
@@ -135,12 +136,19 @@ void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location
     mat_apply(map->inverse, p, t);
     refine(map, p, tolerance, t);
     for (int a = 0; a < 3; a++) {
-        const double inner = clip_to_unit(t[a]);
+        const double inner = clip_to_unit(t[a]), *row = map->inverse + 3 * a;
+        /* What a point within the tolerance can be off by, roundings included. */
+        const double reach =
+            fabs(row[0]) * tolerance[0] + fabs(row[1]) * tolerance[1] + fabs(row[2]) * tolerance[2];
+        if (fabs(t[a] - inner) > 4 * reach)
+            return;
         clipped = clipped || inner != t[a];
         t[a] = inner;
     }
     affine_equation(map, p, t, residual);
-    if (clipped && ffd_face_step(map->frame, residual, t))
+    for (int step = 0; step < FACE_STEPS && clipped && !ffd_within_tolerance(residual, tolerance) &&
+                       ffd_face_step(map->frame, residual, tolerance, t);
+         step++)
         affine_equation(map, p, t, residual);
     if (!ffd_within_tolerance(residual, tolerance))
         return;

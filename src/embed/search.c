@@ -141,7 +141,7 @@ static bool accepted(const point_search *search, const sample *at, double weight
 static void settle_on_face(point_search *search, const cell_region *region, double t[3], sample *at)
 {
     for (int round = 0; round < 2; round++) {
-        if (!ffd_face_step(at->jacobian, at->equation, t))
+        if (!ffd_face_step(at->jacobian, at->equation, search->tolerance, t))
             return;
         evaluate_in(search, region, t, at);
     }
