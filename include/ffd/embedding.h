@@ -5,6 +5,7 @@
 #include <ffd/error.h>
 #include <ffd/export.h>
 #include <ffd/lattice.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -17,7 +18,7 @@ typedef enum ffd_vertex_status {
     FFD_INSIDE = 0,       /* exactly one u,v,w */
     FFD_OUTSIDE = 1,      /* none within the tolerance */
     FFD_MULTIPLE = 2,     /* two or more: the lattice overlaps itself */
-    FFD_SINGULAR = 3,     /* u,v,w where det J = 0 to rounding, or a set of them */
+    FFD_SINGULAR = 3,     /* u,v,w where det J = 0 to rounding, or a set of them; or the search gave up */
     FFD_POINT_INVALID = 4 /* a coordinate is not finite */
 } ffd_vertex_status;
 
@@ -28,9 +29,11 @@ typedef enum ffd_vertex_status {
 typedef struct ffd_locator ffd_locator;
 
 typedef struct ffd_location {
-    double uvw[3];        /* in the knots' range; NaN where outside or invalid */
-    double residual;      /* |C(u,v,w) - p|, world units (Euclidean); 0 where there is no u,v,w */
-    uint8_t status;       /* ffd_vertex_status */
+    double uvw[3];   /* in the knots' range; NaN where there is none */
+    double residual; /* |C(u,v,w) - p|, world units (Euclidean); 0 where there is no u,v,w */
+    uint8_t status;  /* ffd_vertex_status */
+    bool unresolved; /* the search's limits ended it: there may be u,v,w that it did not come to. Never with
+                        FFD_INSIDE or FFD_OUTSIDE. */
     uint32_t evaluations; /* of C with its Jacobian; 0 for an affine or separable lattice's closed forms */
     uint32_t leaves;      /* leaves of the search structure that were looked into */
 } ffd_location;

@@ -5,7 +5,9 @@
 #define FFD_EMBED_CELLS_H
 
 #include "embed/bezier_box.h"
+#include "embed/collapse.h"
 #include "embed/locator.h"
+#include <math.h>
 #include <stdatomic.h>
 
 #define BRICK_SIDE 4    /* cells along each direction */
@@ -24,10 +26,12 @@ typedef struct cell_region {
 
 typedef struct cell_leaf {
     cell_region region; /* hard: only span is set */
-    bounds hull;        /* of C, origin subtracted */
-    bounds image;       /* of Y C, without weights only */
+    bounds hull;        /* of C, in the search's units */
+    union {
+        bounds image; /* of Y C, without weights only */
+        bounds part;  /* hard: of the cell, [0,1]^3 */
+    };
     bool hard;
-    double part_lo[3], part_hi[3]; /* of the cell, for hard leaves */
 } cell_leaf;
 
 typedef struct cell_brick {
@@ -36,18 +40,53 @@ typedef struct cell_brick {
     box_tree tree;
 } cell_brick;
 
+/* Leaves of light bricks (no more than so many a brick) are kept up to a total; beyond it each search makes
+   the bricks it needs for itself and keeps a few. Heavy bricks, of lattices that fold in every cell, cost too
+   much to be made twice: all are kept, and a mesh that needs more of them is refused (of degrees above 3 as
+   many fewer as their leaves are larger). */
+#define LIGHT_LEAVES (16 * BRICK_SIDE * BRICK_SIDE * BRICK_SIDE)
+#define MOST_LIGHT_LEAVES ((size_t)1 << 21)
+#define MOST_HEAVY_LEAVES ((size_t)1 << 20)
+
+/* The bricks that one search made for itself, each at its number modulo the size. */
+#define OWN_BRICKS 64
+typedef struct own_bricks {
+    cell_brick *brick[OWN_BRICKS];
+    uint32_t number[OWN_BRICKS];
+} own_bricks;
+void ffd_own_bricks_free(own_bricks *own);
+
 typedef struct cell_search {
     int order[3];
     size_t cells[3]; /* non-empty spans */
     size_t bricks[3];
     bool rational;
-    double volume_sign;    /* of the lattice's signed volume: -1, 1 */
-    double *points;        /* h (P - origin) and h: BEZIER_COMPONENTS a control point */
+    /* The search's units: powers of two that bring the lattice and its weights to size 1, so that products of
+       three derivatives stay in the range of doubles. x = (P - origin) scale. */
+    double scale;
+    double extent[3];   /* max |x_a| over the control points */
+    double volume_sign; /* of the lattice's signed volume: -1, 1 */
+    double *points;     /* h x and h: BEZIER_COMPONENTS a control point */
+    bool is_seam[3];    /* the first and the last face of this direction are one (ffd_lattice_is_seam) */
+    collapse_list collapses;
     double *extraction[3]; /* of each span: order x order */
     bounds *brick_hulls;
     box_tree brick_tree;
-    _Atomic(cell_brick *) *made; /* one for each brick */
+    _Atomic(cell_brick *) *made;              /* one for each brick */
+    atomic_size_t light_leaves, heavy_leaves; /* kept so far */
 } cell_search;
+
+/* 16 eps (max|x_a| + |x|): the tolerance of maths.md 6.6 in the search's units. */
+static inline void ffd_cells_tolerance(const cell_search *cells, const double x[3], double tolerance[3])
+{
+    for (int a = 0; a < 3; a++)
+        tolerance[a] = 16 * DBL_EPSILON * (cells->extent[a] + fabs(x[a]));
+}
+
+/* h x, h of the control point that the basis functions with these numbers share. */
+const double *ffd_cells_point(const ffd_locator *locator, const size_t function[3]);
+/* Spans by numbers of non-empty spans. */
+void ffd_cell_spans(const ffd_lattice *lattice, const size_t cell[3], int span[3]);
 
 /* The Bezier form of a cell; box->coefficients has ffd_bezier_size doubles. cell counts non-empty spans. */
 void ffd_cell_bezier(const ffd_locator *locator, const size_t cell[3], bezier_box *box);
@@ -56,9 +95,14 @@ void ffd_cell_bezier(const ffd_locator *locator, const size_t cell[3], bezier_bo
 void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier_box *box,
                      const contraction_bound *contraction, cell_region *result);
 
-/* The brick with this number, made if need be; lent by the locator. */
-ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, const cell_brick **brick,
-                           ffd_error *error);
+/* brick.c: the hulls of all bricks and their tree; bricks themselves are made when they are asked for. */
+ffd_status ffd_bricks_create(const ffd_locator *locator, ffd_error *error);
+void ffd_bricks_free(cell_search *cells);
+
+/* The brick with this number, made if need be; lent by the locator, or by own until its next brick. Errors:
+   FFD_E_MEMORY, FFD_E_LIMIT. */
+ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bricks *own,
+                           const cell_brick **brick, ffd_error *error);
 
 /* A(u,v,w) and W, with their derivatives, from the polynomial of the given span (also at its ends). */
 typedef struct homogeneous {
@@ -67,5 +111,8 @@ typedef struct homogeneous {
 } homogeneous;
 void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double uvw[3],
                         homogeneous *result);
+
+/* cell_volume.c: finds volume_sign; FFD_E_INVALID where a cell has no volume. */
+ffd_status ffd_cells_look_at_volume(const ffd_locator *locator, ffd_error *error);
 
 #endif

@@ -1,0 +1,189 @@
+/* hard.c - leaves without a contraction bound, near folds and collapses: halved for one point (maths.md 6.5).
+ */
+#include "base/memory.h"
+#include "base/vec.h"
+#include "embed/face.h"
+#include "embed/search.h"
+#include <string.h>
+
+/* A box is halved this often in each direction. */
+#define HARD_HALVINGS 24
+#define HARD_LEVELS (3 * HARD_HALVINGS + 2)
+#define HARD_BUDGET 4096 /* boxes in one leaf */
+#define HARD_BOUND 0.75
+#define POLISH_ROUNDS 12
+/* Singular boxes that are polished in one hard leaf before the rest of it is left. */
+#define HARD_SINGULAR 8
+
+static bool make_memory(point_search *search)
+{
+    const int *order = search->locator->cells->order;
+    search_scratch *scratch = search->scratch;
+    if (!scratch->slots)
+        scratch->slots = ffd_alloc(HARD_LEVELS + 1, ffd_bezier_size(order) * sizeof(double));
+    if (!scratch->numbers)
+        scratch->numbers = ffd_alloc(3 * ffd_bezier_count(order), sizeof(double));
+    if (scratch->slots && scratch->numbers)
+        return true;
+    search->status = ffd_fail_memory(search->error);
+    return false;
+}
+
+/* Levenberg's damped step: the direction that J cannot see rests, the others go to the solution. */
+static bool damped_step(const double jacobian[9], const double equation[3], double step[3])
+{
+    double normal[9], gradient[3], inverse[9], trace = 0;
+    const double *j = jacobian;
+    for (int r = 0; r < 3; r++) {
+        gradient[r] = -(j[r] * equation[0] + j[3 + r] * equation[1] + j[6 + r] * equation[2]);
+        for (int c = 0; c < 3; c++)
+            normal[3 * r + c] = j[r] * j[c] + j[3 + r] * j[3 + c] + j[6 + r] * j[6 + c];
+        trace += normal[4 * r];
+    }
+    for (int r = 0; r < 3; r++)
+        normal[4 * r] += 1e-9 * trace;
+    if (!mat_invert(normal, inverse))
+        return false;
+    mat_apply(inverse, gradient, step);
+    return true;
+}
+
+/* A box too small to halve further, where J is singular or nearly so. */
+static bool polish(point_search *search, const cell_region *region)
+{
+    double t[3] = {0.5, 0.5, 0.5};
+    sample at;
+    ffd_search_evaluate_in(search, region, t, &at);
+    for (int round = 0; round < POLISH_ROUNDS; round++) {
+        double jacobian[9], equation[3], step[3];
+        if (ffd_search_accepts(search, &at, region->weight_ratio)) {
+            ffd_search_record(search, region, t, &at, true);
+            return true;
+        }
+        if (!ffd_weigh_rows(at.jacobian, at.equation, search->tolerance, jacobian, equation) ||
+            !damped_step(jacobian, equation, step))
+            return false;
+        for (int a = 0; a < 3; a++)
+            t[a] = clip_to_unit(t[a] + step[a]);
+        ffd_search_evaluate_in(search, region, t, &at);
+    }
+    return false;
+}
+
+typedef struct hard_search {
+    point_search *search;
+    int span[3];
+    int budget, singular;
+} hard_search;
+
+static bool holds_zero(const bounds *box, const double slack[3])
+{
+    static const double zero[3] = {0, 0, 0};
+    return bounds_hold(box, zero, slack);
+}
+
+/* The direction to halve: that of the contraction bound, or the longest where that one is short enough; -1:
+   all are. */
+static int direction_to_halve(const bezier_box *box, int wanted)
+{
+    const double end = ldexp(1, -HARD_HALVINGS);
+    int across = wanted;
+    if (box->hi[across] - box->lo[across] <= end)
+        for (int a = 0; a < 3; a++)
+            if (box->hi[a] - box->lo[a] > box->hi[across] - box->lo[across])
+                across = a;
+    return box->hi[across] - box->lo[across] <= end ? -1 : across;
+}
+
+/* Whether the box is done with: it holds no root, or its one root was looked for. */
+static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bound *found,
+                       cell_region *region)
+{
+    static const double no_reach[3] = {0, 0, 0};
+    point_search *search = hard->search;
+    double least, most, slack[3];
+    ffd_bezier_weights(box, &least, &most);
+    for (int a = 0; a < 3; a++)
+        slack[a] = search->slack[a] * most;
+    bounds hull = ffd_bezier_equation_hull(box, search->x);
+    if (!holds_zero(&hull, slack))
+        return true;
+    ffd_bezier_contraction(box, search->x, no_reach, search->scratch->numbers, found);
+    ffd_cell_region(search->locator, hard->span, box, found, region);
+    if (!found->regular)
+        return false;
+    const double noise = ffd_image_of_tolerance(found->inverse, slack, 1);
+    const double image_slack[3] = {noise, noise, noise};
+    hull = ffd_bezier_image(box, found->inverse, search->x);
+    if (!holds_zero(&hull, image_slack))
+        return true;
+    if (found->bound > HARD_BOUND)
+        return false;
+    ffd_search_region(search, region);
+    return true;
+}
+
+static void halve_for_point(hard_search *hard, bezier_box *box, int level)
+{
+    point_search *search = hard->search;
+    contraction_bound found;
+    cell_region region;
+    if (hard->singular >= HARD_SINGULAR)
+        return;
+    if (hard->budget-- <= 0 || search->hard_boxes-- <= 0) {
+        search->unresolved = true;
+        return;
+    }
+    if (settle_box(hard, box, &found, &region))
+        return;
+    const int across = direction_to_halve(box, found.halve);
+    if (across < 0) {
+        if (polish(search, &region))
+            hard->singular++;
+        else
+            search->unresolved = true;
+        return;
+    }
+    bezier_box lower = {.coefficients =
+                            search->scratch->slots + (size_t)(level + 1) * ffd_bezier_size(box->order)};
+    bezier_box upper = {.coefficients = box->coefficients};
+    ffd_bezier_halve(box, across, &lower, &upper);
+    halve_for_point(hard, &lower, level + 1);
+    halve_for_point(hard, &upper, level + 1);
+}
+
+/* Cuts box down to the part [lo, hi] of its cell, both reached by halving. */
+static void restrict_to_part(bezier_box *box, const double lo[3], const double hi[3], double *spare)
+{
+    for (int a = 0; a < 3; a++)
+        while (box->lo[a] < lo[a] || box->hi[a] > hi[a]) {
+            bezier_box lower = {.coefficients = spare}, upper = {.coefficients = box->coefficients};
+            ffd_bezier_halve(box, a, &lower, &upper);
+            if (lo[a] < lower.hi[a]) {
+                memcpy(upper.coefficients, lower.coefficients, ffd_bezier_size(box->order) * sizeof(double));
+                lower.coefficients = upper.coefficients;
+                *box = lower;
+            } else {
+                *box = upper;
+            }
+        }
+}
+
+void ffd_search_hard_leaf(point_search *search, const cell_leaf *leaf)
+{
+    const ffd_lattice *lattice = search->locator->lattice;
+    if (!make_memory(search))
+        return;
+    hard_search hard = {.search = search, .budget = HARD_BUDGET};
+    bezier_box box = {.coefficients = search->scratch->slots};
+    size_t cell[3];
+    for (int a = 0; a < 3; a++) {
+        hard.span[a] = leaf->region.span[a];
+        cell[a] = 0;
+        while (lattice->knots[a].spans[cell[a]] != hard.span[a])
+            cell[a]++;
+    }
+    ffd_cell_bezier(search->locator, cell, &box);
+    restrict_to_part(&box, leaf->part.lo, leaf->part.hi, search->scratch->slots + ffd_bezier_size(box.order));
+    halve_for_point(&hard, &box, 0);
+}

@@ -1,0 +1,139 @@
+/* leaf.c - the one root of a region, by its contraction (maths.md 6.4). */
+#include "base/vec.h"
+#include "embed/face.h"
+#include "embed/search.h"
+#include <string.h>
+
+/* Newton steps in one leaf: the certified radius at least halves with each, and 2^-64 is below any rounding.
+ */
+#define LEAF_STEPS 64
+
+static double greatest(const double v[3])
+{
+    const double x = fabs(v[0]), y = fabs(v[1]), z = fabs(v[2]);
+    return x > y ? (x > z ? x : z) : (y > z ? y : z);
+}
+
+/* u = lo + t width, never past the region's end. */
+static void place(const cell_region *region, const double t[3], double uvw[3])
+{
+    for (int a = 0; a < 3; a++)
+        uvw[a] = region->lo[a] + t[a] * region->width[a];
+}
+
+void ffd_search_evaluate_in(point_search *search, const cell_region *region, const double t[3], sample *at)
+{
+    double uvw[3];
+    place(region, t, uvw);
+    ffd_search_evaluate(search, region->span, uvw, at);
+    for (int i = 0; i < 9; i++)
+        at->jacobian[i] *= region->width[i % 3];
+}
+
+/* t + step, clipped to the box. */
+static void step_from(const double t[3], const double step[3], double to[3])
+{
+    for (int a = 0; a < 3; a++)
+        to[a] = clip_to_unit(t[a] + step[a]);
+}
+
+/* The full Newton step -J^{-1} F by Cramer's rule; false where J is singular. */
+static bool newton_step(const sample *at, double step[3])
+{
+    double inverse[9];
+    if (!mat_invert(at->jacobian, inverse))
+        return false;
+    mat_apply(inverse, at->equation, step);
+    for (int a = 0; a < 3; a++)
+        step[a] = -step[a];
+    return true;
+}
+
+/* A root may lie a rounding outside the box: the closest point of the face that it left through. */
+static void settle_on_face(point_search *search, const cell_region *region, double t[3], sample *at)
+{
+    for (int step = 0; step < FACE_STEPS && !ffd_search_accepts(search, at, region->weight_ratio) &&
+                       ffd_face_step(at->jacobian, at->equation, search->tolerance, t);
+         step++)
+        ffd_search_evaluate_in(search, region, t, at);
+}
+
+/* Whether the determinant is no more than the rounding of its own terms. */
+static bool is_singular(const double jacobian[9], double *determinant)
+{
+    double column[3][3], cross[3];
+    for (int a = 0; a < 3; a++)
+        for (int r = 0; r < 3; r++)
+            column[a][r] = jacobian[3 * r + a];
+    vec_cross(column[1], column[2], cross);
+    *determinant = vec_dot(column[0], cross);
+    return !(fabs(*determinant) >
+             16 * DBL_EPSILON * vec_length(column[0]) * vec_length(column[1]) * vec_length(column[2]));
+}
+
+void ffd_search_record(point_search *search, const cell_region *region, const double t[3], const sample *at,
+                       bool singular)
+{
+    root found = {.residual = vec_length(at->residual)};
+    double inverse[9];
+    found.singular = is_singular(at->jacobian, &found.determinant) || singular;
+    place(region, t, found.uvw);
+    for (int a = 0; a < 3; a++)
+        found.uvw[a] = ffd_knots_wrap(&search->locator->knots[a], found.uvw[a]);
+    if (mat_invert(at->jacobian, inverse))
+        for (int a = 0; a < 3; a++) {
+            const double *row = inverse + 3 * a;
+            found.spread[a] = 4 * region->width[a] * at->weight *
+                              (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
+                               fabs(row[2]) * search->tolerance[2]);
+        }
+    ffd_roots_add(search->locator, &search->roots, &found);
+}
+
+/* e bounds |t - root| throughout, if there is a root: Y F
+   contracts distances from it by L, clipping does not lengthen them, and any t has |Y F(t)| between (1-L) and
+   (1+L) times its distance (maths.md 6.4). */
+void ffd_search_region(point_search *search, const cell_region *region)
+{
+    const double noise = ffd_image_of_tolerance(region->inverse, search->tolerance, region->greatest_weight);
+    const double bound = region->bound, least = fmax(1e-12, 4 * noise);
+    double t[3] = {0.5, 0.5, 0.5}, e = 0.5, image[3], step[3], next[3];
+    sample at, ahead;
+    ffd_search_evaluate_in(search, region, t, &at);
+    for (int i = 0; i < LEAF_STEPS; i++) {
+        if (ffd_search_accepts(search, &at, region->weight_ratio)) {
+            ffd_search_record(search, region, t, &at, false);
+            return;
+        }
+        mat_apply(region->inverse, at.equation, image);
+        if (!(greatest(image) <= (1 + bound) * e + noise))
+            return; /* also where a value is not finite */
+        const double shorter = bound * e + noise;
+        double radius = shorter;
+        bool kept = false;
+        if (newton_step(&at, step)) {
+            double ahead_image[3];
+            step_from(t, step, next);
+            ffd_search_evaluate_in(search, region, next, &ahead);
+            mat_apply(region->inverse, ahead.equation, ahead_image);
+            radius = (greatest(ahead_image) + noise) / (1 - bound);
+            kept = radius <= shorter || ffd_search_accepts(search, &ahead, region->weight_ratio);
+        }
+        if (!kept) {
+            for (int a = 0; a < 3; a++)
+                step[a] = -image[a];
+            step_from(t, step, next);
+            ffd_search_evaluate_in(search, region, next, &ahead);
+            radius = shorter;
+        }
+        const bool stands = memcmp(t, next, sizeof t) == 0;
+        memcpy(t, next, sizeof t);
+        at = ahead;
+        e = radius > least ? radius : least;
+        if (stands)
+            break;
+    }
+    settle_on_face(search, region, t, &at);
+    if (ffd_search_accepts(search, &at, region->weight_ratio))
+        ffd_search_record(search, region, t, &at, false);
+}

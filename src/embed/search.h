@@ -1,0 +1,55 @@
+/* search.h - the search for one point: what its parts share. Nothing is carried from one point to the next
+   but memory. */
+#ifndef FFD_EMBED_SEARCH_H
+#define FFD_EMBED_SEARCH_H
+
+#include "embed/roots.h"
+
+struct search_scratch {
+    double *slots;   /* coefficients of a hard leaf's halvings */
+    double *numbers; /* of the contraction bound */
+    own_bricks own;
+};
+
+typedef struct point_search {
+    const ffd_locator *locator;
+    double x[3], tolerance[3]; /* the point, in the search's units, and its tolerance there */
+    double slack[3];           /* that of hulls */
+    search_scratch *scratch;
+    root_list roots;
+    bool unresolved; /* a part of the lattice is left in which nothing could be shown */
+    long hard_boxes; /* that may still be looked at */
+    uint32_t bricks; /* looked into */
+    uint32_t evaluations, leaves;
+    ffd_status status;
+    ffd_error *error;
+} point_search;
+
+/* C - x and F's derivatives at one u,v,w. */
+typedef struct sample {
+    double equation[3]; /* F = A - x W */
+    double residual[3]; /* C - x = F / W */
+    double jacobian[9]; /* of F, row by row: by u,v,w, or by a region's t */
+    double weight;
+} sample;
+
+void ffd_search_evaluate(point_search *search, const int span[3], const double uvw[3], sample *at);
+/* The same at t of a region. */
+void ffd_search_evaluate_in(point_search *search, const cell_region *region, const double t[3], sample *at);
+
+/* Whether the residual is within the tolerance. */
+bool ffd_search_accepts(const point_search *search, const sample *at, double weight_ratio);
+
+/* The greatest row of |Y| tolerance: what a rounding of C can do to t. */
+double ffd_image_of_tolerance(const double inverse[9], const double tolerance[3], double weight);
+
+/* leaf.c: records the root at t, whose sample is `at`. */
+void ffd_search_record(point_search *search, const cell_region *region, const double t[3], const sample *at,
+                       bool singular);
+/* Finds the region's root or shows that it has none. */
+void ffd_search_region(point_search *search, const cell_region *region);
+
+/* hard.c: a hard leaf is halved for this point alone. */
+void ffd_search_hard_leaf(point_search *search, const cell_leaf *leaf);
+
+#endif
