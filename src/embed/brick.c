@@ -96,6 +96,7 @@ static bool add_leaf(cell_cutter *cutter, const bezier_box *box, const bounds *h
     if (!hard) {
         static const double zero[3] = {0, 0, 0};
         ffd_cell_region(cutter->locator, cutter->span, box, found, &leaf->region);
+        ffd_cells_centre(cutter->locator, &leaf->region);
         leaf->image = ffd_bezier_image(box, found->inverse, zero);
     }
     return true;

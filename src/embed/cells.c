@@ -158,6 +158,16 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
     }
 }
 
+void ffd_cells_centre(const ffd_locator *locator, cell_region *region)
+{
+    homogeneous at;
+    double uvw[3];
+    for (int a = 0; a < 3; a++)
+        uvw[a] = region->lo[a] + 0.5 * region->width[a];
+    ffd_cells_evaluate(locator, region->span, uvw, &at);
+    memcpy(region->centre, at.value, sizeof region->centre);
+}
+
 ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
 {
     const ffd_lattice *lattice = locator->lattice;

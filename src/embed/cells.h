@@ -19,8 +19,9 @@
 typedef struct cell_region {
     int span[3];
     double lo[3], width[3];
-    double inverse[9]; /* Y */
-    double bound;      /* L < 1 */
+    double inverse[9];                /* Y */
+    double bound;                     /* L < 1 */
+    double centre[BEZIER_COMPONENTS]; /* A and W there (ffd_cells_centre) */
     double greatest_weight, weight_ratio;
 } cell_region;
 
@@ -91,13 +92,16 @@ void ffd_cell_spans(const ffd_lattice *lattice, const size_t cell[3], int span[3
 /* The Bezier form of a cell; box->coefficients has ffd_bezier_size doubles. cell counts non-empty spans. */
 void ffd_cell_bezier(const ffd_locator *locator, const size_t cell[3], bezier_box *box);
 
-/* The region of a part of a cell whose contraction is known. */
+/* The region of a part of a cell whose contraction is known; its centre is not set. */
 void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier_box *box,
                      const contraction_bound *contraction, cell_region *result);
 
 /* brick.c: the hulls of all bricks and their tree; bricks themselves are made when they are asked for. */
 ffd_status ffd_bricks_create(const ffd_locator *locator, ffd_error *error);
 void ffd_bricks_free(cell_search *cells);
+
+/* Evaluates the region's centre. */
+void ffd_cells_centre(const ffd_locator *locator, cell_region *region);
 
 /* The brick with this number, made if need be; lent by the locator, or by own until its next brick. Errors:
    FFD_E_MEMORY, FFD_E_LIMIT. */

@@ -119,6 +119,8 @@ static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bou
         return true;
     if (found->bound > HARD_BOUND)
         return false;
+    ffd_cells_centre(search->locator, region);
+    search->evaluations++;
     ffd_search_region(search, region);
     return true;
 }

@@ -90,17 +90,56 @@ void ffd_search_record(point_search *search, const cell_region *region, const do
     ffd_roots_add(search->locator, &search->roots, &found);
 }
 
-/* e bounds |t - root| throughout, if there is a root: Y F
-   contracts distances from it by L, clipping does not lengthen them, and any t has |Y F(t)| between (1-L) and
-   (1+L) times its distance (maths.md 6.4). */
+/* The first step, -Y F from the centre, whose value is known: false where the region has no root. */
+static bool leave_centre(const point_search *search, const cell_region *region, double noise, double t[3],
+                         double *e)
+{
+    static const double middle[3] = {0.5, 0.5, 0.5};
+    double equation[3], step[3];
+    for (int r = 0; r < 3; r++)
+        equation[r] = search->x[r] * region->centre[3] - region->centre[r];
+    mat_apply(region->inverse, equation, step);
+    if (!(greatest(step) <= (1 + region->bound) * *e + noise))
+        return false;
+    step_from(middle, step, t);
+    *e = region->bound * *e + noise;
+    return true;
+}
+
+/* What a step led to. */
+typedef struct stride {
+    double t[3], radius; /* the new place, and a bound of its distance from the root */
+    sample at;
+} stride;
+
+/* Newton's step, where it brings the certified radius below that of the contraction. */
+static bool newton_stride(point_search *search, const cell_region *region, const double t[3],
+                          const sample *at, double noise, double shorter, stride *ahead)
+{
+    double step[3], image[3];
+    if (!newton_step(at, step))
+        return false;
+    step_from(t, step, ahead->t);
+    ffd_search_evaluate_in(search, region, ahead->t, &ahead->at);
+    mat_apply(region->inverse, ahead->at.equation, image);
+    ahead->radius = (greatest(image) + noise) / (1 - region->bound);
+    return ahead->radius <= shorter || ffd_search_accepts(search, &ahead->at, region->weight_ratio);
+}
+
+/* e bounds |t - root| throughout, if there is a root: Y F contracts distances from it by L, clipping does not
+   lengthen them, and any t has |Y F(t)| between (1-L) and (1+L) times its distance. */
 void ffd_search_region(point_search *search, const cell_region *region)
 {
     const double noise = ffd_image_of_tolerance(region->inverse, search->tolerance, region->greatest_weight);
     const double bound = region->bound, least = fmax(1e-12, 4 * noise);
-    double t[3] = {0.5, 0.5, 0.5}, e = 0.5, image[3], step[3], next[3];
-    sample at, ahead;
+    double t[3], e = 0.5, image[3];
+    sample at;
+    if (!leave_centre(search, region, noise, t, &e))
+        return;
     ffd_search_evaluate_in(search, region, t, &at);
     for (int i = 0; i < LEAF_STEPS; i++) {
+        stride ahead;
+        e = e > least ? e : least;
         if (ffd_search_accepts(search, &at, region->weight_ratio)) {
             ffd_search_record(search, region, t, &at, false);
             return;
@@ -109,27 +148,17 @@ void ffd_search_region(point_search *search, const cell_region *region)
         if (!(greatest(image) <= (1 + bound) * e + noise))
             return; /* also where a value is not finite */
         const double shorter = bound * e + noise;
-        double radius = shorter;
-        bool kept = false;
-        if (newton_step(&at, step)) {
-            double ahead_image[3];
-            step_from(t, step, next);
-            ffd_search_evaluate_in(search, region, next, &ahead);
-            mat_apply(region->inverse, ahead.equation, ahead_image);
-            radius = (greatest(ahead_image) + noise) / (1 - bound);
-            kept = radius <= shorter || ffd_search_accepts(search, &ahead, region->weight_ratio);
-        }
-        if (!kept) {
+        if (!newton_stride(search, region, t, &at, noise, shorter, &ahead)) {
             for (int a = 0; a < 3; a++)
-                step[a] = -image[a];
-            step_from(t, step, next);
-            ffd_search_evaluate_in(search, region, next, &ahead);
-            radius = shorter;
+                image[a] = -image[a];
+            step_from(t, image, ahead.t);
+            ffd_search_evaluate_in(search, region, ahead.t, &ahead.at);
+            ahead.radius = shorter;
         }
-        const bool stands = memcmp(t, next, sizeof t) == 0;
-        memcpy(t, next, sizeof t);
-        at = ahead;
-        e = radius > least ? radius : least;
+        const bool stands = memcmp(t, ahead.t, sizeof t) == 0;
+        memcpy(t, ahead.t, sizeof t);
+        at = ahead.at;
+        e = ahead.radius;
         if (stands)
             break;
     }

@@ -8,6 +8,7 @@
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "base/vec.h"
+#include "embed/cells.h"
 #include <ffd/embedding.h>
 #include <float.h>
 
@@ -364,6 +365,172 @@ static void test_collapsed_face(void **state)
 }
 
 /* Memory that runs out anywhere is told, and nothing is lost. */
+/* The cost of a vertex, counted, not timed. */
+static void test_cost(void **state)
+{
+    enum { POINTS = 4000 };
+    ffd_lattice *lattice = clamped(3, 8);
+    ffd_locator *locator;
+    draw d = {draw_seed()};
+    double *xyz = malloc(POINTS * 3 * sizeof *xyz), evaluations = 0, leaves = 0;
+    ffd_location *found = malloc(POINTS * sizeof *found);
+    assert_true(xyz && found);
+    set_points(lattice, warped_map);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    for (int i = 0; i < POINTS; i++) {
+        const double uvw[3] = {draw_unit(&d), draw_unit(&d), draw_unit(&d)};
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, xyz + 3 * i, NULL);
+    }
+    assert_int_equal(ffd_locator_find(locator, xyz, POINTS, found, NULL), FFD_OK);
+    for (int i = 0; i < POINTS; i++) {
+        evaluations += found[i].evaluations;
+        leaves += found[i].leaves;
+    }
+    print_message("%.3f evaluations and %.3f leaves a point\n", evaluations / POINTS, leaves / POINTS);
+    assert_true(evaluations <= 5.0 * POINTS);
+    assert_true(leaves <= 2.0 * POINTS);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    free(xyz);
+    free(found);
+    (void)state;
+}
+
+/* A bar bent to a ring whose end faces meet. */
+static void whole_turn_map(const double g[3], double out[3])
+{
+    const double radius = 2 + g[0], turn = 6.283185307179586;
+    const bool ends = g[1] == 0 || g[1] == 1;
+    out[0] = ends ? radius : radius * cos(turn * g[1]);
+    out[1] = ends ? 0 : radius * sin(turn * g[1]);
+    out[2] = g[2];
+}
+
+static void test_seam(void **state)
+{
+    ffd_lattice *lattice = clamped(3, 10);
+    ffd_locator *locator;
+    set_points(lattice, whole_turn_map);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    ffd_location found = find_one(locator, 2.5, 0, 0.3);
+    assert_int_equal(found.status, FFD_INSIDE);
+    assert_true(found.uvw[1] == 0);
+    ffd_locator_destroy(&locator);
+
+    /* Once the ends part, what they did at rest is two things. */
+    const size_t size[3] = {10, 10, 10};
+    for (size_t k = 0; k < size[2]; k++)
+        for (size_t i = 0; i < size[0]; i++)
+            lattice->deformed[3 * (i + size[0] * (0 + size[1] * k)) + 1] += 0.25;
+    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    found = find_one(locator, 2.5, 0, 0.3);
+    assert_int_equal(found.status, FFD_MULTIPLE);
+    assert_true(found.uvw[1] == 0);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* Bricks that are made again and again for want of room give what kept ones give. */
+static void test_bricks_without_room(void **state)
+{
+    enum { POINTS = 500 };
+    ffd_lattice *lattice = clamped(2, 20);
+    ffd_locator *kept, *full;
+    draw d = {draw_seed()};
+    double xyz[3 * POINTS];
+    ffd_location found[POINTS], again[POINTS];
+    set_points(lattice, warped_map);
+    assert_int_equal(ffd_locator_create(lattice, &kept, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_create(lattice, &full, NULL), FFD_OK);
+    atomic_store(&full->cells->light_leaves, MOST_LIGHT_LEAVES);
+    for (int i = 0; i < POINTS; i++) {
+        const double uvw[3] = {draw_unit(&d), draw_unit(&d), draw_unit(&d)};
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, xyz + 3 * i, NULL);
+    }
+    assert_int_equal(ffd_locator_find(kept, xyz, POINTS, found, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_find(full, xyz, POINTS, again, NULL), FFD_OK);
+    for (int i = 0; i < POINTS; i++) {
+        assert_memory_equal(found[i].uvw, again[i].uvw, sizeof found[i].uvw);
+        assert_int_equal(found[i].status, again[i].status);
+        assert_int_equal(found[i].evaluations, again[i].evaluations);
+    }
+    for (size_t b = 0; b < full->cells->bricks[0] * full->cells->bricks[1] * full->cells->bricks[2]; b++)
+        assert_null(atomic_load(&full->cells->made[b]));
+    ffd_locator_destroy(&kept);
+    ffd_locator_destroy(&full);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* A lattice that folds in every cell is refused once it would take too much memory, not before. */
+static void test_too_many_folds(void **state)
+{
+    ffd_lattice *lattice = clamped(3, 8);
+    ffd_locator *locator;
+    ffd_location found;
+    ffd_error error;
+    draw d = {draw_seed()};
+    for (size_t i = 0; i < 3 * lattice->count; i++)
+        lattice->rest[i] = lattice->deformed[i] = draw_unit(&d);
+    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    const double middle[3] = {0.5, 0.5, 0.5};
+    assert_int_equal(ffd_locator_find(locator, middle, 1, &found, NULL), FFD_OK);
+    assert_true(found.status != FFD_OUTSIDE);
+    ffd_locator_destroy(&locator);
+
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    atomic_store(&locator->cells->heavy_leaves, MOST_HEAVY_LEAVES);
+    assert_int_equal(ffd_locator_find(locator, middle, 1, &found, &error), FFD_E_LIMIT);
+    assert_non_null(strstr(error.message, "folds in too many of its cells"));
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* The same lattice in other units has the same u,v,w, to the bit where the unit is a power of two. */
+static void test_sizes(void **state)
+{
+    static const int exponents[] = {-900, -500, -100, 60, 330, 900};
+    enum { POINTS = 60 };
+    draw d = {draw_seed()};
+    ffd_lattice *unit = clamped(3, 6);
+    ffd_locator *locator;
+    double xyz[3 * POINTS];
+    ffd_location expected[POINTS];
+    set_points(unit, warped_map);
+    for (int i = 0; i < POINTS; i++) {
+        const double uvw[3] = {draw_unit(&d), draw_unit(&d), draw_unit(&d)};
+        ffd_lattice_evaluate(unit, FFD_VOLUME_REST, uvw, xyz + 3 * i, NULL);
+    }
+    assert_int_equal(ffd_locator_create(unit, &locator, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_find(locator, xyz, POINTS, expected, NULL), FFD_OK);
+    ffd_locator_destroy(&locator);
+    for (size_t e = 0; e < sizeof exponents / sizeof *exponents; e++) {
+        ffd_lattice *scaled = clamped(3, 6);
+        double scaled_xyz[3 * POINTS];
+        ffd_location found[POINTS];
+        for (size_t i = 0; i < 3 * scaled->count; i++)
+            scaled->rest[i] = scaled->deformed[i] = ldexp(unit->rest[i], exponents[e]);
+        for (int i = 0; i < 3 * POINTS; i++)
+            scaled_xyz[i] = ldexp(xyz[i], exponents[e]);
+        assert_int_equal(ffd_lattice_finish(scaled, NULL), FFD_OK);
+        assert_int_equal(ffd_locator_create(scaled, &locator, NULL), FFD_OK);
+        assert_int_equal(ffd_locator_find(locator, scaled_xyz, POINTS, found, NULL), FFD_OK);
+        for (int i = 0; i < POINTS; i++) {
+            assert_int_equal(found[i].status, expected[i].status);
+            assert_memory_equal(found[i].uvw, expected[i].uvw, sizeof found[i].uvw);
+            assert_true(found[i].residual == ldexp(expected[i].residual, exponents[e]));
+        }
+        ffd_locator_destroy(&locator);
+        ffd_lattice_destroy(&scaled);
+    }
+    ffd_lattice_destroy(&unit);
+    (void)state;
+}
+
 static void test_no_memory(void **state)
 {
     ffd_lattice *lattice = clamped(3, 6);
@@ -401,6 +568,11 @@ int main(void)
         cmocka_unit_test(test_folded),
         cmocka_unit_test(test_flat_is_refused),
         cmocka_unit_test(test_collapsed_face),
+        cmocka_unit_test(test_cost),
+        cmocka_unit_test(test_seam),
+        cmocka_unit_test(test_bricks_without_room),
+        cmocka_unit_test(test_too_many_folds),
+        cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
