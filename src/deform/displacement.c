@@ -1,5 +1,5 @@
+#include "deform/displacement.h"
 #include "base/vec.h"
-#include "lattice/lattice.h"
 #include <ffd/deform.h>
 #include <string.h>
 
@@ -41,25 +41,42 @@ static void sum_differences(const ffd_lattice *lattice, const lattice_basis *bas
         by_uvw[i] -= rest_by[i];
 }
 
-int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9])
+/* The basis is that of u,v,w taken to the domain; by_uvw may be NULL. */
+static int displace(const ffd_lattice *lattice, const double uvw[3], lattice_basis *basis, double delta[3],
+                    double *by_uvw)
 {
     double inside[3];
-    lattice_basis basis;
     for (int a = 0; a < 3; a++)
         inside[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);
-    ffd_lattice_basis(lattice, inside, &basis);
+    ffd_lattice_basis(lattice, inside, basis);
     memset(delta, 0, 3 * sizeof *delta);
-    if (gradient)
-        memset(gradient, 0, 9 * sizeof *gradient);
-    if (!is_reached(lattice, &basis))
+    if (by_uvw)
+        memset(by_uvw, 0, 9 * sizeof *by_uvw);
+    if (!is_reached(lattice, basis))
         return 0;
+    sum_differences(lattice, basis, delta, by_uvw);
+    return 1;
+}
 
+int ffd_displacement_by_uvw(const ffd_lattice *lattice, const double uvw[3], double delta[3],
+                            double by_uvw[9])
+{
+    lattice_basis basis;
+    return displace(lattice, uvw, &basis, delta, by_uvw);
+}
+
+int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9])
+{
+    lattice_basis basis;
     double by_uvw[9], point[3], jacobian[9], inverse[9];
-    sum_differences(lattice, &basis, delta, gradient ? by_uvw : NULL);
-    if (gradient) {
-        ffd_lattice_sum_rational(lattice, &basis, lattice->rest, lattice->rest_weights, point, jacobian);
-        if (mat_invert(jacobian, inverse))
-            mat_multiply(by_uvw, inverse, gradient);
-    }
+    const int moved = displace(lattice, uvw, &basis, delta, gradient ? by_uvw : NULL);
+    if (!gradient)
+        return moved;
+    memset(gradient, 0, 9 * sizeof *gradient);
+    if (!moved)
+        return 0;
+    ffd_lattice_sum_rational(lattice, &basis, lattice->rest, lattice->rest_weights, point, jacobian);
+    if (mat_invert(jacobian, inverse))
+        mat_multiply(by_uvw, inverse, gradient);
     return 1;
 }

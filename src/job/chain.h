@@ -3,23 +3,37 @@
 #define FFD_JOB_CHAIN_H
 
 #include "base/fail.h"
+#include "embed/boundary.h"
 #include <ffd/embedding.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
 #include <stdint.h>
 
+/* What becomes of points outside a lattice. */
+typedef struct chain_outside {
+    bool extend;    /* they get the displacement of the nearest point of the border; else they stay */
+    double falloff; /* which fades to nothing over this distance, world units; 0: it does not */
+} chain_outside;
+
 typedef struct chain_link {
     ffd_lattice *lattice;
     ffd_locator *locator; /* NULL until the lattice has its place */
+    boundary *border;     /* likewise; NULL too where points outside stay */
+    double falloff;       /* chain_outside's */
 } chain_link;
 
 typedef struct lattice_chain {
     chain_link *links;
     size_t count;
+    chain_outside outside;
 } lattice_chain;
 
-ffd_status ffd_chain_load(const char *const *paths, size_t count, lattice_chain *chain, ffd_error *error);
+ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside,
+                          lattice_chain *chain, ffd_error *error);
 void ffd_chain_free(lattice_chain *chain);
+
+/* Makes what a link whose lattice has its place searches with. */
+ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error);
 
 /* What the links have done to one point. */
 typedef struct chain_point {
@@ -29,14 +43,24 @@ typedef struct chain_point {
     double uvw[3];          /* of the last link */
     uint32_t evaluations;
     uint8_t status; /* ffd_vertex_status, the highest of the links' */
+    bool located;   /* has u,v,w in some link */
     bool outside;   /* of some link */
+    bool multiple;  /* in some link */
+    bool extended;  /* by a link that it is outside of: its border was there, and within the falloff */
 } chain_point;
 
-/* Sends count points x (3 doubles each, changed to their new places) through links [0, links) and fills
-   points (count). locations (count) is scratch; the time taken is added to *embed_seconds and
-   *deform_seconds. */
-ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, double *x, size_t count, bool gradients,
-                           ffd_location *locations, chain_point *points, double *embed_seconds,
-                           double *deform_seconds, ffd_error *error);
+/* A run of points on its way through the chain. */
+typedef struct chain_run {
+    double *x; /* 3 a point, changed to their new places */
+    size_t count;
+    bool gradients;                       /* wanted */
+    bool located;                         /* the first link's locations are there already */
+    ffd_location *locations;              /* count; else scratch */
+    chain_point *points;                  /* count, filled */
+    double embed_seconds, deform_seconds; /* the time taken is added */
+} chain_run;
+
+/* Sends the points through links [0, links). */
+ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error);
 
 #endif

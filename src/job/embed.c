@@ -96,6 +96,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     const mesh_log log = {desc->log, desc->log_user};
     const int threads = desc->threads > 0 ? desc->threads : ffd_processor_count();
     const double start = ffd_clock_seconds();
+    const chain_outside outside = {.extend = false};
     mesh_document *document = NULL;
     lattice_chain chain;
     pass_totals totals;
@@ -103,7 +104,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
 
     ffd_status status = check_outputs(desc, error);
     if (!status)
-        status = ffd_chain_load(&desc->lattice, 1, &chain, error);
+        status = ffd_chain_load(&desc->lattice, 1, &outside, &chain, error);
     if (status)
         return status;
     status = ffd_source_open(&desc->input, &document, error);
@@ -134,7 +135,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
         goto out;
     const double embedded = ffd_clock_seconds();
     ffd_result_fill(result, &totals, embedded - opened);
-    ffd_result_warn(&totals, &log);
+    ffd_result_warn(&totals, &chain, false, &log);
     made.lattice = ffd_embedding_hash_lattice(chain.links[0].lattice);
     status = ffd_embedding_hash_positions(document, threads, &made.positions, error);
     if (!status)

@@ -5,7 +5,7 @@
 #include "base/vec.h"
 #include "io/npy/npy.h"
 #include "job/source.h"
-#include "lattice/lattice.h"
+#include "lattice/border.h"
 #include <inttypes.h>
 
 #define TILE ((size_t)1024)
@@ -85,7 +85,7 @@ static bool has_weights(const ffd_lattice *lattice)
 
 hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice)
 {
-    unsigned char shape[3][4 * 8];
+    unsigned char shape[3][5 * 8];
     hash128 knots[3], points, weights;
     hash_block blocks[8];
     size_t count = 0;
@@ -95,7 +95,8 @@ hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice)
         store_u64(shape[a], (uint64_t)k->degree);
         store_u64(shape[a] + 8, k->points);
         store_u64(shape[a] + 16, ffd_knots_closed(k));
-        store_u64(shape[a] + 24, knot_count);
+        store_u64(shape[a] + 24, ffd_lattice_is_seam(lattice, a));
+        store_u64(shape[a] + 32, knot_count);
         knots[a] = ffd_hash_doubles(k->t, knot_count);
         blocks[count++] = (hash_block){shape[a], sizeof shape[a]};
         blocks[count++] = (hash_block){&knots[a], sizeof knots[a]};
@@ -276,6 +277,22 @@ ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *pos
     if (status)
         ffd_embedding_close(file);
     return status;
+}
+
+void ffd_embedding_locate(const embedding_file *file, size_t vertex, const ffd_lattice *lattice,
+                          const double p[3], ffd_location *location)
+{
+    const double *uvw = file->uvw + 3 * vertex;
+    double at[3];
+    *location = (ffd_location){.uvw = {NAN, NAN, NAN}, .status = file->statuses[vertex]};
+    if (location->status == FFD_OUTSIDE || location->status == FFD_POINT_INVALID || !vec_is_finite(uvw))
+        return;
+    for (int a = 0; a < 3; a++)
+        location->uvw[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, location->uvw, at, NULL);
+    for (int a = 0; a < 3; a++)
+        at[a] -= p[a];
+    location->residual = vec_length(at);
 }
 
 void ffd_embedding_close(embedding_file *file)

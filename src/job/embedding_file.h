@@ -26,6 +26,7 @@
 
 #include "base/hash.h"
 #include "mesh/mesh.h"
+#include <ffd/embedding.h>
 
 /* Hashes the positions in the lattice's space: each run of 1024 vertices of each part (the last may be
    shorter; parts that repeat positions are left out) for itself; then the list of these hashes with the
@@ -33,9 +34,10 @@
 ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
                                         ffd_error *error);
 
-/* Hashes what decides u,v,w, and nothing of what is moved. For each direction: degree, number of control
-   points, 1 if closed or else 0, number of knots (8 bytes each) and the hash of the knots; then the hash of
-   the rest points; then, where a rest weight is not 1, the hash of the weights. The lattice must have its
+/* Hashes what decides u,v,w, and nothing else of what is moved. For each direction: degree, number of control
+   points, 1 if closed or else 0, 1 if its first and last face are a seam (lattice/border.h; this also depends
+   on what is moved) or else 0, number of knots (8 bytes each) and the hash of the knots; then the hash of the
+   rest points; then, where a rest weight is not 1, the hash of the weights. The lattice must have its
    place. */
 hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice);
 
@@ -58,5 +60,15 @@ typedef struct embedding_file {
 ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *positions,
                               const hash128 *lattice, embedding_file *file, ffd_error *error);
 void ffd_embedding_close(embedding_file *file);
+
+/* Opens the embedding that `ffd embed` made of this document and lattice, as ffd_embedding_open. The lattice
+   must have its place. Errors: the same. */
+ffd_status ffd_embedding_reuse(const char *path, const mesh_document *document, const ffd_lattice *lattice,
+                               int threads, embedding_file *file, ffd_error *error);
+
+/* What a search has found for a vertex, which stands at p: u,v,w taken to the domain, the residual anew, no
+   evaluations. */
+void ffd_embedding_locate(const embedding_file *file, size_t vertex, const ffd_lattice *lattice,
+                          const double p[3], ffd_location *location);
 
 #endif

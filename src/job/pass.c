@@ -42,6 +42,8 @@ static void clear_totals(pass_totals *totals)
         totals->before.max[a] = totals->after.max[a] = -HUGE_VAL;
     }
     totals->first_outside = totals->first_invalid = totals->first_overflow = UINT64_MAX;
+    totals->det_min = HUGE_VAL;
+    totals->det_max = -HUGE_VAL;
 }
 
 static void widen(ffd_bounds *box, const double p[3])
@@ -78,11 +80,15 @@ static void join_totals(pass_totals *all, const pass_totals *tile)
         widen(&all->after, tile->after.max);
     }
     all->outside_any += tile->outside_any;
+    all->multiple_any += tile->multiple_any;
+    all->extended += tile->extended;
     all->first_outside = least(all->first_outside, tile->first_outside);
     all->first_invalid = least(all->first_invalid, tile->first_invalid);
     all->first_overflow = least(all->first_overflow, tile->first_overflow);
     all->normals_collapsed += tile->normals_collapsed;
     all->transforms_singular += tile->transforms_singular;
+    all->det_min = fmin(all->det_min, tile->det_min);
+    all->det_max = fmax(all->det_max, tile->det_max);
     all->embed_seconds += tile->embed_seconds;
     all->deform_seconds += tile->deform_seconds;
 }
@@ -109,17 +115,18 @@ static bool move_back(const mesh_part *part, const chain_point *point, double p[
 static void count_point(const part_work *work, const chain_point *point, const double before[3],
                         const double after[3], uint64_t number, pass_totals *totals)
 {
-    const bool located = point->status != FFD_OUTSIDE && point->status != FFD_POINT_INVALID;
     totals->vertices++;
     totals->counts[point->status]++;
     if (point->outside) {
         totals->outside_any++;
         totals->first_outside = least(totals->first_outside, number);
     }
+    totals->extended += point->status == FFD_OUTSIDE && point->extended;
+    totals->multiple_any += point->multiple;
     totals->evaluations += point->evaluations;
     totals->evaluations_max =
         point->evaluations > totals->evaluations_max ? point->evaluations : totals->evaluations_max;
-    if (located) {
+    if (point->located) {
         totals->located++;
         totals->residual_square_max = fmax(totals->residual_square_max, point->residual_square);
         totals->residual_square_sum += point->residual_square;
@@ -137,6 +144,46 @@ static void count_point(const part_work *work, const chain_point *point, const d
     const double square = vec_dot(point->delta, point->delta);
     totals->displacement_square_max = fmax(totals->displacement_square_max, square);
     totals->displacement_square_sum += square;
+}
+
+static void fill_nan(double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i] = NAN;
+}
+
+static void note_determinant(const chain_point *point, pass_totals *totals)
+{
+    double f[9];
+    for (int i = 0; i < 9; i++)
+        f[i] = point->gradient[i] + (i % 4 == 0 ? 1 : 0);
+    const double det = mat_determinant(f);
+    totals->det_min = fmin(totals->det_min, det);
+    totals->det_max = fmax(totals->det_max, det);
+}
+
+/* What the caller wants to have of a vertex. */
+static void fill_arrays(const part_work *work, const chain_point *point, const double place[3],
+                        uint64_t number, pass_totals *totals)
+{
+    const mesh_pass *pass = work->pass;
+    const bool singular = work->part->singular;
+    if (pass->uvw)
+        memcpy(pass->uvw + 3 * number, point->uvw, sizeof point->uvw);
+    if (pass->statuses)
+        pass->statuses[number] = point->status;
+    if (pass->deformed) {
+        memcpy(pass->deformed + 3 * number, place, 3 * sizeof *place);
+        if (singular)
+            fill_nan(pass->deformed + 3 * number, 3);
+    }
+    if (!pass->gradients)
+        return;
+    memcpy(pass->gradients + 9 * number, point->gradient, sizeof point->gradient);
+    if (singular)
+        fill_nan(pass->gradients + 9 * number, 9);
+    else if (point->status != FFD_SINGULAR && (point->located || point->extended))
+        note_determinant(point, totals);
 }
 
 static bool fits_format(const mesh_format *format, const double p[3])
@@ -164,10 +211,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
             if (!fits_format(format, p))
                 totals->first_overflow = least(totals->first_overflow, number);
         }
-        if (pass->uvw)
-            memcpy(pass->uvw + 3 * number, point->uvw, sizeof point->uvw);
-        if (pass->statuses)
-            pass->statuses[number] = point->status;
+        fill_arrays(work, point, scratch->place + 3 * i, number, totals);
     }
     if (pass->write)
         format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
@@ -238,6 +282,19 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
         deform_tangents(work, scratch, first, count);
 }
 
+/* Takes the first link's locations from the embedding, in which repeated positions do not stand again.
+   Returns whether it did. */
+static bool recall(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+{
+    const mesh_pass *pass = work->pass;
+    if (!pass->embedding || work->part->repeats_positions)
+        return false;
+    for (size_t i = 0; i < count; i++)
+        ffd_embedding_locate(pass->embedding, (size_t)work->first_vertex + first + i,
+                             pass->chain->links[0].lattice, scratch->place + 3 * i, &scratch->locations[i]);
+    return true;
+}
+
 static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     const part_work *work = context;
@@ -247,15 +304,22 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     tile_result *result = &work->tiles[tile];
     const size_t count = last - first;
     const bool attributes = pass->attributes && !part->singular && (part->normal_count || part->has_tangents);
+    const bool gradients = attributes || (pass->gradients && !part->repeats_positions);
 
     clear_totals(&result->totals);
     pass->document->format->read_positions(pass->document, work->part_number, first, count, scratch->raw);
     memcpy(scratch->place, scratch->raw, 3 * count * sizeof(double));
     ffd_part_place(part, scratch->place, count);
     memcpy(scratch->before, scratch->place, 3 * count * sizeof(double));
-    result->status =
-        ffd_chain_apply(pass->chain, pass->links, scratch->place, count, attributes, scratch->locations,
-                        scratch->points, &result->totals.embed_seconds, &result->totals.deform_seconds, NULL);
+    chain_run run = {.x = scratch->place,
+                     .count = count,
+                     .gradients = gradients,
+                     .located = recall(work, scratch, first, count),
+                     .locations = scratch->locations,
+                     .points = scratch->points};
+    result->status = ffd_chain_apply(pass->chain, pass->links, &run, NULL);
+    result->totals.embed_seconds = run.embed_seconds;
+    result->totals.deform_seconds = run.deform_seconds;
     if (result->status)
         return;
     if (!part->repeats_positions)

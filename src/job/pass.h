@@ -5,19 +5,24 @@
 #define FFD_JOB_PASS_H
 
 #include "job/chain.h"
+#include "job/embedding_file.h"
 #include "mesh/mesh.h"
 
 typedef struct pass_totals {
     uint64_t vertices, counts[FFD_VERTEX_STATUS_COUNT], moved;
-    uint64_t located; /* vertices with a u,v,w: those that the residuals are of */
+    uint64_t located; /* vertices with a u,v,w in some link: those that the residuals are of */
     double residual_square_max, residual_square_sum; /* relative to the lattice's diagonal */
     uint64_t evaluations;
     uint32_t evaluations_max;
     double displacement_square_max, displacement_square_sum;
     ffd_bounds before, after;                              /* in the lattice's space */
     uint64_t outside_any;                                  /* vertices outside of at least one lattice */
+    uint64_t multiple_any;                                 /* likewise */
     uint64_t first_outside, first_invalid, first_overflow; /* vertex numbers; UINT64_MAX: none */
+    uint64_t extended; /* of those with status outside: displaced as the border is */
     uint64_t normals_collapsed, transforms_singular;
+    double det_min,
+        det_max; /* of F, where gradients are asked for, a link acts and none is singular; else min > max */
     double embed_seconds, deform_seconds; /* summed over threads */
 } pass_totals;
 
@@ -26,13 +31,19 @@ typedef struct mesh_pass {
     const lattice_chain *chain;
     size_t links; /* how many of the chain's lattices act */
     int threads;
-    bool write;        /* hand positions back to the document (after begin_results) */
-    bool attributes;   /* and normals and tangents */
+    const embedding_file *embedding; /* of the document in the first link, or NULL: u,v,w is searched for */
+    bool write;                      /* hand positions back to the document (after begin_results) */
+    bool attributes;                 /* and normals and tangents */
     double *uvw;       /* 3 a vertex, or NULL: u,v,w in the last link, NaN where there is none */
     uint8_t *statuses; /* one a vertex, or NULL */
+    double *deformed;  /* 3 a vertex, or NULL: where the chain brings it, in the lattice's space, unrounded;
+                          NaN in parts whose transform is singular */
+    double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row by row, in the lattice's space;
+                          NaN likewise. The totals have the range of det F only with these. */
 } mesh_pass;
 
-/* Vertices of the document in the order of `ffd embed`: parts that repeat positions do not count. */
+/* Vertices of the document in the order of `ffd embed`, which is that of all arrays above and of mesh_faces:
+   parts that repeat positions do not count. */
 uint64_t ffd_pass_vertex_count(const mesh_document *document);
 
 ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error);

@@ -1,10 +1,12 @@
 #include "job/placement.h"
+#include "job/coverage.h"
 #include "job/source.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
 {
@@ -26,7 +28,7 @@ ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int th
             }
         status = ffd_lattice_fit(link->lattice, box.min, box.max, error);
         if (!status)
-            status = ffd_locator_create(link->lattice, &link->locator, error);
+            status = ffd_chain_prepare(chain, l, error);
         if (status) {
             ffd_fail_name_file(error, link->lattice->spec->name);
             return status;
@@ -57,21 +59,43 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->seconds_deform = seconds - result->seconds_embed;
 }
 
-void ffd_result_warn(const pass_totals *totals, const mesh_log *log)
+/* What has become of the vertices outside. */
+static void tell_outside(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
+                         size_t capacity)
 {
-    static const char *const names[] = {"inside", "outside (left where they are)", "multiple", "singular",
-                                        "invalid"};
+    static const char moved[] = "moved with the nearest boundary point", stay[] = "left where they are";
+    const uint64_t count = totals->counts[FFD_OUTSIDE], kept = count - totals->extended;
+    const char *why = outside->extend && outside->falloff > 0 ? " beyond the falloff" : "";
+    if (!deformed)
+        snprintf(text, capacity, "%" PRIu64 " outside (no u,v,w)", count);
+    else if (kept == 0)
+        snprintf(text, capacity, "%" PRIu64 " outside (%s)", count, moved);
+    else if (totals->extended == 0)
+        snprintf(text, capacity, "%" PRIu64 " outside (%s%s)", count, stay, why);
+    else
+        snprintf(text, capacity, "%" PRIu64 " outside (%" PRIu64 " %s, %" PRIu64 " %s%s)", count,
+                 totals->extended, moved, kept, stay, why);
+}
+
+void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool deformed,
+                     const mesh_log *log)
+{
+    static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
     const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE];
     if (others) {
-        char list[200];
-        size_t length = 0;
-        list[0] = 0;
-        for (int s = FFD_OUTSIDE; s < FFD_VERTEX_STATUS_COUNT; s++)
-            if (totals->counts[s])
-                length += (size_t)snprintf(list + length, sizeof list - length, "%s%" PRIu64 " %s",
-                                           length ? ", " : "", totals->counts[s], names[s]);
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " vertices are not inside: %s", others,
-                     totals->vertices, list);
+        char list[400] = "", coverage[600] = "";
+        if (totals->counts[FFD_OUTSIDE])
+            tell_outside(totals, &chain->outside, deformed, list, sizeof list);
+        for (int s = FFD_OUTSIDE + 1; s < FFD_VERTEX_STATUS_COUNT; s++)
+            if (totals->counts[s]) {
+                const size_t length = strlen(list);
+                snprintf(list + length, sizeof list - length, "%s%" PRIu64 " %s", length ? ", " : "",
+                         totals->counts[s], names[s]);
+            }
+        if (totals->outside_any)
+            ffd_chain_coverage(chain, coverage, sizeof coverage);
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " vertices are not inside: %s%s%s",
+                     others, totals->vertices, list, *coverage ? "; " : "", coverage);
     }
     if (totals->transforms_singular)
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " vertices stay: their node's matrix has no inverse",

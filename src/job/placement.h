@@ -14,7 +14,8 @@ ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int th
 void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds);
 
 /* "3 of 100 vertices are not inside: 2 outside (left where they are), 1 multiple", and what else is worth a
-   warning. */
-void ffd_result_warn(const pass_totals *totals, const mesh_log *log);
+   warning. deformed: whether the vertices outside were kept or moved; else their u,v,w was asked for. */
+void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool deformed,
+                     const mesh_log *log);
 
 #endif

@@ -179,13 +179,14 @@ static void keep_cells(const edge_work *work, edge_scratch *scratch, size_t link
 /* Sends the requested points through the chain, link by link to see the u,v,w in each. */
 static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
 {
-    double unused = 0;
     memset(scratch->delta, 0, 3 * scratch->requested * sizeof(double));
     for (size_t k = 0; k < work->chain->count; k++) {
-        const lattice_chain link = {&work->chain->links[k], 1};
-        const ffd_status status =
-            ffd_chain_apply(&link, 1, scratch->x, scratch->requested, false, scratch->locations,
-                            scratch->points, &unused, &unused, NULL);
+        const lattice_chain link = {&work->chain->links[k], 1, work->chain->outside};
+        chain_run run = {.x = scratch->x,
+                         .count = scratch->requested,
+                         .locations = scratch->locations,
+                         .points = scratch->points};
+        const ffd_status status = ffd_chain_apply(&link, 1, &run, NULL);
         if (status)
             return status;
         keep_cells(work, scratch, k);

@@ -330,6 +330,31 @@ static void test_closed_is_not_open(void **state)
     }
 }
 
+/* A ring whose ends meet: where they also meet when deformed, points there have one u,v,w and not two. */
+static void test_seams_that_moves_open(void **state)
+{
+    (void)state;
+    static const double corner[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
+    static const char *const moves[] = {"", ",\"moves\":[{\"at\":[1,0,0],\"by\":[0,0,1]}]",
+                                        ",\"moves\":[{\"at\":[\"all\",1,1],\"by\":[0,0,1]}]",
+                                        ",\"moves\":[{\"at\":[0,0,0],\"by\":[0,0,1]}]"};
+    char text[2000], points[1000] = "";
+    hash128 hash[4];
+    for (int i = 0; i < 20; i++) {
+        const double *at = corner[i % 5], radius = i / 5 % 2 + 1;
+        const size_t length = strlen(points);
+        snprintf(points + length, sizeof points - length, "%s[%g,%g,%d]", i ? "," : "", radius * at[0],
+                 radius * at[1], i / 10);
+    }
+    for (int i = 0; i < 4; i++) {
+        snprintf(text, sizeof text, "\"size\":[5,2,2],\"degree\":[1,1,1],\"rest\":{\"points\":[%s]}%s",
+                 points, moves[i]);
+        hash[i] = hash_of_lattice(text);
+    }
+    assert_true(ffd_hash_equal(&hash[1], &hash[0]) && ffd_hash_equal(&hash[2], &hash[0]));
+    assert_false(ffd_hash_equal(&hash[3], &hash[0]));
+}
+
 /* Files */
 
 static const hash128 positions = {{1, 2, 3}}, rest = {{9, 8, 7}}, other = {{5}};
@@ -695,6 +720,7 @@ int main(void)
         cmocka_unit_test(test_moves_do_not_change_the_rest_lattice),
         cmocka_unit_test(test_other_rest_lattices_have_other_hashes),
         cmocka_unit_test(test_closed_is_not_open),
+        cmocka_unit_test(test_seams_that_moves_open),
         cmocka_unit_test(test_layout),
         cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_every_changed_bit_is_refused),

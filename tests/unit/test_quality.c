@@ -57,12 +57,11 @@ static void set_mesh(sample *s, size_t vertices, const double *positions, size_t
 
 static void apply(const lattice_chain *chain, double *x, size_t count, double *gradients)
 {
-    double seconds = 0;
     ffd_location *locations = checked(ffd_alloc(count, sizeof *locations));
     chain_point *points = checked(ffd_alloc(count, sizeof *points));
-    assert_int_equal(ffd_chain_apply(chain, chain->count, x, count, gradients, locations, points, &seconds,
-                                     &seconds, NULL),
-                     FFD_OK);
+    chain_run run = {
+        .x = x, .count = count, .gradients = gradients, .locations = locations, .points = points};
+    assert_int_equal(ffd_chain_apply(chain, chain->count, &run, NULL), FFD_OK);
     for (size_t i = 0; gradients && i < count; i++)
         memcpy(gradients + 9 * i, points[i].gradient, sizeof points[i].gradient);
     ffd_free(locations);

@@ -1,0 +1,423 @@
+/* test_pass.c - one pass over a document: its arrays and figures, what happens outside, u,v,w from a file. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "base/vec.h"
+#include "job/embedding_file.h"
+#include "job/pass.h"
+#include <ffd/deform.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define PARTS 4
+#define MOST 2500
+#define NUMBERED (MOST + 1024 + 5) /* the parts 0, 2 and 3; part 1 repeats part 0 */
+
+/* A document of the test's own, which keeps what it is given. */
+typedef struct cloud {
+    mesh_document head;
+    mesh_part parts[PARTS];
+    double xyz[PARTS][3 * MOST];
+} cloud;
+
+static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                           double *xyz)
+{
+    memcpy(xyz, ((const cloud *)document)->xyz[part] + 3 * first, 3 * count * sizeof *xyz);
+}
+
+static void write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                            const double *xyz, const uint8_t *changed)
+{
+    for (size_t i = 0; i < count; i++)
+        if (changed[i])
+            memcpy(((cloud *)document)->xyz[part] + 3 * (first + i), xyz + 3 * i, 3 * sizeof *xyz);
+}
+
+static const mesh_format cloud_format = {.name = "cloud",
+                                         .read_positions = read_positions,
+                                         .write_positions = write_positions,
+                                         .largest_coordinate = 1e300};
+
+/* Points in [-3, 3]^3, and a last part whose matrix has no inverse. */
+static cloud *make_cloud(void)
+{
+    cloud *made = calloc(1, sizeof *made);
+    assert_non_null(made);
+    made->head = (mesh_document){.format = &cloud_format, .parts = made->parts, .part_count = PARTS};
+    for (size_t p = 0; p < PARTS; p++)
+        for (size_t i = 0; i < (size_t)3 * MOST; i++)
+            made->xyz[p][i] = (double)((i * 7919 + 13 * p) % 601) / 100 - 3;
+    made->parts[0] = (mesh_part){.vertex_count = MOST, .identity = true};
+    made->parts[1] = (mesh_part){.vertex_count = MOST, .identity = true, .repeats_positions = true};
+    made->parts[2] = (mesh_part){.vertex_count = 1024,
+                                 .linear = {2, 0, 0, 0, 0.5, 0, 0, 0, 1},
+                                 .inverse = {0.5, 0, 0, 0, 2, 0, 0, 0, 1},
+                                 .offset = {0, 0, 1}};
+    made->parts[3] = (mesh_part){.vertex_count = 5, .linear = {1, 0, 0, 0, 1, 0, 0, 0, 0}, .singular = true};
+    return made;
+}
+
+/* The place of vertex `number`; false in the part that has no inverse. */
+static bool place_of(const cloud *mesh, size_t number, double p[3])
+{
+    const size_t part = number < MOST ? 0 : number < MOST + 1024 ? 2 : 3;
+    const size_t first = part == 0 ? 0 : part == 2 ? MOST : MOST + 1024;
+    memcpy(p, mesh->xyz[part] + 3 * (number - first), 3 * sizeof *p);
+    ffd_part_place(&mesh->parts[part], p, 1);
+    return part != 3;
+}
+
+#define BOX "\"size\":[5,4,4],\"rest\":{\"box\":{\"min\":[-2,-2,-2],\"max\":[2,2,2]}},"
+#define BENT                                                                                                 \
+    "\"size\":[2,2,3],\"rest\":{\"points\":[[-2,-2,-2],[2,-2,-2],[-2,2,-2],[2,2,-2],[-2,-2,0],[2.5,-2,0],"   \
+    "[-2,2.5,0],[2,2,0],[-2,-2,2],[2,-2,2],[-2,2,2],[2,2,2.5]]},"
+#define MOVES                                                                                                \
+    "\"moves\":[{\"twist\":{\"axis\":\"z\",\"degrees\":30}},{\"at\":[0,0,0],\"by\":[0.25,-0.5,0.125]}]"
+
+static void add_link(lattice_chain *chain, const char *members)
+{
+    char text[2000];
+    ffd_error error = {0};
+    const int size = snprintf(text, sizeof text, "{\"format\":\"ffd-lattice\",\"version\":1,%s}", members);
+    chain_link *links = ffd_realloc(chain->links, chain->count + 1, sizeof *links);
+    assert_non_null(links);
+    chain->links = links;
+    links[chain->count] = (chain_link){0};
+    if (ffd_lattice_parse(text, (size_t)size, "test", &links[chain->count++].lattice, &error) ||
+        ffd_chain_prepare(chain, chain->count - 1, &error))
+        fail_msg("%s %s", error.pointer, error.message);
+}
+
+/* What a pass left. */
+typedef struct outcome {
+    cloud *mesh;
+    double uvw[3 * NUMBERED], deformed[3 * NUMBERED], gradients[9 * NUMBERED];
+    uint8_t statuses[NUMBERED];
+    pass_totals totals;
+} outcome;
+
+static outcome *run(const lattice_chain *chain, const embedding_file *embedding, int threads)
+{
+    outcome *made = calloc(1, sizeof *made);
+    assert_non_null(made);
+    made->mesh = make_cloud();
+    const mesh_pass pass = {.document = &made->mesh->head,
+                            .chain = chain,
+                            .links = chain->count,
+                            .threads = threads,
+                            .embedding = embedding,
+                            .write = true,
+                            .uvw = made->uvw,
+                            .statuses = made->statuses,
+                            .deformed = made->deformed,
+                            .gradients = made->gradients};
+    assert_int_equal(ffd_pass_run(&pass, &made->totals, NULL), FFD_OK);
+    made->totals.embed_seconds = made->totals.deform_seconds = 0;
+    return made;
+}
+
+static void free_outcome(outcome *made)
+{
+    free(made->mesh);
+    free(made);
+}
+
+static void assert_same(const outcome *a, const outcome *b)
+{
+    assert_memory_equal(a->uvw, b->uvw, sizeof a->uvw);
+    assert_memory_equal(a->statuses, b->statuses, sizeof a->statuses);
+    assert_memory_equal(a->deformed, b->deformed, sizeof a->deformed);
+    assert_memory_equal(a->gradients, b->gradients, sizeof a->gradients);
+    assert_memory_equal(a->mesh->xyz, b->mesh->xyz, sizeof a->mesh->xyz);
+}
+
+static double determinant(const double gradient[9])
+{
+    double f[9];
+    for (int i = 0; i < 9; i++)
+        f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
+    return mat_determinant(f);
+}
+
+/* Every vertex by itself, with the library's own functions. */
+static void test_arrays(void **state)
+{
+    (void)state;
+    lattice_chain chain = {0};
+    add_link(&chain, BENT MOVES);
+    cloud *mesh = make_cloud();
+    outcome *made = run(&chain, NULL, 2);
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    size_t inside = 0;
+    assert_int_equal(ffd_pass_vertex_count(&mesh->head), NUMBERED);
+    for (size_t i = 0; i < NUMBERED; i++) {
+        double p[3], delta[3] = {0}, gradient[9] = {0};
+        ffd_location found;
+        const bool kept = !place_of(mesh, i, p);
+        assert_int_equal(ffd_locator_find(chain.links[0].locator, p, 1, &found, NULL), FFD_OK);
+        if (kept) {
+            for (size_t k = 0; k < 9; k++)
+                assert_true(isnan(made->gradients[9 * i + k]) && isnan(made->deformed[3 * i + k % 3]));
+            continue;
+        }
+        if (found.status == FFD_INSIDE) {
+            inside++;
+            ffd_displacement(chain.links[0].lattice, found.uvw, delta, gradient);
+            least = fmin(least, determinant(gradient));
+            most = fmax(most, determinant(gradient));
+        }
+        for (size_t a = 0; a < 3; a++)
+            assert_true(made->deformed[3 * i + a] == p[a] + delta[a]);
+        for (size_t k = 0; k < 9; k++)
+            assert_true(made->gradients[9 * i + k] == gradient[k]);
+    }
+    assert_true(inside > 500 && inside < NUMBERED - 500);
+    assert_true(made->totals.det_min == least && made->totals.det_max == most && least < most);
+    assert_int_equal(made->totals.transforms_singular, 5);
+    free_outcome(made);
+    free(mesh);
+    ffd_chain_free(&chain);
+}
+
+/* Two links: what the second does is done at the first one's results, F = F2 F1. */
+static void test_gradients_of_a_chain(void **state)
+{
+    (void)state;
+    lattice_chain chain = {0};
+    add_link(&chain, BOX MOVES);
+    add_link(&chain, "\"size\":[4,4,4],\"rest\":{\"box\":{\"min\":[-9,-9,-9],\"max\":[9,9,9]}},\"moves\":["
+                     "{\"matrix\":[2,0,0,0,0,1,0.5,0,0,0,1,0,0,0,0,1]}]");
+    const lattice_chain one = {chain.links, 1, chain.outside};
+    const double second[9] = {2, 0, 0, 0, 1, 0.5, 0, 0, 1};
+    outcome *first = run(&one, NULL, 1), *both = run(&chain, NULL, 1);
+    for (size_t i = 0; i < MOST; i++) {
+        double f[9], expected[9], place[3];
+        for (size_t k = 0; k < 9; k++)
+            f[k] = first->gradients[9 * i + k] + (k % 4 == 0 ? 1 : 0);
+        mat_multiply(second, f, expected);
+        mat_apply(second, first->deformed + 3 * i, place);
+        for (size_t k = 0; k < 9; k++)
+            assert_true(fabs(both->gradients[9 * i + k] + (k % 4 == 0 ? 1 : 0) - expected[k]) <= 1e-13);
+        for (size_t a = 0; a < 3; a++)
+            assert_true(fabs(both->deformed[3 * i + a] - place[a]) <= 1e-13);
+    }
+    free_outcome(first);
+    free_outcome(both);
+    ffd_chain_free(&chain);
+}
+
+static void test_no_gradients_no_determinants(void **state)
+{
+    (void)state;
+    lattice_chain chain = {0};
+    add_link(&chain, BOX MOVES);
+    cloud *mesh = make_cloud();
+    pass_totals totals;
+    const mesh_pass pass = {.document = &mesh->head, .chain = &chain, .links = 1, .threads = 1};
+    assert_int_equal(ffd_pass_run(&pass, &totals, NULL), FFD_OK);
+    assert_true(totals.det_min > totals.det_max);
+    free(mesh);
+    ffd_chain_free(&chain);
+}
+
+static void test_threads(void **state)
+{
+    (void)state;
+    static const char *const members[] = {BOX MOVES, BENT MOVES};
+    for (int i = 0; i < 4; i++) {
+        lattice_chain chain = {.outside = {i >= 2, 1.5}};
+        add_link(&chain, members[i % 2]);
+        outcome *one = run(&chain, NULL, 1);
+        for (int threads = 2; threads < 6; threads++) {
+            outcome *more = run(&chain, NULL, threads);
+            assert_same(one, more);
+            assert_memory_equal(&one->totals, &more->totals, sizeof one->totals);
+            free_outcome(more);
+        }
+        free_outcome(one);
+        ffd_chain_free(&chain);
+    }
+}
+
+static double distance_to_box(const double p[3])
+{
+    double away[3];
+    for (int a = 0; a < 3; a++)
+        away[a] = fmax(fabs(p[a]) - 2, 0);
+    return vec_length(away);
+}
+
+/* A box that is moved as a whole: outside, the same displacement, faded. */
+static void test_points_outside(void **state)
+{
+    (void)state;
+    static const double falloffs[] = {0, 1.25, 100};
+    for (int f = -1; f < 3; f++) {
+        const double falloff = f < 0 ? 0 : falloffs[f];
+        lattice_chain chain = {.outside = {f >= 0, falloff}};
+        add_link(&chain, BOX "\"moves\":[{\"by\":[0,0.5,-8]}]");
+        cloud *mesh = make_cloud();
+        outcome *made = run(&chain, NULL, 2);
+        uint64_t outside = 0, extended = 0;
+        for (size_t i = 0; i < NUMBERED; i++) {
+            double p[3], weight = 1;
+            const bool kept = !place_of(mesh, i, p);
+            const double distance = distance_to_box(p), s = falloff > 0 ? distance / falloff : 0;
+            if (distance > 0) {
+                outside++;
+                weight = f < 0 || s >= 1 ? 0 : 1 - s * s * s * (10 - 15 * s + 6 * s * s);
+                extended += weight > 0;
+            }
+            assert_int_equal(made->statuses[i], distance > 0 ? FFD_OUTSIDE : FFD_INSIDE);
+            if (kept)
+                continue;
+            assert_true(made->deformed[3 * i] == p[0]);
+            assert_true(fabs(made->deformed[3 * i + 1] - p[1] - 0.5 * weight) <= 1e-14);
+            assert_true(fabs(made->deformed[3 * i + 2] - p[2] + 8 * weight) <= 1e-13);
+            if (weight == 0)
+                assert_memory_equal(made->deformed + 3 * i, p, sizeof p);
+        }
+        assert_int_equal(made->totals.counts[FFD_OUTSIDE], outside);
+        assert_int_equal(made->totals.outside_any, outside);
+        assert_int_equal(made->totals.extended, extended);
+        assert_true(f != 1 || (extended > 100 && extended < outside - 100));
+        assert_true(f == 1 || extended == (f < 0 ? 0 : outside));
+        free_outcome(made);
+        free(mesh);
+        ffd_chain_free(&chain);
+    }
+}
+
+/* A file */
+
+static char folder[] = "/tmp/ffd-test-pass-XXXXXX";
+
+static const char *path(void)
+{
+    static char text[64];
+    snprintf(text, sizeof text, "%s/e.npy", folder);
+    return text;
+}
+
+static int make_folder(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int remove_folder(void **state)
+{
+    (void)state;
+    remove(path());
+    return rmdir(folder);
+}
+
+static void write_embedding(const lattice_chain *chain, const double *uvw, const uint8_t *statuses,
+                            embedding_file *file)
+{
+    cloud *mesh = make_cloud();
+    hash128 positions;
+    file_output *output;
+    const hash128 rest = ffd_embedding_hash_lattice(chain->links[0].lattice);
+    assert_int_equal(ffd_embedding_hash_positions(&mesh->head, 1, &positions, NULL), FFD_OK);
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, path(), true, NULL), FFD_OK);
+    assert_int_equal(ffd_embedding_write(output, uvw, statuses, NUMBERED, &positions, &rest, NULL), FFD_OK);
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    assert_int_equal(ffd_embedding_reuse(path(), &mesh->head, chain->links[0].lattice, 1, file, NULL),
+                     FFD_OK);
+    free(mesh);
+}
+
+static void test_u_v_w_of_a_file(void **state)
+{
+    (void)state;
+    static const char *const members[] = {BOX MOVES, BENT MOVES};
+    for (int i = 0; i < 4; i++) {
+        embedding_file file;
+        lattice_chain chain = {.outside = {i >= 2, 1.5}};
+        add_link(&chain, members[i % 2]);
+        outcome *searched = run(&chain, NULL, 1);
+        write_embedding(&chain, searched->uvw, searched->statuses, &file);
+        outcome *reused = run(&chain, &file, 2);
+        assert_same(searched, reused);
+        const pass_totals *a = &searched->totals, *b = &reused->totals;
+        assert_memory_equal(a->counts, b->counts, sizeof a->counts);
+        assert_true(a->extended == b->extended && a->det_min == b->det_min && a->det_max == b->det_max);
+        assert_int_equal(b->evaluations, 0);
+        assert_true(sqrt(b->residual_square_max) <= 1e-15);
+        free_outcome(searched);
+        free_outcome(reused);
+        ffd_embedding_close(&file);
+        ffd_chain_free(&chain);
+    }
+}
+
+/* Whoever makes a file with hashes that hold can say anything of u,v,w. */
+static void test_forged_u_v_w(void **state)
+{
+    (void)state;
+    static const double values[] = {-1, 2, 1e300, -1e300, 0.5, NAN, HUGE_VAL, 1e-320};
+    static const char *const members[] = {
+        BOX MOVES,
+        "\"size\":[4,6,4],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":[0,0,1],\"radius\":[1,2],"
+        "\"height\":3}}," MOVES};
+    double *uvw = ffd_alloc(NUMBERED, 3 * sizeof *uvw);
+    uint8_t *statuses = ffd_alloc(NUMBERED, 1);
+    assert_true(uvw && statuses);
+    for (size_t i = 0; i < NUMBERED; i++) {
+        statuses[i] = (uint8_t)(i % 5);
+        for (size_t a = 0; a < 3; a++)
+            uvw[3 * i + a] =
+                values[(i / 5 + (a + 1) * (i / 40)) % (i % 5 == FFD_INSIDE || i % 5 == FFD_MULTIPLE ? 5 : 8)];
+    }
+    for (int l = 0; l < 2; l++) {
+        embedding_file file;
+        lattice_chain chain = {.outside = {true, 0}};
+        add_link(&chain, members[l]);
+        write_embedding(&chain, uvw, statuses, &file);
+        outcome *made = run(&chain, &file, 2);
+        double lo[3], hi[3];
+        ffd_lattice_get_domain(chain.links[0].lattice, lo, hi);
+        for (size_t i = 0; i < NUMBERED; i++) {
+            const bool given =
+                i % 5 != FFD_OUTSIDE && i % 5 != FFD_POINT_INVALID && vec_is_finite(uvw + 3 * i);
+            assert_int_equal(made->statuses[i], i % 5);
+            for (size_t a = 0; a < 3; a++) {
+                const double u = made->uvw[3 * i + a];
+                assert_true(given ? u >= lo[a] && u <= hi[a] : isnan(u));
+            }
+            if (i < MOST + 1024)
+                assert_true(vec_is_finite(made->deformed + 3 * i));
+        }
+        free_outcome(made);
+        ffd_embedding_close(&file);
+        ffd_chain_free(&chain);
+    }
+    ffd_free(uvw);
+    ffd_free(statuses);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_arrays),
+        cmocka_unit_test(test_gradients_of_a_chain),
+        cmocka_unit_test(test_no_gradients_no_determinants),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_points_outside),
+        cmocka_unit_test(test_u_v_w_of_a_file),
+        cmocka_unit_test(test_forged_u_v_w),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
