@@ -14,6 +14,7 @@ extern "C" {
    `ffd`. */
 typedef enum ffd_status {
     FFD_OK = 0,
+    FFD_E_GATE = -1,         /* a quality gate of --fail-on is violated (exit 1) */
     FFD_E_ARGUMENT = -10,    /* the caller's arguments are not what the function takes (exit 2) */
     FFD_E_IO = -20,          /* a file cannot be read or written (exit 3) */
     FFD_E_EXISTS = -21,      /* the output exists and overwriting was not asked for (exit 3) */

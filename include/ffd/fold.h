@@ -32,13 +32,24 @@ typedef struct ffd_folds {
 } ffd_folds;
 
 /* Proves for each span cell of lattice that sign * det J_Q > 0 on all of it, J_Q = [C_u | C_v | C_w] of the
-   deformed volume and sign that of the rest volume's signed volume, or finds a witness of the contrary: by
-   the contraction bound first (|I - Y J_Q| < 1 in the row-sum norm makes Y J_Q regular, so its determinant
+   deformed volume and sign that of the rest volume's signed volume, or finds a witness of the contrary: first
+   by comparing J_Q with that of the cell's centre (Y J_Q near the identity is regular, so its determinant
    keeps its sign), else by the Bernstein coefficients of det J_Q (rational: of the 4 x 4 determinant [W A;
-   W_u A_u; W_v A_v; W_w A_w] = W^4 det J_Q), halved until they are decided, to a depth of 12 halvings a cell.
-   A coefficient's sign counts only beyond a bound of its own rounding. Zeros that the rest volume itself has
-   on the domain's border (a collapsed axis or edge) are no folds. The least cells are then looked into
-   further until min_det is within 1 % of the least determinant seen, or a fixed number of boxes is used up.
+   W_u A_u; W_v A_v; W_w A_w] = W^4 det J_Q), halved until they are decided, to a depth of 60 halvings a cell
+   (24 where the determinant has more than 4096 coefficients) and at most 2048 boxes a cell (fewer, but 256,
+   where it has many coefficients; fewer in each where very many cells are undecided). A coefficient's sign
+   counts only beyond a bound of its own rounding. A whole cell that is flat to rounding counts as folded,
+   with a witness of 0.
+
+   Zeros that the rest volume itself has on the domain's border (a collapsed axis, edge or face) are no folds:
+   where control points coincide along it in both volumes these zeros are exact, and det J_Q > 0 is proven
+   everywhere else; where the rest volume's determinant is 0 there only to rounding (unclamped knots, weights
+   that differ round the axis), so may be the deformed volume's, and nothing finer is proven of that border.
+   An axis whose points coincide at rest and no longer so is none.
+
+   The least cells are then looked into further until min_det is within 1 % of the least determinant seen (or
+   within its rounding), or a fixed number of boxes is used up. Where the rest volume has no volume to speak
+   of, min_det is relative to that of its bounds instead.
 
    The proof is of the volume's derivative: a volume that folds nowhere may still overlap itself (a bar bent
    past a full turn).

@@ -5,6 +5,7 @@
 #include <ffd/embedding.h>
 #include <ffd/error.h>
 #include <ffd/export.h>
+#include <ffd/fold.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -25,10 +26,21 @@ typedef enum ffd_format {
  * none. */
 FFD_API ffd_format ffd_format_from_name(const char *name);
 
-typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_ERROR } ffd_outside;
+/* A vertex outside of a lattice stays; moves as the continuation of the nearest border point's displacement
+   says; is a failure. */
+typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
+
+/* Quality gates, to be joined by |. A violated one fails the job with FFD_E_GATE before anything is written.
+ */
+typedef enum ffd_gate {
+    FFD_GATE_FOLDS = 1,    /* a deformed volume folds, or is not proven not to */
+    FFD_GATE_OUTSIDE = 2,  /* a vertex is outside of a lattice */
+    FFD_GATE_MULTIPLE = 4, /* a vertex has several u,v,w */
+    FFD_GATE_SINGULAR = 8  /* a vertex is where the rest volume has no inverse */
+} ffd_gate;
 
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
 
@@ -58,6 +70,11 @@ typedef struct ffd_deform_desc {
     const char *const *lattices; /* lattice_count paths, applied in that order; at least one */
     size_t lattice_count;
     ffd_outside outside;
+    double falloff;        /* EXTEND: the displacement fades to nothing over this distance, world units; 0: it
+                              does not */
+    const char *embedding; /* the file that `ffd embed` made of this mesh and the only lattice, or NULL */
+    unsigned fail_on;      /* of ffd_gate */
+    bool quality; /* fill the result's folds, flipped faces and det F too: they cost time and memory */
     ffd_normals normals;
     ffd_resources resources;
     int threads;          /* 0: all cores. Never changes a byte of the output. */
@@ -88,12 +105,28 @@ typedef struct ffd_job_result {
     double displacement_max, displacement_rms;
     uint64_t normals_collapsed;
     uint64_t transforms_singular; /* vertices kept because their node's matrix has no inverse */
-    double seconds_read, seconds_embed, seconds_deform, seconds_write;
+    bool has_folds;               /* the proof ran: for check, quality and FFD_GATE_FOLDS */
+    ffd_folds folds;      /* of all lattices: the worst verdict (some, unknown, none), sums of cells, the
+                             least min_det, the witness of the first lattice that has one */
+    size_t folds_lattice; /* number of the witness' lattice, from 0 */
+    bool has_flipped;     /* for check and quality */
+    uint64_t faces, flipped_faces;
+    double det_min, det_max; /* of F at the vertices, for check and quality; min > max where there is none */
+    bool has_edges;          /* for check */
+    uint64_t edges;          /* each counted once */
+    double deviation_max, deviation_mean; /* of straight edges from the deformed surface */
+    double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
 } ffd_job_result;
 
 /* Runs one job. Everything that can be refused is refused before anything is written; the output is complete
-   or absent. result is filled in every case (not NULL). Returns result->status. Errors: all. */
+   or absent. result is filled in every case (not NULL). Returns result->status. Errors: all; FFD_E_GATE with
+   all figures that were asked for. */
 FFD_API ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
+
+/* `ffd check`: everything that ffd_deform_run does but the writing, with all figures of the result. What desc
+   says of outputs is not looked at. Vertices that are not finite are counted, no failure. result is filled in
+   every case (not NULL). Returns result->status. Errors: all. */
+FFD_API ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 
 /* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,
    where status_output is not NULL, the statuses (uint8, N). Both files or none. The lattice's "mesh" box is

@@ -117,6 +117,8 @@ int ffd_status_exit_code(ffd_status status)
     switch (status) {
     case FFD_OK:
         return 0;
+    case FFD_E_GATE:
+        return 1;
     case FFD_E_ARGUMENT:
         return 2;
     case FFD_E_IO:

@@ -12,12 +12,12 @@ typedef struct cli_command {
     const char *name;     /* "lattice new" */
     const char *summary;  /* one line */
     const char *synopsis; /* lines of usage, each ended by a line break */
-    const cli_option *options;
+    cli_table options;
     /* Gets the arguments behind the name. Returns the exit code. */
     int (*run)(const struct cli_command *command, int count, char **arguments);
 } cli_command;
 
-extern const cli_command cli_deform, cli_embed, cli_compare, cli_info, cli_lattice_new;
+extern const cli_command cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new;
 
 void cli_print_help(const cli_command *command);
 

@@ -73,7 +73,9 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
-const cli_command cli_compare = {"compare", "are two files the same mesh?",
+const cli_command cli_compare = {"compare",
+                                 "are two files the same mesh?",
                                  "usage: ffd compare A B [--tolerance T] [options]\n"
                                  "       exit 0: the same, 1: not\n",
-                                 options, run};
+                                 {options, NULL},
+                                 run};

@@ -90,6 +90,8 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
-const cli_command cli_embed = {"embed", "u,v,w of every vertex",
+const cli_command cli_embed = {"embed",
+                               "u,v,w of every vertex",
                                "usage: ffd embed IN -l LATTICE -o FILE.npy [--status FILE.npy] [options]\n",
-                               options, run};
+                               {options, NULL},
+                               run};

@@ -200,7 +200,9 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
-const cli_command cli_lattice_new = {"lattice new", "make a lattice round a mesh",
+const cli_command cli_lattice_new = {"lattice new",
+                                     "make a lattice round a mesh",
                                      "usage: ffd lattice new MESH -o LATTICE [--size 4,4,4] [--degree 3,3,3] "
                                      "[--shape box|cylinder] [options]\n",
-                                     options, run};
+                                     {options, NULL},
+                                     run};

@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const cli_command *const commands[] = {&cli_deform, &cli_embed, &cli_compare, &cli_info,
-                                              &cli_lattice_new};
+static const cli_command *const commands[] = {&cli_deform,  &cli_check, &cli_embed,
+                                              &cli_compare, &cli_info,  &cli_lattice_new};
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 void cli_print_help(const cli_command *command)
 {
     printf("%s\n\n%s\nOptions:\n", command->summary, command->synopsis);
-    cli_print_options(command->options);
+    cli_print_options(&command->options);
 }
 
 const char *cli_shown(const char *path)
@@ -64,7 +64,7 @@ bool cli_begin(const cli_command *command, void *settings, const bool *help, int
         *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
         return false;
     }
-    if (!cli_parse(command->options, settings, help, count, arguments, words)) {
+    if (!cli_parse(&command->options, settings, help, count, arguments, words)) {
         *exit_code = EXIT_USAGE;
     } else if (*help) {
         cli_print_help(command);

@@ -49,6 +49,17 @@ bool cli_set_text(void *settings, const cli_option *option, const char *value)
     return true;
 }
 
+bool cli_set_positive(void *settings, const cli_option *option, const char *value)
+{
+    double number;
+    if (!cli_parse_number(value, &number) || !(number > 0)) {
+        cli_complain("--%s: \"%s\" is not a number above 0", option->name, value);
+        return false;
+    }
+    *(double *)field(settings, option) = number;
+    return true;
+}
+
 bool cli_set_count(void *settings, const cli_option *option, const char *value)
 {
     char *end;
@@ -100,10 +111,31 @@ bool cli_parse_number(const char *text, double *value)
     return *end == 0 && isfinite(*value);
 }
 
-static bool unknown_option(const cli_option *options, const char *name, size_t length)
+/* The way through both parts of a table. */
+typedef struct option_walk {
+    const cli_option *at, *more;
+} option_walk;
+
+static option_walk begin_walk(const cli_table *options)
+{
+    return (option_walk){options->first, options->more};
+}
+
+/* The next option; NULL behind the last. */
+static const cli_option *next_option(option_walk *walk)
+{
+    if (!walk->at->name && walk->more) {
+        walk->at = walk->more;
+        walk->more = NULL;
+    }
+    return walk->at->name ? walk->at++ : NULL;
+}
+
+static bool unknown_option(const cli_table *options, const char *name, size_t length)
 {
     cli_nearest nearest = {.word = name, .length = length};
-    for (const cli_option *option = options; option->name; option++)
+    option_walk walk = begin_walk(options);
+    for (const cli_option *option; (option = next_option(&walk));)
         cli_nearest_offer(&nearest, option->name);
     cli_complain("unknown option --%.*s (nearest: --%s)", (int)(length < 60 ? length : 60), name,
                  nearest.best);
@@ -111,9 +143,10 @@ static bool unknown_option(const cli_option *options, const char *name, size_t l
 }
 
 /* The nearest to a letter is the name that begins with it. */
-static bool unknown_letter(const cli_option *options, char letter)
+static bool unknown_letter(const cli_table *options, char letter)
 {
-    for (const cli_option *option = options; option->name; option++)
+    option_walk walk = begin_walk(options);
+    for (const cli_option *option; (option = next_option(&walk));)
         if (option->name[0] == letter) {
             cli_complain("unknown option -%c (nearest: --%s)", letter, option->name);
             return false;
@@ -122,24 +155,26 @@ static bool unknown_letter(const cli_option *options, char letter)
     return false;
 }
 
-static const cli_option *by_name(const cli_option *options, const char *name, size_t length)
+static const cli_option *by_name(const cli_table *options, const char *name, size_t length)
 {
-    for (const cli_option *option = options; option->name; option++)
+    option_walk walk = begin_walk(options);
+    for (const cli_option *option; (option = next_option(&walk));)
         if (strlen(option->name) == length && memcmp(option->name, name, length) == 0)
             return option;
     return NULL;
 }
 
-static const cli_option *by_letter(const cli_option *options, char letter)
+static const cli_option *by_letter(const cli_table *options, char letter)
 {
-    for (const cli_option *option = options; option->name; option++)
+    option_walk walk = begin_walk(options);
+    for (const cli_option *option; (option = next_option(&walk));)
         if (option->letter == letter)
             return option;
     return NULL;
 }
 
 /* --name, --name=value, --name value. *next is the argument after it. */
-static bool parse_long(const cli_option *options, void *settings, const char *text, char ***next, char **end)
+static bool parse_long(const cli_table *options, void *settings, const char *text, char ***next, char **end)
 {
     const char *equals = strchr(text, '=');
     const size_t length = equals ? (size_t)(equals - text) : strlen(text);
@@ -162,7 +197,7 @@ static bool parse_long(const cli_option *options, void *settings, const char *te
 }
 
 /* -q, -lFILE, -l FILE; letters without values may stand together. */
-static bool parse_letters(const cli_option *options, void *settings, const char *text, char ***next,
+static bool parse_letters(const cli_table *options, void *settings, const char *text, char ***next,
                           char **end)
 {
     for (; *text; text++) {
@@ -187,7 +222,7 @@ static bool parse_letters(const cli_option *options, void *settings, const char 
     return true;
 }
 
-bool cli_parse(const cli_option *options, void *settings, const bool *help, int count, char **arguments,
+bool cli_parse(const cli_table *options, void *settings, const bool *help, int count, char **arguments,
                cli_words *words)
 {
     char **next = arguments, **end = arguments + count;
@@ -206,9 +241,10 @@ bool cli_parse(const cli_option *options, void *settings, const bool *help, int 
     return true;
 }
 
-void cli_print_options(const cli_option *options)
+void cli_print_options(const cli_table *options)
 {
-    for (const cli_option *option = options; option->name; option++) {
+    option_walk walk = begin_walk(options);
+    for (const cli_option *option; (option = next_option(&walk));) {
         char left[64], letter[8] = "    ";
         if (option->letter)
             snprintf(letter, sizeof letter, "-%c, ", option->letter);

@@ -21,6 +21,11 @@ struct cli_option {
     const char *const *choices; /* of cli_set_choice: names in the order of the enum, ended by NULL */
 };
 
+/* The options of a command, in one or two parts that end with a name of NULL. */
+typedef struct cli_table {
+    const cli_option *first, *more; /* more may be NULL */
+} cli_table;
+
 /* Arguments that are no options, in their order. */
 typedef struct cli_words {
     const char **words;
@@ -28,20 +33,21 @@ typedef struct cli_words {
 } cli_words;
 
 /* Common setters. The field at offset is a bool; const char *, given once and not empty; int (a
-   number of threads); int (index into choices); ffd_format. */
+   number of threads); int (index into choices); ffd_format; double, positive and finite. */
 bool cli_set_flag(void *settings, const cli_option *option, const char *value);
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
 bool cli_set_format(void *settings, const cli_option *option, const char *value);
+bool cli_set_positive(void *settings, const cli_option *option, const char *value);
 
 /* The whole text as a number. */
 bool cli_parse_number(const char *text, double *value);
 
 /* Sorts the arguments of a command (without its name) into settings and words. words->words must have room
    for count entries. Stops where *help (a field of settings) becomes true: what follows is not looked at.
-   False after a complaint. options end with a name of NULL. */
-bool cli_parse(const cli_option *options, void *settings, const bool *help, int count, char **arguments,
+   False after a complaint. */
+bool cli_parse(const cli_table *options, void *settings, const bool *help, int count, char **arguments,
                cli_words *words);
 
 /* One line "ffd: ..." on stderr. */
@@ -50,6 +56,6 @@ __attribute__((__format__(__printf__, 1, 2)))
 #endif
 void cli_complain(const char *format, ...);
 
-void cli_print_options(const cli_option *options);
+void cli_print_options(const cli_table *options);
 
 #endif

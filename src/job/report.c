@@ -115,6 +115,67 @@ static void write_bounds(json_text *json, const char *key, const ffd_bounds *box
     ffd_json_end(json, '}');
 }
 
+static void write_witness(json_text *json, const ffd_job_result *result)
+{
+    const ffd_folds *folds = &result->folds;
+    if (!folds->has_witness) {
+        ffd_json_null(json, "witness");
+        return;
+    }
+    ffd_json_object(json, "witness", true);
+    ffd_json_count(json, "lattice", result->folds_lattice);
+    ffd_json_vector(json, "uvw", folds->witness_uvw, 3);
+    ffd_json_vector(json, "xyz", folds->witness_xyz, 3);
+    ffd_json_vector(json, "rest", folds->witness_rest, 3);
+    ffd_json_number(json, "det", folds->witness_det);
+    ffd_json_end(json, '}');
+}
+
+static void write_folds(json_text *json, const ffd_job_result *result)
+{
+    static const char *const verdicts[] = {"none", "some", "unknown"};
+    const ffd_folds *folds = &result->folds;
+    if (!result->has_folds) {
+        ffd_json_null(json, "folds");
+        return;
+    }
+    ffd_json_object(json, "folds", false);
+    ffd_json_string(json, "verdict", verdicts[folds->verdict]);
+    ffd_json_count(json, "cells", folds->cells);
+    ffd_json_number(json, "min_det", folds->min_det);
+    ffd_json_count(json, "folded_cells", folds->folded_cells);
+    ffd_json_count(json, "unknown_cells", folds->unknown_cells);
+    write_witness(json, result);
+    ffd_json_end(json, '}');
+}
+
+static void write_determinants(json_text *json, const ffd_job_result *result)
+{
+    if (!(result->det_min <= result->det_max)) {
+        ffd_json_null(json, "det");
+        return;
+    }
+    ffd_json_object(json, "det", true);
+    ffd_json_number(json, "min", result->det_min);
+    ffd_json_number(json, "max", result->det_max);
+    ffd_json_end(json, '}');
+}
+
+static void write_edges(json_text *json, const ffd_job_result *result)
+{
+    if (!result->has_edges) {
+        ffd_json_null(json, "edges");
+        return;
+    }
+    ffd_json_object(json, "edges", false);
+    ffd_json_count(json, "count", result->edges);
+    ffd_json_object(json, "deviation", true);
+    ffd_json_number(json, "max", result->deviation_max);
+    ffd_json_number(json, "mean", result->deviation_mean);
+    ffd_json_end(json, '}');
+    ffd_json_end(json, '}');
+}
+
 static void write_figures(json_text *json, const ffd_job_result *result)
 {
     static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
@@ -130,13 +191,13 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     ffd_json_number(json, "mean", result->evaluations_mean);
     ffd_json_count(json, "max", result->evaluations_max);
     ffd_json_end(json, '}');
-    /* No proof was tried: neither the folds nor the flipped faces are known. */
-    ffd_json_object(json, "folds", true);
-    ffd_json_string(json, "verdict", "unknown");
-    ffd_json_count(json, "cells", 0);
-    ffd_json_null(json, "min_det");
-    ffd_json_end(json, '}');
-    ffd_json_null(json, "flipped_faces");
+    write_folds(json, result);
+    if (result->has_flipped)
+        ffd_json_count(json, "flipped_faces", result->flipped_faces);
+    else
+        ffd_json_null(json, "flipped_faces");
+    write_determinants(json, result);
+    write_edges(json, result);
     ffd_json_object(json, "bounds", false);
     write_bounds(json, "before", &result->before);
     write_bounds(json, "after", &result->after);
@@ -162,6 +223,7 @@ static void write_entry(json_text *json, const report_entry *entry, bool stable)
         ffd_json_number(json, "read", result->seconds_read);
         ffd_json_number(json, "embed", result->seconds_embed);
         ffd_json_number(json, "deform", result->seconds_deform);
+        ffd_json_number(json, "judge", result->seconds_judge);
         ffd_json_number(json, "write", result->seconds_write);
         ffd_json_end(json, '}');
     }

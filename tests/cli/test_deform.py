@@ -270,8 +270,8 @@ def report(run):
     equal([report["format"], report["version"], len(report["jobs"])], ["ffd-report", 1, 1])
     job = report["jobs"][0]
     equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
-                      "invalid", "moved", "residual", "iterations", "folds", "flipped_faces", "bounds", "displacement",
-                      "seconds"])
+                      "invalid", "moved", "residual", "iterations", "folds", "flipped_faces", "det", "edges",
+                      "bounds", "displacement", "seconds"])
     equal([job[key] for key in ("input", "output", "status", "exit", "error")], ["a.obj", "b.obj", "ok", 0, None])
     equal([job[key] for key in ("vertices", "inside", "outside", "multiple", "singular", "invalid", "moved")],
           [8, 4, 4, 0, 0, 0, 4])
@@ -280,7 +280,7 @@ def report(run):
     near([job["displacement"]["max"]], [1], 1e-15)
     near([job["displacement"]["rms"]], [math.sqrt(0.5)], 1e-15)
     check(0 <= job["residual"]["rms"] <= job["residual"]["max"] < 1e-14, job["residual"])
-    equal(set(job["seconds"]), {"read", "embed", "deform", "write"})
+    equal(set(job["seconds"]), {"read", "embed", "deform", "judge", "write"})
     check(all(value >= 0 for value in job["seconds"].values()), job["seconds"])
 
 

@@ -4,10 +4,13 @@ import re
 
 from harness import CUBE, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "embed", "compare", "info", "lattice new"]
+COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new"]
 OPTIONS = {
-    "deform": {"--lattice", "--out-dir", "--outside", "--normals", "--space", "--resources", "--report",
-               "--report-stable", "--threads", "--in-place", "--force", "--input-format", "--output-format"},
+    "deform": {"--lattice", "--out-dir", "--outside", "--falloff", "--normals", "--space", "--embedding", "--fail-on",
+               "--resources", "--report", "--report-stable", "--threads", "--in-place", "--force", "--input-format",
+               "--output-format"},
+    "check": {"--lattice", "--outside", "--falloff", "--normals", "--space", "--embedding", "--fail-on", "--resources",
+              "--report", "--report-stable", "--threads", "--in-place", "--force", "--input-format"},
     "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format"},
     "compare": {"--tolerance", "--input-format"},
     "info": {"--json", "--input-format"},
@@ -80,7 +83,7 @@ def unknown_commands(run):
 
 @case
 def commands_of_later_versions_are_absent(run):
-    for words in (["batch", "m.jsonl"], ["check", "a.obj"], ["fit", "a.obj", "b.obj"], ["view", "a.obj"],
+    for words in (["batch", "m.jsonl"], ["fit", "a.obj", "b.obj"], ["view", "a.obj"],
                   ["lattice", "refine", "l.json"], ["lattice", "convert", "l.json"], ["lattice", "set", "l.json"]):
         refused(run, *words, says="unknown command")
 
@@ -103,10 +106,8 @@ def unknown_options(run):
 @case
 def options_of_later_versions_are_absent(run):
     work = files(run)
-    for option in ("--embedding=e.npy", "--refine=0.1", "--only=node:x", "--as-morph=x", "--falloff=1", "--seam=C1",
-                   "--isa=auto", "--depfile=d", "--fail-on=folds"):
+    for option in ("--refine=0.1", "--only=node:x", "--as-morph=x", "--seam=C1", "--isa=auto", "--depfile=d"):
         refused(run, *work, option, says="unknown option")
-    refused(run, *work, "--outside", "extend", says="extend")
     refused(run, *work, "--normals", "recompute", says="recompute")
 
 
@@ -116,6 +117,10 @@ def values(run):
     for option, value in (("--outside", "kep"), ("--outside", "KEEP"), ("--normals", ""), ("--space", "world"),
                           ("--resources", "move"), ("--input-format", "ply"), ("--output-format", ""),
                           ("--threads", "0"), ("--threads", "-1"), ("--threads", "two"), ("--threads", "2x"),
+                          ("--falloff", "0"), ("--falloff", "-1"), ("--falloff", "inf"), ("--falloff", "nan"),
+                          ("--falloff", "1m"), ("--falloff", ""), ("--embedding", ""), ("--fail-on", ""),
+                          ("--fail-on", "fold"), ("--fail-on", "folds,"), ("--fail-on", "folds,,outside"),
+                          ("--fail-on", "folds outside"), ("--fail-on", "OUTSIDE"), ("--fail-on", "x" * 5000),
                           ("--threads", "1.5"), ("--threads", " 2"), ("--threads", "+2"), ("--threads", ""),
                           ("--threads", "99999999999999999999"), ("--lattice", ""), ("--report", ""), ("--out-dir", "")):
         refused(run, *work, option, value, says=option)
@@ -124,7 +129,8 @@ def values(run):
     refused(run, *work, "-jx", says='"x"')
     for option in ("--force", "--in-place", "--report-stable", "--quiet", "--verbose", "--help"):
         refused(run, *work, f"{option}=yes", says=option)
-    for option in ("--lattice", "-l", "--threads", "-j", "--outside", "--report", "--out-dir"):
+    for option in ("--lattice", "-l", "--threads", "-j", "--outside", "--report", "--out-dir", "--falloff", "--embedding",
+                   "--fail-on"):
         refused(run, *work, option, says=option)
 
 
@@ -158,6 +164,41 @@ def words_of_deform(run):
     refused(run, "deform", "a.obj", "--in-place", "--output-format", "obj", "-l", "l.json", says="--output-format")
     refused(run, *work, "--report-stable", says="--report")
     refused(run, *work, "--", "-l", "l.json", says="--out-dir")
+
+
+@case
+def what_needs_what(run):
+    work = files(run)
+    run.write("b.glb", b"")
+    for command in (work, ["check", "a.obj", "-l", "l.json"]):
+        refused(run, *command, "--falloff", "1", says="--outside extend")
+        refused(run, *command, "--falloff", "1", "--outside", "error", says="--outside extend")
+        refused(run, *command, "-l", "l.json", "--embedding", "e.npy", says="-l")
+        refused(run, *command, "--embedding", "e.npy", "--report", "e.npy", says="embedding")
+        refused(run, *command, "--fail-on", "outsied", says="nearest: outside")
+        refused(run, *command, "--fail-on", "folds,mutliple", says="nearest: multiple")
+    for rest in (["--in-place"], ["--out-dir", "."]):
+        refused(run, "deform", "a.obj", "b.glb", *rest, "-l", "l.json", "--embedding", "e.npy", says="IN")
+    refused(run, "check", "a.obj", "b.glb", "-l", "l.json", "--embedding", "e.npy", says="IN")
+
+
+@case
+def words_of_check(run):
+    files(run)
+    refused(run, "check", says="IN")
+    refused(run, "check", "a.obj", says="lattice")
+    refused(run, "check", "-l", "l.json", says="IN")
+    refused(run, "check", "a.txt", "-l", "l.json", says="a.txt")
+    refused(run, "check", "a.obj", "a.txt", "-l", "l.json", says="a.txt")
+    refused(run, "check", "-", "-l", "l.json", says="--input-format")
+    refused(run, "check", "-", "-", "-l", "l.json", says="once")
+    refused(run, "check", "-", "-l", "-", "--input-format", "obj", says="once")
+    refused(run, "check", "a.obj", "-l", "l.json", "-l", "-", "--embedding", "-", says="-l")
+    refused(run, "check", "a.obj", "-l", "-", "--embedding", "-", says="once")
+    refused(run, "check", "a.obj", "-l", "l.json", "--out-dir", ".", says="unknown option")
+    refused(run, "check", "a.obj", "-l", "l.json", "--report-stable", says="--report")
+    refused(run, "check", "a.obj", "-l", "l.json", "--report", "a.obj", says="mesh")
+    refused(run, "check", "a.obj", "-l", "l.json", "--report", "l.json", says="lattice")
 
 
 @case

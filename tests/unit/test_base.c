@@ -186,6 +186,7 @@ static void test_messages(void **state)
 static void test_exit_codes(void **state)
 {
     assert_int_equal(ffd_status_exit_code(FFD_OK), 0);
+    assert_int_equal(ffd_status_exit_code(FFD_E_GATE), 1);
     assert_int_equal(ffd_status_exit_code(FFD_E_ARGUMENT), 2);
     assert_int_equal(ffd_status_exit_code(FFD_E_IO), 3);
     assert_int_equal(ffd_status_exit_code(FFD_E_EXISTS), 3);

@@ -1,0 +1,112 @@
+/* check.c - ffd check: what a deformation would do, without writing it. */
+#include "cli/job.h"
+#include <inttypes.h>
+#include <stdio.h>
+
+typedef struct settings {
+    cli_job job;
+    int resources;
+    bool force, in_place;
+} settings;
+
+static const char *const resources_names[] = {"copy", "reference", NULL};
+
+/* Options of deform's that a command line may keep when "deform" becomes "check". */
+#define AT(field) offsetof(settings, field)
+static const cli_option options[] = {
+    {"in-place", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(in_place), NULL},
+    {"force", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(force), NULL},
+    {"resources", 0, "copy|reference", "without effect: nothing is written", cli_set_choice, AT(resources),
+     resources_names},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+static void print_statuses(const ffd_job_result *result)
+{
+    static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
+    printf("  vertices       %" PRIu64, result->vertices);
+    const char *before = ": ";
+    for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
+        if (result->counts[s]) {
+            printf("%s%" PRIu64 " %s", before, result->counts[s], names[s]);
+            before = ", ";
+        }
+    printf("\n  moved          %" PRIu64 ", by %g at most\n", result->moved, result->displacement_max);
+}
+
+static void print_vector(const char *before, const double v[3])
+{
+    printf("%s%g %g %g", before, v[0], v[1], v[2]);
+}
+
+static void print_witness(const ffd_folds *folds, const char *lattice)
+{
+    print_vector("                 at u,v,w = ", folds->witness_uvw);
+    print_vector(", x,y,z = ", folds->witness_rest);
+    print_vector(" at rest, ", folds->witness_xyz);
+    printf(" deformed, det J is %g (%s)\n", folds->witness_det, lattice);
+}
+
+static void print_folds(const ffd_folds *folds, const char *lattice)
+{
+    printf("  folds          ");
+    if (folds->verdict == FFD_FOLDS_NONE)
+        printf("none, proven in all %" PRIu64 " cells", folds->cells);
+    else if (folds->verdict == FFD_FOLDS_UNKNOWN)
+        printf("unknown: %" PRIu64 " of %" PRIu64 " cells could not be decided", folds->unknown_cells,
+               folds->cells);
+    else
+        printf("some: %" PRIu64 " of %" PRIu64 " cells", folds->folded_cells, folds->cells);
+    printf("; det J is at least %g of its mean at rest\n", folds->min_det);
+    if (folds->has_witness)
+        print_witness(folds, lattice);
+}
+
+static void print_summary(const cli_job *job, const char *input, const ffd_job_result *result)
+{
+    printf("%s\n", cli_shown(input));
+    print_statuses(result);
+    print_folds(&result->folds, cli_shown(job->lattices[result->folds_lattice]));
+    printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
+    if (result->det_min <= result->det_max)
+        printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
+    printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",
+           result->edges, result->deviation_max, result->deviation_mean);
+}
+
+static int check(cli_job *job, const char *input, ffd_report *report)
+{
+    ffd_deform_desc desc;
+    ffd_job_result result;
+    cli_job_describe(job, input, &desc);
+    const ffd_status status = ffd_check_run(&desc, &result, NULL);
+    const bool reported = job->report && cli_is_stream(job->report);
+    if ((status == FFD_OK || status == FFD_E_GATE) && !reported && !job->talk.quiet)
+        print_summary(job, input, &result);
+    return cli_job_ended(&result, input, NULL, report);
+}
+
+static int run(const cli_command *command, int count, char **arguments)
+{
+    settings s = {0};
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
+        return code;
+    const char *why = words.count ? cli_job_wrong(&s.job, &words, words.count) : "needs IN";
+    if (why)
+        code = cli_usage(command, why);
+    else if (cli_job_knows_formats(&s.job, &words, words.count))
+        code = cli_job_run_all(&s.job, &words, words.count, check);
+    else
+        code = EXIT_USAGE;
+    cli_job_end(&s.job, &words);
+    return code;
+}
+
+const cli_command cli_check = {"check",
+                               "what a deformation would do: folds, statuses, quality",
+                               "usage: ffd check IN... -l LATTICE [-l LATTICE ...] [options]\n"
+                               "       exit 1: a gate of --fail-on is violated\n",
+                               {cli_job_options, options},
+                               run};

@@ -1,0 +1,217 @@
+#include "cli/job.h"
+#include "cli/nearest.h"
+#include <stdlib.h>
+#include <string.h>
+
+static bool add_lattice(void *context, const cli_option *option, const char *value)
+{
+    cli_job *job = context;
+    job->lattices[job->lattice_count] = NULL;
+    return cli_set_text(&job->lattices[job->lattice_count++], option, value);
+}
+
+static const struct {
+    const char *name;
+    ffd_gate gate;
+} gates[] = {{"folds", FFD_GATE_FOLDS},
+             {"outside", FFD_GATE_OUTSIDE},
+             {"multiple", FFD_GATE_MULTIPLE},
+             {"singular", FFD_GATE_SINGULAR}};
+enum { GATES = sizeof gates / sizeof *gates };
+
+static bool add_gate(cli_job *job, const cli_option *option, const char *word, size_t length)
+{
+    cli_nearest nearest = {.word = word, .length = length};
+    for (int i = 0; i < GATES; i++) {
+        if (strlen(gates[i].name) == length && memcmp(gates[i].name, word, length) == 0) {
+            job->fail_on |= (unsigned)gates[i].gate;
+            return true;
+        }
+        cli_nearest_offer(&nearest, gates[i].name);
+    }
+    cli_complain("--%s: unknown gate \"%.*s\" (nearest: %s)", option->name, (int)(length < 60 ? length : 60),
+                 word, nearest.best);
+    return false;
+}
+
+/* A list: folds,outside. */
+static bool add_gates(void *context, const cli_option *option, const char *value)
+{
+    for (;;) {
+        const size_t length = strcspn(value, ",");
+        if (!add_gate(context, option, value, length))
+            return false;
+        if (!value[length])
+            return true;
+        value += length + 1;
+    }
+}
+
+/* In the order of the enums. */
+static const char *const outside_names[] = {"keep", "extend", "error", NULL};
+static const char *const normals_names[] = {"transform", "keep", NULL};
+static const char *const space_names[] = {"scene", "mesh", NULL};
+
+#define AT(field) offsetof(cli_job, field)
+const cli_option cli_job_options[] = {
+    {"lattice", 'l', "FILE", "lattice file; several are applied in this order", add_lattice, 0, NULL},
+    {"outside", 0, "keep|extend|error",
+     "vertices outside the lattice: stay, follow its border, or fail (exit 5); default keep", cli_set_choice,
+     AT(outside), outside_names},
+    {"falloff", 0, "R", "with --outside extend: what follows fades to nothing over this distance",
+     cli_set_positive, AT(falloff), NULL},
+    {"normals", 0, "transform|keep",
+     "normals and tangents: follow the deformation, or stay; default transform", cli_set_choice, AT(normals),
+     normals_names},
+    {"space", 0, "scene|mesh",
+     "glTF: the lattice stands in the scene, or in each mesh's own space; default scene", cli_set_choice,
+     AT(space), space_names},
+    {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
+     cli_set_text, AT(embedding), NULL},
+    {"fail-on", 0, "GATES", "of folds,outside,multiple,singular: exit 1, nothing written, if there are any",
+     add_gates, 0, NULL},
+    {"report", 0, "FILE|-", "JSON report", cli_set_text, AT(report), NULL},
+    {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
+    {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),
+     NULL},
+    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
+                   int *exit_code)
+{
+    job->lattices = calloc((size_t)count + 1, sizeof *job->lattices);
+    if (!job->lattices) {
+        cli_complain("out of memory");
+        *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
+        return false;
+    }
+    if (cli_begin(command, job, &job->help, count, arguments, words, exit_code))
+        return true;
+    free(job->lattices);
+    return false;
+}
+
+void cli_job_end(cli_job *job, cli_words *words)
+{
+    free(words->words);
+    free(job->lattices);
+}
+
+bool cli_is_stream(const char *path)
+{
+    return strcmp(path, "-") == 0;
+}
+
+static const char *wrong_streams(const cli_job *job, const cli_words *words, size_t inputs)
+{
+    size_t meshes = 0, others = job->embedding && cli_is_stream(job->embedding);
+    for (size_t i = 0; i < inputs; i++)
+        meshes += cli_is_stream(words->words[i]);
+    for (size_t i = 0; i < job->lattice_count; i++)
+        others += cli_is_stream(job->lattices[i]);
+    return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
+}
+
+/* A report replaces what stands under its name, which must not be a file of the job. */
+static const char *wrong_report(const cli_job *job, const cli_words *words)
+{
+    if (!job->report || cli_is_stream(job->report))
+        return NULL;
+    for (size_t i = 0; i < words->count; i++)
+        if (strcmp(job->report, words->words[i]) == 0)
+            return "the report would replace a mesh";
+    for (size_t i = 0; i < job->lattice_count; i++)
+        if (strcmp(job->report, job->lattices[i]) == 0)
+            return "the report would replace a lattice";
+    if (job->embedding && strcmp(job->report, job->embedding) == 0)
+        return "the report would replace the embedding";
+    return NULL;
+}
+
+const char *cli_job_wrong(const cli_job *job, const cli_words *words, size_t inputs)
+{
+    if (job->lattice_count == 0)
+        return "no lattice is given (-l FILE)";
+    if (job->falloff > 0 && job->outside != FFD_OUTSIDE_EXTEND)
+        return "--falloff needs --outside extend";
+    if (job->embedding && job->lattice_count > 1)
+        return "--embedding is of one lattice: several -l are given";
+    if (job->embedding && inputs > 1)
+        return "--embedding is of one mesh: several IN are given";
+    if (job->stable && !job->report)
+        return "--report-stable needs --report";
+    const char *why = wrong_streams(job, words, inputs);
+    return why ? why : wrong_report(job, words);
+}
+
+bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs)
+{
+    for (size_t i = 0; i < inputs; i++)
+        if (!cli_knows_format(words->words[i], job->input_format))
+            return false;
+    return true;
+}
+
+void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
+{
+    ffd_deform_desc_init(desc);
+    desc->input = (ffd_source){input, job->input_format, (ffd_space)job->space};
+    desc->lattices = job->lattices;
+    desc->lattice_count = job->lattice_count;
+    desc->outside = (ffd_outside)job->outside;
+    desc->falloff = job->falloff;
+    desc->embedding = job->embedding;
+    desc->fail_on = job->fail_on;
+    desc->quality = job->report != NULL;
+    desc->normals = (ffd_normals)job->normals;
+    desc->threads = job->threads;
+    desc->written = job->written;
+    desc->log = cli_log;
+    desc->log_user = &job->talk;
+    job->talk.subject = input;
+}
+
+int cli_job_ended(const ffd_job_result *result, const char *input, const char *output, ffd_report *report)
+{
+    ffd_error error;
+    int code = result->status ? cli_fail(&result->error) : EXIT_DONE;
+    if (report && ffd_report_add(report, input, output, result, &error))
+        code = cli_fail(&error);
+    return code;
+}
+
+static int run_each(cli_job *job, const cli_words *words, size_t inputs, cli_job_function one,
+                    ffd_report *report)
+{
+    int code = EXIT_DONE;
+    for (size_t i = 0; i < inputs; i++) {
+        const int own = one(job, words->words[i], report);
+        if (own)
+            code = inputs == 1 ? own : EXIT_NO;
+    }
+    return code;
+}
+
+int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job_function one)
+{
+    ffd_report *report = NULL;
+    ffd_error error;
+    int code = EXIT_DONE;
+    if (ffd_written_create(&job->written, &error) ||
+        (job->report && ffd_report_create(job->report, job->stable, job->written, &report, &error)))
+        code = cli_fail(&error);
+    else
+        code = run_each(job, words, inputs, one, report);
+    if (report && ffd_report_write(report, &error)) {
+        const int own = cli_fail(&error);
+        code = code ? code : own;
+    }
+    ffd_report_destroy(&report);
+    ffd_written_destroy(&job->written);
+    return code;
+}

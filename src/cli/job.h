@@ -1,0 +1,54 @@
+/* job.h - what the commands that deform meshes have in common: deform and check. */
+#ifndef FFD_CLI_JOB_H
+#define FFD_CLI_JOB_H
+
+#include "cli/command.h"
+
+/* Filled by cli_job_options. Each command's own settings begin with it. */
+typedef struct cli_job {
+    const char **lattices;
+    size_t lattice_count;
+    int outside, normals, space;
+    double falloff; /* 0: not given */
+    const char *embedding;
+    unsigned fail_on; /* of ffd_gate */
+    const char *report;
+    int threads;
+    ffd_format input_format;
+    bool stable;
+    ffd_written *written; /* by the jobs so far */
+    cli_talk talk;
+    bool help;
+} cli_job;
+
+extern const cli_option cli_job_options[];
+
+/* Parses the arguments into job, the head of the command's settings, and words. True to go on: then
+   cli_job_end must follow; else *exit_code is there. */
+bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
+                   int *exit_code);
+void cli_job_end(cli_job *job, cli_words *words);
+
+/* What is wrong with the options, given the meshes that are read (the first inputs of words; the others are
+   written), or NULL. */
+const char *cli_job_wrong(const cli_job *job, const cli_words *words, size_t inputs);
+
+/* Whether the formats of all inputs are known. Else says what is missing. */
+bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs);
+
+bool cli_is_stream(const char *path);
+
+/* The job on one mesh, but for its output. */
+void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc);
+
+/* Says how a job ended if it failed, and adds it to the report (NULL: there is none). Returns its exit code.
+ */
+int cli_job_ended(const ffd_job_result *result, const char *input, const char *output, ffd_report *report);
+
+/* Does one mesh; returns its exit code. */
+typedef int (*cli_job_function)(cli_job *job, const char *input, ffd_report *report);
+
+/* Runs one for each input, and writes the report. */
+int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job_function one);
+
+#endif

@@ -1,0 +1,168 @@
+#include "job/deform_job.h"
+#include "base/clock.h"
+#include "base/thread.h"
+#include "job/figures.h"
+#include "job/gates.h"
+#include "job/placement.h"
+#include "job/source.h"
+#include "job/written.h"
+#include <math.h>
+#include <string.h>
+
+static void clear_result(ffd_job_result *result)
+{
+    memset(result, 0, sizeof *result);
+    for (int a = 0; a < 3; a++) {
+        result->before.min[a] = result->after.min[a] = 1; /* nothing yet: min > max */
+        result->before.max[a] = result->after.max[a] = -1;
+    }
+    result->det_min = 1;
+    result->det_max = -1;
+}
+
+static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
+{
+    const char *embedding = desc->embedding;
+    if (!embedding)
+        return FFD_OK;
+    if (desc->lattice_count != 1)
+        return ffd_fail(error, FFD_E_ARGUMENT, "an embedding is of one lattice, not of %zu",
+                        desc->lattice_count);
+    if (strcmp(embedding, "-") == 0 &&
+        (strcmp(desc->input.path, "-") == 0 || strcmp(desc->lattices[0], "-") == 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard input can be read only once");
+    if (desc->written && ffd_written_holds(&desc->written->files, embedding))
+        return ffd_fail_file(error, FFD_E_EXISTS, embedding,
+                             "was written by this run already, under this name or another");
+    return FFD_OK;
+}
+
+static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
+{
+    if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
+    if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is no length", desc->falloff);
+    if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
+        return ffd_fail(error, FFD_E_ARGUMENT, "a falloff has a meaning only where the outside is extended");
+    return check_embedding(desc, error);
+}
+
+ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
+                                ffd_job_result *result)
+{
+    clear_result(result);
+    *job = (deform_job){.desc = desc, .check = check};
+    const ffd_status status = check_desc(desc, &result->error);
+    if (status)
+        return status;
+    job->threads = desc->threads > 0 ? desc->threads : ffd_processor_count();
+    job->log = (mesh_log){desc->log, desc->log_user};
+    return FFD_OK;
+}
+
+ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    const ffd_deform_desc *desc = job->desc;
+    const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff};
+    const double start = ffd_clock_seconds();
+    if (desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
+        return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
+                             "was written by this run already, under this name or another");
+    ffd_status status = ffd_chain_load(desc->lattices, desc->lattice_count, &outside, &job->chain, error);
+    if (!status)
+        status = ffd_source_open(&desc->input, &job->document, error);
+    result->seconds_read = ffd_clock_seconds() - start;
+    return status;
+}
+
+/* What can be refused before a vertex is touched, and room for the results. */
+static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
+{
+    const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
+    const mesh_format *format = job->document->format;
+    ffd_status status = format->check(job->document, error);
+    if (!status)
+        status = format->begin_results(job->document, attributes, attributes, error);
+    if (!status && (job->check || job->desc->quality))
+        status = ffd_figures_make_room(job, arrays, error);
+    return status;
+}
+
+static ffd_status place(deform_job *job, ffd_error *error)
+{
+    const char *embedding = job->desc->embedding;
+    const ffd_status status = ffd_chain_place(&job->chain, job->document, job->threads, error);
+    if (status || !embedding)
+        return status;
+    return ffd_embedding_reuse(embedding, job->document, job->chain.links[0].lattice, job->threads,
+                               &job->embedding, error);
+}
+
+static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error *error)
+{
+    const mesh_pass pass = {.document = job->document,
+                            .chain = &job->chain,
+                            .links = job->chain.count,
+                            .threads = job->threads,
+                            .embedding = job->desc->embedding ? &job->embedding : NULL,
+                            .write = true,
+                            .attributes = job->desc->normals != FFD_NORMALS_KEEP,
+                            .deformed = arrays->deformed,
+                            .gradients = arrays->gradients};
+    return ffd_pass_run(&pass, &job->totals, error);
+}
+
+/* The figures that cost time of their own, and what the gates say of them all. */
+static ffd_status judge(deform_job *job, const figure_arrays *arrays, ffd_job_result *result,
+                        ffd_error *error)
+{
+    const ffd_deform_desc *desc = job->desc;
+    const char *name = ffd_source_name(&desc->input);
+    const double start = ffd_clock_seconds();
+    ffd_status status = ffd_policies_judge(desc, name, job->check, &job->totals, error);
+    if (!status && (job->check || desc->quality || desc->fail_on & FFD_GATE_FOLDS))
+        status = ffd_figures_folds(&job->chain, job->threads, result, error);
+    if (!status && arrays->deformed)
+        status = ffd_figures_faces(job, arrays, result, error);
+    if (!status)
+        status = ffd_gates_judge(desc, name, &job->totals, result, error);
+    result->seconds_judge = ffd_clock_seconds() - start;
+    return status;
+}
+
+ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    figure_arrays arrays = {0};
+    const double start = ffd_clock_seconds();
+    ffd_status status = prepare(job, &arrays, error);
+    const double prepared = ffd_clock_seconds();
+    result->seconds_read += prepared - start;
+    if (!status)
+        status = place(job, error);
+    if (!status)
+        status = deform(job, &arrays, error);
+    if (!status) {
+        ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
+        status = judge(job, &arrays, result, error);
+    }
+    if (!status)
+        ffd_result_warn(&job->totals, &job->chain, true, &job->log);
+    if (!status && !job->check)
+        ffd_figures_warn(job, result);
+    ffd_figures_free(&arrays);
+    return status;
+}
+
+ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result *result, ffd_error *error)
+{
+    result->status = status;
+    if (status && status != FFD_E_ARGUMENT)
+        ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
+    ffd_embedding_close(&job->embedding);
+    ffd_source_close(&job->document);
+    ffd_chain_free(&job->chain);
+    if (status && error)
+        *error = result->error;
+    return status;
+}

@@ -1,0 +1,180 @@
+/* test_job.c - whole jobs through the library: descriptions that are refused, what of the figures is filled,
+   and memory that ends anywhere. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include <ffd/job.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char folder[] = "/tmp/ffd-test-job-XXXXXX";
+static char mesh[64], lattice[64], output[64];
+static const char *const lattices[] = {lattice, lattice};
+
+static void put(char *path, const char *name, const char *text)
+{
+    snprintf(path, 64, "%s/%s", folder, name);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static int set_up(void **state)
+{
+    assert_non_null(mkdtemp(folder));
+    put(mesh, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 2//1 3//1 4//1\n");
+    put(lattice, "l.json",
+        "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4], \"rest\": {\"box\": "
+        "{\"min\": [-1, -1, -1], \"max\": [2, 2, 2]}}, \"moves\": [{\"at\": [1, 1, 1], \"by\": [0, 0, 1]}]}");
+    snprintf(output, sizeof output, "%s/b.obj", folder);
+    (void)state;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    unlink(output);
+    unlink(mesh);
+    unlink(lattice);
+    (void)state;
+    return rmdir(folder);
+}
+
+static ffd_deform_desc describe(void)
+{
+    ffd_deform_desc desc;
+    ffd_deform_desc_init(&desc);
+    desc.input.path = mesh;
+    desc.output = output;
+    desc.lattices = lattices;
+    desc.lattice_count = 1;
+    desc.threads = 1;
+    desc.force = true;
+    return desc;
+}
+
+static void refuse(const ffd_deform_desc *desc)
+{
+    ffd_job_result result;
+    ffd_error error;
+    assert_int_equal(ffd_deform_run(desc, &result, &error), FFD_E_ARGUMENT);
+    assert_int_equal(result.status, FFD_E_ARGUMENT);
+    assert_string_equal(error.message, result.error.message);
+    assert_int_equal(ffd_check_run(desc, &result, NULL), FFD_E_ARGUMENT);
+    assert_false(result.has_folds);
+    assert_int_not_equal(access(output, F_OK), 0);
+}
+
+static void test_descriptions(void **state)
+{
+    ffd_deform_desc desc = describe();
+    desc.struct_size--;
+    refuse(&desc);
+    desc = describe();
+    desc.input.path = NULL;
+    refuse(&desc);
+    desc = describe();
+    desc.lattice_count = 0;
+    refuse(&desc);
+    const double lengths[] = {-1, HUGE_VAL, NAN};
+    for (int i = 0; i < 3; i++) {
+        desc = describe();
+        desc.outside = FFD_OUTSIDE_EXTEND;
+        desc.falloff = lengths[i];
+        refuse(&desc);
+    }
+    desc = describe();
+    desc.falloff = 1;
+    refuse(&desc);
+    desc = describe();
+    desc.embedding = "e.npy";
+    desc.lattice_count = 2;
+    refuse(&desc);
+    (void)state;
+}
+
+/* Figures that cost are there when they are asked for. */
+static void test_figures(void **state)
+{
+    ffd_job_result result;
+    ffd_deform_desc desc = describe();
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+    assert_false(result.has_folds || result.has_flipped || result.has_edges);
+    assert_true(result.det_min > result.det_max);
+
+    desc.fail_on = FFD_GATE_FOLDS;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+    assert_true(result.has_folds && !result.has_flipped && !result.has_edges);
+    assert_int_equal(result.folds.verdict, FFD_FOLDS_NONE);
+
+    desc.fail_on = 0;
+    desc.quality = true;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+    assert_true(result.has_folds && result.has_flipped && !result.has_edges);
+    assert_true(result.det_min <= result.det_max);
+    assert_int_equal(result.faces, 2);
+
+    desc.output = NULL; /* is not looked at */
+    desc.quality = false;
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
+    assert_true(result.has_folds && result.has_flipped && result.has_edges);
+    assert_int_equal(result.edges, 5);
+
+    desc.fail_on = FFD_GATE_FOLDS | FFD_GATE_OUTSIDE;
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_E_GATE);
+    assert_string_equal(result.error.message, "1 of 4 vertices are outside the lattice (--fail-on outside)");
+    assert_int_equal(result.counts[FFD_OUTSIDE], 1);
+    assert_true(result.has_folds && result.has_flipped && result.has_edges);
+    (void)state;
+}
+
+static void fail_everywhere(ffd_status (*run)(const ffd_deform_desc *, ffd_job_result *, ffd_error *),
+                            const ffd_deform_desc *desc)
+{
+    long failures = 0;
+    for (ffd_status status = FFD_E_MEMORY; status; failures++) {
+        ffd_job_result result;
+        ffd_error error = {0};
+        ffd_alloc_fail_after(failures);
+        status = run(desc, &result, &error);
+        ffd_alloc_fail_after(-1);
+        if (status) {
+            assert_int_equal(status, FFD_E_MEMORY);
+            assert_non_null(strstr(error.message, "out of memory"));
+            assert_int_not_equal(access(output, F_OK), 0);
+        }
+    }
+    assert_true(failures > 20);
+    unlink(output);
+}
+
+static void test_memory(void **state)
+{
+    ffd_deform_desc desc = describe();
+    unlink(output);
+    fail_everywhere(ffd_check_run, &desc);
+    desc.quality = true;
+    fail_everywhere(ffd_deform_run, &desc);
+    desc.outside = FFD_OUTSIDE_EXTEND;
+    fail_everywhere(ffd_check_run, &desc);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_descriptions),
+        cmocka_unit_test(test_figures),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
