@@ -45,7 +45,7 @@ typedef struct ffd_folds {
    where control points coincide along it in both volumes these zeros are exact, and det J_Q > 0 is proven
    everywhere else; where the rest volume's determinant is 0 there only to rounding (unclamped knots, weights
    that differ round the axis), so may be the deformed volume's, and nothing finer is proven of that border.
-   An axis whose points coincide at rest and no longer so is none.
+   Where points coincide at rest and no longer do, nothing is excused.
 
    The least cells are then looked into further until min_det is within 1 % of the least determinant seen (or
    within its rounding), or a fixed number of boxes is used up. Where the rest volume has no volume to speak

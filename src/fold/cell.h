@@ -3,6 +3,7 @@
 #define FFD_FOLD_CELL_H
 
 #include "fold/plan.h"
+#include "fold/scratch.h"
 #include <ffd/fold.h>
 
 typedef struct cell_verdict {
@@ -13,12 +14,9 @@ typedef struct cell_verdict {
     double value;      /* some: there, <= 0 */
 } cell_verdict;
 
-/* The memory that one worker needs; NULL when there is none. */
-typedef struct fold_scratch fold_scratch;
-fold_scratch *ffd_fold_scratch_create(const fold_plan *plan);
-void ffd_fold_scratch_destroy(fold_scratch *scratch);
-
-void ffd_cell_decide(const fold_plan *plan, size_t cell, fold_scratch *scratch, cell_verdict *verdict);
+/* No more than so many boxes are looked at. */
+void ffd_cell_decide(const fold_plan *plan, size_t cell, long boxes, fold_scratch *scratch,
+                     cell_verdict *verdict);
 
 /* A lower bound of the determinant in the cell that is within 1 % of the least value seen, in this cell
    (*least_seen is lowered) or elsewhere, unless *boxes (lowered by those looked at) end first. */

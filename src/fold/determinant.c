@@ -3,6 +3,7 @@
 #include <string.h>
 
 #define UNIT (0.5 * DBL_EPSILON)
+#define LEAST_ROUNDING 0x1p-960 /* far above what underflow can do to a sum of products */
 
 void ffd_determinant_order(const int order[3], bool rational, int result[3])
 {
@@ -80,6 +81,10 @@ void ffd_determinant_bounds(const cell_form *form, determinant_bounds *bounds)
     bounds->rounding = bounds->greatest - exact;
     add_bounds(form->rows, &form->greatest, &form->coarse, &sum);
     bounds->coarse = permanent(form->rows, &sum) * (1 + relative) - exact;
+    if (bounds->greatest > 0) { /* products may underflow */
+        bounds->rounding += LEAST_ROUNDING;
+        bounds->coarse += LEAST_ROUNDING;
+    }
 }
 
 double ffd_determinant_corner(const cell_form *form, int corner)
@@ -108,7 +113,7 @@ static size_t minor_size(const int order[3])
 
 size_t ffd_determinant_scratch(const int order[3], bool rational)
 {
-    return (rational ? 16 : 9) * ffd_bernstein_count(order) + (rational ? 12 : 3) * minor_size(order);
+    return (rational ? 16 : 9) * ffd_bernstein_count(order) + (rational ? 2 : 1) * minor_size(order);
 }
 
 /* minor = row a, component i times row b, component j, less the same with i and j exchanged. */

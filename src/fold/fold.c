@@ -6,7 +6,13 @@
 #include <string.h>
 
 #define TILE_CELLS 64
-#define REFINE_BOXES 4096 /* looked at for min_det, if cubic */
+
+/* Boxes looked at in a cell at first; in an undecided cell at most; in all of these, shared evenly; and for
+   min_det. The last three are of a cubic lattice's size. */
+#define FIRST_BOXES 64
+#define CELL_BOXES 2048
+#define ALL_BOXES (1L << 22)
+#define REFINE_BOXES 4096
 
 typedef struct tile_verdict {
     size_t folded, unknown;
@@ -19,28 +25,75 @@ typedef struct fold_work {
     fold_plan plan;
     fold_scratch **scratch; /* one a worker */
     int workers;
-    double *lower; /* one a cell */
+    double *lower;           /* one a cell */
+    unsigned char *verdicts; /* likewise */
     tile_verdict *tiles;
     size_t tile_count;
+    long boxes; /* for each undecided cell, in the second round */
 } fold_work;
+
+static void decide(fold_work *work, size_t cell, long boxes, int worker, tile_verdict *result)
+{
+    cell_verdict verdict;
+    ffd_cell_decide(&work->plan, cell, boxes, work->scratch[worker], &verdict);
+    work->lower[cell] = verdict.lower;
+    work->verdicts[cell] = (unsigned char)verdict.verdict;
+    result->least_seen = fmin(result->least_seen, verdict.least_seen);
+    result->unknown += verdict.verdict == FFD_FOLDS_UNKNOWN;
+    if (verdict.verdict == FFD_FOLDS_SOME && (result->folded++ == 0 || cell < result->first)) {
+        result->first = cell;
+        result->witness = verdict;
+    }
+}
+
+/* The least lower bound of a tile's cells. */
+static void find_lower(fold_work *work, size_t tile)
+{
+    const size_t begin = tile * TILE_CELLS, left = work->plan.cell_count - begin,
+                 end = begin + (left < TILE_CELLS ? left : TILE_CELLS);
+    work->tiles[tile].lower = work->lower[begin];
+    for (size_t cell = begin + 1; cell < end; cell++)
+        work->tiles[tile].lower = fmin(work->tiles[tile].lower, work->lower[cell]);
+}
 
 static void decide_tile(void *context, size_t tile, size_t begin, size_t end, int worker)
 {
     fold_work *work = context;
-    tile_verdict *result = &work->tiles[tile];
-    *result = (tile_verdict){.lower = DBL_MAX, .least_seen = DBL_MAX};
-    for (size_t cell = begin; cell < end; cell++) {
-        cell_verdict verdict;
-        ffd_cell_decide(&work->plan, cell, work->scratch[worker], &verdict);
-        work->lower[cell] = verdict.lower;
-        result->lower = fmin(result->lower, verdict.lower);
-        result->least_seen = fmin(result->least_seen, verdict.least_seen);
-        result->unknown += verdict.verdict == FFD_FOLDS_UNKNOWN;
-        if (verdict.verdict == FFD_FOLDS_SOME && result->folded++ == 0) {
-            result->first = cell;
-            result->witness = verdict;
-        }
-    }
+    work->tiles[tile] = (tile_verdict){.least_seen = DBL_MAX};
+    for (size_t cell = begin; cell < end; cell++)
+        decide(work, cell, FIRST_BOXES, worker, &work->tiles[tile]);
+    find_lower(work, tile);
+}
+
+/* The second round. */
+static void decide_rest_of_tile(void *context, size_t tile, size_t begin, size_t end, int worker)
+{
+    fold_work *work = context;
+    if (work->tiles[tile].unknown == 0)
+        return;
+    work->tiles[tile].unknown = 0;
+    for (size_t cell = begin; cell < end; cell++)
+        if (work->verdicts[cell] == FFD_FOLDS_UNKNOWN)
+            decide(work, cell, work->boxes, worker, &work->tiles[tile]);
+    find_lower(work, tile);
+}
+
+/* What is undecided shares a fixed number of boxes, so that the time is bounded for any lattice; the share
+   depends on the lattice only. */
+static void decide_all(fold_work *work)
+{
+    const size_t cells = work->plan.cell_count;
+    size_t unknown = 0;
+    ffd_parallel_tiles(cells, TILE_CELLS, work->workers, decide_tile, work);
+    for (size_t tile = 0; tile < work->tile_count; tile++)
+        unknown += work->tiles[tile].unknown;
+    if (unknown == 0)
+        return;
+    const long most = ffd_cell_boxes(&work->plan, CELL_BOXES);
+    const size_t share = (size_t)ffd_cell_boxes(&work->plan, ALL_BOXES) / unknown;
+    work->boxes = share < (size_t)most ? (long)share : most;
+    if (work->boxes > FIRST_BOXES)
+        ffd_parallel_tiles(cells, TILE_CELLS, work->workers, decide_rest_of_tile, work);
 }
 
 /* u of a place in the cell; at its end the last number before the next cell, where that has another one. */
@@ -99,16 +152,6 @@ static size_t least_cell(const fold_work *work, size_t *least_tile)
     return cell;
 }
 
-static void set_lower(fold_work *work, size_t tile, size_t cell, double lower)
-{
-    const size_t begin = tile * TILE_CELLS;
-    const size_t left = work->plan.cell_count - begin, count = left < TILE_CELLS ? left : TILE_CELLS;
-    work->lower[cell] = lower;
-    work->tiles[tile].lower = work->lower[begin];
-    for (size_t i = 1; i < count; i++)
-        work->tiles[tile].lower = fmin(work->tiles[tile].lower, work->lower[begin + i]);
-}
-
 /* Looks into the least cells until their bound is near the least value seen. Returns the least bound. */
 static double refine(fold_work *work, double least_seen)
 {
@@ -122,7 +165,8 @@ static double refine(fold_work *work, double least_seen)
         const double lower = ffd_cell_refine(&work->plan, cell, work->scratch[0], &least_seen, &boxes);
         if (!(lower > before)) /* no better is to be had */
             return before;
-        set_lower(work, tile, cell, lower);
+        work->lower[cell] = lower;
+        find_lower(work, tile);
     }
 }
 
@@ -135,9 +179,10 @@ static ffd_status allocate(fold_work *work, int threads, ffd_error *error)
     if ((size_t)threads > work->tile_count)
         threads = (int)work->tile_count;
     work->lower = ffd_alloc(cells, sizeof(double));
+    work->verdicts = ffd_alloc(cells, 1);
     work->tiles = ffd_alloc(work->tile_count, sizeof *work->tiles);
     work->scratch = ffd_alloc_zero((size_t)threads, sizeof(fold_scratch *));
-    if (!work->lower || !work->tiles || !work->scratch)
+    if (!work->lower || !work->verdicts || !work->tiles || !work->scratch)
         return ffd_fail_memory(error);
     while (work->workers < threads) {
         fold_scratch *scratch = ffd_fold_scratch_create(&work->plan);
@@ -160,13 +205,16 @@ ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *fo
         status = allocate(&work, threads, error);
     if (status)
         goto out;
-    ffd_parallel_tiles(work.plan.cell_count, TILE_CELLS, work.workers, decide_tile, &work);
+    decide_all(&work);
     folds->min_det = refine(&work, join_tiles(&work, folds));
+    if (folds->has_witness) /* a bound and a computed value: their roundings differ */
+        folds->min_det = fmin(folds->min_det, folds->witness_det);
 out:
     for (int i = 0; i < work.workers; i++)
         ffd_fold_scratch_destroy(work.scratch[i]);
     ffd_free(work.scratch);
     ffd_free(work.tiles);
+    ffd_free(work.verdicts);
     ffd_free(work.lower);
     ffd_fold_plan_free(&work.plan);
     return status;

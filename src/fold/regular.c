@@ -97,5 +97,6 @@ void ffd_cell_regularity(const cell_form *form, regularity *result)
     const double weight = form->greatest_weight;
     result->proven = true;
     result->negative = det < 0;
-    result->least = least / (fabs(det) + rounding) / (weight * weight * weight) * (1 - 64 * UNIT);
+    /* 1e-12: the weights' own rounding, and that of the product. */
+    result->least = least / (fabs(det) + rounding) / weight / weight / weight * (1 - 1e-12);
 }

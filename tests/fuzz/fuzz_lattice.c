@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "check_boundary.h"
 #include "check_embedding.h"
+#include "check_folds.h"
 #include "lattice/spec.h"
 #include "promise.h"
 #include <math.h>
@@ -101,6 +102,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         const size_t count = probe_points(&of, tail, tail_size, points);
         if (check_embedding(&of, points, count))
             check_boundary(&of, points, count);
+        check_folds(&of, points, count);
     }
     ffd_lattice_destroy(&lattice);
     PROMISE(!lattice, "a destroyed lattice is still there");

@@ -1,0 +1,136 @@
+#include "fold/search.h"
+#include "fold/bernstein.h"
+
+#define UNIT (0.5 * DBL_EPSILON)
+
+static void place_in(const box *part, const double t[3], double place[3])
+{
+    for (int a = 0; a < 3; a++)
+        place[a] = part->lo[a] + t[a] * (part->hi[a] - part->lo[a]);
+}
+
+/* Looks at the corners, whose coefficients are values. Returns whether one of them is so near to zero that
+   its sign is not known; search->result says whether one is negative. */
+static bool look_at_corners(cell_search *search, const box *part, const box_view *view)
+{
+    const int *order = search->order;
+    bool doubtful = false;
+    for (int corner = 0; corner < 8; corner++) {
+        double t[3], place[3];
+        size_t at = 0, stride = 1;
+        for (int a = 0; a < 3; a++) {
+            t[a] = corner >> a & 1;
+            at += stride * (corner >> a & 1 ? (size_t)order[a] - 1 : 0);
+            stride *= (size_t)order[a];
+        }
+        const double value = view->corner_is_zero[corner] ? 0 : part->coefficients[at];
+        const double relative = ffd_search_relative(search, value, ffd_box_weight(search, part, t));
+        ffd_search_see(search, relative);
+        if (view->corner_is_zero[corner])
+            continue;
+        doubtful |= fabs(value) <= part->rounding;
+        if (value < -part->rounding && search->result.verdict != FFD_FOLDS_SOME) {
+            place_in(part, t, place);
+            ffd_search_set_folded(search, place, relative);
+        }
+    }
+    return doubtful;
+}
+
+/* Looks where the least coefficient has its greatest influence. */
+static void look_at_least(cell_search *search, const box *part, const box_view *view)
+{
+    double t[3], place[3];
+    int orders = 0;
+    for (int a = 0; a < 3; a++) {
+        t[a] = (double)view->at[a] / (search->order[a] - 1);
+        orders += search->order[a];
+    }
+    const double value = ffd_bernstein_value(part->coefficients, search->order, t);
+    const double relative = ffd_search_relative(search, value, ffd_box_weight(search, part, t));
+    ffd_search_see(search, relative);
+    if (value < -part->rounding - 8 * orders * UNIT * search->greatest &&
+        search->result.verdict != FFD_FOLDS_SOME) {
+        place_in(part, t, place);
+        ffd_search_set_folded(search, place, relative);
+    }
+}
+
+/* Whether all coefficients are 0 within their rounding: what there is to see of the sign has been seen. */
+static bool is_lost(const cell_search *search, const box *part)
+{
+    return ffd_box_greatest_size(part->coefficients, ffd_bernstein_count(search->order)) <= part->rounding;
+}
+
+/* Nothing is surely negative, and no smaller box can show more. A whole cell that is lost is flat as far as
+   numbers can tell, unless its computed determinant has the right sign all over. */
+static void give_up(cell_search *search, const box *part, int depth)
+{
+    static const double centre[3] = {0.5, 0.5, 0.5};
+    if (depth == 0 && is_lost(search, part) && !(ffd_box_least(search, part) > 0))
+        ffd_search_set_folded(search, centre, 0);
+    else
+        search->result.verdict = FFD_FOLDS_UNKNOWN;
+}
+
+/* The verdict: whether nothing remains to be done for the box. */
+static bool is_decided(cell_search *search, const box *part, const box_view *view, int depth)
+{
+    if (view->is_positive)
+        return true;
+    if (is_lost(search, part)) {
+        give_up(search, part, depth);
+        return true;
+    }
+    const bool doubtful = look_at_corners(search, part, view);
+    if (search->result.verdict == FFD_FOLDS_SOME)
+        return true;
+    if (doubtful && view->least >= -part->rounding) {
+        give_up(search, part, depth);
+        return true;
+    }
+    look_at_least(search, part, view);
+    return search->result.verdict == FFD_FOLDS_SOME;
+}
+
+/* The closer look: whether the box's bound is good enough. */
+static bool is_near(cell_search *search, const box *part, const box_view *view)
+{
+    look_at_corners(search, part, view);
+    const double rounding = ffd_search_relative(search, 4 * part->rounding, view->least_weight);
+    const double lower = ffd_box_lower(search, part, view), seen = search->result.least_seen;
+    if (lower >= ffd_fold_target(seen) || lower >= seen - rounding)
+        return true;
+    look_at_least(search, part, view);
+    return lower >= ffd_fold_target(search->result.least_seen);
+}
+
+static bool must_stop(const cell_search *search)
+{
+    return !search->refining && search->result.verdict == FFD_FOLDS_SOME;
+}
+
+void ffd_search_box(cell_search *search, box *part, int depth)
+{
+    box_view view;
+    search->boxes--;
+    ffd_box_view(search, part, &view);
+    if (depth == 0)
+        search->whole_lower = ffd_box_lower(search, part, &view);
+    const bool done =
+        search->refining ? is_near(search, part, &view) : is_decided(search, part, &view, depth);
+    if (done || depth == search->scratch->depth || search->boxes <= 0) {
+        if (!done && !search->refining)
+            search->result.verdict = FFD_FOLDS_UNKNOWN;
+        ffd_search_lower_to(search, ffd_box_lower(search, part, &view));
+        return;
+    }
+    box lower;
+    ffd_box_halve(search, part, ffd_bernstein_direction(part->coefficients, search->order), depth, &lower);
+    /* The half with the least coefficient first: it may settle the matter. The other one keeps its slot: what
+       follows is written to deeper ones. */
+    const bool lower_first = ffd_box_least(search, &lower) <= ffd_box_least(search, part);
+    ffd_search_box(search, lower_first ? &lower : part, depth + 1);
+    if (!must_stop(search))
+        ffd_search_box(search, lower_first ? part : &lower, depth + 1);
+}

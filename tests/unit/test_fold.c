@@ -1,0 +1,975 @@
+/* test_fold.c - the proof that a deformed volume folds nowhere, and the witness where it does. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/bspline_reference.h"
+#include "../support/draw.h"
+#include "../support/lattice_by_hand.h"
+#include "base/vec.h"
+#include "fold/bernstein.h"
+#include "fold/cell.h"
+#include <ffd/fold.h>
+#include <float.h>
+#include <stdint.h>
+
+/* Lattices */
+
+static ffd_lattice *parsed(const char *format, ...)
+{
+    char text[4096];
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    assert_in_range(length, 1, sizeof text - 1);
+    ffd_lattice *lattice = NULL;
+    ffd_error error;
+    if (ffd_lattice_parse(text, (size_t)length, "test", &lattice, &error))
+        fail_msg("%s", error.message);
+    return lattice;
+}
+
+typedef struct kinds {
+    knot_kind kind[3];
+    int degree[3];
+    size_t size[3];
+} kinds;
+
+typedef void (*point_map)(const double g[3], double out[3]);
+
+/* Rest control points at the images of their Greville abscissae (fractions of the domain). */
+static ffd_lattice *mapped(const kinds *shape, point_map map)
+{
+    knot_vector knots[3];
+    for (int a = 0; a < 3; a++)
+        assert_int_equal(ffd_knots_make(shape->kind[a], shape->degree[a], shape->size[a], NULL, 0, "uvw"[a],
+                                        &knots[a], NULL),
+                         FFD_OK);
+    ffd_lattice *lattice = lattice_of_knots(knots);
+    double *p = lattice->rest;
+    for (size_t k = 0; k < lattice->size[2]; k++)
+        for (size_t j = 0; j < lattice->size[1]; j++)
+            for (size_t i = 0; i < lattice->size[0]; i++, p += 3) {
+                const size_t index[3] = {i, j, k};
+                double g[3];
+                for (int a = 0; a < 3; a++) {
+                    const double first = ffd_knots_first(&lattice->knots[a]);
+                    g[a] = (ffd_knots_greville(&lattice->knots[a], index[a]) - first) /
+                           (ffd_knots_last(&lattice->knots[a]) - first);
+                }
+                map(g, p);
+            }
+    memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
+    return lattice;
+}
+
+static void finish(ffd_lattice *lattice)
+{
+    ffd_error error;
+    if (ffd_lattice_finish(lattice, &error))
+        fail_msg("%s", error.message);
+}
+
+static void identity(const double g[3], double out[3])
+{
+    for (int a = 0; a < 3; a++)
+        out[a] = g[a];
+}
+
+static void mirror(const double g[3], double out[3])
+{
+    identity(g, out);
+    out[0] = -g[0];
+}
+
+/* det J folds nowhere, and varies between about 1/3 and 3. */
+static void warp(const double g[3], double out[3])
+{
+    out[0] = g[0] + 0.3 * g[1] * g[1] - 0.1 * g[0] * g[2];
+    out[1] = g[1] - 0.25 * g[2] * g[0] + 0.1 * g[1] * g[1];
+    out[2] = g[2] * (1 + 0.4 * g[0] * g[1]) + 0.2 * g[0];
+}
+
+/* A ring, v round the axis; turned by a phase, so that no coordinate is the axis' own. */
+static void ring_at(double radius, const double g[3], double out[3])
+{
+    const double turn = 6.283185307179586 * g[1] + 0.7;
+    out[0] = 3 + radius * cos(turn);
+    out[1] = radius * sin(turn) - 2;
+    out[2] = g[2];
+}
+
+static void tube(const double g[3], double out[3])
+{
+    ring_at(0.5 + g[0], g, out);
+}
+
+static void rod(const double g[3], double out[3])
+{
+    ring_at(g[0], g, out);
+}
+
+/* v and w both closed. */
+static void torus(const double g[3], double out[3])
+{
+    const double v = 6.283185307179586 * g[1], w = 6.283185307179586 * g[2], small = 0.2 + 0.3 * g[0];
+    const double large = 2 + small * cos(w);
+    out[0] = large * cos(v);
+    out[1] = -large * sin(v);
+    out[2] = small * sin(w);
+}
+
+/* u the radius, v round the axis, w from pole to pole; exact: control points meet at centre and poles. */
+static void ball_with(double rim, const double g[3], double out[3])
+{
+    const double turn = 6.283185307179586 * g[1], rise = 3.141592653589793 * (g[2] - 0.5);
+    const double across = g[2] == 0 || g[2] == 1 ? rim : cos(rise);
+    out[0] = g[0] * across * cos(turn);
+    out[1] = g[0] * across * sin(turn);
+    out[2] = g[0] * sin(rise);
+}
+
+static void ball(const double g[3], double out[3])
+{
+    ball_with(0, g, out);
+}
+
+/* As cos gives the poles: to rounding. */
+static void rough_ball(const double g[3], double out[3])
+{
+    ball_with(6.1e-17, g, out);
+}
+
+/* An independent determinant */
+
+typedef struct determinant {
+    long double value;
+    long double size; /* the greatest it could be, for errors to be relative to */
+} determinant;
+
+static long double determinant3(long double m[3][3])
+{
+    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) +
+           m[0][1] * (m[1][2] * m[2][0] - m[1][0] * m[2][2]) +
+           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+/* det J by the recursion of Cox and de Boor and the quotient rule, about the cell's first control point. */
+static determinant determinant_at(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3])
+{
+    const double *points = ffd_lattice_get_points(lattice, volume),
+                 *weights = ffd_lattice_get_weights(lattice, volume);
+    size_t span[3];
+    long double value[3][MAX_ORDER], slope[3][MAX_ORDER], rise[3][MAX_ORDER];
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *knots = &lattice->knots[a];
+        span[a] = reference_span(knots->t, knots->functions, knots->degree, uvw[a]);
+        for (size_t i = 0; i <= (size_t)knots->degree; i++) {
+            long double rising, falling;
+            const size_t function = span[a] - (size_t)knots->degree + i;
+            value[a][i] = reference_value(knots->t, span[a], function, knots->degree, uvw[a]);
+            reference_slopes(knots->t, span[a], function, knots->degree, uvw[a], &rising, &falling);
+            slope[a][i] = rising - falling;
+            rise[a][i] = rising + falling;
+        }
+    }
+    long double w = 0, dw[3] = {0}, p[3] = {0}, dp[3][3] = {{0}}, size[3][3] = {{0}}, least = LDBL_MAX;
+    const double *origin = NULL;
+    for (size_t k = 0; k <= (size_t)lattice->knots[2].degree; k++)
+        for (size_t j = 0; j <= (size_t)lattice->knots[1].degree; j++)
+            for (size_t i = 0; i <= (size_t)lattice->knots[0].degree; i++) {
+                const size_t local[3] = {i, j, k};
+                size_t at[3];
+                for (int a = 0; a < 3; a++)
+                    at[a] = ffd_knots_point(&lattice->knots[a],
+                                            span[a] - (size_t)lattice->knots[a].degree + local[a]);
+                const size_t index = lattice_index(lattice, at[0], at[1], at[2]);
+                const long double h = weights ? weights[index] : 1;
+                origin = origin ? origin : points + 3 * index;
+                least = h < least ? h : least;
+                w += h * value[0][i] * value[1][j] * value[2][k];
+                for (int a = 0; a < 3; a++) {
+                    long double d = h, e = h;
+                    for (int b = 0; b < 3; b++) {
+                        d *= a == b ? slope[b][local[b]] : value[b][local[b]];
+                        e *= a == b ? rise[b][local[b]] : value[b][local[b]];
+                    }
+                    dw[a] += d;
+                    for (int r = 0; r < 3; r++) {
+                        const long double x = (long double)points[3 * index + (size_t)r] - origin[r];
+                        p[r] += a == 0 ? h * x * value[0][i] * value[1][j] * value[2][k] : 0;
+                        dp[r][a] += d * x;
+                        size[r][a] += fabsl(e * x);
+                    }
+                }
+            }
+    long double permanent = 0;
+    for (int r = 0; r < 3; r++)
+        for (int a = 0; a < 3; a++) {
+            dp[r][a] = (dp[r][a] - dw[a] * p[r] / w) / w;
+            size[r][a] *= 2 / least;
+        }
+    for (int a = 0; a < 3; a++)
+        permanent += size[0][a] * (size[1][(a + 1) % 3] * size[2][(a + 2) % 3] +
+                                   size[1][(a + 2) % 3] * size[2][(a + 1) % 3]);
+    return (determinant){determinant3(dp), permanent};
+}
+
+/* The least determinant, times sign, among those at a grid over all cells; *at is where. */
+static long double least_sampled(const ffd_lattice *lattice, int sign, int steps, double at[3])
+{
+    long double least = LDBL_MAX;
+    const knot_vector *knots = lattice->knots;
+    for (size_t cell = 0; cell < knots[0].span_count * knots[1].span_count * knots[2].span_count; cell++) {
+        const size_t index[3] = {cell % knots[0].span_count, cell / knots[0].span_count % knots[1].span_count,
+                                 cell / knots[0].span_count / knots[1].span_count};
+        for (int step = 0; step < (steps + 1) * (steps + 1) * (steps + 1); step++) {
+            const int t[3] = {step % (steps + 1), step / (steps + 1) % (steps + 1),
+                              step / (steps + 1) / (steps + 1)};
+            double uvw[3];
+            for (int a = 0; a < 3; a++) {
+                const double *knot = knots[a].t + knots[a].spans[index[a]];
+                uvw[a] = t[a] == steps ? nextafter(knot[1], knot[0])
+                                       : knot[0] + (knot[1] - knot[0]) * t[a] / steps;
+            }
+            const determinant det = determinant_at(lattice, FFD_VOLUME_DEFORMED, uvw);
+            if (sign * det.value < least) {
+                least = sign * det.value;
+                memcpy(at, uvw, sizeof uvw);
+            }
+        }
+    }
+    return least;
+}
+
+/* The verdict */
+
+static void assert_same(const ffd_folds *a, const ffd_folds *b)
+{
+    assert_int_equal(a->verdict, b->verdict);
+    assert_int_equal(a->cells, b->cells);
+    assert_int_equal(a->folded_cells, b->folded_cells);
+    assert_int_equal(a->unknown_cells, b->unknown_cells);
+    assert_memory_equal(&a->min_det, &b->min_det, sizeof a->min_det);
+    assert_int_equal(a->has_witness, b->has_witness);
+    assert_memory_equal(a->witness_uvw, b->witness_uvw, sizeof a->witness_uvw);
+    assert_memory_equal(a->witness_xyz, b->witness_xyz, sizeof a->witness_xyz);
+    assert_memory_equal(a->witness_rest, b->witness_rest, sizeof a->witness_rest);
+    assert_memory_equal(&a->witness_det, &b->witness_det, sizeof a->witness_det);
+}
+
+static void check_witness(const ffd_lattice *lattice, const ffd_folds *folds, int sign)
+{
+    double lo[3], hi[3], point[3];
+    ffd_lattice_get_domain(lattice, lo, hi);
+    for (int a = 0; a < 3; a++)
+        assert_true(folds->witness_uvw[a] >= lo[a] && folds->witness_uvw[a] <= hi[a]);
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw, point, NULL);
+    assert_memory_equal(point, folds->witness_xyz, sizeof point);
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, folds->witness_uvw, point, NULL);
+    assert_memory_equal(point, folds->witness_rest, sizeof point);
+    assert_true(folds->witness_det <= 0);
+    assert_true(folds->min_det <= folds->witness_det);
+    const determinant det = determinant_at(lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw);
+    if (folds->witness_det < 0) {
+        assert_true(sign * det.value <= 0);
+    } else {
+        assert_true(sign * det.value <= 1e-12L * det.size); /* a flat cell */
+    }
+}
+
+/* sign: of the rest volume. */
+static ffd_folds find(const ffd_lattice *lattice, int sign)
+{
+    ffd_folds folds, again;
+    ffd_error error;
+    for (int threads = 1; threads <= 3; threads++) {
+        if (ffd_folds_find(lattice, threads, threads == 1 ? &folds : &again, &error))
+            fail_msg("%s", error.message);
+        if (threads > 1)
+            assert_same(&folds, &again);
+    }
+    uint64_t cells = 1;
+    for (int a = 0; a < 3; a++)
+        cells *= lattice->knots[a].span_count;
+    assert_int_equal(folds.cells, cells);
+    assert_true(folds.folded_cells + folds.unknown_cells <= cells);
+    assert_int_equal(folds.has_witness, folds.verdict == FFD_FOLDS_SOME);
+    assert_int_equal(folds.folded_cells > 0, folds.verdict == FFD_FOLDS_SOME);
+    assert_int_equal(folds.unknown_cells > 0 && folds.folded_cells == 0, folds.verdict == FFD_FOLDS_UNKNOWN);
+    if (folds.has_witness)
+        check_witness(lattice, &folds, sign);
+    return folds;
+}
+
+static ffd_folds assert_verdict(const ffd_lattice *lattice, int sign, ffd_fold_verdict verdict)
+{
+    const ffd_folds folds = find(lattice, sign);
+    assert_int_equal(folds.verdict, verdict);
+    if (verdict == FFD_FOLDS_NONE) {
+        double at[3];
+        assert_int_equal(folds.unknown_cells, 0);
+        assert_true(folds.min_det >= 0);
+        const long double least = least_sampled(lattice, sign, 2, at);
+        assert_true(least >= -1e-12L * determinant_at(lattice, FFD_VOLUME_DEFORMED, at).size);
+    }
+    return folds;
+}
+
+/* At rest, a volume without collapsed faces does not fold; scaled and moved neither. */
+static void assert_none_at_rest(ffd_lattice *lattice, int sign)
+{
+    finish(lattice);
+    const ffd_folds folds = assert_verdict(lattice, sign, FFD_FOLDS_NONE);
+    assert_true(folds.min_det > 0 && folds.min_det <= 1);
+    ffd_lattice_destroy(&lattice);
+}
+
+/* Volumes that do not fold */
+
+static void test_identity(void **state)
+{
+    (void)state;
+    const knot_kind kind[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM};
+    for (int degree = 1; degree <= 9; degree++)
+        for (int k = 0; k < 3; k++)
+            for (int side = 0; side < 2; side++) {
+                const size_t least = (size_t)degree + 1;
+                const kinds shape = {{kind[k], kind[(k + 1) % 3], kind[(k + 2) % 3]},
+                                     {degree, degree > 4 ? 2 : degree, degree > 4 ? 1 : degree},
+                                     {least + 1, least, least + 2}};
+                ffd_lattice *lattice = mapped(&shape, side ? mirror : identity);
+                finish(lattice);
+                const ffd_folds folds = assert_verdict(lattice, side ? -1 : 1, FFD_FOLDS_NONE);
+                assert_true(folds.min_det > 1 - 1e-8 && folds.min_det <= 1);
+                ffd_lattice_destroy(&lattice);
+            }
+    const kinds nine = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {9, 9, 9}, {10, 10, 10}};
+    ffd_lattice *lattice = mapped(&nine, identity);
+    finish(lattice);
+    assert_true(assert_verdict(lattice, 1, FFD_FOLDS_NONE).min_det > 1 - 1e-8);
+    ffd_lattice_destroy(&lattice);
+}
+
+static void test_rest_shapes(void **state)
+{
+    (void)state;
+    const kinds shapes[] = {
+        {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 6, 4}},
+        {{KNOTS_OPEN, KNOTS_CLAMPED, KNOTS_UNIFORM}, {4, 2, 1}, {6, 5, 4}},
+        {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {5, 5, 5}, {6, 7, 6}},
+        {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {9, 9, 9}, {10, 10, 10}},
+    };
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        assert_none_at_rest(mapped(&shapes[i], warp), 1);
+    const kinds round[] = {
+        {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {3, 3, 3}, {4, 12, 4}},
+        {{KNOTS_OPEN, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 4, 1}, {5, 9, 2}},
+    };
+    for (size_t i = 0; i < sizeof round / sizeof *round; i++)
+        assert_none_at_rest(mapped(&round[i], tube), 1);
+    const kinds twice = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLOSED}, {2, 3, 3}, {4, 12, 9}};
+    assert_none_at_rest(mapped(&twice, torus), -1);
+}
+
+/* C0 knots, and control points of lattices as files give them. */
+static void test_rest_files(void **state)
+{
+    (void)state;
+    ffd_lattice *lattice =
+        parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[7,5,4],\"degree\":[3,2,1],"
+               "\"knots\":[[-2,-2,-2,-2,1,1,1,5,5,5,5],[0,0,0,3,3,4,4,4],\"open\"],"
+               "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[4,2,1]}},"
+               "\"moves\":[{\"at\":[3,\"all\",\"all\"],\"by\":[0.3,0,0.2]},"
+               "{\"twist\":{\"axis\":\"x\",\"degrees\":40}}]}");
+    assert_verdict(lattice, 1, FFD_FOLDS_NONE);
+    ffd_lattice_destroy(&lattice);
+    /* A kink through which the volume comes back: folded on one side of the C0 knot only. */
+    lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[3,2,2],\"degree\":[1,1,1],"
+                     "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[4,2,1]}},"
+                     "\"moves\":[{\"at\":[2,\"all\",\"all\"],\"by\":[-2.5,0,0]}]}");
+    const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_SOME);
+    assert_int_equal(folds.folded_cells, 1);
+    assert_true(folds.witness_uvw[0] >= 0.5);
+    assert_true(fabs(folds.min_det + 0.25) < 1e-2 && folds.min_det <= -0.25);
+    ffd_lattice_destroy(&lattice);
+}
+
+static void test_sizes(void **state)
+{
+    (void)state;
+    static const double box[][6] = {{0, 0, 0, 1e-6, 1, 1},
+                                    {0, 0, 0, 2, 1e-6, 1e-6},
+                                    {-1e9, -1e9, -1e9, 1e9, 1e9, 2e9},
+                                    {1e6, 1e6, -1e6, 1000001, 1000002, -999999},
+                                    {1e-30, 0, 0, 2e-30, 1e30, 1e-3},
+                                    {-1e200, -1e200, -1e200, 1e200, 1e200, 1e200},
+                                    {0, 0, 0, 1e-200, 1e-200, 1e-200}};
+    for (size_t i = 0; i < sizeof box / sizeof *box; i++)
+        for (int fold = 0; fold < 2; fold++) {
+            const double *b = box[i];
+            ffd_lattice *lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[5,4,4],"
+                                          "\"units\":\"box\",\"rest\":{\"box\":"
+                                          "{\"min\":[%.17g,%.17g,%.17g],\"max\":[%.17g,%.17g,%.17g]}},"
+                                          "\"moves\":[{\"at\":[2,1,2],\"by\":[%g,0.05,-0.1]}]}",
+                                          b[0], b[1], b[2], b[3], b[4], b[5], fold ? 8.0 : 0.2);
+            const ffd_folds folds = assert_verdict(lattice, 1, fold ? FFD_FOLDS_SOME : FFD_FOLDS_NONE);
+            assert_true(fold ? folds.min_det < -0.1 : folds.min_det > 0.1 && folds.min_det < 1);
+            ffd_lattice_destroy(&lattice);
+        }
+}
+
+/* A thin box whose sides are not along the coordinate axes. */
+static void test_thin_and_turned(void **state)
+{
+    (void)state;
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
+    ffd_lattice *lattice = mapped(&shape, warp);
+    static const double m[9] = {0.6e-6, 0.8, 0, -0.8e-6, 0.6, 0, 0.3e-6, 0.1, 1};
+    for (size_t i = 0; i < lattice->count; i++) {
+        mat_apply(m, lattice->rest + 3 * i, lattice->rest + 3 * i);
+        memcpy(lattice->deformed + 3 * i, lattice->rest + 3 * i, 3 * sizeof(double));
+    }
+    assert_none_at_rest(lattice, 1);
+}
+
+/* Weights */
+
+static void test_weights(void **state)
+{
+    (void)state;
+    draw d = {5};
+    const int degree[][3] = {{1, 1, 1}, {2, 3, 1}, {3, 3, 3}, {4, 2, 5}};
+    int none = 0, some = 0;
+    for (int i = 0; i < 40; i++) {
+        const int *deg = degree[i % 4];
+        const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED},
+                             {deg[0], deg[1], deg[2]},
+                             {(size_t)deg[0] + 2, (size_t)deg[1] + 1, (size_t)deg[2] + 2}};
+        ffd_lattice *lattice = mapped(&shape, i % 8 < 4 ? identity : warp);
+        const double spread = i % 3 ? 1.5 : 1000;
+        lattice_add_weights(lattice);
+        for (size_t p = 0; p < lattice->count; p++) {
+            lattice->rest_weights[p] = draw_between(&d, 3, 3.1);
+            lattice->deformed_weights[p] = draw_between(&d, 1, spread);
+        }
+        if (i % 3 == 0)
+            lattice->deformed[3] += 0.9;
+        finish(lattice);
+        const ffd_folds folds = find(lattice, 1);
+        double at[3];
+        const long double least = least_sampled(lattice, 1, 5, at);
+        if (folds.verdict == FFD_FOLDS_NONE) {
+            none++;
+            assert_true(least > 0 && folds.min_det > 0);
+        }
+        some += folds.verdict == FFD_FOLDS_SOME;
+        assert_true(least > 0 || folds.verdict == FFD_FOLDS_SOME);
+        assert_int_not_equal(folds.verdict, FFD_FOLDS_UNKNOWN);
+        ffd_lattice_destroy(&lattice);
+    }
+    assert_true(none >= 10 && some >= 3);
+}
+
+/* Weights that are all equal change nothing. */
+static void test_equal_weights(void **state)
+{
+    (void)state;
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 3}, {5, 4, 4}};
+    ffd_lattice *lattice = mapped(&shape, warp);
+    finish(lattice);
+    const ffd_folds without = find(lattice, 1);
+    lattice_add_weights(lattice);
+    for (size_t i = 0; i < lattice->count; i++) {
+        lattice->rest_weights[i] = 0.7;
+        lattice->deformed_weights[i] = 1e5;
+    }
+    finish(lattice);
+    const ffd_folds with = find(lattice, 1);
+    assert_int_equal(with.verdict, FFD_FOLDS_NONE);
+    assert_true(fabs(with.min_det / without.min_det - 1) < 1e-9);
+    ffd_lattice_destroy(&lattice);
+}
+
+/* Folds */
+
+/* Ten cells a direction; one control point moved along x. With N cubic, quadratic, quadratic of spacing h the
+   least of dx/du is 1 - move/h (2/3) (3/4)^2 in one point, within one cell: 0 for 8/3 h. */
+static ffd_lattice *one_point_moved(double move, bool mirrored)
+{
+    const kinds shape = {{KNOTS_OPEN, KNOTS_OPEN, KNOTS_OPEN}, {3, 2, 2}, {13, 12, 12}};
+    ffd_lattice *lattice = mapped(&shape, mirrored ? mirror : identity);
+    lattice->deformed[3 * lattice_index(lattice, 6, 7, 4)] += mirrored ? -0.1 * move : 0.1 * move;
+    finish(lattice);
+    return lattice;
+}
+
+static void test_one_cell_of_a_thousand(void **state)
+{
+    (void)state;
+    for (int mirrored = 0; mirrored < 2; mirrored++)
+        for (int i = 0; i < 4; i++) {
+            static const double beyond[] = {1e-3, 1e-6, 1e-9, 1e-11};
+            ffd_lattice *lattice = one_point_moved(8.0 / 3 * (1 + beyond[i]), mirrored);
+            const ffd_folds folds = assert_verdict(lattice, mirrored ? -1 : 1, FFD_FOLDS_SOME);
+            assert_int_equal(folds.cells, 1000);
+            assert_int_equal(folds.folded_cells, 1);
+            assert_int_equal(folds.unknown_cells, 0);
+            /* Control point 6 stands at 0.5; the least is 2/3 of a spacing on. 7, 4: cells 6, 3. */
+            static const double lo[3] = {0.5, 0.6, 0.3};
+            for (int a = 0; a < 3; a++)
+                assert_true(folds.witness_uvw[a] >= lo[a] - 1e-15 &&
+                            folds.witness_uvw[a] <= lo[a] + 0.1 + 1e-15);
+            assert_true(folds.witness_det < 0 && folds.witness_det > -1.1 * beyond[i]);
+            assert_true(folds.min_det <= -0.99 * beyond[i] && folds.min_det >= -1.02 * beyond[i] - 2e-12);
+            ffd_lattice_destroy(&lattice);
+        }
+}
+
+static void test_a_hair_before_folding(void **state)
+{
+    (void)state;
+    for (int mirrored = 0; mirrored < 2; mirrored++)
+        for (int i = 0; i < 5; i++) {
+            static const double before[] = {0.3, 1e-3, 1e-6, 1e-9, 1e-11};
+            ffd_lattice *lattice = one_point_moved(8.0 / 3 * (1 - before[i]), mirrored);
+            const ffd_folds folds = assert_verdict(lattice, mirrored ? -1 : 1, FFD_FOLDS_NONE);
+            assert_true(folds.min_det <= before[i] * (1 + 1e-9) + 1e-15);
+            assert_true(folds.min_det >= 0.98 * before[i] - 2e-12);
+            ffd_lattice_destroy(&lattice);
+        }
+}
+
+/* The least determinant at a corner: decided down to the rounding of one coefficient. */
+static void test_a_hair_at_a_corner(void **state)
+{
+    (void)state;
+    static const double hair[] = {1e-6, 1e-10, 1e-12, 5e-13};
+    for (int i = 0; i < 8; i++)
+        for (int degree = 1; degree <= 3; degree++) {
+            const kinds shape = {
+                {KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {degree, degree, degree}, {5, 5, 5}};
+            ffd_lattice *lattice = mapped(&shape, identity);
+            const double step = lattice->rest[3] - lattice->rest[0], sign = i < 4 ? 1 : -1;
+            /* C_u at the corner is the way to the next control point. */
+            lattice->deformed[0] = step - sign * hair[i % 4] * step;
+            finish(lattice);
+            const ffd_folds folds = assert_verdict(lattice, 1, i < 4 ? FFD_FOLDS_NONE : FFD_FOLDS_SOME);
+            assert_true(fabs(folds.min_det - sign * hair[i % 4]) < 0.01 * hair[i % 4] + 1e-12);
+            ffd_lattice_destroy(&lattice);
+        }
+}
+
+/* det = 0 in one point and positive round it: nobody can tell, and nobody says "none". */
+static void test_exactly_on_the_edge(void **state)
+{
+    (void)state;
+    ffd_lattice *lattice = one_point_moved(8.0 / 3, false);
+    ffd_folds folds = find(lattice, 1);
+    assert_int_equal(folds.verdict, FFD_FOLDS_UNKNOWN);
+    assert_int_equal(folds.unknown_cells, 1);
+    assert_true(folds.min_det <= 0 && folds.min_det > -1e-6);
+    ffd_lattice_destroy(&lattice);
+    /* At a corner: the coefficient is 0 to the bit. */
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
+    lattice = mapped(&shape, identity);
+    lattice->deformed[0] = lattice->deformed[3];
+    finish(lattice);
+    folds = find(lattice, 1);
+    assert_int_not_equal(folds.verdict, FFD_FOLDS_NONE);
+    ffd_lattice_destroy(&lattice);
+}
+
+static void test_too_few_boxes(void **state)
+{
+    (void)state;
+    ffd_lattice *lattice = one_point_moved(8.0 / 3 * (1 - 1e-6), false);
+    fold_plan plan;
+    cell_verdict verdict;
+    assert_int_equal(ffd_fold_plan_make(lattice, &plan, NULL), FFD_OK);
+    fold_scratch *scratch = ffd_fold_scratch_create(&plan);
+    assert_non_null(scratch);
+    const size_t cell = 5 + 10 * (6 + 10 * 3);
+    ffd_cell_decide(&plan, cell, 20, scratch, &verdict);
+    assert_int_equal(verdict.verdict, FFD_FOLDS_UNKNOWN);
+    assert_true(verdict.lower <= 0);
+    ffd_cell_decide(&plan, cell, 2000, scratch, &verdict);
+    assert_int_equal(verdict.verdict, FFD_FOLDS_NONE);
+    assert_true(verdict.lower > 0);
+    ffd_fold_scratch_destroy(scratch);
+    ffd_fold_plan_free(&plan);
+    ffd_lattice_destroy(&lattice);
+}
+
+/* A fold in the closed direction's seam, and where a lattice meets itself again. */
+static void test_folds_at_the_seam(void **state)
+{
+    (void)state;
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 2, 1}, {3, 10, 2}};
+    for (size_t j = 0; j < 10; j++) {
+        ffd_lattice *lattice = mapped(&shape, tube);
+        for (size_t k = 0; k < 2; k++)
+            for (size_t i = 0; i < 3; i++) {
+                const double *other = lattice->rest + 3 * lattice_index(lattice, i, (j + 5) % 10, k);
+                memcpy(lattice->deformed + 3 * lattice_index(lattice, i, j, k), other, 3 * sizeof(double));
+            }
+        finish(lattice);
+        assert_verdict(lattice, 1, FFD_FOLDS_SOME);
+        ffd_lattice_destroy(&lattice);
+    }
+}
+
+static void test_flat_and_mirrored(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *move;
+        double least, greatest; /* of min_det */
+    } cases[] = {
+        {"{\"scale\":{\"factor\":[1,1,0]}}", 0, 0},
+        {"{\"scale\":{\"factor\":[0,0,0]}}", 0, 0},
+        {"{\"matrix\":[1,0,0,0, 0,1,0,0, 0.3,0.7,0,0, 0,0,0,1]}", -1e-9, 0},
+        {"{\"matrix\":[1,0,1,5, 0,1,1,0, 1,1,2,0, 0,0,0,1]}", -1e-9, 0},
+        {"{\"scale\":{\"factor\":[-1,1,1]}}", -1.01, -1},
+        {"{\"scale\":{\"factor\":[2,2,-3]}}", -12.12, -12},
+        {"{\"matrix\":[0,1,0,0, 1,0,0,0, 0,0,1,0, 0,0,0,1]}", -1.01, -1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int rational = 0; rational < 2; rational++) {
+            ffd_lattice *lattice =
+                parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[6,5,4],"
+                       "\"rest\":{\"box\":{\"min\":[0.1,0,0],\"max\":[3,2.1,1]}},\"moves\":[%s]}",
+                       cases[i].move);
+            if (rational) {
+                lattice_add_weights(lattice);
+                lattice->rest_weights[7] = lattice->deformed_weights[7] = 1.1;
+                finish(lattice);
+            }
+            const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_SOME);
+            assert_int_equal(folds.folded_cells, folds.cells);
+            if (!rational)
+                assert_true(folds.min_det >= cases[i].least * (1 + 1e-9) &&
+                            folds.min_det <= cases[i].greatest);
+            ffd_lattice_destroy(&lattice);
+        }
+}
+
+static void test_random_points(void **state)
+{
+    (void)state;
+    draw d = {3};
+    for (int i = 0; i < 6; i++) {
+        const int degree = 1 + i % 4;
+        const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {degree, degree, degree}, {7, 7, 7}};
+        ffd_lattice *lattice = mapped(&shape, identity);
+        for (size_t p = 0; p < 3 * lattice->count; p++)
+            lattice->deformed[p] = draw_between(&d, 0, 1);
+        finish(lattice);
+        const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_SOME);
+        assert_true(folds.unknown_cells * 20 < folds.cells);
+        ffd_lattice_destroy(&lattice);
+    }
+}
+
+/* Collapsed axes */
+
+/* Every cell is decided after a few boxes. */
+static void assert_quick(const ffd_lattice *lattice, long boxes)
+{
+    fold_plan plan;
+    assert_int_equal(ffd_fold_plan_make(lattice, &plan, NULL), FFD_OK);
+    fold_scratch *scratch = ffd_fold_scratch_create(&plan);
+    assert_non_null(scratch);
+    for (size_t cell = 0; cell < plan.cell_count; cell++) {
+        cell_verdict verdict;
+        ffd_cell_decide(&plan, cell, boxes, scratch, &verdict);
+        assert_int_equal(verdict.verdict, FFD_FOLDS_NONE);
+    }
+    ffd_fold_scratch_destroy(scratch);
+    ffd_fold_plan_free(&plan);
+}
+
+static const char *const cylinder_text =
+    "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,9,5],%s\"rest\":{\"cylinder\":{\"center\":[%g,2,3]"
+    ","
+    "\"axis\":[1,%d,3],\"radius\":[0,2],\"height\":5,\"angle\":[0,360]}},\"moves\":[%s]}";
+
+static void test_collapsed_axis(void **state)
+{
+    (void)state;
+    static const char *const moves[] = {
+        "",
+        "{\"twist\":{\"axis\":[1,2,3],\"degrees\":70}}",
+        "{\"bend\":{\"axis\":[1,2,3],\"toward\":[1,0,0],\"degrees\":60}}",
+        "{\"taper\":{\"axis\":[1,2,3],\"factor\":0.5}}",
+        "{\"at\":[\"all\",\"all\",2],\"by\":[0.3,0.2,-0.1]}",
+        "{\"at\":[0,\"all\",[1,3]],\"by\":[0.2,0.1,0.1]}",
+        "{\"rotate\":{\"axis\":[1,5,3],\"degrees\":33}},{\"scale\":{\"factor\":[1,2,3]}}",
+    };
+    static const char *const shapes[] = {
+        "", "\"degree\":[1,2,3],", "\"knots\":[\"clamped\",\"closed\",\"open\"],",
+        "\"knots\":[\"open\",\"closed\",\"clamped\"],", "\"knots\":[\"uniform\",\"clamped\",\"clamped\"],"};
+    for (size_t i = 0; i < sizeof moves / sizeof *moves; i++)
+        for (size_t k = 0; k < sizeof shapes / sizeof *shapes; k++)
+            for (int far = 0; far < 2; far++) {
+                if (k >= 3 && (i == 4 || i == 5)) /* no single ring is the axis there */
+                    continue;
+                ffd_lattice *lattice = parsed(cylinder_text, shapes[k], far ? 1e6 : 1.0, 2, moves[i]);
+                const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_NONE);
+                assert_true(folds.min_det >= 0 && folds.min_det < 1e-6);
+                assert_quick(lattice, 64);
+                ffd_lattice_destroy(&lattice);
+            }
+}
+
+static void test_torn_axis(void **state)
+{
+    (void)state;
+    static const char *const moves[] = {
+        "{\"at\":[0,0,2],\"by\":[0.2,0.1,0]}",
+        "{\"at\":[0,3,\"all\"],\"by\":[1e-4,2e-4,0]}",
+        "{\"at\":[0,\"all\",0],\"by\":[0,0,3]}",
+        "{\"at\":[0,\"all\",\"all\"],\"by\":[5,0,0]}",
+    };
+    for (size_t i = 0; i < sizeof moves / sizeof *moves; i++) {
+        ffd_lattice *lattice = parsed(cylinder_text, "", 1.0, 2, moves[i]);
+        const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_SOME);
+        assert_true(folds.min_det < 0);
+        ffd_lattice_destroy(&lattice);
+    }
+}
+
+/* The axis' ring turned inside out, or opened to a tube: by much, and by a hair. */
+static void test_axis_pushed_through(void **state)
+{
+    (void)state;
+    static const double radius[] = {0.2, -0.2, 1e-6, -1e-6, 1e-9, -1e-9, 1e-11, -1e-11};
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {3, 3, 2}, {4, 9, 4}};
+    for (size_t i = 0; i < sizeof radius / sizeof *radius; i++) {
+        ffd_lattice *lattice = mapped(&shape, rod);
+        for (size_t k = 0; k < 4; k++)
+            for (size_t j = 0; j < 9; j++) {
+                const size_t last = lattice_index(lattice, 3, j, k), first = lattice_index(lattice, 0, j, k);
+                for (size_t r = 0; r < 3; r++)
+                    lattice->deformed[3 * first + r] =
+                        lattice->rest[3 * first + r] +
+                        radius[i] * (lattice->rest[3 * last + r] - lattice->rest[3 * first + r]);
+            }
+        finish(lattice);
+        const ffd_folds folds = assert_verdict(lattice, 1, radius[i] > 0 ? FFD_FOLDS_NONE : FFD_FOLDS_SOME);
+        assert_true(radius[i] > 0 ? folds.min_det > 0 : folds.min_det < 0);
+        ffd_lattice_destroy(&lattice);
+    }
+    /* By less than can be told: neither proven nor shown. */
+    ffd_lattice *lattice = mapped(&shape, rod);
+    lattice->deformed[0] = nextafter(lattice->deformed[0], 0);
+    finish(lattice);
+    assert_int_not_equal(find(lattice, 1).verdict, FFD_FOLDS_NONE);
+    ffd_lattice_destroy(&lattice);
+}
+
+static void test_balls(void **state)
+{
+    (void)state;
+    const kinds shapes[] = {
+        {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 3, 2}, {3, 10, 6}},
+        {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {3, 2, 3}, {5, 8, 7}},
+        {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {1, 2, 3}, {3, 9, 6}},
+    };
+    for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++)
+        for (int rough = 0; rough < 2; rough++) {
+            ffd_lattice *lattice = mapped(&shapes[i], rough ? rough_ball : ball);
+            for (size_t p = 0; p < lattice->count; p++) {
+                double *q = lattice->deformed + 3 * p;
+                q[0] += 0.2 * q[1] + 0.1 * q[2] * q[2];
+                q[2] *= 1.3;
+            }
+            finish(lattice);
+            const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_NONE);
+            assert_true(folds.min_det >= 0 && folds.min_det < 1e-3);
+            /* The pole moved into the ball. */
+            for (size_t u = 1; u < lattice->size[0]; u++)
+                for (size_t v = 0; v < lattice->size[1]; v++)
+                    lattice->deformed[3 * lattice_index(lattice, u, v, lattice->size[2] - 1) + 2] -= 3;
+            finish(lattice);
+            assert_verdict(lattice, 1, FFD_FOLDS_SOME);
+            ffd_lattice_destroy(&lattice);
+        }
+}
+
+/* A quarter of a solid cylinder, exact by weights: its axis is no line of equal homogeneous points. */
+static void test_rational_quarter(void **state)
+{
+    (void)state;
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 2, 1}, {2, 3, 2}};
+    static const double x[3] = {1, 1, 0}, y[3] = {0, 1, 1};
+    for (int fold = 0; fold < 2; fold++) {
+        ffd_lattice *lattice = mapped(&shape, identity);
+        lattice_add_weights(lattice);
+        for (size_t k = 0; k < 2; k++)
+            for (size_t j = 0; j < 3; j++)
+                for (size_t i = 0; i < 2; i++) {
+                    const size_t at = lattice_index(lattice, i, j, k);
+                    const double p[3] = {0.3 + 2 * (double)i * x[j], 0.7 + 2 * (double)i * y[j], (double)k};
+                    memcpy(lattice->rest + 3 * at, p, sizeof p);
+                    memcpy(lattice->deformed + 3 * at, p, sizeof p);
+                    lattice->rest_weights[at] = lattice->deformed_weights[at] = j == 1 ? sqrt(0.5) : 1;
+                }
+        if (fold)
+            lattice->deformed[3 * lattice_index(lattice, 0, 1, 0)] += 0.1;
+        finish(lattice);
+        const ffd_folds folds = assert_verdict(lattice, 1, fold ? FFD_FOLDS_SOME : FFD_FOLDS_NONE);
+        if (!fold) {
+            assert_true(folds.min_det == 0);
+            assert_quick(lattice, 64);
+        }
+        ffd_lattice_destroy(&lattice);
+    }
+}
+
+/* The rest volume is 0 across an inner plane too: that is no border. */
+static void test_zero_inside(void **state)
+{
+    (void)state;
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 1, 1}, {2, 3, 2}};
+    ffd_lattice *lattice = mapped(&shape, identity);
+    for (size_t k = 0; k < 2; k++) {
+        double *inner = lattice->rest + 3 * lattice_index(lattice, 0, 1, k);
+        memcpy(inner + 3, inner, 3 * sizeof(double));
+    }
+    memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
+    finish(lattice);
+    assert_int_not_equal(find(lattice, 1).verdict, FFD_FOLDS_NONE);
+    ffd_lattice_destroy(&lattice);
+}
+
+/* Polynomials */
+
+static double random_size(draw *d)
+{
+    return draw_between(d, -1, 1);
+}
+
+static void test_bernstein(void **state)
+{
+    (void)state;
+    draw d = {11};
+    for (int round = 0; round < 50; round++) {
+        double a[64], b[64], c[343], lower[343], scratch[343], weighted_a[64], weighted_b[64];
+        int order_a[3], order_b[3], order[3];
+        for (int i = 0; i < 3; i++) {
+            order_a[i] = draw_int(&d, 1, 4);
+            order_b[i] = draw_int(&d, 1, 4);
+            order[i] = order_a[i] + order_b[i] - 1;
+        }
+        for (int i = 0; i < 64; i++) {
+            a[i] = random_size(&d);
+            b[i] = random_size(&d);
+        }
+        ffd_bernstein_weight(a, order_a, weighted_a);
+        ffd_bernstein_weight(b, order_b, weighted_b);
+        memset(c, 0, sizeof c);
+        ffd_bernstein_multiply(weighted_a, order_a, weighted_b, order_b, -3, c);
+        ffd_bernstein_unweight(c, order, 0.5);
+        const int direction = draw_int(&d, 0, 2);
+        double t[3], half[3];
+        for (int i = 0; i < 3; i++)
+            half[i] = t[i] = draw_unit(&d);
+        const double value = -1.5 * ffd_bernstein_value(a, order_a, t) * ffd_bernstein_value(b, order_b, t);
+        assert_true(fabs(ffd_bernstein_value(c, order, t) - value) < 1e-14);
+
+        double part[343];
+        const double lo[3] = {0.25, 0, 0.5}, hi[3] = {0.5, 1, 0.625};
+        memcpy(part, c, sizeof c);
+        ffd_bernstein_restrict(part, order, lo, hi, scratch);
+        double inside[3];
+        for (int i = 0; i < 3; i++)
+            inside[i] = lo[i] + (hi[i] - lo[i]) * t[i];
+        assert_true(fabs(ffd_bernstein_value(part, order, t) - ffd_bernstein_value(c, order, inside)) <
+                    1e-13);
+
+        double whole[343];
+        memcpy(whole, c, sizeof c);
+        ffd_bernstein_halve(c, order, direction, lower);
+        half[direction] = 0.5 * t[direction];
+        assert_true(fabs(ffd_bernstein_value(lower, order, t) - ffd_bernstein_value(whole, order, half)) <
+                    1e-14);
+        half[direction] += 0.5;
+        assert_true(fabs(ffd_bernstein_value(c, order, t) - ffd_bernstein_value(whole, order, half)) < 1e-14);
+    }
+}
+
+/* Errors */
+
+static void test_needs_bounds(void **state)
+{
+    (void)state;
+    ffd_lattice *lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,4,4],"
+                                  "\"rest\":{\"box\":\"mesh\"}}");
+    ffd_folds folds;
+    ffd_error error;
+    assert_int_equal(ffd_folds_find(lattice, 0, &folds, &error), FFD_E_ARGUMENT);
+    assert_true(error.message[0]);
+    const double min[3] = {0, 0, 0}, max[3] = {1, 1, 1};
+    assert_int_equal(ffd_lattice_fit(lattice, min, max, &error), FFD_OK);
+    assert_int_equal(ffd_folds_find(lattice, 0, &folds, &error), FFD_OK);
+    assert_int_equal(folds.verdict, FFD_FOLDS_NONE);
+    ffd_lattice_destroy(&lattice);
+}
+
+static void test_no_memory(void **state)
+{
+    (void)state;
+    const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 1}, {9, 9, 9}};
+    ffd_lattice *lattice = mapped(&shape, warp);
+    finish(lattice);
+    const ffd_folds all = find(lattice, 1);
+    ffd_folds folds;
+    ffd_status status = FFD_E_MEMORY;
+    long failing = 0;
+    for (; status; failing++) {
+        assert_true(failing < 1000);
+        ffd_alloc_fail_after(failing);
+        status = ffd_folds_find(lattice, 2, &folds, NULL);
+        ffd_alloc_fail_after(-1);
+        if (status)
+            assert_int_equal(status, FFD_E_MEMORY);
+    }
+    assert_true(failing > 5);
+    assert_same(&all, &folds); /* with fewer workers */
+    ffd_lattice_destroy(&lattice);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bernstein),
+        cmocka_unit_test(test_identity),
+        cmocka_unit_test(test_rest_shapes),
+        cmocka_unit_test(test_rest_files),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_thin_and_turned),
+        cmocka_unit_test(test_weights),
+        cmocka_unit_test(test_equal_weights),
+        cmocka_unit_test(test_one_cell_of_a_thousand),
+        cmocka_unit_test(test_a_hair_before_folding),
+        cmocka_unit_test(test_a_hair_at_a_corner),
+        cmocka_unit_test(test_exactly_on_the_edge),
+        cmocka_unit_test(test_too_few_boxes),
+        cmocka_unit_test(test_folds_at_the_seam),
+        cmocka_unit_test(test_flat_and_mirrored),
+        cmocka_unit_test(test_random_points),
+        cmocka_unit_test(test_collapsed_axis),
+        cmocka_unit_test(test_torn_axis),
+        cmocka_unit_test(test_axis_pushed_through),
+        cmocka_unit_test(test_balls),
+        cmocka_unit_test(test_rational_quarter),
+        cmocka_unit_test(test_zero_inside),
+        cmocka_unit_test(test_needs_bounds),
+        cmocka_unit_test(test_no_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
