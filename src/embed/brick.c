@@ -187,12 +187,11 @@ static bool keep(cell_search *cells, uint32_t number, cell_brick *mine, const ce
     return false;
 }
 
-static ffd_status keep_heavy(cell_search *cells, uint32_t number, cell_brick *mine, const cell_brick **kept,
-                             ffd_error *error)
+/* Which bricks a mesh needs does not depend on the order of its vertices, so neither does this. */
+static ffd_status check_heavy(cell_search *cells, ffd_error *error)
 {
-    const size_t leaves = mine->leaf_count, most = limit_of(cells, MOST_HEAVY_LEAVES);
-    /* Which bricks a mesh needs does not depend on the order of its vertices, so neither does this. */
-    if (keep(cells, number, mine, kept) && atomic_fetch_add(&cells->heavy_leaves, leaves) + leaves > most)
+    const size_t most = limit_of(cells, MOST_HEAVY_LEAVES);
+    if (atomic_load(&cells->heavy_leaves) > most)
         return ffd_fail(
             error, FFD_E_LIMIT,
             "the rest lattice folds in too many of its cells: finding u,v,w takes more than %zu parts "
@@ -227,15 +226,22 @@ ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bric
         *brick = own->brick[slot];
     if (*brick)
         return FFD_OK;
+    const ffd_status status = check_heavy(cells, error); /* once too many, no more of them */
+    if (status)
+        return status;
     cell_brick *mine = ffd_alloc_zero(1, sizeof *mine);
     if (!mine || !cut_brick(locator, number, mine) || !index_leaves(mine)) {
         brick_free(mine);
         return ffd_fail_memory(error);
     }
-    if (mine->leaf_count > LIGHT_LEAVES)
-        return keep_heavy(cells, number, mine, brick, error);
-    keep_light(cells, number, mine, own, brick);
-    return FFD_OK;
+    const size_t leaves = mine->leaf_count;
+    if (leaves <= LIGHT_LEAVES) {
+        keep_light(cells, number, mine, own, brick);
+        return FFD_OK;
+    }
+    if (keep(cells, number, mine, brick))
+        atomic_fetch_add(&cells->heavy_leaves, leaves);
+    return check_heavy(cells, error);
 }
 
 void ffd_own_bricks_free(own_bricks *own)

@@ -4,6 +4,7 @@
 #include "base/vec.h"
 #include <ffd/deform.h>
 #include <math.h>
+#include <stdatomic.h>
 #include <string.h>
 
 #define TILE ((size_t)1024)
@@ -18,20 +19,18 @@ typedef struct tile_scratch {
     uint8_t changed[TILE];
     double normals[3 * TILE], tangents[4 * TILE];
     uint8_t normals_changed[TILE], tangents_changed[TILE];
+    ffd_status status; /* of the first tile of this worker that failed, and what it said */
+    ffd_error error;
 } tile_scratch;
-
-typedef struct tile_result {
-    pass_totals totals;
-    ffd_status status;
-} tile_result;
 
 typedef struct part_work {
     const mesh_pass *pass;
     const mesh_part *part;
     size_t part_number;
     uint64_t first_vertex; /* the part's first vertex in the document */
-    tile_scratch *scratch;
-    tile_result *tiles;
+    tile_scratch *scratch; /* one a worker */
+    pass_totals *tiles;    /* what each tile adds */
+    atomic_bool stopped;   /* a tile failed: the others need not be looked at */
 } part_work;
 
 static void clear_totals(pass_totals *totals)
@@ -301,12 +300,14 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const mesh_pass *pass = work->pass;
     const mesh_part *part = work->part;
     tile_scratch *scratch = &work->scratch[worker];
-    tile_result *result = &work->tiles[tile];
+    pass_totals *totals = &work->tiles[tile];
     const size_t count = last - first;
     const bool attributes = pass->attributes && !part->singular && (part->normal_count || part->has_tangents);
     const bool gradients = attributes || (pass->gradients && !part->repeats_positions);
 
-    clear_totals(&result->totals);
+    clear_totals(totals);
+    if (atomic_load(&work->stopped))
+        return;
     pass->document->format->read_positions(pass->document, work->part_number, first, count, scratch->raw);
     memcpy(scratch->place, scratch->raw, 3 * count * sizeof(double));
     ffd_part_place(part, scratch->place, count);
@@ -317,32 +318,36 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
                      .located = recall(work, scratch, first, count),
                      .locations = scratch->locations,
                      .points = scratch->points};
-    result->status = ffd_chain_apply(pass->chain, pass->links, &run, NULL);
-    result->totals.embed_seconds = run.embed_seconds;
-    result->totals.deform_seconds = run.deform_seconds;
-    if (result->status)
+    scratch->status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
+    totals->embed_seconds = run.embed_seconds;
+    totals->deform_seconds = run.deform_seconds;
+    if (scratch->status) {
+        atomic_store(&work->stopped, true);
         return;
+    }
     if (!part->repeats_positions)
-        finish_positions(work, scratch, first, count, &result->totals);
+        finish_positions(work, scratch, first, count, totals);
     if (attributes)
-        finish_attributes(work, scratch, first, count, &result->totals);
+        finish_attributes(work, scratch, first, count, totals);
 }
 
 static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
 {
     const size_t count = work->part->vertex_count, tiles = count / TILE + (count % TILE != 0);
-    ffd_status status = FFD_OK;
     work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
     if (!work->tiles)
         return ffd_fail_memory(error);
     ffd_parallel_tiles(count, TILE, work->pass->threads, run_tile, work);
-    for (size_t i = 0; i < tiles; i++) {
-        if (work->tiles[i].status && !status) /* memory is all that a search can want for */
-            status = ffd_fail(error, work->tiles[i].status, "out of memory while embedding");
-        join_totals(totals, &work->tiles[i].totals);
-    }
+    for (size_t i = 0; i < tiles; i++)
+        join_totals(totals, &work->tiles[i]);
     ffd_free(work->tiles);
-    return status;
+    for (int i = 0; i < work->pass->threads; i++)
+        if (work->scratch[i].status) {
+            if (error)
+                *error = work->scratch[i].error;
+            return work->scratch[i].status;
+        }
+    return FFD_OK;
 }
 
 uint64_t ffd_pass_vertex_count(const mesh_document *document)
@@ -359,7 +364,8 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
     part_work work = {.pass = pass};
     ffd_status status = FFD_OK;
     clear_totals(totals);
-    work.scratch = ffd_alloc((size_t)pass->threads, sizeof *work.scratch);
+    atomic_init(&work.stopped, false);
+    work.scratch = ffd_alloc_zero((size_t)pass->threads, sizeof *work.scratch);
     if (!work.scratch)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < pass->document->part_count && !status; i++) {
