@@ -25,6 +25,14 @@ static void measure_points(probe *made)
     made->weight_ratio = greatest / least;
 }
 
+static double greatest_deformed(const ffd_lattice *lattice)
+{
+    double greatest = 0;
+    for (size_t i = 0; i < 3 * lattice->count; i++)
+        greatest = fmax(greatest, fabs(lattice->deformed[i]));
+    return greatest;
+}
+
 static double narrowest_span(const knot_vector *knots)
 {
     double width = HUGE_VAL;
@@ -38,7 +46,7 @@ void probe_measure(const ffd_lattice *lattice, probe *made)
     *made = (probe){.lattice = lattice, .is_resolved = true};
     ffd_lattice_get_domain(lattice, made->lo, made->hi);
     measure_points(made);
-    made->is_ordinary = made->weight_ratio < 1e9;
+    made->is_ordinary = made->weight_ratio < 1e9 && greatest_deformed(lattice) < 1e280;
     for (int a = 0; a < 3; a++) {
         made->u_error[a] = 4 * DBL_EPSILON * fmax(fabs(made->lo[a]), fabs(made->hi[a])) + DBL_TRUE_MIN;
         made->is_resolved = made->is_resolved && narrowest_span(&lattice->knots[a]) > 64 * made->u_error[a];
