@@ -80,6 +80,7 @@ static void note_location(const ffd_lattice *lattice, const ffd_location *locati
         point->outside = true;
     if (location->status == FFD_MULTIPLE)
         point->multiple = true;
+    point->unresolved |= location->unresolved;
     point->evaluations += location->evaluations;
     memcpy(point->uvw, location->uvw, sizeof point->uvw);
 }

@@ -42,11 +42,12 @@ typedef struct chain_point {
     double residual_square; /* relative to the link's diagonal, the greatest of the links' */
     double uvw[3];          /* of the last link */
     uint32_t evaluations;
-    uint8_t status; /* ffd_vertex_status, the highest of the links' */
-    bool located;   /* has u,v,w in some link */
-    bool outside;   /* of some link */
-    bool multiple;  /* in some link */
-    bool extended;  /* by a link that it is outside of: its border was there, and within the falloff */
+    uint8_t status;  /* ffd_vertex_status, the highest of the links' */
+    bool located;    /* has u,v,w in some link */
+    bool outside;    /* of some link */
+    bool multiple;   /* in some link */
+    bool unresolved; /* the search for some link ended at its limits */
+    bool extended;   /* by a link that it is outside of: its border was there, and within the falloff */
 } chain_point;
 
 /* A run of points on its way through the chain. */

@@ -120,7 +120,7 @@ static ffd_status judge(deform_job *job, const figure_arrays *arrays, ffd_job_re
     const ffd_deform_desc *desc = job->desc;
     const char *name = ffd_source_name(&desc->input);
     const double start = ffd_clock_seconds();
-    ffd_status status = ffd_policies_judge(desc, name, job->check, &job->totals, error);
+    ffd_status status = ffd_policies_judge(desc, name, job->check, &job->chain, &job->totals, error);
     if (!status && (job->check || desc->quality || desc->fail_on & FFD_GATE_FOLDS))
         status = ffd_figures_folds(&job->chain, job->threads, result, error);
     if (!status && arrays->deformed)

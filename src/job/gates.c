@@ -1,22 +1,26 @@
 #include "job/gates.h"
+#include "job/coverage.h"
 #include "job/figures.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
 ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, bool check,
-                              const pass_totals *totals, ffd_error *error)
+                              const lattice_chain *chain, const pass_totals *totals, ffd_error *error)
 {
     if (totals->first_invalid != UINT64_MAX && !check)
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "vertex %" PRIu64 " (counted from 0) has a coordinate that is not finite",
                              totals->first_invalid);
-    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_any)
-        return ffd_fail_file(error, FFD_E_EMBEDDING, name,
-                             "%" PRIu64 " of %" PRIu64
-                             " vertices are outside the lattice, the first is vertex %" PRIu64
-                             " (counted from 0)",
-                             totals->outside_any, totals->vertices, totals->first_outside);
+    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_any) {
+        char coverage[600];
+        ffd_chain_coverage(chain, coverage, sizeof coverage);
+        return ffd_fail_file(
+            error, FFD_E_EMBEDDING, name,
+            "%" PRIu64 " of %" PRIu64 " vertices are outside the lattice, the first is vertex %" PRIu64
+            " (counted from 0)%s%s",
+            totals->outside_any, totals->vertices, totals->first_outside, *coverage ? "; " : "", coverage);
+    }
     if (totals->first_overflow != UINT64_MAX)
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "the deformed position of vertex %" PRIu64

@@ -7,7 +7,7 @@
 /* What a deformation refuses of the vertices; name is the mesh's. A check counts those that are not finite.
    Errors: FFD_E_INVALID, FFD_E_EMBEDDING. */
 ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, bool check,
-                              const pass_totals *totals, ffd_error *error);
+                              const lattice_chain *chain, const pass_totals *totals, ffd_error *error);
 
 /* One line about all gates that are violated, in the order of ffd_gate. result has the folds where their gate
    is set. Errors: FFD_E_GATE. */

@@ -80,6 +80,7 @@ static void join_totals(pass_totals *all, const pass_totals *tile)
     }
     all->outside_any += tile->outside_any;
     all->multiple_any += tile->multiple_any;
+    all->unresolved += tile->unresolved;
     all->extended += tile->extended;
     all->first_outside = least(all->first_outside, tile->first_outside);
     all->first_invalid = least(all->first_invalid, tile->first_invalid);
@@ -122,6 +123,7 @@ static void count_point(const part_work *work, const chain_point *point, const d
     }
     totals->extended += point->status == FFD_OUTSIDE && point->extended;
     totals->multiple_any += point->multiple;
+    totals->unresolved += point->unresolved;
     totals->evaluations += point->evaluations;
     totals->evaluations_max =
         point->evaluations > totals->evaluations_max ? point->evaluations : totals->evaluations_max;

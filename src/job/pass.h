@@ -18,6 +18,7 @@ typedef struct pass_totals {
     ffd_bounds before, after;                              /* in the lattice's space */
     uint64_t outside_any;                                  /* vertices outside of at least one lattice */
     uint64_t multiple_any;                                 /* likewise */
+    uint64_t unresolved;                                   /* whose search ended at its limits */
     uint64_t first_outside, first_invalid, first_overflow; /* vertex numbers; UINT64_MAX: none */
     uint64_t extended; /* of those with status outside: displaced as the border is */
     uint64_t normals_collapsed, transforms_singular;

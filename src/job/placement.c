@@ -97,6 +97,11 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " vertices are not inside: %s%s%s",
                      others, totals->vertices, list, *coverage ? "; " : "", coverage);
     }
+    if (totals->unresolved)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "for %" PRIu64
+                     " vertices the search ended at its limits: the lattice folds too finely there",
+                     totals->unresolved);
     if (totals->transforms_singular)
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " vertices stay: their node's matrix has no inverse",
                      totals->transforms_singular);
