@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
 #     sh tests/run.sh                 the gcc build, every quick suite
-#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle golden cli rules slow)
+#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules slow)
 #     sh tests/run.sh --all           and: slow suites, clang, release, sanitizers, valgrind, the demo, the wraps
 #     --keep                          keeps the build folders of the stages that only --all has
 # FFD_MODELS names a folder of sample models (default: shared/models beside the checkout); without it the tests
@@ -198,6 +198,10 @@ if [ -n "$all" ]; then
         suites valgrind gcc --suite unit --no-suite slow --timeout-multiplier 30 \
             --wrap "valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite"
     fi
+
+    # The fuzz target itself, for a moment; its corpus was replayed by every build above.
+    case_of fuzz run sh "$root/tests/fuzz/run.sh" 30 "$work/fuzz"
+    drop fuzz
 
     case_of demo run sh "$root/data/demo.sh" "$work/demo"
 
