@@ -45,16 +45,9 @@ static ffd_status make_points(const ffd_locator *locator, cell_search *cells, ff
 static ffd_status make_extractions(const ffd_locator *locator, cell_search *cells, ffd_error *error)
 {
     for (int a = 0; a < 3; a++) {
-        const knot_vector *knots = &locator->knots[a];
-        const size_t size = (size_t)cells->order[a] * (size_t)cells->order[a];
-        cells->extraction[a] = ffd_alloc(knots->span_count, size * sizeof(double));
+        cells->extraction[a] = ffd_bezier_extractions(&locator->knots[a]);
         if (!cells->extraction[a])
             return ffd_fail_memory(error);
-        for (size_t s = 0; s < knots->span_count; s++) {
-            double matrix[MAX_ORDER * MAX_ORDER];
-            ffd_bezier_extraction(knots, knots->spans[s], matrix);
-            memcpy(cells->extraction[a] + s * size, matrix, size * sizeof(double));
-        }
     }
     return FFD_OK;
 }

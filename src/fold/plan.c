@@ -1,21 +1,6 @@
 #include "fold/plan.h"
 #include "base/memory.h"
 #include "spline/basis.h"
-#include <string.h>
-
-static ffd_status make_extraction(const knot_vector *knots, double **extraction, ffd_error *error)
-{
-    const size_t size = (size_t)(knots->degree + 1) * (size_t)(knots->degree + 1);
-    *extraction = ffd_alloc(knots->span_count, size * sizeof(double));
-    if (!*extraction)
-        return ffd_fail_memory(error);
-    for (size_t s = 0; s < knots->span_count; s++) {
-        double matrix[MAX_ORDER * MAX_ORDER];
-        ffd_bezier_extraction(knots, knots->spans[s], matrix);
-        memcpy(*extraction + s * size, matrix, size * sizeof(double));
-    }
-    return FFD_OK;
-}
 
 ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_error *error)
 {
@@ -25,9 +10,9 @@ ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_e
         plan->order[a] = knots->degree + 1;
         plan->cells[a] = knots->span_count;
         plan->cell_count *= knots->span_count;
-        const ffd_status status = make_extraction(knots, &plan->extraction[a], error);
-        if (status)
-            return status;
+        plan->extraction[a] = ffd_bezier_extractions(knots);
+        if (!plan->extraction[a])
+            return ffd_fail_memory(error);
     }
     return ffd_fold_volume(plan, &plan->volume, error);
 }

@@ -16,4 +16,8 @@ void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double 
    at. */
 void ffd_bezier_extraction(const knot_vector *knots, int span, double matrix[MAX_ORDER * MAX_ORDER]);
 
+/* That of each non-empty span, order * order numbers one after the other; the caller's (ffd_free). NULL when
+   there is no memory. */
+double *ffd_bezier_extractions(const knot_vector *knots);
+
 #endif

@@ -1,5 +1,7 @@
+#include "base/memory.h"
 #include "spline/basis.h"
 #include "spline/triangle.h"
+#include <string.h>
 
 void ffd_bezier_extraction(const knot_vector *knots, int span, double matrix[MAX_ORDER * MAX_ORDER])
 {
@@ -11,4 +13,16 @@ void ffd_bezier_extraction(const knot_vector *knots, int span, double matrix[MAX
         for (int degree = 1; degree <= d; degree++)
             triangle_raise(knots->t, span, degree, degree <= r ? last : first, row);
     }
+}
+
+double *ffd_bezier_extractions(const knot_vector *knots)
+{
+    const size_t size = (size_t)(knots->degree + 1) * (size_t)(knots->degree + 1);
+    double *matrices = ffd_alloc(knots->span_count, size * sizeof(double));
+    for (size_t s = 0; matrices && s < knots->span_count; s++) {
+        double matrix[MAX_ORDER * MAX_ORDER];
+        ffd_bezier_extraction(knots, knots->spans[s], matrix);
+        memcpy(matrices + s * size, matrix, size * sizeof(double));
+    }
+    return matrices;
 }
