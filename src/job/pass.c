@@ -298,7 +298,7 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first, s
 
 static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
-    const part_work *work = context;
+    part_work *work = context;
     const mesh_pass *pass = work->pass;
     const mesh_part *part = work->part;
     tile_scratch *scratch = &work->scratch[worker];
