@@ -1,0 +1,536 @@
+/* test_oracle_shapes.c - u,v,w in bent, rolled up, closed, collapsed and folded lattices, against all roots
+ * that the oracle finds. */
+#include "shape_judge.h"
+#include "shape_sample.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* Every kind of place in turn; the first two seeds are the plain ones. */
+static shape_place place_of(uint64_t seed)
+{
+    static const volume_scale scales[] = {SCALE_PLAIN, SCALE_PLAIN, SCALE_THIN, SCALE_HUGE,
+                                          SCALE_FAR,   SCALE_TINY,  SCALE_THIN};
+    return (shape_place){.scale = scales[seed % 7], .rotated = seed % 2 == 1};
+}
+
+static void add_totals(judge *totals, const judge *j)
+{
+    for (int status = 0; status < FFD_VERTEX_STATUS_COUNT; status++)
+        totals->seen[status] += j->seen[status];
+    totals->judged += j->judged;
+    totals->left_out += j->left_out;
+}
+
+static void print_totals(const char *name, const judge *totals)
+{
+    printf("%s: %ld inside, %ld outside, %ld multiple, %ld singular; %ld of %ld left out\n", name,
+           totals->seen[FFD_INSIDE], totals->seen[FFD_OUTSIDE], totals->seen[FFD_MULTIPLE],
+           totals->seen[FFD_SINGULAR], totals->left_out, totals->judged);
+}
+
+static void put_on_face(const sample *s, random_source *random, long double uvw[3])
+{
+    const int a = random_int(random, 0, 2);
+    const oracle_axis *axis = &s->axis[a];
+    uvw[a] = random_chance(random, 0.5) || axis->closed ? oracle_first(axis) : oracle_last(axis);
+}
+
+static void somewhere(const sample *s, random_source *random, long double uvw[3])
+{
+    for (int a = 0; a < 3; a++)
+        uvw[a] = oracle_first(&s->axis[a]) + (oracle_last(&s->axis[a]) - oracle_first(&s->axis[a])) *
+                                                 (long double)random_range(random, 0.05, 0.95);
+}
+
+/* Points of the volume (also on knots, faces, edges, corners), around it, and on both sides of its faces. */
+static void judge_shape(judge *j, random_source *random)
+{
+    enum { KNOWN = 12, WITHIN = 9, NEAR = 9 };
+    long double uvw[KNOWN][3], face[3];
+    for (int i = 0; i < KNOWN; i++) {
+        sample_parameters(j->s, random, uvw[i]);
+        judge_add_known(j, uvw[i]);
+    }
+    for (int i = 0; i < WITHIN; i++)
+        judge_add_within(j, random);
+    for (int i = 0; i < NEAR; i++) {
+        sample_parameters(j->s, random, face);
+        put_on_face(j->s, random, face);
+        judge_add_near(j, random, face, 1e-3);
+    }
+    if (!judge_find(j))
+        return;
+    for (int i = 0; i < j->count; i++)
+        judge_counted(j, i, i < KNOWN ? uvw[i] : NULL);
+    judge_order(j, random);
+}
+
+/* share: the largest part of the points that may be left out. */
+static void run(const char *name, shape_kind kind, long cases, double share)
+{
+    trial t = {.name = name};
+    judge totals = {.count = 0};
+    for (long k = 0; k < cases; k++, t.cases++) {
+        sample s;
+        shape x;
+        judge j;
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        const shape_place place = place_of(s.seed);
+        shape_make(&x, &s, &random, kind, &place);
+        if (random_chance(&random, 0.2))
+            sample_weights(&s, &random, 1.1);
+        if (judge_open(&j, &t, &s)) {
+            judge_shape(&j, &random);
+            add_totals(&totals, &j);
+            judge_close(&j);
+        }
+        sample_free(&s);
+    }
+    print_totals(name, &totals);
+    trial_end(&t);
+    assert_true((double)totals.left_out <= share * (double)totals.judged);
+    assert_true((kind != SHAPE_OVERLAP && kind != SHAPE_FOLD) || totals.seen[FFD_MULTIPLE] > 0);
+}
+
+static void c_shapes(void **state)
+{
+    (void)state;
+    run("c_shapes", SHAPE_C, trial_cases(7), 0.3);
+}
+
+static void spirals(void **state)
+{
+    (void)state;
+    run("spirals", SHAPE_SPIRAL, trial_cases(5), 0.3);
+}
+
+static void twisted_boxes(void **state)
+{
+    (void)state;
+    run("twisted_boxes", SHAPE_TWIST, trial_cases(7), 0.3);
+}
+
+static void half_tori(void **state)
+{
+    (void)state;
+    run("half_tori", SHAPE_HALF_TORUS, trial_cases(7), 0.3);
+}
+
+static void tori(void **state)
+{
+    (void)state;
+    run("tori", SHAPE_TORUS, trial_cases(4), 0.3);
+}
+
+static void kinks(void **state)
+{
+    (void)state;
+    run("kinks", SHAPE_KINKED, trial_cases(7), 0.3);
+}
+
+static void overlaps(void **state)
+{
+    (void)state;
+    run("overlaps", SHAPE_OVERLAP, trial_cases(7), 0.3);
+}
+
+static void folds(void **state)
+{
+    (void)state;
+    run("folds", SHAPE_FOLD, trial_cases(7), 0.4);
+}
+
+/* Known points only where the oracle's recursion would take minutes to look for all. */
+static void judge_known(judge *j, random_source *random)
+{
+    enum { KNOWN = 24 };
+    long double uvw[KNOWN][3];
+    for (int i = 0; i < KNOWN; i++) {
+        sample_parameters(j->s, random, uvw[i]);
+        judge_add_known(j, uvw[i]);
+    }
+    if (!judge_find(j))
+        return;
+    for (int i = 0; i < KNOWN; i++)
+        judge_expect(j, i, FFD_INSIDE, uvw[i], NULL);
+    judge_order(j, random);
+}
+
+static void degrees(void **state)
+{
+    (void)state;
+    enum { MOST_COUNTED = 5 };
+    trial t = {.name = "degrees"};
+    judge totals = {.count = 0};
+    for (int degree = 1; degree <= FFD_MAX_DEGREE; degree++, t.cases++) {
+        sample s;
+        shape x;
+        judge j;
+        sample_init(&s, trial_seed() + (uint64_t)degree);
+        random_source random = {s.seed};
+        const shape_place place = place_of(s.seed);
+        shape_make_degree(&x, &s, &random, degree, &place);
+        if (judge_open(&j, &t, &s)) {
+            if (degree <= MOST_COUNTED)
+                judge_shape(&j, &random);
+            else
+                judge_known(&j, &random);
+            add_totals(&totals, &j);
+            judge_close(&j);
+        }
+        sample_free(&s);
+    }
+    print_totals("degrees", &totals);
+    trial_end(&t);
+    assert_true(totals.left_out <= totals.judged / 3);
+}
+
+/* Points a few tolerances out of a face, and a few inside of it; points that no box holds. */
+static void judge_faces(judge *j, random_source *random)
+{
+    static const double steps[] = {2, 4, 50, 1e4, 0.1, 0, -1, -50};
+    enum { STEPS = sizeof steps / sizeof steps[0], BESIDE = 5 * STEPS, FAR = 8 };
+    long double face[BESIDE][3];
+    int direction[BESIDE];
+    for (int i = 0; i < BESIDE; i++) {
+        const oracle_axis *axis;
+        somewhere(j->s, random, face[i]);
+        do
+            axis = &j->s->axis[direction[i] = random_int(random, 0, 2)];
+        while (axis->closed);
+        face[i][direction[i]] = random_chance(random, 0.5) ? oracle_first(axis) : oracle_last(axis);
+        judge_add_beside(j, face[i], direction[i], steps[i % STEPS]);
+    }
+    for (int i = 0; i < FAR; i++)
+        judge_add_far(j, random);
+    if (!judge_find(j))
+        return;
+    for (int i = 0; i < BESIDE; i++)
+        judge_beside(j, i, face[i], direction[i]);
+    for (int i = BESIDE; i < j->count; i++)
+        judge_far(j, i);
+}
+
+static void faces(void **state)
+{
+    (void)state;
+    static const shape_kind kinds[] = {SHAPE_C,          SHAPE_SPIRAL, SHAPE_TWIST,
+                                       SHAPE_HALF_TORUS, SHAPE_TORUS,  SHAPE_KINKED};
+    trial t = {.name = "faces"};
+    judge totals = {.count = 0};
+    for (long k = 0; k < trial_cases(42); k++, t.cases++) {
+        sample s;
+        shape x;
+        judge j;
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        const shape_place place = place_of(s.seed);
+        shape_make(&x, &s, &random, kinds[k % 6], &place);
+        if (random_chance(&random, 0.2))
+            sample_weights(&s, &random, 1.1);
+        if (judge_open(&j, &t, &s)) {
+            judge_faces(&j, &random);
+            add_totals(&totals, &j);
+            judge_close(&j);
+        }
+        sample_free(&s);
+    }
+    print_totals("faces", &totals);
+    trial_end(&t);
+    assert_true(totals.left_out <= totals.judged / 3);
+    assert_true(totals.seen[FFD_INSIDE] > 0 && totals.seen[FFD_OUTSIDE] > 0);
+}
+
+/* The angle of a quarter circle's rational quadratic at t in [0,1]. */
+static long double quarter_angle(long double t)
+{
+    const long double corner = 2 * t * (1 - t) * sqrtl(0.5L);
+    return atan2l(t * t + corner, (1 - t) * (1 - t) + corner);
+}
+
+/* The torus in closed form: radius of the tube, angle of the tube, angle of the ring. */
+static void torus_coordinates(const long double p[3], long double torus[3])
+{
+    const long double far = sqrtl(p[0] * p[0] + p[1] * p[1]) - SHAPE_TORUS_RADIUS;
+    torus[0] = sqrtl(far * far + p[2] * p[2]);
+    torus[1] = atan2l(p[2], far);
+    torus[2] = atan2l(p[1], p[0]);
+    if (torus[1] < 0)
+        torus[1] += 2 * acosl(-1);
+}
+
+/* How far a point is inside (> 0) the torus' piece: the least of its distances from the faces. */
+static long double depth_in_torus(const shape *x, const long double torus[3], bool whole_tube)
+{
+    const long double pi = acosl(-1);
+    long double depth = fminl(torus[0] - x->radius, x->radius + x->across - torus[0]);
+    depth = fminl(depth, fminl(torus[2], pi / 2 - torus[2]));
+    return whole_tube ? depth : fminl(depth, fminl(torus[1], pi / 2 - torus[1]));
+}
+
+static void judge_torus_point(judge *j, const shape *x, int i)
+{
+    const long double p[3] = {j->xyz[3 * i], j->xyz[3 * i + 1], j->xyz[3 * i + 2]}, pi = acosl(-1);
+    const ffd_location *found = &j->found[i];
+    const bool whole = j->volume.axis[x->role[1]].n > 3;
+    long double torus[3];
+    torus_coordinates(p, torus);
+    const long double depth = depth_in_torus(x, torus, whole);
+    if (fabsl(depth) < 1e-12L)
+        return;
+    trial_check(j->t, j->s, found->status == (depth > 0 ? FFD_INSIDE : FFD_OUTSIDE),
+                "tube radius %.17Lg, angle %.17Lg, ring angle %.17Lg: status %d", torus[0], torus[1],
+                torus[2], found->status);
+    if (found->status != FFD_INSIDE)
+        return;
+    const long double v = found->uvw[x->role[1]], quarter = fminl(floorl(v), whole ? 3 : 0);
+    const long double tube = quarter * pi / 2 + quarter_angle(v - quarter);
+    const long double ring = quarter_angle(found->uvw[x->role[2]]);
+    const long double radius = x->radius + x->across * found->uvw[x->role[0]];
+    trial_check(j->t, j->s,
+                fabsl(radius - torus[0]) < 1e-13L && fabsl(tube - torus[1]) < 1e-13L &&
+                    fabsl(ring - torus[2]) < 1e-13L,
+                "tube radius %.17Lg, angle %.17Lg, ring angle %.17Lg: found %.17Lg %.17Lg %.17Lg", torus[0],
+                torus[1], torus[2], radius, tube, ring);
+}
+
+/* Rational lattices whose inverse is known: u,v,w of any point in closed form. */
+static void quarter_tori(void **state)
+{
+    (void)state;
+    trial t = {.name = "quarter_tori"};
+    judge totals = {.count = 0};
+    for (long k = 0; k < trial_cases(20); k++, t.cases++) {
+        sample s;
+        shape x;
+        judge j;
+        const shape_place place = {.bare = true};
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        shape_make(&x, &s, &random, SHAPE_QUARTER_TORUS, &place);
+        if (judge_open(&j, &t, &s)) {
+            while (j.count < JUDGE_POINTS / 2)
+                judge_add_within(&j, &random);
+            while (j.count < JUDGE_POINTS) {
+                long double uvw[3];
+                sample_parameters(&s, &random, uvw);
+                judge_add_near(&j, &random, uvw, 1e-2);
+            }
+            if (judge_find(&j)) {
+                for (int i = 0; i < j.count; i++)
+                    judge_torus_point(&j, &x, i);
+                judge_order(&j, &random);
+            }
+            add_totals(&totals, &j);
+            judge_close(&j);
+        }
+        sample_free(&s);
+    }
+    print_totals("quarter_tori", &totals);
+    trial_end(&t);
+    assert_true(totals.seen[FFD_INSIDE] > 0 && totals.seen[FFD_OUTSIDE] > 0);
+}
+
+/* Points of collapsed faces have a set of roots, the least of which stands for them; points next to them have
+   one. Steps from the face are 1e-3, 1e-4, ... of the domain; below 2^-24 (maths 6.5) a point may be called
+   singular. */
+static void judge_collapsed(judge *j, const shape *x, random_source *random)
+{
+    enum { ON = 12, STEPS = 8, CLEAR_STEPS = 5, NEXT = 2 * STEPS, KNOWN = 10, WITHIN = 6 };
+    long double uvw[ON + NEXT + KNOWN][3], before[3];
+    bool exact[ON][3];
+    for (int i = 0; i < ON + NEXT; i++) {
+        if (i < ON)
+            sample_parameters(j->s, random, uvw[i]);
+        else
+            somewhere(j->s, random, uvw[i]);
+        memcpy(before, uvw[i], sizeof before);
+        shape_to_collapsed(x, j->s, random, uvw[i]);
+        for (int a = 0; i >= ON && a < 3; a++) { /* a step from the face */
+            const oracle_axis *axis = &j->s->axis[a];
+            const long double step =
+                powl(10, -3 - (i - ON) % STEPS) * (oracle_last(axis) - oracle_first(axis));
+            if (uvw[i][a] != before[a])
+                uvw[i][a] += uvw[i][a] == oracle_first(axis) ? step : -step;
+        }
+        if (i < ON) {
+            memcpy(before, uvw[i], sizeof before);
+            assert_true(shape_collapse(x, j->s, uvw[i]));
+            for (int a = 0; a < 3; a++)
+                exact[i][a] = uvw[i][a] != before[a];
+        }
+        judge_add_known(j, uvw[i]);
+    }
+    for (int i = ON + NEXT; i < ON + NEXT + KNOWN; i++) {
+        do
+            sample_parameters(j->s, random, uvw[i]);
+        while (shape_collapse(x, j->s, uvw[i]));
+        judge_add_known(j, uvw[i]);
+    }
+    for (int i = 0; i < WITHIN; i++)
+        judge_add_within(j, random);
+    if (!judge_find(j))
+        return;
+    for (int i = 0; i < ON + NEXT + KNOWN; i++)
+        if (i >= ON && i < ON + NEXT && (i - ON) % STEPS >= CLEAR_STEPS)
+            judge_next_to_singular(j, i, uvw[i]);
+        else
+            judge_expect(j, i, i < ON ? FFD_SINGULAR : FFD_INSIDE, uvw[i], i < ON ? exact[i] : NULL);
+    for (int i = ON + NEXT + KNOWN; i < j->count; i++)
+        judge_counted(j, i, NULL);
+    judge_order(j, random);
+}
+
+static void run_collapsed(const char *name, shape_kind kind, long cases)
+{
+    trial t = {.name = name};
+    judge totals = {.count = 0};
+    for (long k = 0; k < cases; k++, t.cases++) {
+        sample s;
+        shape x;
+        judge j;
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        const shape_place place = place_of(s.seed);
+        shape_make(&x, &s, &random, kind, &place);
+        if (judge_open(&j, &t, &s)) {
+            judge_collapsed(&j, &x, &random);
+            add_totals(&totals, &j);
+            judge_close(&j);
+        }
+        sample_free(&s);
+    }
+    print_totals(name, &totals);
+    trial_end(&t);
+    assert_true(totals.seen[FFD_SINGULAR] > 0 && totals.left_out <= totals.judged / 2);
+}
+
+static void cylinders(void **state)
+{
+    (void)state;
+    run_collapsed("cylinders", SHAPE_CYLINDER, trial_cases(7));
+}
+
+static void sectors(void **state)
+{
+    (void)state;
+    run_collapsed("sectors", SHAPE_SECTOR, trial_cases(7));
+}
+
+static void balls(void **state)
+{
+    (void)state;
+    run_collapsed("balls", SHAPE_BALL, trial_cases(3));
+}
+
+static void shells(void **state)
+{
+    (void)state;
+    run_collapsed("shells", SHAPE_SHELL, trial_cases(3));
+}
+
+static void pyramids(void **state)
+{
+    (void)state;
+    run_collapsed("pyramids", SHAPE_PYRAMID, trial_cases(7));
+}
+
+static void prisms(void **state)
+{
+    (void)state;
+    run_collapsed("prisms", SHAPE_PRISM, trial_cases(7));
+}
+
+typedef enum ends_kind { ENDS_AT_REST, ENDS_ALIKE, ENDS_APART } ends_kind;
+
+/* Moves every control point by its own vector, or by one that control points of one place share. */
+static void deform(sample *s, random_source *random, ends_kind kind, double size)
+{
+    const size_t count = sample_count(s);
+    if (kind == ENDS_AT_REST)
+        return;
+    s->deformed_points = sample_array(3 * count);
+    for (size_t i = 0; i < 3 * count; i++)
+        s->deformed_points[i] = s->points[i] + size * random_range(random, 0.1, 0.2);
+    if (kind == ENDS_APART)
+        return;
+    const double shift[3] = {size, -size / 2, size / 4};
+    for (size_t i = 0; i < 3 * count; i++)
+        s->deformed_points[i] = s->points[i] + shift[i % 3];
+}
+
+/* End faces that meet: a point there is one vertex with the least u,v,w as long as both ends move it alike.
+ */
+static void run_seams(const char *name, shape_kind kind, long cases)
+{
+    trial t = {.name = name};
+    judge totals = {.count = 0};
+    for (long k = 0; k < cases; k++, t.cases++) {
+        static const volume_scale scales[] = {SCALE_PLAIN, SCALE_HUGE, SCALE_PLAIN, SCALE_TINY};
+        enum { ON = 16, OFF = 8 };
+        sample s;
+        shape x;
+        judge j;
+        sample_init(&s, trial_seed() + (uint64_t)k);
+        random_source random = {s.seed};
+        const shape_place place = {.scale = scales[k % 4], .rotated = k % 2 == 1};
+        const ends_kind ends = (ends_kind)(k % 3);
+        shape_make_seam(&x, &s, &random, kind, &place, random_chance(&random, 0.7));
+        deform(&s, &random, ends, place.scale == SCALE_HUGE ? 1e9 : place.scale == SCALE_TINY ? 1e-6 : 1);
+        if (judge_open(&j, &t, &s)) {
+            long double uvw[ON + OFF][3];
+            for (int i = 0; i < ON + OFF; i++) {
+                somewhere(&s, &random, uvw[i]);
+                for (int part = 1; i < ON && part <= (kind == SHAPE_TORUS && i % 2 ? 2 : 1); part++)
+                    uvw[i][x.role[part]] = oracle_first(&s.axis[x.role[part]]);
+                judge_add_known(&j, uvw[i]);
+            }
+            if (judge_find(&j)) {
+                for (int i = 0; i < ON + OFF; i++)
+                    judge_expect(&j, i, i < ON && ends == ENDS_APART ? FFD_MULTIPLE : FFD_INSIDE, uvw[i],
+                                 NULL);
+                judge_order(&j, &random);
+            }
+            add_totals(&totals, &j);
+            judge_close(&j);
+        }
+        sample_free(&s);
+    }
+    print_totals(name, &totals);
+    trial_end(&t);
+    assert_int_equal(totals.left_out, 0);
+}
+
+static void full_turns(void **state)
+{
+    (void)state;
+    run_seams("full_turns", SHAPE_OVERLAP, trial_cases(24));
+}
+
+static void clamped_tori(void **state)
+{
+    (void)state;
+    run_seams("clamped_tori", SHAPE_TORUS, trial_cases(6));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(c_shapes),     cmocka_unit_test(spirals),      cmocka_unit_test(twisted_boxes),
+        cmocka_unit_test(half_tori),    cmocka_unit_test(tori),         cmocka_unit_test(kinks),
+        cmocka_unit_test(overlaps),     cmocka_unit_test(folds),        cmocka_unit_test(degrees),
+        cmocka_unit_test(faces),        cmocka_unit_test(quarter_tori), cmocka_unit_test(cylinders),
+        cmocka_unit_test(sectors),      cmocka_unit_test(balls),        cmocka_unit_test(shells),
+        cmocka_unit_test(pyramids),     cmocka_unit_test(prisms),       cmocka_unit_test(full_turns),
+        cmocka_unit_test(clamped_tori),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
