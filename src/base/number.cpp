@@ -9,7 +9,8 @@ namespace
 {
 
 /* from_chars does not say whether a number out of range was too large or too small. It was too large exactly
-   when the power of ten of its first digit that is not 0 is positive: the limits are 1e308 and 1e-324. */
+   when the power of ten of its first digit that is not 0 is positive: the limits are 1e308 and 1e-324 (1e38
+   and 1e-45 of a float). */
 bool is_too_large(const char *first, const char *last)
 {
     long long point = 0, leading = 0;
@@ -40,6 +41,26 @@ bool is_too_large(const char *first, const char *last)
     return exponent + point - leading > 0;
 }
 
+template <typename T> const char *parse(const char *first, const char *last, T *value)
+{
+    const char *start = first;
+    bool negative = false;
+    if (start < last && (*start == '+' || *start == '-')) {
+        negative = *start == '-';
+        start++;
+    }
+    if (start == last || *start == '+' || *start == '-')
+        return nullptr;
+    T parsed = 0;
+    const std::from_chars_result result = std::from_chars(start, last, parsed);
+    if (result.ec == std::errc::invalid_argument)
+        return nullptr;
+    if (result.ec == std::errc::result_out_of_range)
+        parsed = is_too_large(start, result.ptr) ? std::numeric_limits<T>::infinity() : T(0);
+    *value = negative ? -parsed : parsed;
+    return result.ptr;
+}
+
 template <typename T> size_t format_shortest(T value, char *text)
 {
     /* A double needs at most 24 characters: sign, 17 digits, point, e, sign, 3 digits. */
@@ -51,22 +72,12 @@ template <typename T> size_t format_shortest(T value, char *text)
 
 extern "C" const char *ffd_number_parse(const char *first, const char *last, double *value)
 {
-    const char *start = first;
-    bool negative = false;
-    if (start < last && (*start == '+' || *start == '-')) {
-        negative = *start == '-';
-        start++;
-    }
-    if (start == last || *start == '+' || *start == '-')
-        return nullptr;
-    double parsed = 0;
-    const std::from_chars_result result = std::from_chars(start, last, parsed);
-    if (result.ec == std::errc::invalid_argument)
-        return nullptr;
-    if (result.ec == std::errc::result_out_of_range)
-        parsed = is_too_large(start, result.ptr) ? std::numeric_limits<double>::infinity() : 0.0;
-    *value = negative ? -parsed : parsed;
-    return result.ptr;
+    return parse(first, last, value);
+}
+
+extern "C" const char *ffd_number_parse_float(const char *first, const char *last, float *value)
+{
+    return parse(first, last, value);
 }
 
 extern "C" size_t ffd_number_format(double value, char text[FFD_NUMBER_CAPACITY])

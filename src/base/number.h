@@ -15,6 +15,8 @@ extern "C" {
    Returns the place behind it, or NULL where there is none. The nearest double is stored; too large numbers
    give an infinity, too small ones 0, with their sign. */
 const char *ffd_number_parse(const char *first, const char *last, double *value);
+/* The nearest float, which is not always that of the nearest double. */
+const char *ffd_number_parse_float(const char *first, const char *last, float *value);
 
 /* Writes the shortest text that reads back as the same number (no final 0). Returns its length. A whole
    number is written without exponent or point where that is no longer ("1", "0.001", "1e+300"). */

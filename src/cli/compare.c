@@ -24,7 +24,7 @@ static bool set_tolerance(void *context, const cli_option *option, const char *v
 static const cli_option options[] = {
     {"tolerance", 0, "T", "positions may differ by this much in a coordinate; default 0", set_tolerance, 0,
      NULL},
-    {"input-format", 0, "FORMAT", "obj, gltf or glb; of - where one of them is, else of both", cli_set_format,
+    {"input-format", 0, "FORMAT", CLI_FORMATS "; of - where one of them is, else of both", cli_set_format,
      AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors and the exit code", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},

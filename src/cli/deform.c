@@ -25,7 +25,7 @@ static const cli_option options[] = {
     {"resources", 0, "copy|reference",
      "images of a .gltf written elsewhere: copied, or referred to; default copy", cli_set_choice,
      AT(resources), resources_names},
-    {"output-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(output_format), NULL},
+    {"output-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(output_format), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
@@ -177,7 +177,7 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     if (!cli_job_knows_formats(&s->job, words, inputs))
         return EXIT_USAGE;
     if (s->output && cli_is_stream(s->output) && !s->output_format) {
-        cli_complain("standard output needs --output-format obj, gltf or glb");
+        cli_complain("standard output needs --output-format " CLI_FORMATS);
         return EXIT_USAGE;
     }
     if (!has_many(s))

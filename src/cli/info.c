@@ -12,7 +12,7 @@ typedef struct settings {
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"json", 0, NULL, "as JSON", cli_set_flag, AT(json), NULL},
-    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors beside the text", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

@@ -74,7 +74,7 @@ const cli_option cli_job_options[] = {
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
     {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),
      NULL},
-    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

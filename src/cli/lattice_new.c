@@ -152,7 +152,7 @@ static const cli_option options[] = {
     {"axis", 0, "x|y|z|X,Y,Z", "of a cylinder; default z", set_axis, 0, NULL},
     {"axes", 0, "principal", "a box along the mesh's principal axes", set_axes, 0, NULL},
     {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
-    {"input-format", 0, "FORMAT", "obj, gltf or glb; needed for -", cli_set_format, AT(input_format), NULL},
+    {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},

@@ -27,9 +27,9 @@ bool cli_knows_format(const char *path, ffd_format given)
     if (given != FFD_FORMAT_AUTO || ffd_format_from_name(path) != FFD_FORMAT_AUTO)
         return true;
     if (strcmp(path, "-") == 0)
-        cli_complain("standard input needs --input-format obj, gltf or glb");
+        cli_complain("standard input needs --input-format " CLI_FORMATS);
     else
-        cli_complain("%s: the ending is not that of a mesh format: .obj, .gltf and .glb are known", path);
+        cli_complain("%s: the ending is not that of a mesh format (" CLI_FORMATS ")", path);
     return false;
 }
 

@@ -5,6 +5,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+/* The mesh formats, for help and complaints. */
+#define CLI_FORMATS "obj, gltf, glb or ply"
+
 typedef struct cli_option cli_option;
 
 /* Takes the option's value (NULL where it has none) into the command's settings. Returns false after having

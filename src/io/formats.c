@@ -9,6 +9,8 @@ const mesh_format *ffd_format_table(ffd_format format)
     case FFD_FORMAT_GLTF:
     case FFD_FORMAT_GLB:
         return &ffd_gltf_format;
+    case FFD_FORMAT_PLY:
+        return &ffd_ply_format;
     case FFD_FORMAT_AUTO:
         break;
     }
@@ -20,7 +22,10 @@ ffd_format ffd_format_from_name(const char *name)
     static const struct {
         const char *ending;
         ffd_format format;
-    } known[] = {{".obj", FFD_FORMAT_OBJ}, {".gltf", FFD_FORMAT_GLTF}, {".glb", FFD_FORMAT_GLB}};
+    } known[] = {{".obj", FFD_FORMAT_OBJ},
+                 {".gltf", FFD_FORMAT_GLTF},
+                 {".glb", FFD_FORMAT_GLB},
+                 {".ply", FFD_FORMAT_PLY}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_path_has_ending(name, known[i].ending))
             return known[i].format;

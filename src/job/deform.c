@@ -31,10 +31,10 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     if (options->format == FFD_FORMAT_AUTO)
         options->format = ffd_format_from_name(desc->output);
     if (options->format == FFD_FORMAT_AUTO && strcmp(desc->output, "-") == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs --output-format obj, gltf or glb");
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs --output-format " FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
-                             "the ending \"%s\" is not that of a mesh format: .obj, .gltf and .glb are known",
+                             "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")",
                              ffd_path_ending(desc->output));
     if (strcmp(input, "-") != 0 && strcmp(desc->output, "-") != 0 && ffd_file_same(input, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");

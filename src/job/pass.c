@@ -187,10 +187,12 @@ static void fill_arrays(const part_work *work, const chain_point *point, const d
         note_determinant(point, totals);
 }
 
-static bool fits_format(const mesh_format *format, const double p[3])
+static bool fits_file(const mesh_document *document, const double p[3])
 {
+    const double own = document->largest_coordinate;
+    const double largest = own > 0 ? own : document->format->largest_coordinate;
     for (int a = 0; a < 3; a++)
-        if (!(fabs(p[a]) <= format->largest_coordinate))
+        if (!(fabs(p[a]) <= largest))
             return false;
     return true;
 }
@@ -209,7 +211,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
         scratch->changed[i] = !work->part->singular && move_back(work->part, point, p);
         if (scratch->changed[i]) {
             totals->moved++;
-            if (!fits_format(format, p))
+            if (!fits_file(pass->document, p))
                 totals->first_overflow = least(totals->first_overflow, number);
         }
         fill_arrays(work, point, scratch->place + 3 * i, number, totals);

@@ -16,9 +16,9 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
     if (ffd_format_table(*format))
         return FFD_OK;
     if (strcmp(source->path, "-") == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs --input-format obj, gltf or glb");
+        return ffd_fail(error, FFD_E_ARGUMENT, "standard input needs --input-format " FORMAT_NAMES);
     return ffd_fail_file(error, FFD_E_ARGUMENT, source->path,
-                         "the ending \"%s\" is not that of a mesh format: .obj, .gltf and .glb are known",
+                         "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")",
                          ffd_path_ending(source->path));
 }
 

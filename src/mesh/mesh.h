@@ -114,6 +114,7 @@ struct mesh_document {
     const mesh_format *format;
     const mesh_part *parts; /* part_count, lent */
     size_t part_count;
+    double largest_coordinate; /* that the file's numbers can hold; 0: that of the format */
 };
 
 #endif

@@ -67,6 +67,43 @@ static void test_parse(void **state)
     (void)state;
 }
 
+/* A float is rounded once, from the text: through a double 1.0000000596046448 would become 1. */
+static void test_parse_float(void **state)
+{
+    static const struct {
+        const char *text;
+        float value;
+        size_t length; /* of what is read; 0: nothing */
+    } cases[] = {
+        {"0.1", 0.1F, 3},
+        {"-0", -0.0F, 2},
+        {"+1.5x", 1.5F, 4},
+        {"1.000000059604644775390625", 1, 26},
+        {"1.00000005960464477539062500000000000001", 1 + FLT_EPSILON, 40},
+        {"3.4028234663852886e38", FLT_MAX, 21},
+        {"3.4028236e38", HUGE_VALF, 12},
+        {"-1e39", -HUGE_VALF, 5},
+        {"1e-46", 0, 5},
+        {"1e-45", 1.401298464324817e-45F, 5},
+        {"1e-310", 0, 6},
+        {"inf", HUGE_VALF, 3},
+        {"x", 0, 0},
+        {"+-1", 0, 0},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const char *text = cases[i].text;
+        float value = -7;
+        const char *end = ffd_number_parse_float(text, text + strlen(text), &value);
+        if (!cases[i].length) {
+            assert_null(end);
+            continue;
+        }
+        assert_ptr_equal(end, text + cases[i].length);
+        assert_memory_equal(&value, &cases[i].value, sizeof value);
+    }
+}
+
 static void test_stops_at_last(void **state)
 {
     const char text[] = "12345";
@@ -122,9 +159,8 @@ static void test_round_trip(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parse),
-        cmocka_unit_test(test_stops_at_last),
-        cmocka_unit_test(test_format),
+        cmocka_unit_test(test_parse),         cmocka_unit_test(test_parse_float),
+        cmocka_unit_test(test_stops_at_last), cmocka_unit_test(test_format),
         cmocka_unit_test(test_round_trip),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

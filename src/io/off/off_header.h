@@ -1,0 +1,41 @@
+/* off_header.h - what the beginning of an OFF file says stands behind it.
+
+   [ST][C][N]OFF, in any order of the letters; then the numbers of vertices, faces and edges, on the same line
+   or on later ones. The keyword may be missing, as the format's manual allows, and the first number may
+   stand right behind it ("OFF8 6 0"), as in some collections; so may the number of edges, which nobody uses,
+   be missing. */
+#ifndef FFD_IO_OFF_OFF_HEADER_H
+#define FFD_IO_OFF_OFF_HEADER_H
+
+#include "base/file.h"
+#include "io/text_scan.h"
+
+/* Vertices that a file may have: corners of faces are 32 bits. */
+#define OFF_VERTICES_MAX (UINT32_MAX - 1)
+
+typedef struct off_header {
+    text_word keyword; /* empty: there is none */
+    bool has_texcoords, has_colours, has_normals;
+    size_t vertices, faces;
+    /* Each vertex and each face has a line of its own in nearly all files. One with fewer lines than that is
+       read as a sequence of words in which only what follows a face's corners ends with the line. */
+    bool free_layout;
+    text_scan body; /* right behind the header */
+} off_header;
+
+/* Reads the header and checks that the counts fit the file's size. name stands in messages; the words lie in
+   input. */
+ffd_status ffd_off_header_read(const file_input *input, const char *name, off_header *header,
+                               ffd_error *error);
+
+/* How many numbers of a vertex can change: x y z and the normal. */
+static inline size_t off_header_numbers(const off_header *header)
+{
+    return header->has_normals ? 6 : 3;
+}
+
+/* How many words may follow them: a colour of up to 4, also where the keyword does not tell, and u v. */
+size_t ffd_off_header_rest_min(const off_header *header);
+size_t ffd_off_header_rest_max(const off_header *header);
+
+#endif

@@ -1,0 +1,83 @@
+#include "io/off/off_walk.h"
+
+void ffd_off_walk_begin(const off_header *header, off_walk *walk)
+{
+    *walk = (off_walk){.header = header, .scan = header->body, .pass_line = !header->free_layout};
+}
+
+/* Goes to the first word of a vertex or face. */
+static bool begin_record(off_walk *walk)
+{
+    if (walk->pass_line)
+        ffd_text_next_line(&walk->scan);
+    return ffd_text_find(&walk->scan);
+}
+
+/* Takes a word that the record needs. */
+static bool take_word(off_walk *walk, text_word *word)
+{
+    if (walk->header->free_layout)
+        ffd_text_find(&walk->scan);
+    return ffd_text_word(&walk->scan, word);
+}
+
+bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex)
+{
+    const size_t needed = off_header_numbers(walk->header);
+    text_word word;
+    while (walk->header->free_layout && ffd_off_walk_rest(walk, &word))
+        ;
+    if (!begin_record(walk))
+        return false;
+    vertex->line = walk->scan.line;
+    vertex->found = 0;
+    while (vertex->found < needed && take_word(walk, &vertex->numbers[vertex->found]))
+        vertex->found++;
+    walk->rest = ffd_off_header_rest_max(walk->header);
+    return true;
+}
+
+bool ffd_off_walk_face(off_walk *walk, text_word *count)
+{
+    text_word word;
+    while (walk->header->free_layout && !walk->in_faces && ffd_off_walk_rest(walk, &word))
+        ;
+    if (!begin_record(walk))
+        return false;
+    walk->in_faces = true;
+    walk->pass_line = true;
+    return take_word(walk, count);
+}
+
+bool ffd_off_walk_corner(off_walk *walk, text_word *corner)
+{
+    return take_word(walk, corner);
+}
+
+bool ffd_off_walk_rest(off_walk *walk, text_word *word)
+{
+    if (walk->in_faces || !walk->header->free_layout)
+        return ffd_text_word(&walk->scan, word);
+    if (walk->rest == 0)
+        return false;
+    walk->rest--;
+    return take_word(walk, word);
+}
+
+size_t ffd_off_walk_face_size(off_walk *walk)
+{
+    text_word word;
+    uint64_t count = 0;
+    if (ffd_off_walk_face(walk, &word))
+        ffd_text_whole(word, &count);
+    return (size_t)count;
+}
+
+uint32_t ffd_off_walk_corner_index(off_walk *walk)
+{
+    text_word word;
+    uint64_t index = 0;
+    if (ffd_off_walk_corner(walk, &word))
+        ffd_text_whole(word, &index);
+    return (uint32_t)index;
+}

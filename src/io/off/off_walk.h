@@ -1,0 +1,37 @@
+/* off_walk.h - the vertices and faces behind an OFF header, word by word, in the order of the file. */
+#ifndef FFD_IO_OFF_OFF_WALK_H
+#define FFD_IO_OFF_OFF_WALK_H
+
+#include "io/off/off_header.h"
+
+#define OFF_NUMBERS_MAX 6
+
+typedef struct off_walk {
+    const off_header *header;
+    text_scan scan;
+    bool pass_line; /* what is left of the line belongs to what was taken last */
+    size_t rest;    /* free layout: words of the current vertex that are left */
+    bool in_faces;
+} off_walk;
+
+typedef struct off_vertex {
+    text_word numbers[OFF_NUMBERS_MAX]; /* x y z, nx ny nz */
+    size_t found;                       /* of off_header_numbers; all in a file that was read */
+    size_t line;
+} off_vertex;
+
+void ffd_off_walk_begin(const off_header *header, off_walk *walk);
+/* Goes to the next vertex. False at the end of the file. */
+bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex);
+/* Goes to the next face and takes the number of its corners, which ffd_off_walk_corner then takes, all of
+   them. False at the end of the file. */
+bool ffd_off_walk_face(off_walk *walk, text_word *count);
+bool ffd_off_walk_corner(off_walk *walk, text_word *corner);
+/* Takes the next word behind the current vertex' numbers, or behind the face's last corner. */
+bool ffd_off_walk_rest(off_walk *walk, text_word *word);
+
+/* The same two in a file that was read: numbers. */
+size_t ffd_off_walk_face_size(off_walk *walk);
+uint32_t ffd_off_walk_corner_index(off_walk *walk);
+
+#endif

@@ -1,0 +1,117 @@
+#include "io/ply/ply_document.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include "io/formats.h"
+#include <float.h>
+#include <inttypes.h>
+#include <string.h>
+
+void ffd_ply_document_walk(const ply_document *d, const ply_element *element, ply_walk *walk)
+{
+    ffd_ply_walk_begin(&d->header, &d->input, walk);
+    for (const ply_element *e = d->header.elements; e < element; e++)
+        ffd_ply_walk_skip_rows(walk, e);
+}
+
+static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_property *property,
+                              text_word word, uint64_t row, ffd_error *error)
+{
+    double *list = property->slot < PLY_NORMAL_SLOT ? d->positions : d->directions;
+    double *value = &list[3 * (size_t)row + property->slot % PLY_NORMAL_SLOT];
+    if (ffd_ply_load(d->header.encoding, property->type, word, value))
+        return FFD_OK;
+    return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->line,
+                         "%.*s of vertex %" PRIu64 " (counted from 0) is not a number: \"%.*s\"",
+                         ffd_text_shown(property->name), property->name.first, row, ffd_text_shown(word),
+                         word.first);
+}
+
+static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    ffd_ply_walk_row(walk);
+    for (size_t i = 0; status == FFD_OK && i < d->vertex->property_count; i++) {
+        const ply_property *property = &d->vertex->properties[i];
+        text_word word;
+        if (property->slot == PLY_NO_SLOT)
+            ffd_ply_walk_skip(walk, property);
+        else {
+            ffd_ply_walk_value(walk, property->type, &word);
+            status = read_number(d, walk, property, word, row, error);
+        }
+    }
+    return status;
+}
+
+static ffd_status read_vertices(ply_document *d, ffd_error *error)
+{
+    const size_t count = (size_t)d->vertex->count;
+    ffd_status status = FFD_OK;
+    ply_walk walk;
+    d->positions = ffd_alloc(count, 3 * sizeof *d->positions);
+    if (d->has_normals)
+        d->directions = ffd_alloc(count, 3 * sizeof *d->directions);
+    if (!d->positions || (d->has_normals && !d->directions))
+        return ffd_fail_memory(error);
+    ffd_ply_document_walk(d, d->vertex, &walk);
+    for (uint64_t row = 0; status == FFD_OK && row < count; row++)
+        status = read_vertex(d, &walk, row, error);
+    return status;
+}
+
+static void describe_part(ply_document *d)
+{
+    const bool narrow = d->types[0] == PLY_FLOAT || d->types[1] == PLY_FLOAT || d->types[2] == PLY_FLOAT;
+    d->part.vertex_count = (size_t)d->vertex->count;
+    d->part.normal_count = d->has_normals ? d->part.vertex_count : 0;
+    d->part.identity = true;
+    d->base = (mesh_document){.format = &ffd_ply_format,
+                              .parts = &d->part,
+                              .part_count = 1,
+                              .largest_coordinate = narrow ? FLT_MAX : DBL_MAX};
+}
+
+static void free_document(ply_document *d)
+{
+    ffd_free(d->name);
+    ffd_ply_header_free(&d->header);
+    ffd_free(d->positions);
+    ffd_free(d->directions);
+    ffd_free(d->new_positions);
+    ffd_free(d->new_directions);
+    ffd_free(d);
+}
+
+ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_document **document,
+                        ffd_error *error)
+{
+    ply_document *d = ffd_alloc_zero(1, sizeof *d);
+    if (!d)
+        return ffd_fail_memory(error);
+    d->input = *input;
+    d->name = ffd_text_copy(strcmp(source->path, "-") == 0 ? "standard input" : source->path);
+    ffd_status status =
+        d->name ? ffd_ply_header_read(input, d->name, &d->header, error) : ffd_fail_memory(error);
+    if (status == FFD_OK)
+        status = ffd_ply_find_roles(d, error);
+    if (status == FFD_OK)
+        status = ffd_ply_walk_check(&d->header, input, d->name, &d->behind, error);
+    if (status == FFD_OK)
+        status = read_vertices(d, error);
+    if (status) {
+        free_document(d);
+        return status;
+    }
+    describe_part(d);
+    *document = &d->base;
+    return FFD_OK;
+}
+
+void ffd_ply_close(mesh_document *document)
+{
+    ply_document *d = (ply_document *)document;
+    if (!d)
+        return;
+    ffd_file_unload(&d->input);
+    free_document(d);
+}

@@ -1,0 +1,64 @@
+/* ply_document.h - a PLY file as a mesh document: one part that stands in the lattice's space.
+
+   Every row of element vertex is a vertex, in the order of the file; its normal is nx ny nz. Their numbers
+   are held as doubles (each one that its type has); all else stays in the file's bytes, which are walked
+   through again where it is needed. */
+#ifndef FFD_IO_PLY_PLY_DOCUMENT_H
+#define FFD_IO_PLY_PLY_DOCUMENT_H
+
+#include "io/ply/ply_walk.h"
+#include "mesh/mesh.h"
+
+typedef struct ply_document {
+    mesh_document base;
+    mesh_part part;
+    file_input input;
+    char *name; /* for messages */
+    ply_header header;
+    const ply_element *vertex;
+    const ply_element *face;             /* NULL: none that names vertices */
+    const ply_property *face_corners;    /* its list vertex_indices or vertex_index */
+    ply_type types[PLY_SLOT_COUNT];      /* of x y z nx ny nz */
+    bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
+    size_t behind;                       /* offset behind the last row */
+    double *positions, *directions;      /* 3 a vertex; directions: NULL without normals */
+    double *new_positions;               /* NULL before ffd_ply_begin_results */
+    double *new_directions;              /* NULL: normals are kept */
+} ply_document;
+
+static inline const ply_document *ffd_ply_of(const mesh_document *document)
+{
+    return (const ply_document *)document;
+}
+
+/* Walks from the header to the rows of an element. */
+void ffd_ply_document_walk(const ply_document *document, const ply_element *element, ply_walk *walk);
+
+/* Decides what the elements and properties are. */
+ffd_status ffd_ply_find_roles(ply_document *document, ffd_error *error);
+
+/* The element whose rows are lines: "edge" with vertex1 and vertex2. NULL where there is none. */
+const ply_element *ffd_ply_find_edges(const ply_document *document);
+
+/* The entries of the format's table. */
+ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_document **document,
+                        ffd_error *error);
+void ffd_ply_close(mesh_document *document);
+ffd_status ffd_ply_check(const mesh_document *document, ffd_error *error);
+void ffd_ply_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                            double *xyz);
+void ffd_ply_read_normals(const mesh_document *document, size_t part, size_t first, size_t count,
+                          double *xyz);
+ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
+void ffd_ply_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                             const double *xyz, const uint8_t *changed);
+void ffd_ply_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
+                           const double *xyz, const uint8_t *changed);
+ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                        const mesh_log *log, ffd_error *error);
+ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+ffd_status ffd_ply_describe(const mesh_document *document, json_text *json, ffd_error *error);
+ffd_status ffd_ply_compare(const mesh_document *a, const mesh_document *b, double tolerance,
+                           ffd_comparison *comparison, ffd_error *error);
+
+#endif

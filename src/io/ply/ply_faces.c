@@ -1,0 +1,107 @@
+#include "base/memory.h"
+#include "io/ply/ply_document.h"
+#include <inttypes.h>
+#include <string.h>
+
+typedef struct face_reader {
+    const ply_document *document;
+    ply_walk walk;
+    mesh_faces *faces;
+    size_t corners, capacity;
+    ffd_error *error;
+} face_reader;
+
+static ffd_status refuse_index(const face_reader *r, uint64_t face, text_word word)
+{
+    const ply_document *d = r->document;
+    const bool text = d->header.encoding == PLY_ASCII;
+    double value = 0;
+    ffd_ply_load(d->header.encoding, d->face_corners->type, word, &value);
+    const number_text number = ffd_number_text(value);
+    return ffd_fail_line(r->error, FFD_E_INVALID, d->name, text ? r->walk.line : 0,
+                         "face %" PRIu64 " (counted from 0): %.*s is no index of the %zu vertices", face,
+                         text ? ffd_text_shown(word) : (int)strlen(number.text),
+                         text ? word.first : number.text, d->part.vertex_count);
+}
+
+static ffd_status read_corners(face_reader *r, uint64_t face)
+{
+    const ply_document *d = r->document;
+    const ply_property *list = d->face_corners;
+    text_word word;
+    size_t count = 0;
+    ffd_ply_walk_value(&r->walk, list->count_type, &word);
+    ffd_ply_load_count(d->header.encoding, list->count_type, word, &count);
+    if (!ffd_grow((void **)&r->faces->corners, &r->capacity, r->corners + count, sizeof *r->faces->corners))
+        return ffd_fail_memory(r->error);
+    for (size_t i = 0; i < count; i++) {
+        size_t vertex;
+        ffd_ply_walk_value(&r->walk, list->type, &word);
+        if (!ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) ||
+            vertex >= d->part.vertex_count)
+            return refuse_index(r, face, word);
+        r->faces->corners[r->corners++] = (uint32_t)vertex;
+    }
+    return FFD_OK;
+}
+
+static ffd_status read_face(face_reader *r, uint64_t face)
+{
+    const ply_element *element = r->document->face;
+    ffd_status status = FFD_OK;
+    ffd_ply_walk_row(&r->walk);
+    for (size_t i = 0; status == FFD_OK && i < element->property_count; i++) {
+        const ply_property *property = &element->properties[i];
+        if (property == r->document->face_corners)
+            status = read_corners(r, face);
+        else
+            ffd_ply_walk_skip(&r->walk, property);
+    }
+    return status;
+}
+
+static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error *error)
+{
+    face_reader r = {.document = d, .faces = faces, .capacity = faces->face_count, .error = error};
+    ffd_status status = FFD_OK;
+    if (d->face)
+        ffd_ply_document_walk(d, d->face, &r.walk);
+    for (size_t face = 0; status == FFD_OK && face < faces->face_count; face++) {
+        faces->start[face] = r.corners;
+        status = read_face(&r, face);
+    }
+    faces->start[faces->face_count] = r.corners;
+    return status;
+}
+
+static ffd_status refuse_strips(const ply_document *d, ffd_error *error)
+{
+    const ply_element *strips = ffd_ply_find_element(&d->header, "tristrips");
+    if (!strips || strips->count == 0)
+        return FFD_OK;
+    return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, strips->line,
+                         "element tristrips: triangle strips are not read as faces");
+}
+
+ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
+{
+    const ply_document *d = ffd_ply_of(document);
+    const ply_element *edges = ffd_ply_find_edges(d);
+    *faces = (mesh_faces){.vertex_count = d->part.vertex_count,
+                          .face_count = d->face ? (size_t)d->face->count : 0,
+                          .lines = edges ? (size_t)edges->count : 0};
+    ffd_status status = refuse_strips(d, error);
+    if (status)
+        return status;
+    faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
+    faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
+    faces->corners = ffd_alloc(faces->face_count, sizeof *faces->corners);
+    if (faces->positions && faces->start && faces->corners) {
+        ffd_ply_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
+        status = read_faces(d, faces, error);
+    } else
+        status = ffd_fail_memory(error);
+    if (status)
+        ffd_mesh_faces_free(faces);
+    return status;
+}

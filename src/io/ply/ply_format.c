@@ -1,0 +1,32 @@
+#include "io/formats.h"
+#include "io/ply/ply_document.h"
+#include <float.h>
+
+ffd_status ffd_ply_check(const mesh_document *document, ffd_error *error)
+{
+    const ply_document *d = ffd_ply_of(document);
+    for (int a = 0; a < PLY_NORMAL_SLOT; a++)
+        if (ply_is_whole(d->types[a]))
+            return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
+                                 "%c of the vertices is of type %s: float and double can be deformed",
+                                 "xyz"[a], ffd_ply_type_name(d->types[a]));
+    return FFD_OK;
+}
+
+const mesh_format ffd_ply_format = {
+    .format = FFD_FORMAT_PLY,
+    .name = "PLY",
+    .open = ffd_ply_open,
+    .close = ffd_ply_close,
+    .check = ffd_ply_check,
+    .largest_coordinate = DBL_MAX,
+    .read_positions = ffd_ply_read_positions,
+    .read_normals = ffd_ply_read_normals,
+    .begin_results = ffd_ply_begin_results,
+    .write_positions = ffd_ply_write_positions,
+    .write_normals = ffd_ply_write_normals,
+    .save = ffd_ply_save,
+    .faces = ffd_ply_faces,
+    .describe = ffd_ply_describe,
+    .compare = ffd_ply_compare,
+};

@@ -1,0 +1,61 @@
+/* ply_header.h - what the header of a PLY file says stands behind it.
+
+   Header lines end as the first one does: with LF, CRLF or CR. In a binary file the bytes behind the line end
+   of "end_header" are data at once, so that a file of CR lines may go on with a byte that is an LF. */
+#ifndef FFD_IO_PLY_PLY_HEADER_H
+#define FFD_IO_PLY_PLY_HEADER_H
+
+#include "base/file.h"
+#include "io/ply/ply_value.h"
+#include <stdint.h>
+
+/* Elements, and properties of all elements together, that a header may have. */
+#define PLY_DECLARATIONS_MAX 4096
+
+/* What a property of the vertices is: 0 to 2 are x y z, 3 to 5 are nx ny nz. */
+enum { PLY_NORMAL_SLOT = 3, PLY_SLOT_COUNT = 6, PLY_NO_SLOT = PLY_SLOT_COUNT };
+
+typedef struct ply_property {
+    text_word name;
+    size_t line;
+    bool is_list;
+    ply_type count_type; /* of lists */
+    ply_type type;       /* of the value, or of a list's items */
+    unsigned char slot;
+} ply_property;
+
+typedef struct ply_element {
+    text_word name;
+    size_t line;
+    uint64_t count;
+    const ply_property *properties; /* property_count */
+    size_t property_count;
+    bool has_lists;
+    size_t least; /* bytes of a row at least (ascii: with its line end); binary without lists: exactly */
+} ply_element;
+
+typedef struct ply_header {
+    ply_encoding encoding;
+    ply_element *elements;
+    size_t element_count, element_capacity;
+    ply_property *properties; /* of all elements, in their order */
+    size_t property_count, property_capacity;
+    /* Lines that say more than a comment does: obj_info, and "comment TextureFile NAME". */
+    text_word *notes;
+    size_t note_count, note_capacity;
+    const char *line_end; /* "LF", "CRLF", "CR" */
+    size_t body;          /* offset behind the header */
+    size_t body_line;     /* the first line behind it */
+} ply_header;
+
+/* Reads the header and checks that the counts fit the file's size. name stands in messages. header is to be
+   freed in every case; its words lie in input. */
+ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_header *header,
+                               ffd_error *error);
+void ffd_ply_header_free(ply_header *header);
+
+/* NULL where there is none. */
+const ply_element *ffd_ply_find_element(const ply_header *header, const char *name);
+const ply_property *ffd_ply_find_property(const ply_element *element, const char *name);
+
+#endif

@@ -1,0 +1,65 @@
+#include "base/memory.h"
+#include "io/ply/ply_document.h"
+#include <string.h>
+
+void ffd_ply_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                            double *xyz)
+{
+    (void)part; /* there is one */
+    memcpy(xyz, ffd_ply_of(document)->positions + 3 * first, 3 * count * sizeof *xyz);
+}
+
+void ffd_ply_read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
+{
+    (void)part;
+    memcpy(xyz, ffd_ply_of(document)->directions + 3 * first, 3 * count * sizeof *xyz);
+}
+
+/* A copy of the vectors for the results, unless there is one. */
+static ffd_status make_room(const double *vectors, size_t count, double **results, ffd_error *error)
+{
+    if (*results)
+        return FFD_OK;
+    *results = ffd_alloc(count, 3 * sizeof **results);
+    if (!*results)
+        return ffd_fail_memory(error);
+    memcpy(*results, vectors, 3 * count * sizeof **results);
+    return FFD_OK;
+}
+
+ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+{
+    ply_document *d = (ply_document *)document;
+    (void)tangents; /* there are none */
+    if (normals && d->has_whole_normals)
+        return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
+                             "nx ny nz are not all float or double: such normals can only be kept");
+    const ffd_status status = make_room(d->positions, d->part.vertex_count, &d->new_positions, error);
+    if (status || !normals || !d->has_normals)
+        return status;
+    return make_room(d->directions, d->part.normal_count, &d->new_directions, error);
+}
+
+static void write_vectors(double *results, const ply_type types[3], size_t first, size_t count,
+                          const double *xyz, const uint8_t *changed)
+{
+    for (size_t i = 0; results && i < count; i++)
+        for (size_t a = 0; a < 3 && changed[i]; a++)
+            results[3 * (first + i) + a] = ffd_ply_round(types[a], xyz[3 * i + a]);
+}
+
+void ffd_ply_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                             const double *xyz, const uint8_t *changed)
+{
+    const ply_document *d = ffd_ply_of(document);
+    (void)part;
+    write_vectors(d->new_positions, d->types, first, count, xyz, changed);
+}
+
+void ffd_ply_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
+                           const double *xyz, const uint8_t *changed)
+{
+    const ply_document *d = ffd_ply_of(document);
+    (void)part;
+    write_vectors(d->new_directions, d->types + PLY_NORMAL_SLOT, first, count, xyz, changed);
+}

@@ -1,0 +1,77 @@
+#include "io/ply/ply_document.h"
+
+static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny", "nz"};
+
+/* Marks the property of the vertices that a slot's name stands for; NULL where there is none with one value
+   a vertex. */
+static ply_property *fill_slot(ply_document *d, size_t slot)
+{
+    const ply_property *found = ffd_ply_find_property(d->vertex, slot_names[slot]);
+    if (!found || found->is_list)
+        return NULL;
+    ply_property *property = &d->header.properties[found - d->header.properties];
+    property->slot = (unsigned char)slot;
+    d->types[slot] = property->type;
+    return property;
+}
+
+static ffd_status find_positions(ply_document *d, ffd_error *error)
+{
+    for (size_t slot = 0; slot < PLY_NORMAL_SLOT; slot++)
+        if (!fill_slot(d, slot))
+            return ffd_fail_line(error, FFD_E_INVALID, d->name, d->vertex->line,
+                                 "element vertex has no property %s that is one number", slot_names[slot]);
+    return FFD_OK;
+}
+
+/* All three are there, as numbers with a fraction, or none is looked at. */
+static void find_normals(ply_document *d)
+{
+    ply_property *properties[3];
+    bool there = true, whole = false;
+    for (size_t i = 0; i < 3; i++) {
+        properties[i] = fill_slot(d, PLY_NORMAL_SLOT + i);
+        there = there && properties[i];
+        whole = whole || (properties[i] && ply_is_whole(properties[i]->type));
+    }
+    d->has_normals = there && !whole;
+    d->has_whole_normals = there && whole;
+    for (size_t i = 0; i < 3; i++)
+        if (properties[i] && !d->has_normals)
+            properties[i]->slot = PLY_NO_SLOT;
+}
+
+static void find_faces(ply_document *d)
+{
+    static const char *const names[] = {"vertex_indices", "vertex_index"};
+    const ply_element *face = ffd_ply_find_element(&d->header, "face");
+    for (size_t i = 0; face && i < sizeof names / sizeof *names && !d->face_corners; i++) {
+        d->face_corners = ffd_ply_find_property(face, names[i]);
+        if (d->face_corners && !d->face_corners->is_list)
+            d->face_corners = NULL;
+    }
+    d->face = d->face_corners ? face : NULL;
+}
+
+ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
+{
+    d->vertex = ffd_ply_find_element(&d->header, "vertex");
+    if (!d->vertex)
+        return ffd_fail_file(error, FFD_E_INVALID, d->name, "the header has no element vertex");
+    if (d->vertex->count > UINT32_MAX)
+        return ffd_fail_line(error, FFD_E_LIMIT, d->name, d->vertex->line, "more than %u vertices",
+                             (unsigned)UINT32_MAX);
+    const ffd_status status = find_positions(d, error);
+    if (status)
+        return status;
+    find_normals(d);
+    find_faces(d);
+    return FFD_OK;
+}
+
+const ply_element *ffd_ply_find_edges(const ply_document *d)
+{
+    const ply_element *edge = ffd_ply_find_element(&d->header, "edge");
+    return edge && ffd_ply_find_property(edge, "vertex1") && ffd_ply_find_property(edge, "vertex2") ? edge
+                                                                                                    : NULL;
+}

@@ -1,0 +1,54 @@
+#include "io/ply/ply_document.h"
+#include "io/splice.h"
+#include <string.h>
+
+/* Replaces a number whose bits have changed. */
+static void replace_number(const ply_document *d, file_splice *splice, const ply_property *property,
+                           text_word word, size_t row)
+{
+    const bool normal = property->slot >= PLY_NORMAL_SLOT;
+    const double *before = normal ? d->directions : d->positions;
+    const double *after = normal ? d->new_directions : d->new_positions;
+    const size_t place = 3 * row + property->slot % PLY_NORMAL_SLOT;
+    char bytes[FFD_NUMBER_CAPACITY];
+    if (!after || memcmp(before + place, after + place, sizeof *after) == 0)
+        return;
+    const size_t size = ffd_ply_store(d->header.encoding, property->type, after[place], bytes);
+    ffd_splice_replace(splice, word.first, word.last, bytes, size);
+}
+
+static void write_vertices(const ply_document *d, file_splice *splice)
+{
+    ply_walk walk;
+    ffd_ply_document_walk(d, d->vertex, &walk);
+    for (size_t row = 0; splice->status == FFD_OK && row < d->part.vertex_count; row++) {
+        ffd_ply_walk_row(&walk);
+        for (size_t i = 0; i < d->vertex->property_count; i++) {
+            const ply_property *property = &d->vertex->properties[i];
+            text_word word;
+            if (property->slot == PLY_NO_SLOT)
+                ffd_ply_walk_skip(&walk, property);
+            else {
+                ffd_ply_walk_value(&walk, property->type, &word);
+                replace_number(d, splice, property, word, row);
+            }
+        }
+    }
+}
+
+ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                        const mesh_log *log, ffd_error *error)
+{
+    const ply_document *d = ffd_ply_of(document);
+    file_splice splice;
+    (void)log;
+    ffd_status status = ffd_output_begin(output, options->path, options->force, error);
+    if (status == FFD_OK)
+        status = ffd_splice_begin(&splice, d->input.data, output, error);
+    if (status)
+        return status;
+    if (d->new_positions)
+        write_vertices(d, &splice);
+    ffd_splice_copy(&splice, (const char *)d->input.data + d->input.size);
+    return ffd_splice_end(&splice);
+}

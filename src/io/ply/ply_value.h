@@ -1,0 +1,48 @@
+/* ply_value.h - the numbers of a PLY file: their types, and how they stand in the file. A text_word holds a
+   binary number's bytes too. */
+#ifndef FFD_IO_PLY_PLY_VALUE_H
+#define FFD_IO_PLY_PLY_VALUE_H
+
+#include "base/number.h"
+#include "io/text_scan.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef enum ply_encoding { PLY_ASCII, PLY_LITTLE_ENDIAN, PLY_BIG_ENDIAN } ply_encoding;
+
+/* Whole numbers first. */
+typedef enum ply_type {
+    PLY_CHAR,
+    PLY_UCHAR,
+    PLY_SHORT,
+    PLY_USHORT,
+    PLY_INT,
+    PLY_UINT,
+    PLY_FLOAT,
+    PLY_DOUBLE
+} ply_type;
+
+/* "float" and "float32" are the same type; the former is its name here. */
+bool ffd_ply_type_of(text_word word, ply_type *type);
+const char *ffd_ply_type_name(ply_type type);
+size_t ffd_ply_type_size(ply_type type);
+
+static inline bool ply_is_whole(ply_type type)
+{
+    return type < PLY_FLOAT;
+}
+
+/* Reads a number as its type holds it (the text of a float stands for the nearest float). A text of a whole
+   type may be any number. False where a text is no number; binary ones always are. */
+bool ffd_ply_load(ply_encoding encoding, ply_type type, text_word word, double *value);
+
+/* A list's count or an index: a whole number that is not negative. */
+bool ffd_ply_load_count(ply_encoding encoding, ply_type type, text_word word, size_t *count);
+
+/* value as a float or double holds it. */
+double ffd_ply_round(ply_type type, double value);
+/* Writes a value that ffd_ply_round gave: the bytes, or the shortest text that reads back. Returns the size.
+ */
+size_t ffd_ply_store(ply_encoding encoding, ply_type type, double value, char bytes[FFD_NUMBER_CAPACITY]);
+
+#endif

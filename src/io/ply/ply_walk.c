@@ -1,0 +1,198 @@
+#include "io/ply/ply_walk.h"
+#include <inttypes.h>
+#include <string.h>
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
+static bool is_line_end(char c)
+{
+    return c == '\n' || c == '\r';
+}
+
+void ffd_ply_walk_begin(const ply_header *header, const file_input *input, ply_walk *walk)
+{
+    const char *first = (const char *)input->data;
+    *walk = (ply_walk){
+        .header = header, .at = first + header->body, .last = first + input->size, .line = header->body_line};
+}
+
+static void skip_blanks(ply_walk *walk)
+{
+    while (walk->at < walk->last && is_blank(*walk->at))
+        walk->at++;
+}
+
+/* Goes to the line's end. */
+static void skip_line(ply_walk *walk)
+{
+    while (walk->at < walk->last && !is_line_end(*walk->at))
+        walk->at++;
+}
+
+bool ffd_ply_walk_row(ply_walk *walk)
+{
+    if (walk->header->encoding != PLY_ASCII)
+        return true;
+    for (;; walk->at++) {
+        skip_blanks(walk);
+        if (walk->at == walk->last)
+            return false;
+        if (!is_line_end(*walk->at))
+            return true;
+        /* The CR of a CRLF is counted with its LF. */
+        walk->line += *walk->at == '\n' || walk->last - walk->at == 1 || walk->at[1] != '\n';
+    }
+}
+
+bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word)
+{
+    word->first = word->last = walk->at;
+    if (walk->header->encoding != PLY_ASCII) {
+        const size_t size = ffd_ply_type_size(type);
+        if ((size_t)(walk->last - walk->at) < size)
+            return false;
+        word->last = walk->at += size;
+        return true;
+    }
+    skip_blanks(walk);
+    word->first = walk->at;
+    while (walk->at < walk->last && !is_blank(*walk->at) && !is_line_end(*walk->at))
+        walk->at++;
+    word->last = walk->at;
+    return word->first < word->last;
+}
+
+/* Goes behind count values. */
+static bool skip_values(ply_walk *walk, ply_type type, size_t count)
+{
+    text_word word;
+    if (walk->header->encoding != PLY_ASCII) {
+        const size_t size = ffd_ply_type_size(type);
+        if (count > (size_t)(walk->last - walk->at) / size)
+            return false;
+        walk->at += count * size;
+        return true;
+    }
+    for (size_t i = 0; i < count; i++)
+        if (!ffd_ply_walk_value(walk, type, &word))
+            return false;
+    return true;
+}
+
+bool ffd_ply_walk_skip(ply_walk *walk, const ply_property *property)
+{
+    text_word word;
+    size_t count = 1;
+    if (property->is_list &&
+        (!ffd_ply_walk_value(walk, property->count_type, &word) ||
+         !ffd_ply_load_count(walk->header->encoding, property->count_type, word, &count)))
+        return false;
+    return skip_values(walk, property->type, count);
+}
+
+void ffd_ply_walk_skip_rows(ply_walk *walk, const ply_element *element)
+{
+    if (element->property_count == 0)
+        return;
+    if (walk->header->encoding != PLY_ASCII && !element->has_lists) {
+        walk->at += element->count * element->least;
+        return;
+    }
+    for (uint64_t row = 0; row < element->count; row++) {
+        ffd_ply_walk_row(walk);
+        if (walk->header->encoding == PLY_ASCII)
+            skip_line(walk);
+        for (size_t i = 0; i < element->property_count && walk->header->encoding != PLY_ASCII; i++)
+            ffd_ply_walk_skip(walk, &element->properties[i]);
+    }
+}
+
+typedef struct row_checker {
+    ply_walk walk;
+    const ply_element *element;
+    uint64_t row;
+    const char *name;
+    ffd_error *error;
+} row_checker;
+
+/* "row 17 of element face: ...", with the line in ascii. */
+static ffd_status refuse(const row_checker *c, const char *what, const ply_property *property, text_word word)
+{
+    const bool text = c->walk.header->encoding == PLY_ASCII;
+    const int shown = ffd_text_shown(word);
+    return ffd_fail_line(c->error, FFD_E_INVALID, c->name, text ? c->walk.line : 0,
+                         "row %" PRIu64 " (counted from 0) of element %.*s: %s%s%.*s%s%.*s%s", c->row,
+                         ffd_text_shown(c->element->name), c->element->name.first, what, property ? " " : "",
+                         property ? ffd_text_shown(property->name) : 0, property ? property->name.first : "",
+                         shown ? ": \"" : "", shown, word.first, shown ? "\"" : "");
+}
+
+static ffd_status refuse_count(const row_checker *c, const ply_property *property, text_word word)
+{
+    double value = 0;
+    number_text number;
+    if (c->walk.header->encoding != PLY_ASCII) {
+        ffd_ply_load(c->walk.header->encoding, property->count_type, word, &value);
+        number = ffd_number_text(value);
+        word = (text_word){number.text, number.text + strlen(number.text)};
+    }
+    return refuse(c, "not the count of list", property, word);
+}
+
+static ffd_status check_property(row_checker *c, const ply_property *property)
+{
+    const ply_encoding encoding = c->walk.header->encoding;
+    const char *missing = encoding == PLY_ASCII ? "the line ends before" : "the file ends before or in";
+    text_word word = {"", ""};
+    size_t count;
+    if (!property->is_list)
+        return ffd_ply_walk_value(&c->walk, property->type, &word) ? FFD_OK
+                                                                   : refuse(c, missing, property, word);
+    if (!ffd_ply_walk_value(&c->walk, property->count_type, &word))
+        return refuse(c, missing, property, word);
+    if (!ffd_ply_load_count(encoding, property->count_type, word, &count))
+        return refuse_count(c, property, word);
+    return skip_values(&c->walk, property->type, count) ? FFD_OK
+                                                        : refuse(c, missing, property, (text_word){"", ""});
+}
+
+static ffd_status check_row(row_checker *c)
+{
+    text_word word = {"", ""};
+    ffd_status status = FFD_OK;
+    if (!ffd_ply_walk_row(&c->walk))
+        return refuse(c, "the file ends before it", NULL, word);
+    for (size_t i = 0; status == FFD_OK && i < c->element->property_count; i++)
+        status = check_property(c, &c->element->properties[i]);
+    if (status || c->walk.header->encoding != PLY_ASCII)
+        return status;
+    return ffd_ply_walk_value(&c->walk, PLY_INT, &word)
+               ? refuse(c, "the line goes on behind its last value", NULL, word)
+               : FFD_OK;
+}
+
+ffd_status ffd_ply_walk_check(const ply_header *header, const file_input *input, const char *name,
+                              size_t *behind, ffd_error *error)
+{
+    row_checker c = {.name = name, .error = error};
+    ffd_status status = FFD_OK;
+    ffd_ply_walk_begin(header, input, &c.walk);
+    for (size_t i = 0; status == FFD_OK && i < header->element_count; i++) {
+        c.element = &header->elements[i];
+        /* Rows of a fixed size were found to fit the file, unless lists stand before them. */
+        const size_t left = (size_t)(c.walk.last - c.walk.at);
+        const bool fixed = header->encoding != PLY_ASCII && !c.element->has_lists;
+        if (c.element->property_count == 0 || (fixed && c.element->count <= left / c.element->least)) {
+            ffd_ply_walk_skip_rows(&c.walk, c.element);
+            continue;
+        }
+        for (c.row = 0; status == FFD_OK && c.row < c.element->count; c.row++)
+            status = check_row(&c);
+    }
+    ffd_ply_walk_row(&c.walk); /* empty lines are nothing that stands behind */
+    *behind = (size_t)(c.walk.at - (const char *)input->data);
+    return status;
+}

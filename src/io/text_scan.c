@@ -1,0 +1,129 @@
+#include "io/text_scan.h"
+#include "base/number.h"
+#include <string.h>
+
+#define SHOWN_MAX 40
+
+enum { ORDINARY = 0, BLANK, LINE_END, HASH };
+
+static const unsigned char classes[256] = {
+    ['\t'] = BLANK,    ['\v'] = BLANK,    ['\f'] = BLANK, [' '] = BLANK,
+    ['\n'] = LINE_END, ['\r'] = LINE_END, ['#'] = HASH,
+};
+
+static int class_of(const text_scan *scan, const char *at)
+{
+    const int class = classes[(unsigned char)*at];
+    return class == HASH && !scan->comments ? ORDINARY : class;
+}
+
+void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comments)
+{
+    const char *first = data;
+    *scan = (text_scan){.at = first, .last = first + size, .line = 1, .comments = comments};
+    if (size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
+        scan->at += 3;
+}
+
+bool ffd_text_word(text_scan *scan, text_word *word)
+{
+    const char *at = scan->at;
+    while (at < scan->last && class_of(scan, at) == BLANK)
+        at++;
+    word->first = at;
+    while (at < scan->last && class_of(scan, at) == ORDINARY)
+        at++;
+    word->last = scan->at = at;
+    return word->first < word->last;
+}
+
+bool ffd_text_next_line(text_scan *scan)
+{
+    while (scan->at < scan->last && class_of(scan, scan->at) != LINE_END)
+        scan->at++;
+    if (scan->at == scan->last)
+        return false;
+    scan->at += *scan->at == '\r' && scan->last - scan->at > 1 && scan->at[1] == '\n' ? 2 : 1;
+    scan->line++;
+    return true;
+}
+
+bool ffd_text_find(text_scan *scan)
+{
+    do {
+        while (scan->at < scan->last && class_of(scan, scan->at) == BLANK)
+            scan->at++;
+        if (scan->at < scan->last && class_of(scan, scan->at) == ORDINARY)
+            return true;
+    } while (ffd_text_next_line(scan));
+    return false;
+}
+
+bool ffd_text_is(text_word word, const char *text)
+{
+    const size_t size = strlen(text);
+    return (size_t)(word.last - word.first) == size && memcmp(word.first, text, size) == 0;
+}
+
+bool ffd_text_is_any_case(text_word word, const char *text)
+{
+    const size_t size = strlen(text);
+    if ((size_t)(word.last - word.first) != size)
+        return false;
+    for (size_t i = 0; i < size; i++) {
+        const char c = word.first[i];
+        if ((c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c) != text[i])
+            return false;
+    }
+    return true;
+}
+
+bool ffd_text_same(text_word a, text_word b)
+{
+    const size_t size = (size_t)(a.last - a.first);
+    return size == (size_t)(b.last - b.first) && (size == 0 || memcmp(a.first, b.first, size) == 0);
+}
+
+bool ffd_text_number(text_word word, double *value)
+{
+    return ffd_number_parse(word.first, word.last, value) == word.last;
+}
+
+bool ffd_text_whole(text_word word, uint64_t *value)
+{
+    *value = 0;
+    for (const char *at = word.first; at < word.last; at++) {
+        const unsigned digit = (unsigned)(*at - '0');
+        if (*at < '0' || *at > '9')
+            return false;
+        *value = *value > (UINT64_MAX - digit) / 10 ? UINT64_MAX : *value * 10 + digit;
+    }
+    return word.first < word.last;
+}
+
+int ffd_text_shown(text_word word)
+{
+    const ptrdiff_t size = word.last - word.first;
+    if (size <= SHOWN_MAX)
+        return (int)size;
+    int shown = SHOWN_MAX;
+    while (shown > 0 && ((unsigned char)word.first[shown] & 0xc0) == 0x80)
+        shown--;
+    return shown;
+}
+
+const char *ffd_text_line_ends(const void *data, size_t size)
+{
+    static const char *const names[8] = {"none", "LF",    "CRLF",  "mixed",
+                                         "CR",   "mixed", "mixed", "mixed"};
+    const char *at = data, *last = at + size;
+    unsigned seen = 0;
+    for (; at < last; at++) {
+        if (*at == '\r' && last - at > 1 && at[1] == '\n') {
+            seen |= 2;
+            at++;
+        } else if (*at == '\n' || *at == '\r')
+            seen |= *at == '\n' ? 1 : 4;
+    }
+    return names[seen];
+}

@@ -1,0 +1,43 @@
+/* text_scan.h - the words and lines of a text file. Lines end with LF, CRLF or CR, also mixed; blanks and tabs
+   separate words; a byte order mark is skipped. */
+#ifndef FFD_IO_TEXT_SCAN_H
+#define FFD_IO_TEXT_SCAN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* A word of the file: [first, last). */
+typedef struct text_word {
+    const char *first, *last;
+} text_word;
+
+typedef struct text_scan {
+    const char *at, *last;
+    size_t line;   /* of at, from 1 */
+    bool comments; /* # begins one, to the end of its line, also right behind a word */
+} text_scan;
+
+void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comments);
+/* Takes the next word of the current line. False (and *word is empty) where there is none left. */
+bool ffd_text_word(text_scan *scan, text_word *word);
+/* Goes behind the end of the current line. False where the file ends with it. */
+bool ffd_text_next_line(text_scan *scan);
+/* Goes to the next word, in this line or a later one. False at the end of the file. */
+bool ffd_text_find(text_scan *scan);
+
+bool ffd_text_is(text_word word, const char *text);
+/* The same, with a letter's case left aside. text is in lower case. */
+bool ffd_text_is_any_case(text_word word, const char *text);
+bool ffd_text_same(text_word a, text_word b);
+/* A number as a whole word. */
+bool ffd_text_number(text_word word, double *value);
+/* A whole number that is not negative, in digits; UINT64_MAX for those beyond it. */
+bool ffd_text_whole(text_word word, uint64_t *value);
+/* How many bytes of a word a message shows: long ones are cut, between two characters of UTF-8. */
+int ffd_text_shown(text_word word);
+
+/* "LF", "CRLF", "CR", "mixed", or "none". */
+const char *ffd_text_line_ends(const void *data, size_t size);
+
+#endif

@@ -1,0 +1,389 @@
+#!/usr/bin/env python3
+"""PLY files, with a reader of their own here: what deform changes in them, what the other commands say of them,
+and what is refused."""
+import os
+import struct
+
+from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, case, check, equal, lattice, main, near)
+
+BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
+CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d",
+         "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i", "uint32": "I", "float32": "f",
+         "float64": "d"}
+ENCODINGS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+POINTS = [[0.1, 0.2, 0.3], [-1.5, 0.25, 1.75], [0.0, 0.0, 0.0], [1.0 / 3, -2.0 / 3, 1e-3], [5.0, 5.0, 5.0]]
+NORMALS = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.6, 0.8], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]
+FACES = [[0, 1, 2], [0, 2, 3, 1]]
+
+
+def elements(real, normals=True):
+    """Elements of a file with more in it than a mesh: (name, properties, rows); a list is its count's type, its
+    items' type and its name."""
+    vertex = [("uchar", "red"), (real, "z"), (real, "x"), ("uchar", "ushort", "rings"), (real, "y")]
+    vertex += [(real, "nx"), (real, "ny"), (real, "nz")] if normals else []
+    rows = [[i, p[2], p[0], [7] * i, p[1], *(n if normals else [])]
+            for i, (p, n) in enumerate(zip(POINTS, NORMALS))]
+    return [("camera", [("short", "view")], [[-2], [2570]]), ("vertex", vertex, rows),
+            ("face", [("uchar", "int", "vertex_indices"), ("float", "quality")], [[f, 0.5] for f in FACES])]
+
+
+def number(code, value):
+    """value's shortest text, as the type holds it."""
+    if code != "f":
+        return repr(value)
+    value = struct.unpack("f", struct.pack("f", value))[0]
+    return next(t for t in (f"{value:.{n}g}" for n in range(1, 10)) if struct.pack("f", float(t)) == struct.pack("f", value))
+
+
+def write_ply(parts, encoding, end="\n"):
+    order = ENCODINGS[encoding]
+    lines = ["ply", f"format {encoding} 1.0", "comment of a test"]
+    body = b""
+    for name, properties, rows in parts:
+        lines.append(f"element {name} {len(rows)}")
+        lines += ["property " + ("list " if len(p) == 3 else "") + " ".join(p) for p in properties]
+        for row in rows:
+            values = []
+            for p, value in zip(properties, row):
+                code = CODES[p[-2]]
+                if len(p) == 3:
+                    values += [(CODES[p[0]], len(value))] + [(code, v) for v in value]
+                else:
+                    values.append((code, value))
+            if order:
+                body += b"".join(struct.pack(order + code, value) for code, value in values)
+            else:
+                body += (" ".join(number(code, value) for code, value in values) + end).encode()
+    return end.join(lines + ["end_header", ""]).encode() + body
+
+
+def read_ply(data):
+    """{element: rows}, each row {property: number or list}."""
+    end = b"\r\n" if data.startswith(b"ply\r\n") else data[3:4]
+    header, body = data.split(b"end_header" + end, 1)
+    parts, order = [], None
+    for line in header.decode().split(end.decode()):
+        words = line.split()
+        if words[:1] == ["format"]:
+            order = ENCODINGS[words[1]]
+        elif words[:1] == ["element"]:
+            parts.append((words[1], int(words[2]), []))
+        elif words[:1] == ["property"]:
+            parts[-1][2].append(words[1:])
+    words, at = iter(body.split()), 0
+
+    def take(kind):
+        nonlocal at
+        code = CODES[kind]
+        if not order:
+            return float(next(words)) if code in "fd" else int(next(words))
+        value, = struct.unpack_from(order + code, body, at)
+        at += struct.calcsize(order + code)
+        return value
+
+    found = {}
+    for name, count, properties in parts:
+        rows = found[name] = []
+        for _ in range(count):
+            rows.append({p[-1]: [take(p[2]) for _ in range(take(p[1]))] if p[0] == "list" else take(p[0])
+                         for p in properties})
+    return found
+
+
+def vectors(data, names=("x", "y", "z")):
+    return [[row[name] for name in names] for row in read_ply(data)["vertex"]]
+
+
+def as_float(value):
+    return struct.unpack("f", struct.pack("f", value))[0]
+
+
+def obj_of(points):
+    return "".join("v %r %r %r\n" % tuple(p) for p in points)
+
+
+def obj_points(text):
+    return [[float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
+
+
+OUTSIDE = {"lines": 1}  # one of POINTS is outside of the lattice, which is said
+
+
+@case
+def doubles_are_those_of_obj(run):
+    """The same positions as text or bytes get the same bits, whatever the format and the encoding."""
+    run.write("l.json", lattice(moves=BUMP))
+    run.write("p.obj", obj_of(POINTS))
+    run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", **OUTSIDE)
+    expected = obj_points(run.text("q.obj"))
+    check(expected[0] != POINTS[0], "the lattice moves")
+    for encoding in ENCODINGS:
+        run.write("p.ply", write_ply(elements("double"), encoding))
+        run.ffd("deform", "p.ply", f"{encoding}.ply", "-l", "l.json", **OUTSIDE)
+        equal(vectors(run.read(f"{encoding}.ply")), expected, encoding)
+
+
+@case
+def floats_are_rounded_once(run):
+    run.write("l.json", lattice(moves=BUMP))
+    start = [[as_float(x) for x in p] for p in POINTS]
+    run.write("p.obj", obj_of(start))
+    run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", **OUTSIDE)
+    expected = [[as_float(x) for x in p] for p in obj_points(run.text("q.obj"))]
+    for encoding in ENCODINGS:
+        run.write("p.ply", write_ply(elements("float32"), encoding))
+        run.ffd("deform", "p.ply", f"{encoding}.ply", "-l", "l.json", **OUTSIDE)
+        found = vectors(run.read(f"{encoding}.ply"))
+        equal([[as_float(x) for x in p] for p in found], expected, encoding)
+    for word in (w for line in run.text("ascii.ply").split("end_header\n")[1].split("\n")[2:7] for w in line.split()):
+        check(word == number("f", float(word)) or float(word).is_integer(), f"{word} is longer than needed")
+
+
+@case
+def only_what_moved_changes(run):
+    """In any encoding, with any line ends: other bytes stay, and so do those of the vertex outside."""
+    run.write("l.json", lattice(moves=BUMP))
+    for encoding in ENCODINGS:
+        for end in ("\n", "\r\n", "\r"):
+            before = write_ply(elements("double"), encoding, end)
+            run.write("p.ply", before)
+            run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", "--force", **OUTSIDE)
+            after = run.read("q.ply")
+            old, new = read_ply(before), read_ply(after)
+            equal(after.split(b"end_header")[0], before.split(b"end_header")[0], "the header")
+            for name in old:
+                for row, (a, b) in enumerate(zip(old[name], new[name])):
+                    changed = {key for key in a if a[key] != b[key]}
+                    allowed = {"x", "y", "z", "nx", "ny", "nz"} if name == "vertex" and row < 4 else set()
+                    check(changed <= allowed, f"{encoding}: {name} {row}: {changed} changed")
+            check(old != new, "something moves")
+            equal(write_ply([(n, p, [[new[n][i][q[-1]] for q in p] for i in range(len(r))])
+                             for n, p, r in elements("double")], encoding, end), after, "and no other byte")
+
+
+@case
+def texts_that_need_not_change_stay(run):
+    text = ("ply\r\nformat   ascii 1.0\t\r\n element vertex 2\r\nproperty float z\r\ncomment  a  b \r\nproperty float32 x\r\n"
+            "property double y\r\nproperty uchar red\r\nobj_info what\r\nelement odd 1\r\nproperty list uchar char bits\r\n"
+            "end_header\r\n +.50\t-1.50 1e0  007 \r\n\r\n5.000 5 5.0e0 1\r\n0\r\nthe rest")
+    run.write("l.json", lattice(moves=[{"by": [0.25, 0, 0]}]))
+    run.write("t.ply", text)
+    run.ffd("deform", "t.ply", "u.ply", "-l", "l.json",
+            err="t.ply: 1 of 2 vertices are not inside: 1 outside (left where they are)")
+    equal(run.text("u.ply"), text.replace("-1.50", "-1.25"))
+
+
+@case
+def nothing_moves(run):
+    run.write("l.json", lattice())
+    for real in ("float", "float64"):
+        for encoding in ENCODINGS:
+            run.write("p.ply", write_ply(elements(real), encoding))
+            run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", "--force", **OUTSIDE)
+            equal(run.read("q.ply"), run.read("p.ply"), encoding)
+
+
+@case
+def normals(run):
+    """They follow as those of an OBJ do; --normals keep leaves their bytes."""
+    run.write("l.json", lattice(moves=BUMP))
+    run.write("p.obj", obj_of(POINTS) + "".join("vn %r %r %r\n" % tuple(n) for n in NORMALS)
+              + "f 1//1 2//2 3//3\nf 3//3 4//4 5//5\n")
+    run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", **OUTSIDE)
+    expected = [[float(x) for x in line.split()[1:]] for line in run.text("q.obj").splitlines() if line.startswith("vn ")]
+    check(expected[0] != NORMALS[0], "the normals turn")
+    for encoding in ENCODINGS:
+        run.write("p.ply", write_ply(elements("double"), encoding))
+        run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", "--force", **OUTSIDE)
+        equal(vectors(run.read("q.ply"), ("nx", "ny", "nz")), expected, encoding)
+        run.ffd("deform", "p.ply", "k.ply", "-l", "l.json", "--normals", "keep", "--force", **OUTSIDE)
+        equal(vectors(run.read("k.ply"), ("nx", "ny", "nz")), NORMALS, encoding)
+        equal(vectors(run.read("k.ply")), vectors(run.read("q.ply")), encoding)
+
+
+@case
+def whole_numbers(run):
+    """Coordinates or normals that are no floating point numbers are read, and not deformed."""
+    run.write("l.json", lattice(moves=BUMP))
+    head = "ply\nformat ascii 1.0\nelement vertex 1\n"
+    xyz = "property float x\nproperty float y\nproperty float z\n"
+    run.write("p.ply", head + xyz.replace("float y", "short y") + "end_header\n1 1 1\n")
+    run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", code=UNSUPPORTED,
+            err="p.ply:3: y of the vertices is of type short: float and double can be deformed")
+    equal(run.ffd("info", "p.ply", "--json").json["bounds"], {"min": [1, 1, 1], "max": [1, 1, 1]})
+    run.write("n.ply", head + xyz + "property char nx\nproperty char ny\nproperty char nz\nend_header\n1 1 1 0 0 127\n")
+    run.ffd("deform", "n.ply", "q.ply", "-l", "l.json", code=UNSUPPORTED,
+            err="n.ply:3: nx ny nz are not all float or double: such normals can only be kept")
+    run.ffd("deform", "n.ply", "q.ply", "-l", "l.json", "--normals", "keep")
+    check(run.text("q.ply").endswith(" 0 0 127\n"), run.text("q.ply"))
+
+
+@case
+def streams_and_places(run):
+    run.write("l.json", lattice(moves=BUMP))
+    data = write_ply(elements("float"), "binary_big_endian")
+    run.write("p.ply", data)
+    run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", **OUTSIDE)
+    done = run.ffd("deform", "-", "-", "-l", "l.json", "--input-format", "ply", "--output-format", "ply", stdin=data, **OUTSIDE)
+    equal(done.out, run.read("q.ply"), "through the streams")
+    run.write("p.PLY", data)
+    run.ffd("deform", "p.PLY", "--in-place", "-l", "l.json", **OUTSIDE)
+    equal(run.read("p.PLY"), run.read("q.ply"), "in place")
+    run.write("a.obj", CUBE)
+    run.ffd("deform", "p.ply", "p.obj", "-l", "l.json", code=UNSUPPORTED)
+    run.ffd("deform", "a.obj", "a.ply", "-l", "l.json", code=UNSUPPORTED)
+
+
+@case
+def too_large_for_the_file(run):
+    """A float's largest number is not a double's."""
+    run.write("l.json", lattice(moves=[{"by": [1e39, 0, 0]}]))
+    for real, code in (("float", INVALID), ("double", 0)):
+        run.write("p.ply", write_ply([("vertex", [(real, a) for a in "xyz"], [[0.0, 0.0, 0.0]])], "binary_little_endian"))
+        run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", code=code)
+    near(vectors(run.read("q.ply")), [[1e39, 0, 0]], 1e30)
+
+
+@case
+def embedding_and_lattice(run):
+    """embed, lattice new and check take a PLY as any mesh."""
+    run.write("p.ply", write_ply(elements("double"), "binary_little_endian"))
+    run.write("p.obj", obj_of(POINTS) + "".join("f " + " ".join(str(i + 1) for i in f) + "\n" for f in FACES))
+    run.write("l.json", lattice(moves=BUMP))
+    for name in ("p.ply", "p.obj"):
+        run.ffd("embed", name, "-l", "l.json", "-o", name + ".npy", "--status", name + ".s", **OUTSIDE)
+        run.ffd("lattice", "new", name, "-o", name + ".json")
+        run.ffd("check", name, "-l", "l.json", "--report", name + ".report", "--report-stable", **OUTSIDE)
+    equal(run.read("p.ply.npy")[:128 + 120], run.read("p.obj.npy")[:128 + 120], "u,v,w")
+    equal(run.read("p.ply.s")[:133], run.read("p.obj.s")[:133], "statuses")
+    equal(run.read("p.ply.json"), run.read("p.obj.json"), "the lattice")
+    equal(run.text("p.ply.report").replace(".ply", ".obj"), run.text("p.obj.report"), "the report")
+
+
+@case
+def info(run):
+    for encoding in ENCODINGS:
+        run.write("p.ply", write_ply(elements("double"), encoding, "\r\n") + b"\n\nmore")
+        found = run.ffd("info", "p.ply", "--json").json
+        equal([found[key] for key in ("mesh_format", "vertices", "normals", "not_finite")], ["PLY", 5, 5, 0])
+        contents = found["contents"]
+        equal([contents[key] for key in ("encoding", "line_endings", "faces", "triangles", "quads", "lines", "triangle_strips")],
+              [encoding.replace("_", " "), "CRLF", 2, 1, 1, 0, 0])
+        equal(contents["bytes_behind"], 4 if encoding == "ascii" else 6)
+        equal(contents["elements"][2], {"name": "face", "count": 2,
+                                        "properties": ["list uchar int vertex_indices", "float quality"]})
+        equal(found["topology"]["faces"], 2)
+        check("binary" in run.ffd("info", "p.ply").text or encoding == "ascii", "the text")
+
+
+@case
+def triangle_strips(run):
+    run.write("l.json", lattice(moves=BUMP))
+    parts = elements("float", normals=False)[1:2] + [("tristrips", [("int", "int", "vertex_indices")], [[[0, 1, 2, -1]]])]
+    run.write("p.ply", write_ply(parts, "binary_little_endian"))
+    found = run.ffd("info", "p.ply", "--json").json
+    equal([found["contents"]["triangle_strips"], found["topology"]], [1, None])
+    check("tristrips" in found["topology_unknown"], found["topology_unknown"])
+    run.ffd("check", "p.ply", "-l", "l.json", code=UNSUPPORTED)
+    run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", **OUTSIDE)
+    equal(read_ply(run.read("q.ply"))["tristrips"], read_ply(run.read("p.ply"))["tristrips"])
+
+
+@case
+def compare(run):
+    for encoding in ENCODINGS:
+        run.write(f"{encoding}.ply", write_ply(elements("double"), encoding))
+    for a in ENCODINGS:
+        for b in ENCODINGS:
+            run.ffd("compare", f"{a}.ply", f"{b}.ply", out="")
+    moved = elements("double")
+    moved[1][2][1][2] += 0.25
+    run.write("m.ply", write_ply(moved, "binary_big_endian"))
+    run.ffd("compare", "ascii.ply", "m.ply", code=NO,
+            out="ascii.ply and m.ply differ: vertex 1 counted from 0: x differs by 0.25\n")
+    run.ffd("compare", "ascii.ply", "m.ply", "--tolerance", "0.25", out="")
+    turned = elements("double")
+    turned[1][2][1][5] = 0.5
+    run.write("t.ply", write_ply(turned, "ascii"))
+    run.ffd("compare", "ascii.ply", "t.ply", "--tolerance", "9", code=NO,
+            out="ascii.ply and t.ply differ: vertex 1 counted from 0 (line 22): nx: 1.0 and 0.5\n")
+    run.write("a.obj", CUBE)
+    run.ffd("compare", "ascii.ply", "a.obj", code=NO)
+
+
+@case
+def refused(run):
+    run.write("l.json", lattice(moves=BUMP))
+    head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+    face = "element face 1\nproperty list uchar int vertex_indices\n"
+    binary = head.replace("ascii", "binary_little_endian")
+    for content, code, says in (
+            ("", INVALID, "p.ply:1: is no PLY file: the first line is not \"ply\""),
+            (CUBE, INVALID, "p.ply:1: is no PLY file: the first line is not \"ply\""),
+            (head, INVALID, "p.ply:6: the header has no end: \"end_header\" is missing"),
+            (head + "comment " + 100000 * "x", INVALID, "p.ply:7: the header has no end: \"end_header\" is missing"),
+            (head + "end_header\n0.00 0.00 0.00\n1 1\n", INVALID,
+             "p.ply:9: row 1 (counted from 0) of element vertex: the line ends before z"),
+            (head + "end_header\n0 0 0\n1 1 1 1\n", INVALID,
+             "p.ply:9: row 1 (counted from 0) of element vertex: the line goes on behind its last value: \"1\""),
+            (head + "end_header\n0 0 zero\n1 1 1\n", INVALID,
+             "p.ply:8: z of vertex 0 (counted from 0) is not a number: \"zero\""),
+            (head + "end_header\n0 0 nan\n1 1 1\n", INVALID,
+             "p.ply: vertex 0 (counted from 0) has a coordinate that is not finite"),
+            (head + "end_header\n0 0 1e39\n1 1 1\n", INVALID,
+             "p.ply: vertex 0 (counted from 0) has a coordinate that is not finite"),
+            (head.replace("vertex 2", "vertex 2147483648") + "end_header\n0 0 0\n", INVALID,
+             "p.ply:3: element vertex: 2147483648 rows of 6 bytes or more are not in the 6 bytes behind the header"),
+            (binary.replace("vertex 2", "vertex 4611686018427387904") + "end_header\n", INVALID,
+             "p.ply:3: element vertex: 4611686018427387904 rows of 12 bytes or more are not in the 0 bytes behind the header"),
+            (head.replace("vertex 2", "vertex 99999999999999999999"), INVALID,
+             "p.ply:3: \"99999999999999999999\" is no count of element vertex"),
+            (head.replace("float z", "half z"), INVALID,
+             "p.ply:6: \"half\" is no type of PLY (char, uchar, short, ushort, int, uint, float, double)"),
+            (head.replace("float z", "float x"), INVALID,
+             "p.ply:6: a second property x of element vertex: the first is on line 4"),
+            (head.replace("property float z\n", "") + "end_header\n0 0\n1 1\n", INVALID,
+             "p.ply:3: element vertex has no property z that is one number"),
+            (head.replace(" 1.0", " 1.1"), UNSUPPORTED, "p.ply:2: version 1.1 of the format is not known: 1.0 is"),
+            (head + face + "end_header\n0 0 0\n1 1 1\n255 0\n", INVALID,
+             "p.ply:12: row 0 (counted from 0) of element face: the line ends before vertex_indices"),
+            (head + "".join(f"property int p{i}\n" for i in range(5000)), LIMIT,
+             "p.ply:4100: more than 4096 elements or properties")):
+        run.write("p.ply", content)
+        run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", code=code, err=says)
+        check(not run.exists("q.ply"), "an output of a failure")
+    run.write("p.ply", head + face + "end_header\n0 0 0\n1 1 1\n3 0 1 2\n")
+    for command in (["info", "p.ply"], ["check", "p.ply", "-l", "l.json"]):
+        run.ffd(*command, code=INVALID, err="p.ply:12: face 0 (counted from 0): 2 is no index of the 2 vertices")
+    run.ffd("deform", "p.ply", "q.ply", "-l", "l.json")
+    run.folder_of("d.ply")
+    run.ffd("deform", "d.ply", "r.ply", "-l", "l.json", code=IO)
+
+
+@case
+def sample_models(run):
+    """An empty move copies each sample; a real one moves vertices and nothing else."""
+    count = 0
+    for folder, _, names in sorted(os.walk(MODELS or "")):
+        for name in sorted(names):
+            if not name.endswith(".ply"):
+                continue
+            path = os.path.join(folder, name)
+            with open(path, "rb") as file:
+                before = file.read()
+            for out, moves in (("still.json", []), ("moved.json", [{"at": [2, 2, 2], "by": [0.125, 0, 0.25]}])):
+                run.write(out, lattice(rest={"box": "mesh"}, moves=moves, units="box"))
+            run.ffd("deform", path, "q.ply", "-l", "still.json", "--force")
+            equal(run.read("q.ply"), before, name)
+            run.ffd("deform", path, "q.ply", "-l", "moved.json", "--force")
+            old, new = read_ply(before), read_ply(run.read("q.ply"))
+            for element in old:
+                for a, b in zip(old[element], new[element]):
+                    changed = {key for key in a if a[key] != b[key]}
+                    check(changed <= {"x", "z", "nx", "ny", "nz"} and (not changed or element == "vertex"), name, str(changed))
+            count += 1
+    check(not MODELS or count >= 9, f"{count} models")
+
+
+main()

@@ -1,0 +1,873 @@
+/* PLY: values, headers, rows, documents, saving and comparing, on files written here. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/buffer.h"
+#include "base/memory.h"
+#include "io/formats.h"
+#include "io/ply/ply_document.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const mesh_format *const ply = &ffd_ply_format;
+
+static ffd_status open_bytes(const void *bytes, size_t size, mesh_document **document, ffd_error *error)
+{
+    file_input input = {.data = bytes, .size = size};
+    const ffd_source source = {.path = "a.ply", .format = FFD_FORMAT_PLY};
+    *error = (ffd_error){0};
+    return ply->open(&input, &source, document, error);
+}
+
+static mesh_document *opened(const void *bytes, size_t size)
+{
+    mesh_document *document = NULL;
+    ffd_error error;
+    if (open_bytes(bytes, size, &document, &error))
+        fail_msg("line %zu: %s", error.line, error.message);
+    return document;
+}
+
+/* The document must not free what is the sample's. */
+static void close_document(mesh_document *document)
+{
+    ((ply_document *)document)->input = (file_input){0};
+    ply->close(document);
+}
+
+static const char *saved_path(void)
+{
+    static char path[64];
+    snprintf(path, sizeof path, "/tmp/ffd-test-ply-%ld.ply", (long)getpid());
+    return path;
+}
+
+static int remove_saved(void **state)
+{
+    (void)state;
+    remove(saved_path());
+    return 0;
+}
+
+static ffd_status save(mesh_document *document, file_input *saved, ffd_error *error)
+{
+    const mesh_save_options options = {.path = saved_path(), .format = FFD_FORMAT_PLY, .force = true};
+    const mesh_log log = {0};
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (status)
+        return status;
+    status = ply->save(document, &options, output, &log, error);
+    if (status == FFD_OK)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status == FFD_OK ? ffd_file_load(saved_path(), saved, error) : status;
+}
+
+static void assert_saved(mesh_document *document, const void *bytes, size_t size)
+{
+    file_input saved;
+    ffd_error error;
+    assert_int_equal(save(document, &saved, &error), FFD_OK);
+    assert_int_equal(saved.size, size);
+    assert_memory_equal(saved.data, bytes, size);
+    ffd_file_unload(&saved);
+}
+
+/* Values */
+
+static text_word word_of(const char *bytes, size_t size)
+{
+    return (text_word){bytes, bytes + size};
+}
+
+static void test_types(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name;
+        ply_type type;
+        size_t size;
+        const char *bytes; /* big endian */
+        double value;
+    } cases[] = {
+        {"char", PLY_CHAR, 1, "\x80", -128},
+        {"int8", PLY_CHAR, 1, "\x7f", 127},
+        {"uchar", PLY_UCHAR, 1, "\x80", 128},
+        {"uint8", PLY_UCHAR, 1, "\xff", 255},
+        {"short", PLY_SHORT, 2, "\xff\xfe", -2},
+        {"int16", PLY_SHORT, 2, "\x01\x02", 258},
+        {"ushort", PLY_USHORT, 2, "\xff\xfe", 65534},
+        {"uint16", PLY_USHORT, 2, "\x00\x01", 1},
+        {"int", PLY_INT, 4, "\x80\x00\x00\x00", -2147483648.0},
+        {"int32", PLY_INT, 4, "\x00\x01\x00\x02", 65538},
+        {"uint", PLY_UINT, 4, "\xff\xff\xff\xff", 4294967295.0},
+        {"uint32", PLY_UINT, 4, "\x80\x00\x00\x00", 2147483648.0},
+        {"float", PLY_FLOAT, 4, "\xbf\xc0\x00\x00", -1.5},
+        {"float32", PLY_FLOAT, 4, "\x00\x00\x00\x01", 1.401298464324817e-45},
+        {"double", PLY_DOUBLE, 8, "\x3f\xf0\x00\x00\x00\x00\x00\x01", 1.0000000000000002},
+        {"float64", PLY_DOUBLE, 8, "\xc0\x00\x00\x00\x00\x00\x00\x00", -2},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        ply_type type;
+        char turned[8];
+        double value = 0;
+        const size_t size = cases[i].size;
+        assert_true(ffd_ply_type_of(word_of(cases[i].name, strlen(cases[i].name)), &type));
+        assert_int_equal(type, cases[i].type);
+        assert_int_equal(ffd_ply_type_size(type), size);
+        for (size_t k = 0; k < size; k++)
+            turned[k] = cases[i].bytes[size - 1 - k];
+        assert_true(ffd_ply_load(PLY_BIG_ENDIAN, type, word_of(cases[i].bytes, size), &value));
+        assert_true(value == cases[i].value);
+        assert_true(ffd_ply_load(PLY_LITTLE_ENDIAN, type, word_of(turned, size), &value));
+        assert_true(value == cases[i].value);
+        if (ply_is_whole(type))
+            continue;
+        char stored[FFD_NUMBER_CAPACITY];
+        assert_int_equal(ffd_ply_store(PLY_BIG_ENDIAN, type, value, stored), size);
+        assert_memory_equal(stored, cases[i].bytes, size);
+        assert_int_equal(ffd_ply_store(PLY_LITTLE_ENDIAN, type, value, stored), size);
+        assert_memory_equal(stored, turned, size);
+    }
+    ply_type type;
+    static const char *const unknown[] = {"", "Float", "float16", "long", "int64", "floats", "list"};
+    for (size_t i = 0; i < COUNT(unknown); i++)
+        assert_false(ffd_ply_type_of(word_of(unknown[i], strlen(unknown[i])), &type));
+}
+
+static void test_texts(void **state)
+{
+    (void)state;
+    /* Above the middle of 1 and the next float by less than a double can tell. */
+    static const char above[] = "1.000000059604644775390625000000001";
+    double value;
+    char text[FFD_NUMBER_CAPACITY];
+    assert_true(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of(above, strlen(above)), &value));
+    assert_true(value == 1 + (double)FLT_EPSILON);
+    assert_true(ffd_ply_load(PLY_ASCII, PLY_DOUBLE, word_of(above, strlen(above)), &value));
+    assert_true(value == 1 + (double)FLT_EPSILON / 2);
+    assert_true(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of("1e39", 4), &value));
+    assert_true(isinf(value));
+    assert_true(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of("-1e-46", 6), &value));
+    assert_true(value == 0 && signbit(value));
+    assert_false(ffd_ply_load(PLY_ASCII, PLY_FLOAT, word_of("1x", 2), &value));
+    assert_false(ffd_ply_load(PLY_ASCII, PLY_INT, word_of("one", 3), &value));
+    assert_int_equal(ffd_ply_store(PLY_ASCII, PLY_FLOAT, ffd_ply_round(PLY_FLOAT, 0.1), text), 3);
+    assert_memory_equal(text, "0.1", 3);
+    assert_int_equal(ffd_ply_store(PLY_ASCII, PLY_DOUBLE, (double)0.1F, text), 19);
+    assert_memory_equal(text, "0.10000000149011612", 19);
+}
+
+static void test_counts(void **state)
+{
+    (void)state;
+    size_t count;
+    assert_true(ffd_ply_load_count(PLY_ASCII, PLY_UCHAR, word_of("3", 1), &count) && count == 3);
+    assert_true(ffd_ply_load_count(PLY_ASCII, PLY_INT, word_of("4294967296", 10), &count));
+    static const char *const bad[] = {"-1", "1.5", "nan", "1e300", "inf", "x", "9007199254740992"};
+    for (size_t i = 0; i < COUNT(bad); i++)
+        assert_false(ffd_ply_load_count(PLY_ASCII, PLY_INT, word_of(bad[i], strlen(bad[i])), &count));
+    assert_false(ffd_ply_load_count(PLY_BIG_ENDIAN, PLY_CHAR, word_of("\xff", 1), &count));
+    assert_true(ffd_ply_load_count(PLY_BIG_ENDIAN, PLY_UCHAR, word_of("\xff", 1), &count) && count == 255);
+}
+
+/* What is refused */
+
+#define XYZ "property float x\nproperty float y\nproperty float z\n"
+#define ASCII "ply\nformat ascii 1.0\n"
+#define LITTLE "ply\nformat binary_little_endian 1.0\n"
+#define ONE ASCII "element vertex 1\n" XYZ
+#define FACE "element face 1\nproperty list uchar int vertex_indices\n"
+
+static const struct {
+    const char *text;
+    ffd_status status;
+    size_t line;
+    const char *says;
+} refused[] = {
+    {"", FFD_E_INVALID, 1, "\"ply\""},
+    {"plyx\n", FFD_E_INVALID, 1, "\"ply\""},
+    {" ply\nformat ascii 1.0\nend_header\n", FFD_E_INVALID, 1, "\"ply\""},
+    {"\xef\xbb\xbfply\n", FFD_E_INVALID, 1, "\"ply\""},
+    {"ply", FFD_E_INVALID, 1, "end_header"},
+    {"ply\n", FFD_E_INVALID, 1, "end_header"},
+    {"ply\nend_header\n", FFD_E_INVALID, 2, "format"},
+    {"ply\nformat ascii 1.0\nformat ascii 1.0\n", FFD_E_INVALID, 3, "second format"},
+    {"ply\nformat ascii\n", FFD_E_INVALID, 2, "version"},
+    {"ply\nformat ascii 1.0 x\n", FFD_E_INVALID, 2, "version"},
+    {"ply\nformat binary_middle_endian 1.0\n", FFD_E_INVALID, 2, "binary_middle_endian"},
+    {"ply\nformat ascii 2.0\n", FFD_E_UNSUPPORTED, 2, "2.0"},
+    {ASCII "elements vertex 1\n", FFD_E_INVALID, 3, "elements"},
+    {ASCII "element vertex\n", FFD_E_INVALID, 3, "count"},
+    {ASCII "element vertex 1 2\n", FFD_E_INVALID, 3, "count"},
+    {ASCII "element vertex -1\n", FFD_E_INVALID, 3, "-1"},
+    {ASCII "element vertex 1.0\n", FFD_E_INVALID, 3, "1.0"},
+    {ASCII "element vertex 18446744073709551616\n", FFD_E_INVALID, 3, "18446744073709551616"},
+    {ASCII "property float x\n", FFD_E_INVALID, 3, "before any element"},
+    {ASCII "element vertex 1\nproperty float\n", FFD_E_INVALID, 4, "a type and a name"},
+    {ASCII "element vertex 1\nproperty float x y\n", FFD_E_INVALID, 4, "a type and a name"},
+    {ASCII "element vertex 1\nproperty\n", FFD_E_INVALID, 4, "a type and a name"},
+    {ASCII "element vertex 1\nproperty half x\n", FFD_E_INVALID, 4, "half"},
+    {ASCII "element vertex 1\nproperty list uchar x\n", FFD_E_INVALID, 4, "two types"},
+    {ASCII "element vertex 1\nproperty list uchar list x\n", FFD_E_INVALID, 4, "\"list\""},
+    {ASCII "element vertex 1\nproperty list float int x\n", FFD_E_INVALID, 4, "whole"},
+    {ASCII "element vertex 1\nproperty float x\nproperty int x\n", FFD_E_INVALID, 5, "line 4"},
+    {ASCII "element vertex 0\n" XYZ "element vertex 0\n", FFD_E_INVALID, 7, "line 3"},
+    {ASCII "end_header\n", FFD_E_INVALID, 0, "no element vertex"},
+    {ASCII "element vertex 0\nproperty float x\nproperty float y\nend_header\n", FFD_E_INVALID, 3,
+     "property z"},
+    {ASCII "element vertex 0\nproperty float x\nproperty list uchar float y\nproperty float z\nend_header\n",
+     FFD_E_INVALID, 3, "property y"},
+    {ONE, FFD_E_INVALID, 6, "end_header"},
+    {ONE "comment end_header\n", FFD_E_INVALID, 7, "end_header"},
+    {ONE "end_header\n", FFD_E_INVALID, 3, "1 rows"},
+    {ONE "end_header\n1 2\n", FFD_E_INVALID, 3, "1 rows"},
+    {ONE "end_header\n1 2    \n", FFD_E_INVALID, 8, "the line ends before z"},
+    {ONE "end_header\n1 2 3 4\n", FFD_E_INVALID, 8, "\"4\""},
+    {ONE "end_header\n\n\n1 two 3\n", FFD_E_INVALID, 10, "\"two\""},
+    {ONE "end_header\n\r\n\r1 two 3\n", FFD_E_INVALID, 10, "\"two\""},
+    {ONE "end_header\n         \n", FFD_E_INVALID, 9, "the file ends before it"},
+    {ONE FACE "end_header\n1 2 3\n3 0 0\n", FFD_E_INVALID, 11, "the line ends before vertex_indices"},
+    {ONE FACE "end_header\n1 2 3\n-3 0 0\n", FFD_E_INVALID, 11, "\"-3\""},
+    {ONE FACE "end_header\n1 2 3\nthree 0 0\n", FFD_E_INVALID, 11, "\"three\""},
+    {ONE FACE "end_header\n1 2 3\n9000000000000000 0 0\n", FFD_E_INVALID, 11, "vertex_indices"},
+    {ONE FACE "end_header\n1 2 3\n1 0 0\n", FFD_E_INVALID, 11, "goes on"},
+    {ASCII "element vertex 9223372036854775809\n" XYZ "end_header\n1 2 3\n", FFD_E_INVALID, 3, "rows"},
+    {ASCII "element vertex 4294967296\n" XYZ "end_header\n", FFD_E_INVALID, 3, "rows"},
+    {LITTLE "element vertex 1\n" XYZ "end_header\n01234567890", FFD_E_INVALID, 3, "1 rows of 12 bytes"},
+    {LITTLE "element vertex 1537228672809129302\n" XYZ "end_header\n01234567", FFD_E_INVALID, 3, "rows"},
+    {LITTLE "element face 2\nproperty list char int vertex_index\nelement vertex 1\n" XYZ
+            "end_header\n\x01\x01\x01\x01\x01\xff"
+            "0123456789ab",
+     FFD_E_INVALID, 0, "row 1 (counted from 0) of element face: not the count of list vertex_index: \"-1\""},
+    {LITTLE "element face 1\nproperty list uint int vertex_index\nelement vertex 1\n" XYZ
+            "end_header\n\xff\xff\xff\xff"
+            "0123456789ab",
+     FFD_E_INVALID, 0, "the file ends before or in vertex_index"},
+    {LITTLE "element face 1\nproperty list uchar int vertex_index\nelement vertex 1\n" XYZ "end_header\n\x02"
+            "0123456789ab",
+     FFD_E_INVALID, 0, "row 0 (counted from 0) of element vertex: the file ends before or in"},
+};
+
+static void test_refused(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(refused); i++) {
+        mesh_document *document = NULL;
+        ffd_error error;
+        const ffd_status status = open_bytes(refused[i].text, strlen(refused[i].text), &document, &error);
+        if (status != refused[i].status || error.line != refused[i].line ||
+            !strstr(error.message, refused[i].says))
+            fail_msg("case %zu: status %d, line %zu: %s", i, status, error.line, error.message);
+        assert_null(document);
+        assert_string_equal(error.file, "a.ply");
+    }
+}
+
+static void test_too_many_declarations(void **state)
+{
+    (void)state;
+    for (int elements = 0; elements < 2; elements++)
+        for (int excess = 0; excess < 2; excess++) {
+            byte_buffer text = {0};
+            mesh_document *document = NULL;
+            ffd_error error;
+            ffd_buffer_text(&text, ASCII "element vertex 0\n" XYZ);
+            const int more = PLY_DECLARATIONS_MAX - (elements ? 1 : 3) + excess;
+            for (int i = 0; i < more; i++)
+                ffd_buffer_format(&text, elements ? "element e%d 0\n" : "property int p%d\n", i);
+            ffd_buffer_text(&text, "end_header\n");
+            assert_int_equal(open_bytes(text.data, text.size, &document, &error),
+                             excess ? FFD_E_LIMIT : FFD_OK);
+            if (document)
+                close_document(document);
+            ffd_buffer_free(&text);
+        }
+}
+
+/* Files of all kinds, from one description */
+
+/* A square pyramid, with things around that are none of ours. */
+typedef struct sample_kind {
+    ply_encoding encoding;
+    bool wide;            /* double coordinates */
+    const char *line_end; /* of the header and of ascii rows */
+} sample_kind;
+
+typedef struct sample {
+    byte_buffer bytes;
+    sample_kind kind;
+} sample;
+
+static void put(sample *s, ply_type type, double value)
+{
+    char bytes[FFD_NUMBER_CAPACITY];
+    const ply_encoding encoding = s->kind.encoding;
+    if (encoding == PLY_ASCII || !ply_is_whole(type)) {
+        size_t size = ffd_ply_store(encoding, type, ffd_ply_round(type, value), bytes);
+        ffd_buffer_append(&s->bytes, bytes, size);
+        if (encoding == PLY_ASCII)
+            ffd_buffer_text(&s->bytes, " ");
+        return;
+    }
+    const size_t size = ffd_ply_type_size(type);
+    const uint32_t bits = (uint32_t)(int64_t)value;
+    for (size_t i = 0; i < size; i++)
+        bytes[i] = (char)(bits >> (8 * (encoding == PLY_BIG_ENDIAN ? size - 1 - i : i)));
+    ffd_buffer_append(&s->bytes, bytes, size);
+}
+
+static void end_row(sample *s)
+{
+    if (s->kind.encoding == PLY_ASCII)
+        ffd_buffer_text(&s->bytes, s->kind.line_end);
+}
+
+static void put_header(sample *s)
+{
+    const char *lines[] = {
+        "ply",
+        "comment made by a test",
+        s->kind.encoding == PLY_ASCII           ? "format ascii 1.0"
+        : s->kind.encoding == PLY_LITTLE_ENDIAN ? "format binary_little_endian 1.0"
+                                                : "format binary_big_endian 1.0",
+        "obj_info a pyramid",
+        "element camera 1",
+        "property list ushort short shutter",
+        "property uint view",
+        "element vertex 5",
+        "property uchar red",
+        s->kind.wide ? "property double z" : "property float z",
+        s->kind.wide ? "property float64 x" : "property float32 x",
+        "property list uchar double weights",
+        "property float nx",
+        s->kind.wide ? "property double y" : "property float y",
+        "property float ny",
+        "property double nz",
+        "property char flag",
+        "element nothing 1000000000000",
+        "element face 5",
+        "property float quality",
+        "property list uchar int vertex_indices",
+        "property list uchar float texcoord",
+        "element edge 2",
+        "property int vertex1",
+        "property int vertex2",
+        "end_header",
+    };
+    for (size_t i = 0; i < COUNT(lines); i++) {
+        ffd_buffer_text(&s->bytes, lines[i]);
+        ffd_buffer_text(&s->bytes, s->kind.line_end);
+    }
+}
+
+static const double corners[5][3] = {{-1, -1, 0.1}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1.25}};
+static const int pyramid[5][4] = {{3, 2, 1, 0}, {0, 1, 4, -1}, {1, 2, 4, -1}, {2, 3, 4, -1}, {3, 0, 4, -1}};
+
+static void put_rows(sample *s)
+{
+    const ply_type wide = s->kind.wide ? PLY_DOUBLE : PLY_FLOAT;
+    put(s, PLY_USHORT, 2);
+    put(s, PLY_SHORT, -3);
+    put(s, PLY_SHORT, 2570); /* in binary: two line feeds */
+    put(s, PLY_UINT, 4294967295.0);
+    end_row(s);
+    for (size_t v = 0; v < 5; v++) {
+        put(s, PLY_UCHAR, 10);
+        put(s, wide, corners[v][2]);
+        put(s, wide, corners[v][0]);
+        put(s, PLY_UCHAR, (double)v);
+        for (size_t i = 0; i < v; i++)
+            put(s, PLY_DOUBLE, 0.1 * (double)i);
+        put(s, PLY_FLOAT, 0);
+        put(s, wide, corners[v][1]);
+        put(s, PLY_FLOAT, 0);
+        put(s, PLY_DOUBLE, 1);
+        put(s, PLY_CHAR, -5);
+        end_row(s);
+    }
+    for (size_t f = 0; f < 5; f++) {
+        const int count = f == 0 ? 4 : 3;
+        put(s, PLY_FLOAT, 0.5);
+        put(s, PLY_UCHAR, count);
+        for (int i = 0; i < count; i++)
+            put(s, PLY_INT, pyramid[f][i]);
+        put(s, PLY_UCHAR, 0);
+        end_row(s);
+    }
+    for (int e = 0; e < 2; e++) {
+        put(s, PLY_INT, e);
+        put(s, PLY_INT, 4);
+        end_row(s);
+    }
+}
+
+static sample make_sample(sample_kind kind)
+{
+    sample s = {.kind = kind};
+    put_header(&s);
+    put_rows(&s);
+    assert_false(s.bytes.failed);
+    return s;
+}
+
+#define KINDS 18
+
+static sample_kind kind_of(size_t i)
+{
+    static const char *const line_ends[] = {"\n", "\r\n", "\r"};
+    return (sample_kind){(ply_encoding)(i % 3), i / 9 == 1, line_ends[i / 3 % 3]};
+}
+
+static void test_samples(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < KINDS; k++) {
+        sample s = make_sample(kind_of(k));
+        mesh_document *d = opened(s.bytes.data, s.bytes.size);
+        mesh_faces faces;
+        double xyz[15], normals[15];
+        assert_int_equal(d->part_count, 1);
+        assert_int_equal(d->parts[0].vertex_count, 5);
+        assert_int_equal(d->parts[0].normal_count, 5);
+        ply->read_positions(d, 0, 0, 5, xyz);
+        ply->read_normals(d, 0, 0, 5, normals);
+        for (size_t i = 0; i < 15; i++) {
+            const double expected = corners[i / 3][i % 3];
+            assert_true(xyz[i] == (s.kind.wide ? expected : (double)(float)expected));
+            assert_true(normals[i] == (i % 3 == 2 ? 1 : 0));
+        }
+        assert_int_equal(ply->check(d, NULL), FFD_OK);
+        assert_int_equal(ply->faces(d, &faces, NULL), FFD_OK);
+        assert_int_equal(faces.face_count, 5);
+        assert_int_equal(faces.lines, 2);
+        for (size_t f = 0; f < 5; f++) {
+            assert_int_equal(faces.start[f + 1] - faces.start[f], f == 0 ? 4 : 3);
+            for (size_t i = faces.start[f]; i < faces.start[f + 1]; i++)
+                assert_int_equal(faces.corners[i], pyramid[f][i - faces.start[f]]);
+        }
+        ffd_mesh_faces_free(&faces);
+        assert_saved(d, s.bytes.data, s.bytes.size);
+        close_document(d);
+        ffd_buffer_free(&s.bytes);
+    }
+}
+
+/* One vertex moves in two coordinates, another's normal turns: all other bytes stay. */
+static void test_results(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < KINDS; k++) {
+        sample s = make_sample(kind_of(k));
+        mesh_document *d = opened(s.bytes.data, s.bytes.size);
+        const double moved[6] = {9, 9, 9, 1.3, -1, 1e-7}, turned[3] = {0, 0.6, 0.8};
+        const double narrow[3] = {(double)1.3F, -1, (double)1e-7F};
+        const uint8_t second[2] = {0, 1}, first[1] = {1};
+        ffd_error error;
+        file_input saved;
+        double found[15], expected[15];
+        assert_int_equal(ply->begin_results(d, true, true, NULL), FFD_OK);
+        ply->write_positions(d, 0, 0, 2, moved, second);
+        ply->write_normals(d, 0, 3, 1, turned, first);
+        assert_int_equal(save(d, &saved, &error), FFD_OK);
+
+        mesh_document *after = opened(saved.data, saved.size);
+        ply->read_positions(d, 0, 0, 5, expected);
+        memcpy(expected + 3, s.kind.wide ? moved + 3 : narrow, sizeof narrow);
+        ply->read_positions(after, 0, 0, 5, found);
+        assert_memory_equal(found, expected, sizeof found);
+        ply->read_normals(d, 0, 0, 5, expected);
+        expected[10] = (double)0.6F;
+        expected[11] = 0.8;
+        ply->read_normals(after, 0, 0, 5, found);
+        assert_memory_equal(found, expected, sizeof found);
+
+        /* Put back, the numbers have their old texts or bytes: 1, 0 and 0, 1. */
+        assert_int_equal(ply->begin_results(after, true, true, NULL), FFD_OK);
+        ply->read_positions(d, 0, 0, 5, expected);
+        ply->write_positions(after, 0, 1, 1, expected + 3, first);
+        ply->read_normals(d, 0, 0, 5, expected);
+        ply->write_normals(after, 0, 3, 1, expected + 9, first);
+        assert_saved(after, s.bytes.data, s.bytes.size);
+        close_document(after);
+        ffd_file_unload(&saved);
+        close_document(d);
+        ffd_buffer_free(&s.bytes);
+    }
+}
+
+static void test_texts_are_kept(void **state)
+{
+    (void)state;
+    static const char header[] = ASCII "element vertex 2\nproperty float x\nproperty double y\n"
+                                       "property float z\nend_header\n";
+    char before[256], after[256];
+    const double moved[6] = {1.1, 1.1, 0.5, 0, 0, 0};
+    const uint8_t changed[2] = {1, 0};
+    snprintf(before, sizeof before, "%s 1.000 \t+2.50E0  .5  \n\n1e0 -0.0 0.100000001490116", header);
+    snprintf(after, sizeof after, "%s 1.1 \t1.1  .5  \n\n1e0 -0.0 0.100000001490116", header);
+    mesh_document *d = opened(before, strlen(before));
+    assert_int_equal(ply->begin_results(d, true, false, NULL), FFD_OK);
+    ply->write_positions(d, 0, 0, 2, moved, changed);
+    assert_saved(d, after, strlen(after));
+    close_document(d);
+}
+
+static void test_mixed_line_ends(void **state)
+{
+    (void)state;
+    static const char text[] = ASCII "element vertex 3\n" XYZ "end_header\n0 0 0\r1 0 0\r\n\n0 1 0";
+    mesh_document *d = opened(text, strlen(text));
+    double xyz[9];
+    ply->read_positions(d, 0, 0, 3, xyz);
+    assert_true(xyz[3] == 1 && xyz[7] == 1);
+    assert_saved(d, text, strlen(text));
+    close_document(d);
+}
+
+/* What the streams cannot show */
+
+static void test_whole_coordinates(void **state)
+{
+    (void)state;
+    static const char text[] =
+        ASCII "element vertex 1\nproperty float x\nproperty short y\nproperty float z\n"
+              "end_header\n1 2 3\n";
+    mesh_document *d = opened(text, strlen(text));
+    ffd_error error;
+    double xyz[3];
+    ply->read_positions(d, 0, 0, 1, xyz);
+    assert_true(xyz[1] == 2);
+    assert_int_equal(ply->check(d, &error), FFD_E_UNSUPPORTED);
+    assert_int_equal(error.line, 3);
+    assert_non_null(strstr(error.message, "y of the vertices is of type short"));
+    close_document(d);
+}
+
+static void test_whole_normals(void **state)
+{
+    (void)state;
+    static const char text[] =
+        ASCII "element vertex 1\n" XYZ "property char nx\nproperty char ny\nproperty float nz\n"
+              "end_header\n1 2 3 0 0 1\n";
+    mesh_document *d = opened(text, strlen(text));
+    ffd_error error;
+    assert_int_equal(d->parts[0].normal_count, 0);
+    assert_int_equal(ply->begin_results(d, true, false, &error), FFD_E_UNSUPPORTED);
+    assert_int_equal(ply->begin_results(d, false, false, &error), FFD_OK);
+    close_document(d);
+}
+
+static void test_two_of_three_normals(void **state)
+{
+    (void)state;
+    static const char text[] = ASCII "element vertex 1\n" XYZ "property float nx\nproperty float nz\n"
+                                     "end_header\n1 2 3 zero 1\n";
+    mesh_document *d = opened(text, strlen(text));
+    assert_int_equal(d->parts[0].normal_count, 0);
+    assert_int_equal(ply->begin_results(d, true, false, NULL), FFD_OK);
+    assert_saved(d, text, strlen(text));
+    close_document(d);
+}
+
+static void test_largest_coordinate(void **state)
+{
+    (void)state;
+    static const char narrow[] = ASCII "element vertex 0\n" XYZ "end_header\n";
+    static const char wide[] = ASCII "element vertex 0\nproperty double x\nproperty double y\n"
+                                     "property double z\nend_header";
+    mesh_document *d = opened(narrow, strlen(narrow));
+    assert_true(d->largest_coordinate == (double)FLT_MAX);
+    close_document(d);
+    d = opened(wide, strlen(wide));
+    assert_true(d->largest_coordinate == DBL_MAX);
+    close_document(d);
+}
+
+/* Faces */
+
+static ffd_status faces_of(const char *text, mesh_faces *faces, ffd_error *error)
+{
+    mesh_document *d = opened(text, strlen(text));
+    const ffd_status status = ply->faces(d, faces, error);
+    close_document(d);
+    return status;
+}
+
+static void test_bad_faces(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        ffd_status status;
+        size_t line;
+        const char *says;
+    } cases[] = {
+        {ONE FACE "end_header\n1 2 3\n2 0 1\n", FFD_E_INVALID, 11, "face 0 (counted from 0): 1 is no index"},
+        {ONE FACE "end_header\n1 2 3\n1 -1\n", FFD_E_INVALID, 11, "-1 is no index"},
+        {ONE FACE "end_header\n1 2 3\n1 0.5\n", FFD_E_INVALID, 11, "0.5 is no index"},
+        {ONE FACE "end_header\n1 2 3\n1 a\n", FFD_E_INVALID, 11, "a is no index"},
+        {LITTLE "element face 1\nproperty list char int vertex_index\nelement vertex 1\n" XYZ
+                "end_header\n\x01\xff\xff\xff\xff"
+                "0123456789ab",
+         FFD_E_INVALID, 0, "-1 is no index of the 1 vertices"},
+        {ONE "element tristrips 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n3 0 0 0\n",
+         FFD_E_UNSUPPORTED, 7, "tristrips"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_faces faces;
+        ffd_error error = {0};
+        assert_int_equal(faces_of(cases[i].text, &faces, &error), cases[i].status);
+        assert_int_equal(error.line, cases[i].line);
+        if (!strstr(error.message, cases[i].says))
+            fail_msg("case %zu: %s", i, error.message);
+        assert_null(faces.start);
+    }
+}
+
+static void test_no_faces(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        ONE "end_header\n1 2 3\n",
+        ONE "element face 0\nproperty list uchar int vertex_index\nend_header\n1 2 3\n",
+        ONE "element face 4000000000000000000\nend_header\n1 2 3\n",
+        ONE "element face 1\nproperty int vertex_index\nend_header\n1 2 3\n7\n",
+        ONE "element tristrips 0\nproperty list int int vertex_indices\nend_header\n1 2 3\n",
+    };
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        mesh_faces faces;
+        assert_int_equal(faces_of(texts[i], &faces, NULL), FFD_OK);
+        assert_int_equal(faces.face_count, 0);
+        assert_int_equal(faces.start[0], 0);
+        assert_int_equal(faces.vertex_count, 1);
+        ffd_mesh_faces_free(&faces);
+    }
+}
+
+/* Comparing */
+
+static ffd_comparison compared(const sample *a, const sample *b, double tolerance)
+{
+    mesh_document *x = opened(a->bytes.data, a->bytes.size), *y = opened(b->bytes.data, b->bytes.size);
+    ffd_comparison result;
+    assert_int_equal(ply->compare(x, y, tolerance, &result, NULL), FFD_OK);
+    close_document(x);
+    close_document(y);
+    return result;
+}
+
+static void test_encodings_are_equal(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < KINDS; i++)
+        for (size_t k = 0; k < KINDS; k++) {
+            sample a = make_sample(kind_of(i)), b = make_sample(kind_of(k));
+            const ffd_comparison result = compared(&a, &b, 0);
+            assert_int_equal(result.equal, i / 9 == k / 9);
+            if (result.equal)
+                assert_int_equal(result.positions_compared, 5);
+            else
+                assert_non_null(strstr(result.difference, "property z: types"));
+            ffd_buffer_free(&a.bytes);
+            ffd_buffer_free(&b.bytes);
+        }
+}
+
+static sample text_sample(const char *text)
+{
+    sample s = {0};
+    ffd_buffer_text(&s.bytes, text);
+    return s;
+}
+
+static void test_differences(void **state)
+{
+    (void)state;
+    static const char base[] = ONE "property uchar red\n" FACE "end_header\n1 2 3 4\n2 0 0\n";
+    static const struct {
+        const char *text;
+        double tolerance;
+        const char *says; /* NULL: equal */
+    } cases[] = {
+        {ONE "comment x\nproperty uint8 red\n" FACE "end_header\n\n1.0 2e0 3 4.0\n 2 0 0", 0, NULL},
+        {ONE "property uchar red\n" FACE "end_header\n1 2.5 3 4\n2 0 0\n", 0.5, NULL},
+        {ONE "property uchar red\n" FACE "end_header\n1 2.5 3 4\n2 0 0\n", 0.25,
+         "vertex 0 counted from 0 (line 11): y differs by 0.5"},
+        {ONE "property uchar red\n" FACE "end_header\n1 2 nan 4\n2 0 0\n", 9, "z: 3 and nan"},
+        {ONE "property uchar red\n" FACE "end_header\n\n1 2 3 5\n2 0 0\n", 9,
+         "vertex 0 counted from 0 (lines 11 and 12): red: 4 and 5"},
+        {ONE "property uchar red\n" FACE "end_header\n1 2 3 4\n1 0\n", 9, "vertex_indices: 2 and 1"},
+        {ONE "property uchar red\n" FACE "end_header\n1 2 3 4\n2 0 1\n", 9, "vertex_indices: 0 and 1"},
+        {ONE "property uchar blue\n" FACE "end_header\n1 2 3 4\n2 0 0\n", 9,
+         "properties: \"red\" and \"blue\""},
+        {ONE "property char red\n" FACE "end_header\n1 2 3 4\n2 0 0\n", 9, "red: types uchar and char"},
+        {ONE "property list uchar uchar red\n" FACE "end_header\n1 2 3 0\n2 0 0\n", 9, "only in the second"},
+        {ONE FACE "end_header\n1 2 3\n2 0 0\n", 9, "4 and 3 properties"},
+        {ONE "property uchar red\nend_header\n1 2 3 4\n", 9, "2 and 1 elements"},
+        {ONE "property uchar red\nelement edge 1\nproperty int a\nend_header\n1 2 3 4\n1\n", 9,
+         "elements: \"face\" and \"edge\""},
+        {ONE "property uchar red\n"
+             "element face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3 4\n2 0 0\n0\n",
+         9, "element face has 1 and 2 rows"},
+        {ONE "obj_info x\nproperty uchar red\n" FACE "end_header\n1 2 3 4\n2 0 0\n", 9, "0 and 1 lines"},
+        {ONE "comment TextureFile x\nproperty uchar red\n" FACE "end_header\n1 2 3 4\n2 0 0\n", 9, "lines"},
+    };
+    sample a = text_sample(base);
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        sample b = text_sample(cases[i].text);
+        const ffd_comparison result = compared(&a, &b, cases[i].tolerance);
+        assert_int_equal(result.equal, cases[i].says == NULL);
+        assert_int_equal(compared(&b, &a, cases[i].tolerance).equal, cases[i].says == NULL);
+        if (cases[i].says && !strstr(result.difference, cases[i].says))
+            fail_msg("case %zu: %s", i, result.difference);
+        ffd_buffer_free(&b.bytes);
+    }
+    ffd_buffer_free(&a.bytes);
+}
+
+/* Hostile files */
+
+/* Whatever the bytes: a status that is meant, and a file that opens is saved as it is. */
+static ffd_status run_on(const char *bytes, size_t size)
+{
+    char *copy = ffd_alloc(size, 1); /* of the exact size: reading behind it is seen by the sanitizers */
+    mesh_document *d = NULL;
+    ffd_error error;
+    memcpy(copy, bytes, size);
+    const ffd_status status = open_bytes(copy, size, &d, &error);
+    assert_true(status == FFD_OK || status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED ||
+                status == FFD_E_LIMIT);
+    if (status)
+        assert_true(error.message[0] != 0);
+    else {
+        mesh_faces faces;
+        ffd_comparison comparison;
+        byte_buffer out = {0};
+        json_text json;
+        ffd_json_begin(&json, &out);
+        ffd_json_object(&json, NULL, false);
+        assert_int_equal(ply->describe(d, &json, NULL), FFD_OK);
+        ffd_json_end(&json, '}');
+        ffd_buffer_free(&out);
+        const ffd_status shown = ply->faces(d, &faces, NULL);
+        assert_true(shown == FFD_OK || shown == FFD_E_INVALID || shown == FFD_E_UNSUPPORTED);
+        if (shown == FFD_OK)
+            ffd_mesh_faces_free(&faces);
+        assert_int_equal(ply->compare(d, d, 0, &comparison, NULL), FFD_OK);
+        assert_true(comparison.equal);
+        if (ply->begin_results(d, true, true, NULL) == FFD_OK)
+            assert_saved(d, copy, size);
+        close_document(d);
+    }
+    ffd_free(copy);
+    return status;
+}
+
+static void test_every_truncation(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        sample s = make_sample(kind_of(k));
+        for (size_t size = 0; size < s.bytes.size; size++) {
+            const ffd_status status = run_on(s.bytes.data, size);
+            if (s.kind.encoding != PLY_ASCII || size + 3 < s.bytes.size)
+                /* "1." is another version. */
+                assert_true(status == FFD_E_INVALID || (status == FFD_E_UNSUPPORTED && size < 60));
+        }
+        assert_int_equal(run_on(s.bytes.data, s.bytes.size), FFD_OK);
+        ffd_buffer_free(&s.bytes);
+    }
+}
+
+static void test_changed_bytes(void **state)
+{
+    (void)state;
+    static const char values[] = {0, '\n', '\r', ' ', '9', '-', 'e', (char)0x80, (char)0xff};
+    size_t opened_files = 0, refused_files = 0;
+    for (size_t k = 0; k < 3; k++) {
+        sample s = make_sample(kind_of(k));
+        for (size_t at = 0; at < s.bytes.size; at++)
+            for (size_t v = 0; v < COUNT(values); v++) {
+                const char kept = s.bytes.data[at];
+                s.bytes.data[at] = values[v];
+                const bool opens = run_on(s.bytes.data, s.bytes.size) == FFD_OK;
+                opened_files += opens;
+                refused_files += !opens;
+                s.bytes.data[at] = kept;
+            }
+        ffd_buffer_free(&s.bytes);
+    }
+    assert_true(opened_files > 1000 && refused_files > 1000);
+}
+
+static void test_memory_runs_out(void **state)
+{
+    (void)state;
+    for (size_t k = 0; k < 3; k++) {
+        sample s = make_sample(kind_of(k));
+        long successes = 0;
+        for (bool done = false; !done; successes++) {
+            mesh_document *d = NULL;
+            mesh_faces faces = {0};
+            file_input saved = {0};
+            ffd_error error;
+            ffd_alloc_fail_after(successes);
+            ffd_status status = open_bytes(s.bytes.data, s.bytes.size, &d, &error);
+            if (!status)
+                status = ply->begin_results(d, true, false, &error);
+            if (!status)
+                status = ply->faces(d, &faces, &error);
+            if (!status)
+                status = save(d, &saved, &error);
+            ffd_alloc_fail_after(-1);
+            done = status == FFD_OK;
+            if (!done)
+                assert_int_equal(status, FFD_E_MEMORY);
+            else
+                ffd_file_unload(&saved);
+            ffd_mesh_faces_free(&faces);
+            if (d)
+                close_document(d);
+        }
+        assert_true(successes > 10);
+        ffd_buffer_free(&s.bytes);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_types),
+        cmocka_unit_test(test_texts),
+        cmocka_unit_test(test_counts),
+        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_too_many_declarations),
+        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_results),
+        cmocka_unit_test(test_texts_are_kept),
+        cmocka_unit_test(test_mixed_line_ends),
+        cmocka_unit_test(test_whole_coordinates),
+        cmocka_unit_test(test_whole_normals),
+        cmocka_unit_test(test_two_of_three_normals),
+        cmocka_unit_test(test_largest_coordinate),
+        cmocka_unit_test(test_bad_faces),
+        cmocka_unit_test(test_no_faces),
+        cmocka_unit_test(test_encodings_are_equal),
+        cmocka_unit_test(test_differences),
+        cmocka_unit_test(test_every_truncation),
+        cmocka_unit_test(test_changed_bytes),
+        cmocka_unit_test(test_memory_runs_out),
+    };
+    return cmocka_run_group_tests(tests, NULL, remove_saved);
+}
