@@ -432,9 +432,10 @@ void judge_next_to_singular(judge *j, int i, const long double known[3])
         j->left_out++;
         return;
     }
-    trial_check(j->t, j->s, found->status == FFD_INSIDE || found->status == FFD_SINGULAR,
-                "point %.17g %.17g %.17g next to a collapsed face (root %.17Lg %.17Lg %.17Lg) is %s", p[0],
-                p[1], p[2], known[0], known[1], known[2], status_name(found->status));
+    trial_check(j->t, j->s,
+                (found->status == FFD_INSIDE || found->status == FFD_SINGULAR) && !isnan(found->uvw[0]),
+                "point %.17g %.17g %.17g next to a collapsed face (root %.17Lg %.17Lg %.17Lg) is %s, u = %g",
+                p[0], p[1], p[2], known[0], known[1], known[2], status_name(found->status), found->uvw[0]);
 }
 
 /* The face's outward unit normal: the gradient of u_a. */
