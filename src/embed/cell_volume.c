@@ -1,22 +1,19 @@
 #include "base/vec.h"
 #include "embed/cells.h"
 
-/* Cells whose volume is looked at before any search; of larger lattices every n-th. */
-#define SAMPLED_CELLS 32768
-
 /* det [C_u C_v C_w] at t of a cell's [0,1]^3, each coordinate in units of the lattice's extent; *flat: it is
    no more than the rounding of its columns can make, which are sums of control points times slopes of about
    degree / side. */
 static double determinant_in(const ffd_locator *locator, const int span[3], const double t[3], bool *flat)
 {
     homogeneous at;
-    double uvw[3], column[3][3], cross[3], length[3], noise[3];
+    double offset[3], column[3][3], cross[3], length[3], noise[3];
     for (int a = 0; a < 3; a++) {
         const double *knot = locator->knots[a].t + span[a], side = knot[1] - knot[0];
-        uvw[a] = knot[0] + t[a] * side;
+        offset[a] = t[a] * side;
         noise[a] = 32 * DBL_EPSILON * locator->knots[a].degree / side;
     }
-    ffd_cells_evaluate(locator, span, uvw, &at);
+    ffd_cells_evaluate(locator, span, offset, &at);
     for (int a = 0; a < 3; a++) {
         for (int r = 0; r < 3; r++)
             column[a][r] = (at.derivative[a][r] - at.value[r] / at.value[3] * at.derivative[a][3]) /
@@ -54,9 +51,8 @@ ffd_status ffd_cells_look_at_volume(const ffd_locator *locator, ffd_error *error
 {
     cell_search *cells = locator->cells;
     const size_t count = cells->cells[0] * cells->cells[1] * cells->cells[2];
-    const size_t step = count / SAMPLED_CELLS + 1;
     double volume = 0;
-    for (size_t n = 0; n < count; n += step) {
+    for (size_t n = 0; n < count; n++) {
         const size_t cell[3] = {n % cells->cells[0], n / cells->cells[0] % cells->cells[1],
                                 n / cells->cells[0] / cells->cells[1]};
         bool flat;

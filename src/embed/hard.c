@@ -10,6 +10,8 @@
    collapsed face one direction is to be cut as finely as doubles allow. */
 #define HARD_HALVINGS 48
 #define HARD_LEVELS (3 * HARD_HALVINGS + 2)
+/* Y of a larger box can be large by chance: where its centre lies on a fold. */
+#define BLURRED_SIDE 0x1p-22
 #define HARD_BUDGET 4096 /* boxes in one leaf */
 #define HARD_BOUND 0.75
 #define POLISH_ROUNDS 12
@@ -110,6 +112,14 @@ static int direction_to_halve(const bezier_box *box, int wanted)
     return box->hi[across] - box->lo[across] <= end ? -1 : across;
 }
 
+static double shortest_side(const bezier_box *box)
+{
+    double shortest = 1;
+    for (int a = 0; a < 3; a++)
+        shortest = fmin(shortest, box->hi[a] - box->lo[a]);
+    return shortest;
+}
+
 /* Whether the box is done with: it holds no root, or its one root was looked for. *blurred: else, its parts
    could not be told apart, since the tolerance alone reaches across half of it. */
 static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bound *found,
@@ -135,7 +145,7 @@ static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bou
     if (!holds_zero(&hull, image_slack))
         return true;
     if (found->bound > HARD_BOUND) {
-        *blurred = noise >= 0.5;
+        *blurred = noise >= 0.5 && shortest_side(box) <= BLURRED_SIDE;
         return false;
     }
     ffd_cells_centre(search->locator, region);
@@ -150,9 +160,7 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     contraction_bound found;
     cell_region region;
     bool blurred;
-    if (hard->singular >= HARD_SINGULAR)
-        return;
-    if (hard->budget-- <= 0 || search->hard_boxes-- <= 0) {
+    if (hard->singular >= HARD_SINGULAR || hard->budget-- <= 0 || search->hard_boxes-- <= 0) {
         search->unresolved = true;
         return;
     }
