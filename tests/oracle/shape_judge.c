@@ -360,7 +360,7 @@ void judge_counted(judge *j, int i, const long double known[3])
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
     place places[ORACLE_MAX_ROOTS];
-    long double q[3], root[3];
+    long double q[3], root[3] = {0, 0, 0};
     seen_from_origin(j, i, q);
     bool clear = true, met = !known || !root_of_rounded(j, q, known, root);
     const int count = all_places(j, q, places);
@@ -424,7 +424,7 @@ void judge_next_to_singular(judge *j, int i, const long double known[3])
 {
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
-    long double q[3], root[3];
+    long double q[3], root[3] = {0, 0, 0};
     seen_from_origin(j, i, q);
     j->judged++;
     check_location(j, i);
