@@ -14,7 +14,7 @@ EPSILON = 2.0**-52
 GIGA = 2**30
 
 with open(FFD, "rb") as program:
-    SANITIZED = any(name in program.read() for name in (b"__asan_init", b"__tsan_init"))
+    SANITIZED = any(name in program.read() for name in (b"__asan_", b"__tsan_"))
 # A sanitizer needs terabytes of addresses and several times the time.
 CPU_SECONDS = 200 if SANITIZED else 20
 

@@ -631,6 +631,27 @@ static void test_symmetric_fold(void **state)
     (void)state;
 }
 
+/* One trilinear cell whose determinant is negative in the middle and whose volume is positive: the root with
+   a positive determinant is taken. */
+static void test_sign_of_volume(void **state)
+{
+    static const double points[] = {0.14,   0.498, 0.569, 0.347, 0.284, -0.553, -0.134, 0.834,
+                                    -0.343, 0.317, 0.541, 0.31,  0.686, 0.614,  0.284,  1.104,
+                                    -0.464, 1.031, 0.05,  0.494, 0.382, 0.971,  0.329,  1.512};
+    ffd_lattice *lattice = clamped(1, 2);
+    ffd_locator *locator;
+    memcpy(lattice->rest, points, sizeof points);
+    memcpy(lattice->deformed, points, sizeof points);
+    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    const ffd_location found = find_one(locator, 0.7323, -0.0194, 0.4003);
+    assert_int_equal(found.status, FFD_MULTIPLE);
+    assert_true(fabs(found.uvw[0] - 0.98034) < 1e-5 && fabs(found.uvw[1] - 0.15813) < 1e-5);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
 static void test_no_memory(void **state)
 {
     ffd_lattice *lattice = clamped(3, 6);
@@ -676,6 +697,7 @@ int main(void)
         cmocka_unit_test(test_narrow_spans),
         cmocka_unit_test(test_steep_shear),
         cmocka_unit_test(test_symmetric_fold),
+        cmocka_unit_test(test_sign_of_volume),
         cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
