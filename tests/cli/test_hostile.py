@@ -14,7 +14,8 @@ EPSILON = 2.0**-52
 GIGA = 2**30
 
 with open(FFD, "rb") as program:
-    SANITIZED = any(name in program.read() for name in (b"__asan_", b"__tsan_"))
+    CODE = program.read()
+SANITIZED = b"__asan_" in CODE or b"__tsan_" in CODE
 # A sanitizer needs terabytes of addresses and several times the time.
 CPU_SECONDS = 200 if SANITIZED else 20
 
