@@ -3,6 +3,9 @@
 #include "embed/face.h"
 #include "embed/locator.h"
 #include <math.h>
+#include <string.h>
+
+#define REFINEMENTS 8
 
 static double domain_side(const ffd_lattice *lattice, int a)
 {
@@ -115,16 +118,31 @@ static void affine_equation(const affine_map *map, const double p[3], const doub
         equation[r] -= p[r];
 }
 
-/* A strongly sheared frame loses digits in its inverse: one step of iterative refinement wins them back. */
+/* A strongly sheared frame loses digits in its inverse: iterative refinement wins them back. */
 static void refine(const affine_map *map, const double p[3], const double tolerance[3], double t[3])
 {
-    double equation[3], correction[3];
-    affine_equation(map, p, t, equation);
-    if (ffd_within_tolerance(equation, tolerance))
-        return;
-    mat_apply(map->inverse, equation, correction);
-    for (int a = 0; a < 3; a++)
-        t[a] -= correction[a];
+    for (int step = 0; step < REFINEMENTS; step++) {
+        double equation[3], correction[3];
+        affine_equation(map, p, t, equation);
+        if (ffd_within_tolerance(equation, tolerance))
+            return;
+        mat_apply(map->inverse, equation, correction);
+        for (int a = 0; a < 3; a++)
+            t[a] -= correction[a];
+    }
+}
+
+typedef struct affine_point {
+    const affine_map *map;
+    const double *p, *tolerance;
+} affine_point;
+
+static bool evaluate_on_face(void *context, const double t[3], double jacobian[9], double equation[3])
+{
+    const affine_point *point = context;
+    memcpy(jacobian, point->map->frame, sizeof point->map->frame);
+    affine_equation(point->map, point->p, t, equation);
+    return ffd_within_tolerance(equation, point->tolerance);
 }
 
 void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location *location)
@@ -146,12 +164,11 @@ void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location
         t[a] = inner;
     }
     affine_equation(map, p, t, residual);
-    for (int step = 0; step < FACE_STEPS && clipped && !ffd_within_tolerance(residual, tolerance) &&
-                       ffd_face_step(map->frame, residual, tolerance, t);
-         step++)
-        affine_equation(map, p, t, residual);
-    if (!ffd_within_tolerance(residual, tolerance))
+    affine_point point = {map, p, tolerance};
+    if (!ffd_within_tolerance(residual, tolerance) &&
+        !(clipped && ffd_face_settle(tolerance, evaluate_on_face, &point, t)))
         return;
+    affine_equation(map, p, t, residual);
     location->status = FFD_INSIDE;
     location->residual = vec_length(residual);
     for (int a = 0; a < 3; a++) {

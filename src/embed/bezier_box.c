@@ -260,27 +260,37 @@ static void column_spread(const bezier_box *box, int b, const double *column, do
     }
 }
 
-/* Halving c halves every spread along c and all of column c (its derivative is by a shorter side), and
-   doubles row c (its coordinate is stretched). */
-static int best_halving(double spread[3][3][3])
+/* The greatest row sum of spreads once the box is halved along c (-1: as it is). Halving halves every spread
+   along c and all of column c (its derivative is by a shorter side), and doubles row c (its coordinate is
+   stretched). */
+static double predicted_sum(double spread[3][3][3], int c)
 {
-    int best = 0;
+    double greatest = 0;
+    for (int r = 0; r < 3; r++) {
+        double sum = 0;
+        for (int b = 0; b < 3; b++)
+            for (int a = 0; a < 3; a++)
+                sum += spread[b][r][a] * (a == c ? 0.5 : 1) * (b == c ? 0.5 : 1) * (r == c ? 2 : 1);
+        greatest = sum > greatest ? sum : greatest;
+    }
+    return greatest;
+}
+
+/* Where no halving alone wins anything, the longest side is taken: all three together always do. */
+static int best_halving(const bezier_box *box, double spread[3][3][3])
+{
+    int best = 0, longest = 0;
     double least = DBL_MAX;
     for (int c = 0; c < 3; c++) {
-        double predicted = 0;
-        for (int r = 0; r < 3; r++) {
-            double sum = 0;
-            for (int b = 0; b < 3; b++)
-                for (int a = 0; a < 3; a++)
-                    sum += spread[b][r][a] * (a == c ? 0.5 : 1) * (b == c ? 0.5 : 1) * (r == c ? 2 : 1);
-            predicted = sum > predicted ? sum : predicted;
-        }
+        const double predicted = predicted_sum(spread, c);
         if (predicted < least) {
             least = predicted;
             best = c;
         }
+        if (box->hi[c] - box->lo[c] > box->hi[longest] - box->lo[longest])
+            longest = c;
     }
-    return best;
+    return least < (1 - 1.0 / 64) * predicted_sum(spread, -1) ? best : longest;
 }
 
 /* The direction in which the box is widest in space. */
@@ -330,5 +340,5 @@ void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const
     for (int r = 1; r < 3; r++)
         if (!(sum[r] <= result->bound))
             result->bound = sum[r];
-    result->halve = best_halving(spread);
+    result->halve = best_halving(box, spread);
 }

@@ -97,9 +97,9 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
     double least;
     for (int a = 0; a < 3; a++) {
         const double *t = locator->knots[a].t;
-        const double start = t[span[a]], side = t[span[a] + 1] - start;
+        const double side = t[span[a] + 1] - t[span[a]];
         result->span[a] = span[a];
-        result->lo[a] = start + box->lo[a] * side;
+        result->lo[a] = box->lo[a] * side;
         result->width[a] = (box->hi[a] - box->lo[a]) * side;
     }
     memcpy(result->inverse, contraction->inverse, sizeof result->inverse);
@@ -108,13 +108,13 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
     result->weight_ratio = result->greatest_weight / least;
 }
 
-void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double uvw[3],
+void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double offset[3],
                         homogeneous *result)
 {
     const cell_search *cells = locator->cells;
     double value[3][MAX_ORDER], slope[3][MAX_ORDER];
     for (int a = 0; a < 3; a++)
-        ffd_basis_derivatives(&locator->knots[a], span[a], uvw[a], value[a], slope[a]);
+        ffd_basis_derivatives_in(&locator->knots[a], span[a], offset[a], value[a], slope[a]);
     memset(result, 0, sizeof *result);
     size_t function[3];
     for (int k = 0; k < cells->order[2]; k++) {
@@ -154,10 +154,10 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
 void ffd_cells_centre(const ffd_locator *locator, cell_region *region)
 {
     homogeneous at;
-    double uvw[3];
+    double offset[3];
     for (int a = 0; a < 3; a++)
-        uvw[a] = region->lo[a] + 0.5 * region->width[a];
-    ffd_cells_evaluate(locator, region->span, uvw, &at);
+        offset[a] = region->lo[a] + 0.5 * region->width[a];
+    ffd_cells_evaluate(locator, region->span, offset, &at);
     memcpy(region->centre, at.value, sizeof region->centre);
 }
 

@@ -15,7 +15,8 @@
 #define LEAF_DEPTH 12   /* halvings of a cell before a box is called hard */
 #define LEAF_BUDGET 512 /* boxes looked at in one cell, likewise */
 
-/* A part of a cell in which F is certain to have at most one root: u = lo + t width, t in [0,1]^3. */
+/* A part of a cell in which F is certain to have at most one root: u = t_span + lo + t width, t in [0,1]^3.
+   Places are offsets from the span's start throughout: in a narrow span u itself would be too coarse. */
 typedef struct cell_region {
     int span[3];
     double lo[3], width[3];
@@ -108,12 +109,13 @@ void ffd_cells_centre(const ffd_locator *locator, cell_region *region);
 ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bricks *own,
                            const cell_brick **brick, ffd_error *error);
 
-/* A(u,v,w) and W, with their derivatives, from the polynomial of the given span (also at its ends). */
+/* A and W at u = t_span + offset, with their derivatives, from the polynomial of the given span (also at its
+   ends). */
 typedef struct homogeneous {
     double value[BEZIER_COMPONENTS];
     double derivative[3][BEZIER_COMPONENTS]; /* by u, v, w */
 } homogeneous;
-void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double uvw[3],
+void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double offset[3],
                         homogeneous *result);
 
 /* cell_volume.c: finds volume_sign; FFD_E_INVALID where a cell has no volume. */

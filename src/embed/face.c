@@ -1,5 +1,10 @@
 #include "embed/face.h"
 #include "base/vec.h"
+#include <string.h>
+
+/* Coordinates this near an end may rest there. */
+#define NEAR_END 1e-6
+#define FACE_STEPS 5
 
 bool ffd_weigh_rows(const double jacobian[9], const double equation[3], const double tolerance[3],
                     double weighed_jacobian[9], double weighed_equation[3])
@@ -36,19 +41,23 @@ static bool step_of_one(const double matrix[9], const double value[3], int a, do
     return true;
 }
 
-/* Normal equations: the columns of two directions of a cell are far from parallel, or the determinant tells.
- */
+/* By orthogonal columns: those of a sheared cell are nearly parallel. */
 static bool step_of_two(const double matrix[9], const double value[3], int a, int b, double step[3])
 {
     double first[3], second[3];
     column_of(matrix, a, first);
     column_of(matrix, b, second);
-    const double aa = vec_dot(first, first), ab = vec_dot(first, second), bb = vec_dot(second, second);
-    const double ar = -vec_dot(first, value), br = -vec_dot(second, value), det = aa * bb - ab * ab;
-    if (!(det > 0))
+    const double square = vec_dot(first, first);
+    if (!(square > 0))
         return false;
-    step[a] = (ar * bb - br * ab) / det;
-    step[b] = (br * aa - ar * ab) / det;
+    const double along = vec_dot(first, second) / square;
+    for (int r = 0; r < 3; r++)
+        second[r] -= along * first[r];
+    const double rest = vec_dot(second, second);
+    if (!(rest > 0))
+        return false;
+    step[b] = -vec_dot(second, value) / rest;
+    step[a] = -vec_dot(first, value) / square - along * step[b];
     return true;
 }
 
@@ -63,19 +72,17 @@ static bool step_of_three(const double matrix[9], const double value[3], double 
     return true;
 }
 
-bool ffd_face_step(const double jacobian[9], const double equation[3], const double tolerance[3], double t[3])
+/* One Gauss-Newton step of the coordinates that do not rest, clipped; false where there is none. */
+static bool step_within(const double jacobian[9], const double equation[3], const double tolerance[3],
+                        const bool rests[3], double t[3])
 {
     double matrix[9], value[3], step[3] = {0, 0, 0};
     int moving[3], count = 0;
     if (!ffd_weigh_rows(jacobian, equation, tolerance, matrix, value))
         return false;
-    for (int a = 0; a < 3; a++) {
-        double column[3];
-        column_of(matrix, a, column);
-        const double slope = vec_dot(column, value); /* of |F|^2 / 2 */
-        if ((t[a] > 0 || slope < 0) && (t[a] < 1 || slope > 0))
+    for (int a = 0; a < 3; a++)
+        if (!rests[a])
             moving[count++] = a;
-    }
     const bool found = count == 3   ? step_of_three(matrix, value, step)
                        : count == 2 ? step_of_two(matrix, value, moving[0], moving[1], step)
                        : count == 1 ? step_of_one(matrix, value, moving[0], step)
@@ -83,4 +90,40 @@ bool ffd_face_step(const double jacobian[9], const double equation[3], const dou
     for (int a = 0; a < 3 && found; a++)
         t[a] = clip_to_unit(t[a] + step[a]);
     return found;
+}
+
+static bool settle_with(const double tolerance[3], face_function function, void *context, const bool rests[3],
+                        double t[3])
+{
+    double jacobian[9], equation[3];
+    for (int a = 0; a < 3; a++)
+        if (rests[a])
+            t[a] = t[a] < 0.5 ? 0 : 1;
+    for (int step = 0; step < FACE_STEPS; step++) {
+        if (function(context, t, jacobian, equation))
+            return true;
+        if (!step_within(jacobian, equation, tolerance, rests, t))
+            return false;
+    }
+    return function(context, t, jacobian, equation);
+}
+
+bool ffd_face_settle(const double tolerance[3], face_function function, void *context, double t[3])
+{
+    int near = 0;
+    for (int a = 0; a < 3; a++)
+        if (t[a] <= NEAR_END || t[a] >= 1 - NEAR_END)
+            near |= 1 << a;
+    for (int resting = 1; resting < 8; resting++) {
+        const bool rests[3] = {resting & 1, resting & 2, resting & 4};
+        double place[3];
+        if ((resting & near) != resting)
+            continue;
+        memcpy(place, t, sizeof place);
+        if (settle_with(tolerance, function, context, rests, place)) {
+            memcpy(t, place, sizeof place);
+            return true;
+        }
+    }
+    return false;
 }

@@ -1,11 +1,9 @@
-/* face.h - a root that a rounding put outside the box: the closest point of the face it left through. */
+/* face.h - a root that a rounding put outside the box: the closest point of the face, edge or corner that it
+   left through. */
 #ifndef FFD_EMBED_FACE_H
 #define FFD_EMBED_FACE_H
 
 #include <stdbool.h>
-
-/* Steps from a rounding away, with every change of the coordinates that rest. */
-#define FACE_STEPS 8
 
 static inline double clip_to_unit(double t)
 {
@@ -17,10 +15,13 @@ static inline double clip_to_unit(double t)
 bool ffd_weigh_rows(const double jacobian[9], const double equation[3], const double tolerance[3],
                     double weighed_jacobian[9], double weighed_equation[3]);
 
-/* One Gauss-Newton step for F = equation with the jacobian (by t, row by row) within [0,1]^3, each row
-   weighed by its tolerance: coordinates at an end rest there while the gradient leads out of the box,
-   the others move and are clipped. False, and t unchanged, where there is no such step. */
-bool ffd_face_step(const double jacobian[9], const double equation[3], const double tolerance[3],
-                   double t[3]);
+/* F and its jacobian (by t, row by row) at t; returns whether F is within the tolerance there. */
+typedef bool (*face_function)(void *context, const double t[3], double jacobian[9], double equation[3]);
+
+/* Looks for a t in [0,1]^3 with F(t) within the tolerance, from a t near it that has coordinates at or next
+   to an end: some of these rest there, in every combination, the others follow by Gauss-Newton steps, each
+   row of F weighed by its tolerance. On success t is the place that `function` accepted last; else it is
+   unchanged. */
+bool ffd_face_settle(const double tolerance[3], face_function function, void *context, double t[3]);
 
 #endif

@@ -6,9 +6,12 @@
 #include "embed/search.h"
 #include <string.h>
 
-/* A box is halved this often in each direction. */
-#define HARD_HALVINGS 24
+/* A box is halved this often in each direction, unless the tolerance blurs its parts before: next to a
+   collapsed face one direction is to be cut as finely as doubles allow. */
+#define HARD_HALVINGS 48
 #define HARD_LEVELS (3 * HARD_HALVINGS + 2)
+/* Y of a larger box can be large by chance: where its centre lies on a fold. */
+#define BLURRED_SIDE 0x1p-22
 #define HARD_BUDGET 4096 /* boxes in one leaf */
 #define HARD_BOUND 0.75
 #define POLISH_ROUNDS 12
@@ -48,7 +51,19 @@ static bool damped_step(const double jacobian[9], const double equation[3], doub
     return true;
 }
 
-/* A box too small to halve further, where J is singular or nearly so. */
+static bool full_step(const double jacobian[9], const double equation[3], double step[3])
+{
+    double inverse[9];
+    if (!mat_invert(jacobian, inverse))
+        return false;
+    mat_apply(inverse, equation, step);
+    for (int a = 0; a < 3; a++)
+        step[a] = -step[a];
+    return true;
+}
+
+/* A box too small to halve further, where J is singular or nearly so: Newton's steps while they can be made,
+   then damped ones. */
 static bool polish(point_search *search, const cell_region *region)
 {
     double t[3] = {0.5, 0.5, 0.5};
@@ -60,8 +75,10 @@ static bool polish(point_search *search, const cell_region *region)
             ffd_search_record(search, region, t, &at, true);
             return true;
         }
-        if (!ffd_weigh_rows(at.jacobian, at.equation, search->tolerance, jacobian, equation) ||
-            !damped_step(jacobian, equation, step))
+        if (!ffd_weigh_rows(at.jacobian, at.equation, search->tolerance, jacobian, equation))
+            return false;
+        const bool full = round < POLISH_ROUNDS / 2 && full_step(jacobian, equation, step);
+        if (!full && !damped_step(jacobian, equation, step))
             return false;
         for (int a = 0; a < 3; a++)
             t[a] = clip_to_unit(t[a] + step[a]);
@@ -95,9 +112,18 @@ static int direction_to_halve(const bezier_box *box, int wanted)
     return box->hi[across] - box->lo[across] <= end ? -1 : across;
 }
 
-/* Whether the box is done with: it holds no root, or its one root was looked for. */
+static double shortest_side(const bezier_box *box)
+{
+    double shortest = 1;
+    for (int a = 0; a < 3; a++)
+        shortest = fmin(shortest, box->hi[a] - box->lo[a]);
+    return shortest;
+}
+
+/* Whether the box is done with: it holds no root, or its one root was looked for. *blurred: else, its parts
+   could not be told apart, since the tolerance alone reaches across half of it. */
 static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bound *found,
-                       cell_region *region)
+                       cell_region *region, bool *blurred)
 {
     static const double no_reach[3] = {0, 0, 0};
     point_search *search = hard->search;
@@ -105,6 +131,7 @@ static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bou
     ffd_bezier_weights(box, &least, &most);
     for (int a = 0; a < 3; a++)
         slack[a] = search->slack[a] * most;
+    *blurred = false;
     bounds hull = ffd_bezier_equation_hull(box, search->x);
     if (!holds_zero(&hull, slack))
         return true;
@@ -117,8 +144,10 @@ static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bou
     hull = ffd_bezier_image(box, found->inverse, search->x);
     if (!holds_zero(&hull, image_slack))
         return true;
-    if (found->bound > HARD_BOUND)
+    if (found->bound > HARD_BOUND) {
+        *blurred = noise >= 0.5 && shortest_side(box) <= BLURRED_SIDE;
         return false;
+    }
     ffd_cells_centre(search->locator, region);
     search->evaluations++;
     ffd_search_region(search, region);
@@ -130,15 +159,14 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     point_search *search = hard->search;
     contraction_bound found;
     cell_region region;
-    if (hard->singular >= HARD_SINGULAR)
-        return;
-    if (hard->budget-- <= 0 || search->hard_boxes-- <= 0) {
+    bool blurred;
+    if (hard->singular >= HARD_SINGULAR || hard->budget-- <= 0 || search->hard_boxes-- <= 0) {
         search->unresolved = true;
         return;
     }
-    if (settle_box(hard, box, &found, &region))
+    if (settle_box(hard, box, &found, &region, &blurred))
         return;
-    const int across = direction_to_halve(box, found.halve);
+    const int across = blurred ? -1 : direction_to_halve(box, found.halve);
     if (across < 0) {
         if (polish(search, &region))
             hard->singular++;

@@ -14,18 +14,17 @@ static double greatest(const double v[3])
     return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }
 
-/* u = lo + t width, never past the region's end. */
-static void place(const cell_region *region, const double t[3], double uvw[3])
+static void place(const cell_region *region, const double t[3], double offset[3])
 {
     for (int a = 0; a < 3; a++)
-        uvw[a] = region->lo[a] + t[a] * region->width[a];
+        offset[a] = region->lo[a] + t[a] * region->width[a];
 }
 
 void ffd_search_evaluate_in(point_search *search, const cell_region *region, const double t[3], sample *at)
 {
-    double uvw[3];
-    place(region, t, uvw);
-    ffd_search_evaluate(search, region->span, uvw, at);
+    double offset[3];
+    place(region, t, offset);
+    ffd_search_evaluate(search, region->span, offset, at);
     for (int i = 0; i < 9; i++)
         at->jacobian[i] *= region->width[i % 3];
 }
@@ -49,13 +48,20 @@ static bool newton_step(const sample *at, double step[3])
     return true;
 }
 
-/* A root may lie a rounding outside the box: the closest point of the face that it left through. */
-static void settle_on_face(point_search *search, const cell_region *region, double t[3], sample *at)
+/* A root may lie a rounding outside the box. */
+typedef struct face_search {
+    point_search *search;
+    const cell_region *region;
+    sample at;
+} face_search;
+
+static bool evaluate_on_face(void *context, const double t[3], double jacobian[9], double equation[3])
 {
-    for (int step = 0; step < FACE_STEPS && !ffd_search_accepts(search, at, region->weight_ratio) &&
-                       ffd_face_step(at->jacobian, at->equation, search->tolerance, t);
-         step++)
-        ffd_search_evaluate_in(search, region, t, at);
+    face_search *face = context;
+    ffd_search_evaluate_in(face->search, face->region, t, &face->at);
+    memcpy(jacobian, face->at.jacobian, sizeof face->at.jacobian);
+    memcpy(equation, face->at.equation, sizeof face->at.equation);
+    return ffd_search_accepts(face->search, &face->at, face->region->weight_ratio);
 }
 
 /* Whether the determinant is no more than the rounding of its own terms. */
@@ -75,15 +81,17 @@ void ffd_search_record(point_search *search, const cell_region *region, const do
                        bool singular)
 {
     root found = {.residual = vec_length(at->residual)};
-    double inverse[9];
+    double inverse[9], offset[3];
     found.singular = is_singular(at->jacobian, &found.determinant) || singular;
-    place(region, t, found.uvw);
-    for (int a = 0; a < 3; a++)
-        found.uvw[a] = ffd_knots_wrap(&search->locator->knots[a], found.uvw[a]);
+    place(region, t, offset);
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *knots = &search->locator->knots[a];
+        found.uvw[a] = ffd_knots_wrap(knots, knots->t[region->span[a]] + offset[a]);
+    }
     if (mat_invert(at->jacobian, inverse))
         for (int a = 0; a < 3; a++) {
             const double *row = inverse + 3 * a;
-            found.spread[a] = 4 * region->width[a] * at->weight *
+            found.spread[a] = 4 * region->width[a] * at->weight * region->weight_ratio *
                               (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
                                fabs(row[2]) * search->tolerance[2]);
         }
@@ -162,7 +170,8 @@ void ffd_search_region(point_search *search, const cell_region *region)
         if (stands)
             break;
     }
-    settle_on_face(search, region, t, &at);
-    if (ffd_search_accepts(search, &at, region->weight_ratio))
-        ffd_search_record(search, region, t, &at, false);
+    face_search face = {.search = search, .region = region, .at = at};
+    if (ffd_search_accepts(search, &at, region->weight_ratio) ||
+        ffd_face_settle(search->tolerance, evaluate_on_face, &face, t))
+        ffd_search_record(search, region, t, &face.at, false);
 }

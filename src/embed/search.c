@@ -17,10 +17,10 @@ enum { N = BEZIER_COMPONENTS };
 #define MOST_HARD_BOXES 16384
 #define LEAST_HARD_BOXES 1024
 
-void ffd_search_evaluate(point_search *search, const int span[3], const double uvw[3], sample *at)
+void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at)
 {
     homogeneous value;
-    ffd_cells_evaluate(search->locator, span, uvw, &value);
+    ffd_cells_evaluate(search->locator, span, offset, &value);
     search->evaluations++;
     at->weight = value.value[3];
     for (int r = 0; r < 3; r++) {
@@ -106,7 +106,7 @@ static bool visit_brick(void *context, uint32_t number)
 
 /* The curve of a collapse comes to the point within the tolerance: the nearest place there, by Gauss-Newton
    steps along it. */
-static void settle_on_curve(point_search *search, int along, const int span[3], double uvw[3], sample *at)
+static void settle_on_curve(point_search *search, int along, const int span[3], double offset[3], sample *at)
 {
     const double *knot = search->locator->knots[along].t + span[along];
     for (int step = 0; step < CURVE_STEPS; step++) {
@@ -117,11 +117,11 @@ static void settle_on_curve(point_search *search, int along, const int span[3], 
             slope += jacobian[3 * r + along] * equation[r];
             square += jacobian[3 * r + along] * jacobian[3 * r + along];
         }
-        const double next = uvw[along] - slope / square;
+        const double next = offset[along] - slope / square;
         if (!isfinite(next))
             return;
-        uvw[along] = fmin(fmax(next, knot[0]), knot[1]);
-        ffd_search_evaluate(search, span, uvw, at);
+        offset[along] = fmin(fmax(next, 0), knot[1] - knot[0]);
+        ffd_search_evaluate(search, span, offset, at);
     }
 }
 
@@ -131,18 +131,22 @@ static bool is_on_collapse(point_search *search, ffd_location *location)
     const ffd_locator *locator = search->locator;
     const collapse_list *list = &locator->cells->collapses;
     for (int i = 0; i < list->count; i++) {
-        double uvw[3];
+        double uvw[3], offset[3];
         int span[3];
         sample at;
         if (!ffd_collapse_holds(locator, &list->sets[i], search->x, search->tolerance, uvw))
             continue;
         for (int a = 0; a < 3; a++)
             span[a] = ffd_knots_span(&locator->knots[a], uvw[a]);
-        ffd_search_evaluate(search, span, uvw, &at);
+        for (int a = 0; a < 3; a++)
+            offset[a] = uvw[a] - locator->knots[a].t[span[a]];
+        ffd_search_evaluate(search, span, offset, &at);
         if (list->sets[i].along >= 0)
-            settle_on_curve(search, list->sets[i].along, span, uvw, &at);
+            settle_on_curve(search, list->sets[i].along, span, offset, &at);
         if (!ffd_search_accepts(search, &at, 1))
             continue;
+        for (int a = 0; a < 3; a++)
+            uvw[a] = locator->knots[a].t[span[a]] + offset[a];
         location->status = FFD_SINGULAR;
         location->residual = vec_length(at.residual) / locator->cells->scale;
         ffd_locator_report(locator, uvw, location->uvw);

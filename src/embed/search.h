@@ -33,7 +33,8 @@ typedef struct sample {
     double weight;
 } sample;
 
-void ffd_search_evaluate(point_search *search, const int span[3], const double uvw[3], sample *at);
+/* At the offsets from the spans' starts. */
+void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at);
 /* The same at t of a region. */
 void ffd_search_evaluate_in(point_search *search, const cell_region *region, const double t[3], sample *at);
 

@@ -37,11 +37,12 @@ static bool is_strictly_monotone(const ffd_lattice *lattice, int a)
     return true;
 }
 
-static double value_at(const knot_vector *knots, const monotone_curve *curve, int span, double u,
+/* At u = t_span + offset. */
+static double value_at(const knot_vector *knots, const monotone_curve *curve, int span, double offset,
                        double *slope)
 {
     double value[MAX_ORDER], derivative[MAX_ORDER], x = 0, dx = 0;
-    ffd_basis_derivatives(knots, span, u, value, derivative);
+    ffd_basis_derivatives_in(knots, span, offset, value, derivative);
     const double *points = curve->points + (span - knots->degree);
     for (int i = 0; i <= knots->degree; i++) {
         x += points[i] * value[i];
@@ -66,9 +67,10 @@ static ffd_status make_curve(ffd_locator *locator, int a, ffd_error *error)
     curve->falling = curve->points[1] < curve->points[0];
     double slope;
     for (size_t s = 0; s < knots->span_count; s++)
-        curve->breakpoints[s] = value_at(knots, curve, knots->spans[s], knots->t[knots->spans[s]], &slope);
+        curve->breakpoints[s] = value_at(knots, curve, knots->spans[s], 0, &slope);
+    const int last = knots->spans[knots->span_count - 1];
     curve->breakpoints[knots->span_count] =
-        value_at(knots, curve, knots->spans[knots->span_count - 1], ffd_knots_last(knots), &slope);
+        value_at(knots, curve, last, knots->t[last + 1] - knots->t[last], &slope);
     return FFD_OK;
 }
 
@@ -114,14 +116,14 @@ static size_t span_holding(const knot_vector *knots, const monotone_curve *curve
     return low;
 }
 
-/* Solves x(u) = x within one span: Newton steps, and halving wherever one would leave the bracket or gains
-   less than a half. Ends when the bracket is two neighbouring numbers, or the value is met. Beyond the ends
-   the nearest end is the answer. Stores x(u) - x. */
+/* Solves x(u) = x within one span, by offsets from its start: Newton steps, and halving wherever one would
+   leave the bracket or gains less than a half. Ends when the bracket is two neighbouring numbers, or the
+   value is met. Beyond the ends the nearest end is the answer. Stores x(u) - x. */
 static double solve(const knot_vector *knots, const monotone_curve *curve, double x, double *residual)
 {
     const size_t number = span_holding(knots, curve, x);
     const int span = knots->spans[number];
-    double low = knots->t[span], high = knots->t[span + 1], u = 0.5 * low + 0.5 * high;
+    double low = 0, high = knots->t[span + 1] - knots->t[span], u = 0.5 * high;
     double best = u, best_residual = HUGE_VAL, slope;
     const double sign = curve->falling ? -1 : 1;
     const double ends[2] = {low, high};
@@ -151,7 +153,7 @@ static double solve(const knot_vector *knots, const monotone_curve *curve, doubl
         u = next;
     }
     *residual = best_residual;
-    return best;
+    return knots->t[span] + best;
 }
 
 void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_location *location)

@@ -76,7 +76,7 @@ static void note_location(const ffd_lattice *lattice, const ffd_location *locati
         point->status = location->status;
     if (has_place(location))
         point->located = true;
-    if (location->status == FFD_OUTSIDE)
+    if (!has_place(location) && location->status != FFD_POINT_INVALID)
         point->outside = true;
     if (location->status == FFD_MULTIPLE)
         point->multiple = true;
@@ -96,7 +96,7 @@ static ffd_status find_displacement(const chain_link *link, const ffd_location *
         *moves = ffd_displacement(link->lattice, location->uvw, delta, gradient);
         return FFD_OK;
     }
-    if (location->status != FFD_OUTSIDE || !link->border)
+    if (location->status == FFD_POINT_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
     const ffd_status status = ffd_boundary_find(link->border, x, reach, &nearest, error);

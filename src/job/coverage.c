@@ -56,7 +56,7 @@ void ffd_chain_coverage(const lattice_chain *chain, char *text, size_t capacity)
         const ffd_bounds box = volume_bounds(lattice);
         snprintf(
             text, capacity,
-            "%s covers only x %.4g to %.4g, y %.4g to %.4g, z %.4g to %.4g, less than its control points "
+            "%s covers only x %.7g to %.7g, y %.7g to %.7g, z %.7g to %.7g, less than its control points "
             "reach: \"clamped\" knots or a rest \"box\" cover all",
             lattice->spec->name, box.min[0], box.max[0], box.min[1], box.max[1], box.min[2], box.max[2]);
         return;

@@ -38,6 +38,9 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                              ffd_path_ending(desc->output));
     if (strcmp(input, "-") != 0 && strcmp(desc->output, "-") != 0 && ffd_file_same(input, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
+    for (size_t i = 0; i < desc->lattice_count && strcmp(desc->output, "-") != 0; i++)
+        if (ffd_file_same(desc->lattices[i], desc->output))
+            return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
     if (desc->embedding && strcmp(desc->output, "-") != 0 && ffd_file_same(desc->embedding, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
     return ffd_output_check(desc->output, desc->force, error);

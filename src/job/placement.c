@@ -100,7 +100,7 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
     if (totals->unresolved)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "for %" PRIu64
-                     " vertices the search ended at its limits: the lattice folds too finely there",
+                     " vertices the search ended at its limits: the lattice folds or collapses there",
                      totals->unresolved);
     if (totals->transforms_singular)
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " vertices stay: their node's matrix has no inverse",

@@ -38,8 +38,9 @@ typedef struct edge_quality {
      The estimate takes the piece for a parabola between its ends: its sagitta is a quarter of that of the
      piece it is half of, as for a smooth curve, plus the amount by which the two halvings before missed this
      rule (large at kinks and where waves are not resolved yet).
-   An edge that crosses more than about 30 cells, or passes through a lattice much shorter than itself, is
-   sampled at most at its 63 inner points and may deviate more between them.
+   Of an edge that reaches beyond all lattices (with --outside extend: beyond the falloff) the part that
+   passes them is taken for the edge in all this; beyond it nothing moves. An edge that crosses more than
+   about 30 cells is sampled at most at 63 inner points and may deviate more between them.
 
      deformed  3 doubles a vertex, the chain's own results in double: their rounding counts as deviation
      threads   0 for all; never changes the result

@@ -1,14 +1,15 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "base/vec.h"
+#include "embed/box_tree.h"
 #include "job/edge_list.h"
 #include "job/quality.h"
 #include "lattice/lattice.h"
 #include <float.h>
 #include <string.h>
 
-/* The points of an edge that may be looked at are its slots 0 .. PIECES; 0 and PIECES are the ends. At level
-   k its pieces are PIECES >> k slots wide. */
+/* The points of an edge that may be looked at are the slots 0 .. PIECES of its window: the part that comes to
+   the lattices, or all of it. At level k its pieces are PIECES >> k slots wide. */
 #define PIECES 64
 #define SLOTS (PIECES + 1)
 #define FIRST_LEVEL 2 /* that every edge is sampled to */
@@ -30,7 +31,8 @@ typedef struct sampled_edge {
     double start[3], along[3];             /* at rest: start + t along */
     double start_delta[3], along_delta[3]; /* of the straight deformed edge */
     double chord[3], chord_square;         /* the straight deformed edge */
-    double length;                         /* at rest */
+    double first, share;                   /* the window: t from first to first + share */
+    double length;                         /* of the window at rest */
     double rounding, largest;
     uint64_t sampled; /* inner slots */
     uint64_t open;    /* pieces of the level that is looked at */
@@ -65,6 +67,7 @@ typedef struct edge_work {
     const mesh_faces *faces;
     const double *deformed;
     const lattice_chain *chain;
+    bounds *reach; /* of each link: no point beyond moves */
     edge_list list;
     edge_scratch *scratch; /* one a worker */
     edge_tile *tiles;
@@ -115,6 +118,51 @@ static double extent(const edge_work *work, edge_scratch *scratch, size_t edge, 
     return result;
 }
 
+/* Where the line start + t along is in the box: *from > *to if nowhere. */
+static void clip(const bounds *box, const double start[3], const double along[3], double *from, double *to)
+{
+    *from = 0;
+    *to = 1;
+    for (int a = 0; a < 3; a++) {
+        const double lo = (box->lo[a] - start[a]) / along[a], hi = (box->hi[a] - start[a]) / along[a];
+        if (along[a] != 0) {
+            *from = fmax(*from, fmin(lo, hi));
+            *to = fmin(*to, fmax(lo, hi));
+        } else if (start[a] < box->lo[a] || start[a] > box->hi[a]) {
+            *to = -1;
+        }
+    }
+}
+
+/* An edge that is long against the lattices is looked at only where it passes them: what is in none of them
+   before the first link stays for all links. */
+static void find_window(const edge_work *work, sampled_edge *edge)
+{
+    double first = 2, last = -1;
+    for (size_t k = 0; k < work->chain->count; k++) {
+        double from, to;
+        clip(&work->reach[k], edge->start, edge->along, &from, &to);
+        if (from <= to) {
+            first = fmin(first, from);
+            last = fmax(last, to);
+        }
+    }
+    const bool passes = first < last;
+    edge->first = passes ? first : 0;
+    edge->share = passes ? last - first : 1;
+}
+
+static double place_of(const sampled_edge *edge, size_t slot)
+{
+    return edge->first + (double)slot / PIECES * edge->share;
+}
+
+/* The edge's own ends lie on the straight deformed edge. */
+static bool is_end(const sampled_edge *edge, size_t slot)
+{
+    return (slot == 0 && edge->first == 0) || (slot == PIECES && edge->first + edge->share >= 1);
+}
+
 static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
 {
     const size_t a = (size_t)(key >> 32), b = (size_t)(key & UINT32_MAX);
@@ -132,7 +180,8 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
             size = fmax(size, fmax(fabs(rest[i][c]), fabs(after[i][c])));
     }
     edge->rounding = ROUNDING * size;
-    edge->length = vec_length(edge->along);
+    find_window(work, edge);
+    edge->length = vec_length(edge->along) * edge->share;
     edge->chord_square = vec_dot(edge->chord, edge->chord);
     edge->left_out = !isfinite(edge->length) || !isfinite(edge->chord_square) ||
                      !vec_is_finite(edge->start_delta) || !vec_is_finite(edge->along_delta);
@@ -155,11 +204,12 @@ static void keep_sample(const sample_request *request, const double delta[3], ed
 {
     sampled_edge *edge = &scratch->edges[request->edge];
     double *offset = scratch->offset[request->edge][request->slot];
-    if (request->slot == 0 || request->slot == PIECES) /* the straight edge's own ends: only u,v,w are new */
+    if (is_end(edge, request->slot)) /* only u,v,w are new */
         return;
-    find_offset(edge, (double)request->slot / PIECES, delta, offset);
+    find_offset(edge, place_of(edge, request->slot), delta, offset);
     const double deviation = vec_length(offset);
-    edge->sampled |= (uint64_t)1 << request->slot;
+    if (request->slot < PIECES)
+        edge->sampled |= (uint64_t)1 << request->slot;
     edge->left_out = edge->left_out || !isfinite(deviation);
     edge->largest = fmax(edge->largest, deviation);
 }
@@ -206,7 +256,7 @@ static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, s
     const size_t place = scratch->requested++;
     scratch->requests[place] = (sample_request){(uint16_t)number, (uint8_t)slot};
     for (size_t a = 0; a < 3; a++)
-        scratch->x[3 * place + a] = edge->start[a] + (double)slot / PIECES * edge->along[a];
+        scratch->x[3 * place + a] = edge->start[a] + place_of(edge, slot) * edge->along[a];
     return scratch->requested == BATCH ? take_samples(work, scratch) : FFD_OK;
 }
 
@@ -277,15 +327,33 @@ static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, siz
     return status;
 }
 
+/* The ends of a window that is not the whole edge: beyond them nothing moves. */
+static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, size_t number)
+{
+    static const double still[3] = {0, 0, 0};
+    ffd_status status = FFD_OK;
+    for (size_t slot = 0; slot <= PIECES && !status; slot += PIECES) {
+        sampled_edge *edge = &scratch->edges[number];
+        double offset[3];
+        if (is_end(edge, slot) || edge->left_out)
+            continue;
+        find_offset(edge, place_of(edge, slot), still, offset);
+        edge->largest = fmax(edge->largest, vec_length(offset));
+        status = request_sample(work, scratch, number, slot);
+    }
+    return status;
+}
+
 /* The first points of all edges of the tile, and which edges are long. */
 static ffd_status begin_samples(const edge_work *work, edge_scratch *scratch, size_t count)
 {
     const size_t quarter = PIECES >> FIRST_LEVEL;
     ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && !status; i++) {
         sampled_edge *edge = &scratch->edges[i];
         memset(scratch->offset[i][0], 0, sizeof scratch->offset[i][0]);
         memset(scratch->offset[i][PIECES], 0, sizeof scratch->offset[i][PIECES]);
+        status = begin_window(work, scratch, i);
         for (size_t slot = quarter; slot < PIECES && !edge->left_out && !status; slot += quarter)
             status = request_sample(work, scratch, i, slot);
     }
@@ -355,6 +423,28 @@ static ffd_status join_tiles(const edge_work *work, size_t tiles, edge_quality *
     return FFD_OK;
 }
 
+/* The bounds of the control points hold the volume. */
+static bool find_reach(edge_work *work)
+{
+    const chain_outside *outside = &work->chain->outside;
+    const bool everywhere = outside->extend && !(outside->falloff > 0);
+    const double beyond = everywhere ? HUGE_VAL : outside->extend ? outside->falloff : 0;
+    work->reach = ffd_alloc(work->chain->count, sizeof *work->reach);
+    for (size_t k = 0; work->reach && k < work->chain->count; k++) {
+        const ffd_lattice *lattice = work->chain->links[k].lattice;
+        bounds *box = &work->reach[k];
+        for (int a = 0; a < 3; a++)
+            box->lo[a] = box->hi[a] = lattice->rest[a];
+        for (size_t i = 1; i < lattice->count; i++)
+            bounds_add(box, lattice->rest + 3 * i);
+        for (int a = 0; a < 3; a++) {
+            box->lo[a] -= beyond;
+            box->hi[a] += beyond;
+        }
+    }
+    return work->reach;
+}
+
 static void free_scratch(edge_scratch *scratch, size_t workers)
 {
     for (size_t i = 0; scratch && i < workers; i++)
@@ -388,7 +478,7 @@ ffd_status ffd_quality_edges(const mesh_faces *faces, const double *deformed, co
     workers = tiles && tiles < workers ? tiles : workers;
     work.scratch = make_scratch(workers, chain->count);
     work.tiles = ffd_alloc_zero(tiles, sizeof *work.tiles);
-    if (!work.scratch || !work.tiles) {
+    if (!work.scratch || !work.tiles || !find_reach(&work)) {
         status = ffd_fail_memory(error);
         goto done;
     }
@@ -396,6 +486,7 @@ ffd_status ffd_quality_edges(const mesh_faces *faces, const double *deformed, co
     status = join_tiles(&work, tiles, result, error);
 done:
     ffd_free(work.tiles);
+    ffd_free(work.reach);
     free_scratch(work.scratch, workers);
     ffd_edges_free(&work.list);
     return status;

@@ -10,6 +10,9 @@ void ffd_basis_values(const knot_vector *knots, int span, double u, double value
 /* Values and first derivatives (P&T A2.3 for one derivative). */
 void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double value[MAX_ORDER],
                            double derivative[MAX_ORDER]);
+/* The same at u = t_span + offset, where offset may be finer than a double near u can tell. */
+void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset, double value[MAX_ORDER],
+                              double derivative[MAX_ORDER]);
 
 /* The Bezier form of the curve over a non-empty span: Bezier point r = sum_j matrix[r*(d+1)+j] P_{span-d+j},
    the blossom at t_span (d-r times) and t_{span+1} (r times), which is what knot insertion (P&T A5.6) arrives

@@ -56,6 +56,18 @@ def no_two_outputs_share_a_buffer(run):
 
 
 @case
+def an_output_replaces_no_lattice(run):
+    start(run)
+    run.write("l.obj", UP)
+    kept = run.read("l.obj")
+    os.symlink("l.obj", run.path("s.obj"))
+    for lattice_name, output in (("l.obj", "l.obj"), ("s.obj", "l.obj"), ("l.obj", "s.obj")):
+        run.ffd("deform", "a.obj", output, "-l", lattice_name, "--force", code=IO,
+                err=f"{output}: is a lattice of this command")
+    equal(run.read("l.obj"), kept)
+
+
+@case
 def a_report_replaces_reports_only(run):
     start(run)
     run.write("notes.txt", "mine")

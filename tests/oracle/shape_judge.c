@@ -342,13 +342,16 @@ static void check_chosen(judge *j, int i, const place *places, int count)
                 expected[1], expected[2]);
 }
 
-/* Rounding to double may have taken the point out of the volume. */
-static bool still_holds(const judge *j, const long double p[3], const long double known[3])
+/* The root next to known that belongs to p, which is rounded. False where rounding may have taken the point
+   out of the volume. */
+static bool root_of_rounded(const judge *j, const long double p[3], const long double known[3],
+                            long double root[3])
 {
     place x = {.sure = false};
     memcpy(x.uvw, known, sizeof x.uvw);
     oracle_descend(&j->volume, p, x.uvw);
     look_at(j, p, &x);
+    memcpy(root, x.uvw, sizeof x.uvw);
     return x.sure;
 }
 
@@ -357,12 +360,12 @@ void judge_counted(judge *j, int i, const long double known[3])
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
     place places[ORACLE_MAX_ROOTS];
-    long double q[3];
+    long double q[3], root[3] = {0, 0, 0};
     seen_from_origin(j, i, q);
-    bool clear = true, met = !known || !still_holds(j, q, known);
+    bool clear = true, met = !known || !root_of_rounded(j, q, known, root);
     const int count = all_places(j, q, places);
     for (int k = 0; k < count; k++) {
-        met = met || same_place(j, &places[k], known, 1e3L);
+        met = met || same_place(j, &places[k], root, 1e3L);
         clear = clear && places[k].sure && places[k].regular;
         for (int other = 0; other < k; other++) /* two of a fold that is near */
             clear = clear && !same_place(j, &places[k], places[other].uvw, 1e4L);
@@ -421,17 +424,18 @@ void judge_next_to_singular(judge *j, int i, const long double known[3])
 {
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
-    long double q[3];
+    long double q[3], root[3] = {0, 0, 0};
     seen_from_origin(j, i, q);
     j->judged++;
     check_location(j, i);
-    if (!still_holds(j, q, known)) {
+    if (!root_of_rounded(j, q, known, root)) {
         j->left_out++;
         return;
     }
-    trial_check(j->t, j->s, found->status == FFD_INSIDE || found->status == FFD_SINGULAR,
-                "point %.17g %.17g %.17g next to a collapsed face (root %.17Lg %.17Lg %.17Lg) is %s", p[0],
-                p[1], p[2], known[0], known[1], known[2], status_name(found->status));
+    trial_check(j->t, j->s,
+                (found->status == FFD_INSIDE || found->status == FFD_SINGULAR) && !isnan(found->uvw[0]),
+                "point %.17g %.17g %.17g next to a collapsed face (root %.17Lg %.17Lg %.17Lg) is %s, u = %g",
+                p[0], p[1], p[2], known[0], known[1], known[2], status_name(found->status), found->uvw[0]);
 }
 
 /* The face's outward unit normal: the gradient of u_a. */

@@ -175,7 +175,7 @@ static void map(const shape *x, const long double t[3], long double p[3])
     default: /* bars and cylinders */
         p[0] = radius * cosl(x->turn * t[1]);
         p[1] = radius * sinl(x->turn * t[1]);
-        p[2] = t[2];
+        p[2] = t[2] + x->climb * t[1];
         break;
     }
 }
@@ -268,6 +268,7 @@ static void begin(shape *x, sample *s, random_source *random, shape_kind kind, c
         break;
     case SHAPE_OVERLAP:
         x->turn = radians(random_range(random, 400, 680));
+        x->climb = 3e-10L * random_int(random, -1, 1);
         break;
     case SHAPE_SECTOR:
         x->turn = radians(random_range(random, 60, 250));
@@ -366,6 +367,7 @@ void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind
     const bool torus = kind == SHAPE_TORUS;
     begin(x, s, random, kind, place);
     x->turn = radians(360);
+    x->climb = 0;
     short_axis(x, s, random, 0, 3);
     short_axis(x, s, random, 2, 2);
     for (int part = 1; part <= (torus ? 2 : 1); part++) {

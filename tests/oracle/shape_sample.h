@@ -29,6 +29,7 @@ typedef struct shape {
     shape_kind kind;
     int role[3];                      /* the lattice's direction of each */
     long double turn, radius, across; /* radians; inner radius; what the radius grows by across */
+    long double climb;                /* of SHAPE_OVERLAP: so little that two turns are equal in up (1e-9) */
     long double origin[3], frame[9];  /* xyz = origin + frame * local */
 } shape;
 

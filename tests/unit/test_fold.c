@@ -398,6 +398,13 @@ static void test_rest_files(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
+/* valgrind computes long double as double: determinants of sizes of 1e200 are then out of range. */
+static bool has_long_double(void)
+{
+    const volatile long double small = LDBL_EPSILON;
+    return 1 + small != 1;
+}
+
 static void test_sizes(void **state)
 {
     (void)state;
@@ -408,7 +415,8 @@ static void test_sizes(void **state)
                                     {1e-30, 0, 0, 2e-30, 1e30, 1e-3},
                                     {-1e200, -1e200, -1e200, 1e200, 1e200, 1e200},
                                     {0, 0, 0, 1e-200, 1e-200, 1e-200}};
-    for (size_t i = 0; i < sizeof box / sizeof *box; i++)
+    const size_t count = sizeof box / sizeof *box - (has_long_double() ? 0 : 2);
+    for (size_t i = 0; i < count; i++)
         for (int fold = 0; fold < 2; fold++) {
             const double *b = box[i];
             ffd_lattice *lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[5,4,4],"

@@ -531,6 +531,127 @@ static void test_sizes(void **state)
     (void)state;
 }
 
+static void check_all_inside(ffd_lattice *lattice, draw *d)
+{
+    enum { POINTS = 300 };
+    double xyz[3 * POINTS], lo[3], hi[3];
+    ffd_location found[POINTS];
+    ffd_locator *locator;
+    ffd_lattice_get_domain(lattice, lo, hi);
+    for (int i = 0; i < POINTS; i++) {
+        double uvw[3];
+        for (int a = 0; a < 3; a++)
+            uvw[a] = draw_between(d, lo[a], hi[a]);
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, xyz + 3 * i, NULL);
+    }
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_find(locator, xyz, POINTS, found, NULL), FFD_OK);
+    for (int i = 0; i < POINTS; i++)
+        assert_int_equal(found[i].status, FFD_INSIDE);
+    ffd_locator_destroy(&locator);
+}
+
+/* In a narrow span at the far end of the domain neighbouring doubles u lie farther apart in space than the
+   tolerance. */
+static void test_narrow_spans(void **state)
+{
+    static const double widths[] = {0.1, 0.003, 0.0001};
+    draw d = {draw_seed()};
+    for (int bent = 0; bent < 2; bent++)
+        for (size_t w = 0; w < 3; w++) {
+            const double list[] = {0, 0, 0, 0, 0.3, 0.6, 1 - widths[w], 1, 1, 1, 1};
+            knot_vector knots[3];
+            for (int a = 0; a < 3; a++)
+                assert_int_equal(ffd_knots_make(KNOTS_LIST, 3, 7, list, 11, "uvw"[a], &knots[a], NULL),
+                                 FFD_OK);
+            ffd_lattice *lattice = lattice_of_knots(knots);
+            for (size_t n = 0; n < lattice->count; n++) {
+                const double x = (double)(n % 7), y = (double)(n / 7 % 7), z = (double)(n / 49);
+                double *p = lattice->rest + 3 * n;
+                p[0] = x + (bent ? 0.1 * sin(y) : 0);
+                p[1] = y + (bent ? 0.1 * sin(z) : 0);
+                p[2] = z + (bent ? 0.1 * sin(x) : 0);
+            }
+            memcpy(lattice->deformed, lattice->rest, 3 * lattice->count * sizeof(double));
+            assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+            check_all_inside(lattice, &d);
+            ffd_lattice_destroy(&lattice);
+        }
+    (void)state;
+}
+
+/* Columns (1,1) and (1+e,1-e): the inverse has lost most of its digits. */
+static void steep_map(const double g[3], double out[3])
+{
+    const double e = 1e-10;
+    out[0] = g[0] + (1 + e) * g[1];
+    out[1] = g[0] + (1 - e) * g[1];
+    out[2] = g[2];
+}
+
+static void test_steep_shear(void **state)
+{
+    draw d = {draw_seed()};
+    ffd_lattice *lattice = clamped(3, 5);
+    set_points(lattice, steep_map);
+    check_all_inside(lattice, &d);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* (uv, u+v, w + u/5): folded along u = v, where the determinant at the centre of many boxes is 0. A point
+   has two u,v where (u+v)^2/4 > uv and both are in the domain, none where it is less. */
+static void product_map(const double g[3], double out[3])
+{
+    out[0] = g[0] * g[1];
+    out[1] = g[0] + g[1];
+    out[2] = g[2] + 0.2 * g[0];
+}
+
+static void test_symmetric_fold(void **state)
+{
+    draw d = {draw_seed()};
+    ffd_lattice *lattice = clamped(2, 3);
+    ffd_locator *locator;
+    set_points(lattice, product_map);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    for (int i = 0; i < 400; i++) {
+        const double u = draw_between(&d, 0.05, 0.95), v = draw_between(&d, 0.05, 0.95);
+        if (fabs(u - v) < 1e-3)
+            continue;
+        const ffd_location two = find_one(locator, u * v, u + v, 0.5);
+        assert_int_equal(two.status, FFD_MULTIPLE);
+        assert_false(two.unresolved);
+        const double middle = 0.5 * (u + v);
+        assert_int_equal(find_one(locator, middle * middle + 1e-6 + 0.1 * draw_unit(&d), u + v, 0.5).status,
+                         FFD_OUTSIDE);
+    }
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
+/* One trilinear cell whose determinant is negative in the middle and whose volume is positive: the root with
+   a positive determinant is taken. */
+static void test_sign_of_volume(void **state)
+{
+    static const double points[] = {0.14,   0.498, 0.569, 0.347, 0.284, -0.553, -0.134, 0.834,
+                                    -0.343, 0.317, 0.541, 0.31,  0.686, 0.614,  0.284,  1.104,
+                                    -0.464, 1.031, 0.05,  0.494, 0.382, 0.971,  0.329,  1.512};
+    ffd_lattice *lattice = clamped(1, 2);
+    ffd_locator *locator;
+    memcpy(lattice->rest, points, sizeof points);
+    memcpy(lattice->deformed, points, sizeof points);
+    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    assert_int_equal(ffd_locator_create(lattice, &locator, NULL), FFD_OK);
+    const ffd_location found = find_one(locator, 0.7323, -0.0194, 0.4003);
+    assert_int_equal(found.status, FFD_MULTIPLE);
+    assert_true(fabs(found.uvw[0] - 0.98034) < 1e-5 && fabs(found.uvw[1] - 0.15813) < 1e-5);
+    ffd_locator_destroy(&locator);
+    ffd_lattice_destroy(&lattice);
+    (void)state;
+}
+
 static void test_no_memory(void **state)
 {
     ffd_lattice *lattice = clamped(3, 6);
@@ -573,6 +694,10 @@ int main(void)
         cmocka_unit_test(test_bricks_without_room),
         cmocka_unit_test(test_too_many_folds),
         cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_narrow_spans),
+        cmocka_unit_test(test_steep_shear),
+        cmocka_unit_test(test_symmetric_fold),
+        cmocka_unit_test(test_sign_of_volume),
         cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

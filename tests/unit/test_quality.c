@@ -284,6 +284,26 @@ static void test_bump(void **state)
     (void)state;
 }
 
+/* Edges hundreds of lattices long are looked at where they pass it: the bump of height 0.3 (3/4)^3 in its
+   middle is found wherever it falls on the edge. */
+static void test_edge_longer_than_lattice(void **state)
+{
+    for (int shift = 0; shift < 8; shift++) {
+        sample s = {0};
+        const double from = -180 - 37.3 * shift;
+        const double positions[9] = {from, 0.5, 0.5, 220.3 + 11 * shift, 0.5, 0.5, 0.5, -1, 0.5};
+        const uint32_t corners[3] = {0, 1, 2};
+        add_lattice(&s, "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4],"
+                        "\"rest\": {\"box\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1]}},"
+                        "\"moves\": [{\"at\": [[1, 2], [1, 2], [1, 2]], \"by\": [0, 0.3, 0]}]}");
+        set_mesh(&s, 3, positions, 1, 3, corners);
+        deform(&s);
+        check_near(measure(&s, 1).deviation_max, 0.3 * 27 / 64, 1e-3);
+        clear(&s);
+    }
+    (void)state;
+}
+
 /* A lattice over [lo, hi]^3, every point of it moved, degrees (from lowest_degree) and sizes drawn. */
 static void add_random_lattice(sample *s, draw *d, int lowest_degree, double lo, double hi)
 {
@@ -625,7 +645,7 @@ int main(void)
         cmocka_unit_test(test_mirror),      cmocka_unit_test(test_fold),
         cmocka_unit_test(test_coarse_face), cmocka_unit_test(test_odd_faces),
         cmocka_unit_test(test_edge_list),   cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_memory),      cmocka_unit_test(test_edge_longer_than_lattice),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
