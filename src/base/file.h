@@ -24,8 +24,11 @@ void ffd_file_unload(file_input *input);
 bool ffd_file_exists(const char *path);
 /* Whether both paths lead to one existing file. */
 bool ffd_file_same(const char *a, const char *b);
-/* Makes a folder and those above it, where they do not exist. */
-ffd_status ffd_folder_make(const char *path, ffd_error *error);
+/* Makes a folder and those above it, where they do not exist. *made: the length of the first path that was
+   made (0: none), also after a failure. */
+ffd_status ffd_folder_make(const char *path, size_t *made, ffd_error *error);
+/* Removes what ffd_folder_make made, where it is empty; shortens path. */
+void ffd_folder_unmake(char *path, size_t made);
 /* The absolute path of a file or folder, without links; NULL where there is none (or no memory). Free with
    ffd_free. */
 char *ffd_path_resolve(const char *path);
@@ -53,6 +56,8 @@ void ffd_output_record(file_output *output, written_files *written);
    existing target is refused with FFD_E_EXISTS unless force. Permission bits of an existing target are kept.
    Targets that are neither file nor link (/dev/null) are written straight. */
 ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error);
+/* Makes a folder for the next file, and those above it. They go again if the set is not committed. */
+ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *error);
 /* Appends to the file begun last. */
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error);
 /* Removes the old target of the file begun last before the commit renames anything (a .gltf whose buffers are

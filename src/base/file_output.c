@@ -20,9 +20,17 @@ typedef struct output_file {
     bool committed, remove_first;
 } output_file;
 
+typedef struct output_folder {
+    char *path;
+    size_t made; /* as ffd_folder_make says it */
+} output_folder;
+
 struct file_output {
     output_file *files;
     size_t count, capacity;
+    output_folder *folders; /* made for the files */
+    size_t folder_count, folder_capacity;
+    bool committed;
     unsigned char *block; /* bytes of the last file that are not yet written */
     size_t filled;
     written_files *written; /* or NULL */
@@ -270,6 +278,19 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
     return open_beside(file, path, exists ? &info : NULL, error);
 }
 
+ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *error)
+{
+    if (!ffd_grow((void **)&output->folders, &output->folder_capacity, output->folder_count + 1,
+                  sizeof *output->folders))
+        return ffd_fail_memory(error);
+    output_folder *folder = &output->folders[output->folder_count];
+    *folder = (output_folder){.path = ffd_text_copy(path)};
+    if (!folder->path)
+        return ffd_fail_memory(error);
+    output->folder_count++;
+    return ffd_folder_make(path, &folder->made, error);
+}
+
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error)
 {
     const unsigned char *from = bytes;
@@ -326,6 +347,7 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
             return fail_errno(error, file->target, "cannot be written");
         record_file(output, file);
     }
+    output->committed = true;
     return FFD_OK;
 }
 
@@ -342,6 +364,12 @@ void ffd_output_destroy(file_output **output)
         ffd_free(file->temporary);
         ffd_free(file->target);
     }
+    for (size_t i = (*output)->folder_count; i-- > 0;) {
+        if (!(*output)->committed)
+            ffd_folder_unmake((*output)->folders[i].path, (*output)->folders[i].made);
+        ffd_free((*output)->folders[i].path);
+    }
+    ffd_free((*output)->folders);
     ffd_free((*output)->files);
     ffd_free((*output)->block);
     ffd_free(*output);

@@ -193,6 +193,29 @@ static void test_set(void **state)
     (void)state;
 }
 
+static void test_folders(void **state)
+{
+    (void)state;
+    for (int commit = 0; commit < 2; commit++) {
+        file_output *output;
+        assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+        assert_int_equal(ffd_output_folder(output, in_folder("new"), NULL), FFD_OK);
+        assert_int_equal(ffd_output_folder(output, in_folder("new/a/b"), NULL), FFD_OK);
+        assert_int_equal(ffd_output_begin(output, in_folder("new/a/b/file"), false, NULL), FFD_OK);
+        if (commit)
+            assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+        ffd_output_destroy(&output);
+        assert_int_equal(ffd_file_exists(in_folder("new")), commit);
+    }
+    /* A folder that was there stays. */
+    file_output *output;
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    assert_int_equal(ffd_output_folder(output, in_folder("new/a/c"), NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    assert_false(ffd_file_exists(in_folder("new/a/c")));
+    assert_true(ffd_file_exists(in_folder("new/a/b/file")));
+}
+
 static void test_full_disk(void **state)
 {
     file_output *output;
@@ -232,6 +255,7 @@ int main(void)
         cmocka_unit_test(test_leftover_and_lock),
         cmocka_unit_test(test_permissions_and_links),
         cmocka_unit_test(test_set),
+        cmocka_unit_test(test_folders),
         cmocka_unit_test(test_full_disk),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

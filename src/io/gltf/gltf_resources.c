@@ -65,7 +65,7 @@ static ffd_status write_image(const resources *r, const char *target, const file
                              "(--resources reference leaves it)");
     }
     char *folder = ffd_path_folder(target);
-    ffd_status status = folder ? ffd_folder_make(folder, error) : ffd_fail_memory(error);
+    ffd_status status = folder ? ffd_output_folder(r->saver->output, folder, error) : ffd_fail_memory(error);
     ffd_free(folder);
     if (status == FFD_OK)
         status = ffd_output_begin(r->saver->output, target, false, error);
