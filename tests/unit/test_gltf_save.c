@@ -478,19 +478,88 @@ static void in_place_buffers_are_named_after_the_file(void **state)
     check_bytes("own.bin", moved, sizeof moved);
 }
 
-static void conversions_are_refused(void **state)
+/* Moves the file `name` and saves it in the container that the output's ending names. */
+static void change_container(const char *name, const char *output, ffd_format format)
 {
-    (void)state;
-    const char *const text = "{" ASSET "}";
     mesh_document *document = NULL;
     ffd_error error = {0};
-    const mesh_save_options options = {.path = in_folder("x.glb"), .format = FFD_FORMAT_GLB};
-    put_text("empty.gltf", text);
-    assert_int_equal(open_file(in_folder("empty.gltf"), FFD_SPACE_SCENE, &document, NULL), FFD_OK);
-    assert_int_equal(save_with(document, &options, NULL, &error), FFD_E_UNSUPPORTED);
-    assert_string_equal(error.message,
-                        "a .gltf file can only be written as .gltf: conversion is not supported");
+    const mesh_save_options options = {.path = in_folder(output), .format = format};
+    assert_int_equal(open_file(in_folder(name), FFD_SPACE_SCENE, &document, NULL), FFD_OK);
+    ffd_status status = deform(document, add_one, false, &error);
+    if (status == FFD_OK)
+        status = save_with(document, &options, NULL, &error);
+    assert_string_equal(error.message, "");
+    assert_int_equal(status, FFD_OK);
     gltf->close(document);
+}
+
+/* The text of a GLB's JSON (the caller's) and where its BIN chunk begins; chunks are whole words. */
+static char *split_glb(const file_input *file, glb_layout *layout)
+{
+    assert_int_equal(ffd_glb_parse(file->data, file->size, "", layout, NULL), FFD_OK);
+    assert_int_equal(layout->end, file->size);
+    assert_int_equal(layout->json_size % 4, 0);
+    assert_int_equal(layout->bin_size % 4, 0);
+    char *text = calloc(layout->json_size + 1, 1);
+    memcpy(text, file->data + layout->json_begin, layout->json_size);
+    return text;
+}
+
+/* A file of its own goes into the BIN chunk and comes out of it, and the rest of the JSON is the same text.
+ */
+static void containers_change(void **state)
+{
+    (void)state;
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, moved[9] = {1, 0, 0, 2, 0, 0, 1, 1, 0},
+                twice[9] = {2, 0, 0, 3, 0, 0, 2, 1, 0};
+#define CONTAINER(uri, last, least, most)                                                                    \
+    "{" ASSET ",\"buffers\":[{" uri "\"byteLength\":36" last "}]," VIEWS                                     \
+    "],\"accessors\":[" ACCESSOR(least, most) "],\"meshes\":[" MESH("0") "],\"nodes\":[{\"mesh\":0}]}"
+    put_text("text.gltf",
+             "\xef\xbb\xbf " CONTAINER("\"uri\" : \"data%20.bin\" ,", "", "[0,0,0]", "[1,1,0]") "\n");
+    put("data .bin", triangle, sizeof triangle);
+    change_container("text.gltf", "binary.glb", FFD_FORMAT_GLB);
+
+    file_input file;
+    glb_layout layout;
+    assert_int_equal(ffd_file_load(in_folder("binary.glb"), &file, NULL), FFD_OK);
+    char *text = split_glb(&file, &layout);
+    const char *const expected = CONTAINER("", "", "[1,0,0]", "[2,1,0]");
+    assert_memory_equal(text, expected, strlen(expected));
+    assert_int_equal(strspn(text + strlen(expected), " "), layout.json_size - strlen(expected));
+    assert_int_equal(layout.bin_size, sizeof moved);
+    assert_memory_equal(file.data + layout.bin_begin, moved, sizeof moved);
+    free(text);
+    ffd_file_unload(&file);
+
+    change_container("binary.glb", "text again.gltf", FFD_FORMAT_GLTF);
+    check_text("text again.gltf", CONTAINER("", ",\"uri\":\"text%20again.bin\"", "[2,0,0]", "[3,1,0]"));
+    check_bytes("text again.bin", twice, sizeof twice);
+#undef CONTAINER
+}
+
+/* A GLB has one BIN chunk: it takes the first buffer, the others become data URIs. */
+static void a_glb_holds_all_buffers(void **state)
+{
+    (void)state;
+    const char first[] = "first", second[] = "2nd";
+    put_text("many.gltf", "{" ASSET ",\"buffers\":[{\"byteLength\":5,\"uri\":\"one.bin\"},{\"byteLength\":3,"
+                          "\"uri\":\"two.bin\"},{\"byteLength\":1,\"uri\":\"data:;base64,QQ==\"}]}");
+    put("one.bin", first, strlen(first));
+    put("two.bin", second, sizeof second); /* one byte more than byteLength */
+    change_container("many.gltf", "many.glb", FFD_FORMAT_GLB);
+
+    file_input file;
+    glb_layout layout;
+    assert_int_equal(ffd_file_load(in_folder("many.glb"), &file, NULL), FFD_OK);
+    char *text = split_glb(&file, &layout);
+    const char *const expected = "{" ASSET ",\"buffers\":[{\"byteLength\":5},{\"byteLength\":3,\"uri\":"
+                                 "\"data:application/octet-stream;base64,Mm5k\"},{\"byteLength\":1,"
+                                 "\"uri\":\"data:;base64,QQ==\"}]}";
+    assert_memory_equal(text, expected, strlen(expected));
+    assert_memory_equal(file.data + layout.bin_begin, "first\0\0\0", 8);
+    free(text);
+    ffd_file_unload(&file);
 }
 
 static void images_are_copied_or_referred_to(void **state)
@@ -693,7 +762,8 @@ int main(void)
         cmocka_unit_test(glb_lengths_and_padding_follow),
         cmocka_unit_test(buffer_files_are_named_after_the_output),
         cmocka_unit_test(in_place_buffers_are_named_after_the_file),
-        cmocka_unit_test(conversions_are_refused),
+        cmocka_unit_test(containers_change),
+        cmocka_unit_test(a_glb_holds_all_buffers),
         cmocka_unit_test(images_are_copied_or_referred_to),
         cmocka_unit_test(an_image_is_not_overwritten),
         cmocka_unit_test(compare_finds_what_differs),

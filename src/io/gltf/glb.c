@@ -50,7 +50,7 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
         return ffd_fail_file(error, FFD_E_INVALID, name, "GLB: the file has %zu bytes, less than its header",
                              size);
     const uint32_t version = ffd_glb_read_u32(data + 4);
-    if (version != 2)
+    if (version != GLB_VERSION)
         return ffd_fail_file(error, FFD_E_UNSUPPORTED, name, "GLB: the version is %lu, only 2 is known",
                              (unsigned long)version);
     layout->end = ffd_glb_read_u32(data + 8);

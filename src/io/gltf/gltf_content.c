@@ -26,6 +26,7 @@ static ffd_status make_room(gltf_saver *saver, ffd_error *error)
         gltf_new_buffer *buffer = &saver->buffers[b];
         buffer->length = d->buffers[b].length;
         buffer->changed = buffer->overwrite_count + buffer->append_count > 0;
+        buffer->kind = d->buffers[b].kind;
         buffer->overwrites = ffd_alloc(buffer->overwrite_count, sizeof *buffer->overwrites);
         buffer->appends = ffd_alloc(buffer->append_count, sizeof *buffer->appends);
         if (!buffer->overwrites || !buffer->appends)
@@ -109,7 +110,8 @@ void ffd_gltf_free_content(gltf_saver *saver)
 size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer)
 {
     const gltf_new_buffer *made = &saver->buffers[buffer];
-    return made->append_count > 0 ? made->length : saver->document->buffers[buffer].size;
+    const gltf_buffer *old = &saver->document->buffers[buffer];
+    return made->append_count > 0 || made->kind != old->kind ? made->length : old->size;
 }
 
 static void write_floats(const float *values, size_t count, unsigned char *bytes)

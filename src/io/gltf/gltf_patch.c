@@ -176,7 +176,8 @@ static void edit_buffers(gltf_saver *saver)
         if (saver->buffers[b].length != d->buffers[b].length)
             replace_number(saver, d->buffer_values.values[b], "byteLength", saver->buffers[b].length,
                            &saver->edits);
-        if (saver->buffers[b].changed && d->buffers[b].kind == BUFFER_DATA)
+        if (saver->buffers[b].changed && d->buffers[b].kind == BUFFER_DATA &&
+            saver->buffers[b].kind == BUFFER_DATA)
             edit_data_uri(saver, b);
     }
 }
@@ -192,5 +193,6 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     add_accessors(saver);
     add_meshes(saver);
     edit_buffers(saver);
+    ffd_gltf_move_buffers(saver);
     return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
 }

@@ -58,10 +58,16 @@ static size_t edit_size(const gltf_saver *saver, const json_edit *edit)
                : ffd_base64_length(ffd_gltf_content_size(saver, (size_t)edit->buffer));
 }
 
+/* Where the JSON begins: a byte order mark has no place in a GLB. */
+static size_t json_begin(const gltf_saver *saver)
+{
+    return saver->binary == saver->document->binary ? 0 : saver->document->tree.values[0].begin;
+}
+
 /* The size of the JSON up to `end` with its edits. */
 static size_t json_size(const gltf_saver *saver, size_t end)
 {
-    size_t size = end;
+    size_t size = end - json_begin(saver);
     for (size_t i = 0; i < saver->edits.count; i++) {
         const json_edit *edit = &saver->edits.edits[i];
         size = size - (edit->end - edit->begin) + edit_size(saver, edit);
@@ -72,16 +78,17 @@ static size_t json_size(const gltf_saver *saver, size_t end)
 static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error)
 {
     const char *text = saver->document->tree.text;
-    size_t at = 0;
+    size_t at = json_begin(saver);
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < saver->edits.count && status == FFD_OK; i++) {
         const json_edit *edit = &saver->edits.edits[i];
         status = put(saver, text + at, edit->begin - at, error);
         if (status)
             return status;
-        status = edit->buffer == EDIT_NO_BUFFER
-                     ? put(saver, saver->edits.pool.data + edit->text, edit->text_size, error)
-                     : put_content(saver, (size_t)edit->buffer, true, error);
+        if (edit->buffer != EDIT_NO_BUFFER)
+            status = put_content(saver, (size_t)edit->buffer, true, error);
+        else if (edit->text_size > 0)
+            status = put(saver, saver->edits.pool.data + edit->text, edit->text_size, error);
         at = edit->end;
     }
     return status ? status : put(saver, text + at, end - at, error);
@@ -92,6 +99,8 @@ static size_t json_end(const gltf_saver *saver)
 {
     const json_span *tree = &saver->document->tree;
     const size_t value_end = tree->values[0].end;
+    if (saver->binary != saver->document->binary)
+        return value_end;
     if (json_size(saver, tree->size) == tree->size || tree->size - value_end > 3)
         return tree->size;
     for (size_t i = value_end; i < tree->size; i++)
@@ -116,7 +125,7 @@ static ffd_status put_chunk_header(const gltf_saver *saver, size_t size, uint32_
 /* The sizes of a GLB to write; chunk sizes include their padding. */
 typedef struct glb_sizes {
     size_t json_end, json, json_chunk; /* of the old text; of the new one; with padding */
-    bool own_bin;                      /* the BIN chunk is the first buffer's */
+    bool has_bin, own_bin;             /* there is a BIN chunk; it is the first buffer's */
     size_t bin, bin_chunk, rest, total;
 } glb_sizes;
 
@@ -125,12 +134,13 @@ static glb_sizes measure_glb(const gltf_saver *saver)
     const gltf_document *d = saver->document;
     glb_sizes sizes = {.json_end = json_end(saver), .rest = d->glb.end - d->glb.rest_begin};
     sizes.json = json_size(saver, sizes.json_end);
-    sizes.json_chunk = sizes.json == d->tree.size ? sizes.json : padded(sizes.json);
-    sizes.own_bin = d->buffer_values.count > 0 && d->buffers[0].kind == BUFFER_BIN;
+    sizes.json_chunk = d->binary && sizes.json == d->tree.size ? sizes.json : padded(sizes.json);
+    sizes.own_bin = d->buffer_values.count > 0 && saver->buffers[0].kind == BUFFER_BIN;
+    sizes.has_bin = sizes.own_bin || d->glb.has_bin;
     sizes.bin = sizes.own_bin ? ffd_gltf_content_size(saver, 0) : d->glb.bin_size;
-    sizes.bin_chunk = sizes.bin == d->glb.bin_size ? sizes.bin : padded(sizes.bin);
+    sizes.bin_chunk = d->binary && sizes.bin == d->glb.bin_size ? sizes.bin : padded(sizes.bin);
     sizes.total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + sizes.json_chunk + sizes.rest +
-                  (d->glb.has_bin ? GLB_CHUNK_HEADER_SIZE + sizes.bin_chunk : 0);
+                  (sizes.has_bin ? GLB_CHUNK_HEADER_SIZE + sizes.bin_chunk : 0);
     return sizes;
 }
 
@@ -154,7 +164,8 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
         return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
                              "would have %zu bytes, more than a GLB's 4294967295", sizes.total);
     unsigned char header[GLB_HEADER_SIZE];
-    memcpy(header, d->input.data, 8);
+    ffd_glb_write_u32(header, GLB_MAGIC);
+    ffd_glb_write_u32(header + 4, GLB_VERSION);
     ffd_glb_write_u32(header + 8, (uint32_t)sizes.total);
     ffd_status status = put(saver, header, sizeof header, error);
     if (status == FFD_OK)
@@ -163,12 +174,12 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
         status = put_json(saver, sizes.json_end, error);
     if (status == FFD_OK)
         status = put_padding(saver, sizes.json_chunk - sizes.json, ' ', error);
-    if (status == FFD_OK && d->glb.has_bin)
+    if (status == FFD_OK && sizes.has_bin)
         status = put_bin(saver, &sizes, error);
-    if (status == FFD_OK)
+    if (status == FFD_OK && d->binary)
         status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
     /* Bytes behind the stated length belong to nobody; they stay only where all else does too. */
-    if (status == FFD_OK && saver->plan.version_count == 0)
+    if (status == FFD_OK && d->binary && saver->plan.version_count == 0)
         status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);
     return status;
 }
@@ -207,18 +218,18 @@ static ffd_status put_files(gltf_saver *saver, ffd_error *error)
         return status;
     if (saver->replaces && strcmp(path, "-") != 0)
         ffd_output_remove_first(saver->output);
-    return d->binary ? put_glb(saver, error) : put_json(saver, d->tree.size, error);
+    if (saver->binary)
+        return put_glb(saver, error);
+    return put_json(saver, d->binary ? d->tree.values[0].end : d->tree.size, error);
 }
 
-static ffd_status refuse_conversion(const gltf_document *d, const mesh_save_options *options,
-                                    ffd_error *error)
+static void warn_of_chunks(const gltf_saver *saver)
 {
-    if (options->format == FFD_FORMAT_AUTO ||
-        options->format == (d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF))
-        return FFD_OK;
-    return ffd_fail_file(error, FFD_E_UNSUPPORTED, options->path,
-                         "a .%s file can only be written as .%s: conversion is not supported",
-                         d->binary ? "glb" : "gltf", d->binary ? "glb" : "gltf");
+    const gltf_document *d = saver->document;
+    if (d->binary && !saver->binary && d->glb.rest_begin < d->glb.end)
+        ffd_gltf_log(saver, FFD_LOG_WARNING,
+                     "a .gltf cannot hold: the GLB's further chunks (%zu bytes), which are left out",
+                     d->glb.end - d->glb.rest_begin);
 }
 
 ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
@@ -226,14 +237,16 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
 {
     const gltf_document *d = ffd_gltf_of(document);
     gltf_saver saver = {.document = d, .options = options, .output = output, .log = log};
-    ffd_status status = refuse_conversion(d, options, error);
-    if (status)
-        return status;
+    saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;
     saver.in_place =
         strcmp(options->path, "-") != 0 && strcmp(d->path, "-") != 0 && ffd_file_same(options->path, d->path);
-    status = ffd_gltf_make_plan(d, &saver.plan, error);
+    ffd_status status = ffd_gltf_make_plan(d, &saver.plan, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_content(&saver, error);
+    if (status == FFD_OK) {
+        ffd_gltf_place_buffers(&saver);
+        warn_of_chunks(&saver);
+    }
     if (status == FFD_OK)
         status = ffd_gltf_make_edits(&saver, error);
     if (status == FFD_OK)

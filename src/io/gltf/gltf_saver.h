@@ -21,6 +21,7 @@ typedef struct gltf_append {
 typedef struct gltf_new_buffer {
     size_t length;              /* its new byteLength */
     bool changed;               /* its bytes are not those of before */
+    gltf_buffer_kind kind;      /* how the output holds it */
     gltf_overwrite *overwrites; /* by begin */
     size_t overwrite_count;
     gltf_append *appends; /* by offset */
@@ -36,6 +37,7 @@ typedef struct gltf_saver {
     gltf_plan plan;
     gltf_new_buffer *buffers;
     json_edits edits;
+    bool binary;   /* the output is a GLB */
     bool in_place; /* the output is the input */
     bool replaces; /* some buffer file that exists is replaced */
 } gltf_saver;
@@ -51,6 +53,14 @@ size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer);
 void ffd_gltf_content_read(const gltf_saver *saver, size_t buffer, size_t offset, size_t size,
                            unsigned char *bytes);
 
+/* gltf_container.c: how the output holds each buffer. A .gltf that becomes a GLB has its first buffer in the
+   BIN chunk and the other files as data URIs, so that it is one file; a GLB that becomes a .gltf has its BIN
+   chunk in a file beside it, on standard output in a data URI. */
+void ffd_gltf_place_buffers(gltf_saver *saver);
+/* The edits of the JSON for the buffers that are held otherwise than before, but for files' names. */
+void ffd_gltf_move_buffers(gltf_saver *saver);
+/* Inserts a member before the end of a buffer's object. */
+void ffd_gltf_add_uri(gltf_saver *saver, size_t buffer, const char *uri);
 /* gltf_patch.c: the edits of the JSON that the plan and the new buffers need. */
 ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);
 /* gltf_targets.c: names for the buffers' files, and their URIs. */

@@ -52,14 +52,17 @@ static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, f
 static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    const json_value *uri =
-        &d->tree.values[ffd_json_span_member(&d->tree, d->buffer_values.values[b], "uri")];
-    if (strcmp(d->buffers[b].path, name) == 0)
+    const uint32_t uri = ffd_json_span_member(&d->tree, d->buffer_values.values[b], "uri");
+    if (d->buffers[b].path && strcmp(d->buffers[b].path, name) == 0)
         return FFD_OK;
     char *encoded = ffd_uri_encode(name);
     if (!encoded)
         return ffd_fail_memory(error);
-    ffd_edits_replace(&saver->edits, uri->begin + 1, uri->end - 1, encoded, strlen(encoded));
+    if (uri == JSON_NONE)
+        ffd_gltf_add_uri(saver, b, encoded);
+    else
+        ffd_edits_replace(&saver->edits, d->tree.values[uri].begin + 1, d->tree.values[uri].end - 1, encoded,
+                          strlen(encoded));
     ffd_free(encoded);
     return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
 }
@@ -134,7 +137,7 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
     if (!stream && !saver->in_place)
         status = refuse_own_file(saver, saver->options->path, error);
     for (size_t b = 0; b < d->buffer_values.count && status == FFD_OK; b++) {
-        if (d->buffers[b].kind != BUFFER_FILE)
+        if (saver->buffers[b].kind != BUFFER_FILE)
             continue;
         if (stream)
             return ffd_json_span_fail(
