@@ -115,7 +115,7 @@ def options_of_later_versions_are_absent(run):
 def values(run):
     work = files(run)
     for option, value in (("--outside", "kep"), ("--outside", "KEEP"), ("--normals", ""), ("--space", "world"),
-                          ("--resources", "move"), ("--input-format", "ply"), ("--output-format", ""),
+                          ("--resources", "move"), ("--input-format", "fbx"), ("--output-format", ""),
                           ("--threads", "0"), ("--threads", "-1"), ("--threads", "two"), ("--threads", "2x"),
                           ("--falloff", "0"), ("--falloff", "-1"), ("--falloff", "inf"), ("--falloff", "nan"),
                           ("--falloff", "1m"), ("--falloff", ""), ("--embedding", ""), ("--fail-on", ""),
