@@ -170,6 +170,25 @@ def obj_vertices(text):
     return [[float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
 
 
+def carried(run, points, lattice_name, **options):
+    """Where the lattice of a file takes points: an OBJ file of them, in double precision, is deformed."""
+    run.write("carried-in.obj", "".join("v %r %r %r\n" % tuple(p) for p in points))
+    run.ffd("deform", "carried-in.obj", "carried-out.obj", "-l", lattice_name, "--force", **options)
+    return obj_vertices(run.text("carried-out.obj"))
+
+
+def models(ending):
+    """The sample models whose names end so: (name, path, bytes)."""
+    found = []
+    for folder, _, names in sorted(os.walk(MODELS or "")):
+        for name in sorted(names):
+            if name.endswith(ending):
+                path = os.path.join(folder, name)
+                with open(path, "rb") as file:
+                    found.append((os.path.relpath(path, MODELS), path, file.read()))
+    return found
+
+
 def npy(data):
     """Reads NumPy's array file, version 1.0, C order: (dtype text, shape, list of rows or of values)."""
     equal(data[:8], b"\x93NUMPY\x01\x00", "the magic and version of the .npy")

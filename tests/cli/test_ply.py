@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """PLY files, with a reader of their own here: what deform changes in them, what the other commands say of them,
 and what is refused."""
-import os
+import re
 import struct
 
-from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, case, check, equal, lattice, main, near)
+from harness import (CUBE, INVALID, IO, LIMIT, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main,
+                     models, near)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
 CODES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d",
@@ -103,10 +104,6 @@ def obj_of(points):
     return "".join("v %r %r %r\n" % tuple(p) for p in points)
 
 
-def obj_points(text):
-    return [[float(x) for x in line.split()[1:4]] for line in text.splitlines() if line.startswith("v ")]
-
-
 OUTSIDE = {"lines": 1}  # one of POINTS is outside of the lattice, which is said
 
 
@@ -114,9 +111,7 @@ OUTSIDE = {"lines": 1}  # one of POINTS is outside of the lattice, which is said
 def doubles_are_those_of_obj(run):
     """The same positions as text or bytes get the same bits, whatever the format and the encoding."""
     run.write("l.json", lattice(moves=BUMP))
-    run.write("p.obj", obj_of(POINTS))
-    run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", **OUTSIDE)
-    expected = obj_points(run.text("q.obj"))
+    expected = carried(run, POINTS, "l.json", **OUTSIDE)
     check(expected[0] != POINTS[0], "the lattice moves")
     for encoding in ENCODINGS:
         run.write("p.ply", write_ply(elements("double"), encoding))
@@ -128,9 +123,7 @@ def doubles_are_those_of_obj(run):
 def floats_are_rounded_once(run):
     run.write("l.json", lattice(moves=BUMP))
     start = [[as_float(x) for x in p] for p in POINTS]
-    run.write("p.obj", obj_of(start))
-    run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", **OUTSIDE)
-    expected = [[as_float(x) for x in p] for p in obj_points(run.text("q.obj"))]
+    expected = [[as_float(x) for x in p] for p in carried(run, start, "l.json", **OUTSIDE)]
     for encoding in ENCODINGS:
         run.write("p.ply", write_ply(elements("float32"), encoding))
         run.ffd("deform", "p.ply", f"{encoding}.ply", "-l", "l.json", **OUTSIDE)
@@ -361,29 +354,42 @@ def refused(run):
     run.ffd("deform", "d.ply", "r.ply", "-l", "l.json", code=IO)
 
 
+def words_of(data):
+    """Numbers, and what stands between them, of an ascii file behind its header; b"" of others."""
+    header, body = data.split(b"end_header", 1)
+    return re.split(rb"(\s+)", body) if b"format ascii" in re.sub(rb"[ \t]+", b" ", header) else []
+
+
 @case
 def sample_models(run):
-    """An empty move copies each sample; a real one moves vertices and nothing else."""
-    count = 0
-    for folder, _, names in sorted(os.walk(MODELS or "")):
-        for name in sorted(names):
-            if not name.endswith(".ply"):
-                continue
-            path = os.path.join(folder, name)
-            with open(path, "rb") as file:
-                before = file.read()
-            for out, moves in (("still.json", []), ("moved.json", [{"at": [2, 2, 2], "by": [0.125, 0, 0.25]}])):
-                run.write(out, lattice(rest={"box": "mesh"}, moves=moves, units="box"))
-            run.ffd("deform", path, "q.ply", "-l", "still.json", "--force")
-            equal(run.read("q.ply"), before, name)
-            run.ffd("deform", path, "q.ply", "-l", "moved.json", "--force")
-            old, new = read_ply(before), read_ply(run.read("q.ply"))
-            for element in old:
-                for a, b in zip(old[element], new[element]):
-                    changed = {key for key in a if a[key] != b[key]}
-                    check(changed <= {"x", "z", "nx", "ny", "nz"} and (not changed or element == "vertex"), name, str(changed))
-            count += 1
-    check(not MODELS or count >= 9, f"{count} models")
+    """An empty move copies each sample; a real one takes each vertex where the lattice takes its position, rounded
+    to the file's precision, and changes nothing but positions and normals."""
+    found = models(".ply")
+    for out, moves in (("still.json", []), ("moved.json", [{"at": [[2, 3], [2, 3], [2, 3]], "by": [0.125, 0, 0.25]}])):
+        run.write(out, lattice(rest={"box": "mesh"}, moves=moves, units="box"))
+    for name, path, before in found:
+        run.ffd("deform", path, "q.ply", "-l", "still.json", "--force")
+        equal(run.read("q.ply"), before, name)
+        run.ffd("deform", path, "q.ply", "-l", "moved.json", "--force")
+        after = run.read("q.ply")
+        old, new = read_ply(before), read_ply(after)
+        start = [[as_float(x) for x in p] for p in vectors(before)]
+        expected = [[as_float(x) for x in p] for p in carried(run, start, "moved.json")]
+        equal([[as_float(x) for x in p] for p in vectors(after)], expected, name)
+        check(expected != start, name, "does not move")
+        for element in old:
+            equal(len(new[element]), len(old[element]), name)
+            for a, b in zip(old[element], new[element]):
+                changed = {key for key in a if a[key] != b[key]}
+                check(changed <= {"x", "z", "nx", "ny", "nz"} and (not changed or element == "vertex"), name, str(changed))
+        equal(after[:before.index(b"end_header")], before[:before.index(b"end_header")], name)
+        for a, b in zip(words_of(before), words_of(after), strict=True):
+            check(a == b or float(a) != float(b), f"{name}: {a} became {b}")
+        for command in (["info", path], ["compare", path, path], ["check", path, "-l", "moved.json"],
+                        ["lattice", "new", path, "-o", "new.json", "--force"],
+                        ["embed", path, "-l", "still.json", "-o", "e.npy", "--force"]):
+            run.ffd(*command)
+    check(not MODELS or len(found) >= 9, f"{len(found)} models")
 
 
 main()
