@@ -114,8 +114,7 @@ int ffd_text_shown(text_word word)
 
 const char *ffd_text_line_ends(const void *data, size_t size)
 {
-    static const char *const names[8] = {"none", "LF",    "CRLF",  "mixed",
-                                         "CR",   "mixed", "mixed", "mixed"};
+    static const char *const names[8] = {"none", "LF", "CRLF", "mixed", "CR", "mixed", "mixed", "mixed"};
     const char *at = data, *last = at + size;
     unsigned seen = 0;
     for (; at < last; at++) {
