@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 /* The mesh formats, for help and complaints. */
-#define CLI_FORMATS "obj, gltf, glb or ply"
+#define CLI_FORMATS "obj, gltf, glb, ply or off"
 
 typedef struct cli_option cli_option;
 

@@ -5,10 +5,11 @@
 #include "mesh/mesh.h"
 
 /* For messages. */
-#define FORMAT_NAMES "obj, gltf, glb or ply"
+#define FORMAT_NAMES "obj, gltf, glb, ply or off"
 
 extern const mesh_format ffd_obj_format;  /* io/obj */
 extern const mesh_format ffd_ply_format;  /* io/ply */
+extern const mesh_format ffd_off_format;  /* io/off */
 extern const mesh_format ffd_gltf_format; /* io/gltf: .gltf and .glb */
 
 /* The table for a format; NULL for FFD_FORMAT_AUTO. */

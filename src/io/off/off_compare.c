@@ -154,8 +154,7 @@ static void compare_all(comparer *c)
 ffd_status ffd_off_compare(const mesh_document *a, const mesh_document *b, double tolerance,
                            ffd_comparison *comparison, ffd_error *error)
 {
-    comparer c = {
-        .a = ffd_off_of(a), .b = ffd_off_of(b), .tolerance = tolerance, .result = comparison};
+    comparer c = {.a = ffd_off_of(a), .b = ffd_off_of(b), .tolerance = tolerance, .result = comparison};
     (void)error;
     *comparison = (ffd_comparison){0};
     if (same_header(&c))

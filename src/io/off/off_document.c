@@ -14,6 +14,7 @@ static ffd_status read_body(off_document *d, ffd_error *error)
     if (status)
         return status;
     ffd_text_next_line(&walk.scan);
+    ffd_text_find(&walk.scan); /* empty lines and comments are nothing that stands behind */
     d->behind = walk.scan.at;
     return FFD_OK;
 }

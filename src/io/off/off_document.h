@@ -16,7 +16,7 @@ typedef struct off_document {
     off_header header;
     size_t lines, points;   /* faces of two corners, and of one */
     size_t corners;         /* of the other faces */
-    const char *behind;     /* behind the last face's line, or the last vertex' */
+    const char *behind;     /* what follows the last face's line, or the last vertex' */
     double *positions;      /* 3 a vertex */
     double *directions;     /* 3 a vertex; NULL without normals */
     double *new_positions;  /* NULL before ffd_off_begin_results */
@@ -27,7 +27,6 @@ static inline const off_document *ffd_off_of(const mesh_document *document)
 {
     return (const off_document *)document;
 }
-
 
 /* Reads vertices and faces behind the header, or refuses them. */
 ffd_status ffd_off_read_vertices(off_document *document, off_walk *walk, ffd_error *error);

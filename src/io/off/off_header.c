@@ -89,8 +89,8 @@ static ffd_status read_keyword(header_reader *r, text_word *rest)
         return refuse(r, FFD_E_INVALID, "the file does not begin with OFF (COFF, NOFF, STOFF ..) but with",
                       word);
     if (unsupported)
-        return refuse(r, FFD_E_UNSUPPORTED, "vertices of other than three coordinates are not supported:",
-                      r->header->keyword);
+        return refuse(r, FFD_E_UNSUPPORTED,
+                      "vertices of other than three coordinates are not supported:", r->header->keyword);
     text_scan ahead = r->scan;
     if (rest->first == rest->last && ffd_text_word(&ahead, &next) && ffd_text_is_any_case(next, "binary"))
         return refuse(r, FFD_E_UNSUPPORTED, "the binary form of OFF is not supported:", next);
@@ -145,10 +145,10 @@ static ffd_status check_size(header_reader *r, uint64_t vertices, uint64_t faces
 {
     off_header *header = r->header;
     const size_t left = (size_t)(r->scan.last - r->scan.at);
-    const size_t needed = vertices > SIZE_MAX || faces > SIZE_MAX
-                              ? SIZE_MAX
-                              : least_bytes((size_t)vertices, 2 * off_header_numbers(header), (size_t)faces,
-                                            FACE_BYTES);
+    const size_t needed =
+        vertices > SIZE_MAX || faces > SIZE_MAX
+            ? SIZE_MAX
+            : least_bytes((size_t)vertices, 2 * off_header_numbers(header), (size_t)faces, FACE_BYTES);
     if (needed > left + 1)
         return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan.line,
                              "%" PRIu64 " vertices and %" PRIu64
@@ -173,15 +173,32 @@ static bool has_lines(text_scan scan, size_t count)
     return true;
 }
 
+/* Whether the next line that is not empty has as many words as a vertex may have. */
+static bool has_vertex_line(const off_header *header, text_scan scan)
+{
+    const size_t numbers = off_header_numbers(header);
+    size_t count = 0;
+    text_word word;
+    ffd_text_find(&scan);
+    while (ffd_text_word(&scan, &word))
+        count++;
+    return count >= numbers + ffd_off_header_rest_min(header) &&
+           count <= numbers + ffd_off_header_rest_max(header);
+}
+
 static ffd_status find_layout(header_reader *r)
 {
     text_word word;
     text_scan line = r->scan;
     off_header *header = r->header;
     header->body = r->scan;
-    header->free_layout = !has_lines(r->scan, header->vertices + header->faces);
-    if (!header->free_layout && ffd_text_word(&line, &word))
-        return refuse(r, FFD_E_INVALID, "behind the numbers of vertices, faces and edges stands", word);
+    const bool in_header_line = ffd_text_word(&line, &word);
+    if (has_lines(r->scan, header->vertices + header->faces)) {
+        if (in_header_line)
+            return refuse(r, FFD_E_INVALID, "behind the numbers of vertices, faces and edges stands", word);
+        return FFD_OK;
+    }
+    header->free_layout = in_header_line || !has_vertex_line(header, r->scan);
     return FFD_OK;
 }
 

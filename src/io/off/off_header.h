@@ -18,7 +18,8 @@ typedef struct off_header {
     bool has_texcoords, has_colours, has_normals;
     size_t vertices, faces;
     /* Each vertex and each face has a line of its own in nearly all files. One with fewer lines than that is
-       read as a sequence of words in which only what follows a face's corners ends with the line. */
+       read as a sequence of words in which only what follows a face's corners ends with the line; unless its
+       first line is that of a vertex, for then it has lost its end. */
     bool free_layout;
     text_scan body; /* right behind the header */
 } off_header;

@@ -39,10 +39,9 @@ static ffd_status check_rest(const off_document *d, off_walk *walk, ffd_error *e
     if (found >= least && found <= most)
         return FFD_OK;
     const size_t numbers = off_header_numbers(&d->header);
-    return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
-                         "a vertex has %zu numbers at %s, found %zu",
-                         numbers + (found < least ? least : most), found < least ? "least" : "most",
-                         numbers + found);
+    return ffd_fail_line(
+        error, FFD_E_INVALID, d->name, walk->scan.line, "a vertex has %zu numbers at %s, found %zu",
+        numbers + (found < least ? least : most), found < least ? "least" : "most", numbers + found);
 }
 
 ffd_status ffd_off_read_vertices(off_document *d, off_walk *walk, ffd_error *error)

@@ -1,0 +1,281 @@
+/* mesh_bytes.h - meshes of any format in memory: opened, changed, saved, broken, and with memory that runs
+   out. */
+#ifndef FFD_TESTS_MESH_BYTES_H
+#define FFD_TESTS_MESH_BYTES_H
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "draw.h"
+#include "mesh/mesh.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Opens bytes (which must stay) as if they were the file "a.mesh". */
+static inline ffd_status open_bytes(const mesh_format *format, const void *bytes, size_t size,
+                                    mesh_document **document, ffd_error *error)
+{
+    file_input input = {.data = bytes, .size = size};
+    const ffd_source source = {.path = "a.mesh", .format = format->format};
+    *error = (ffd_error){0};
+    *document = NULL;
+    return format->open(&input, &source, document, error);
+}
+
+static inline mesh_document *opened_bytes(const mesh_format *format, const void *bytes, size_t size)
+{
+    mesh_document *document;
+    ffd_error error;
+    if (open_bytes(format, bytes, size, &document, &error))
+        fail_msg("line %zu: %s", error.line, error.message);
+    assert_int_equal(document->part_count, 1);
+    assert_true(document->parts->identity);
+    return document;
+}
+
+/* A path for the saved files of this process; remove_saved takes it away again. */
+static inline const char *saved_path(void)
+{
+    static char path[64];
+    snprintf(path, sizeof path, "/tmp/ffd-test-mesh-%ld", (long)getpid());
+    return path;
+}
+
+static inline int remove_saved(void **state)
+{
+    (void)state;
+    remove(saved_path());
+    return 0;
+}
+
+/* Saves into a file and reads that. */
+static inline ffd_status save_bytes(mesh_document *document, file_input *saved, ffd_error *error)
+{
+    const mesh_format *format = document->format;
+    const mesh_save_options options = {.path = saved_path(), .format = format->format, .force = true};
+    const mesh_log log = {0};
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (status)
+        return status;
+    status = format->save(document, &options, output, &log, error);
+    if (status == FFD_OK)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status == FFD_OK ? ffd_file_load(saved_path(), saved, error) : status;
+}
+
+static inline void assert_saved(mesh_document *document, const void *bytes, size_t size)
+{
+    file_input saved;
+    ffd_error error = {0};
+    if (save_bytes(document, &saved, &error))
+        fail_msg("%s", error.message);
+    if (saved.size != size || memcmp(saved.data, bytes, size) != 0)
+        fail_msg("saved:\n%.*s\nexpected:\n%.*s", (int)saved.size, (const char *)saved.data, (int)size,
+                 (const char *)bytes);
+    ffd_file_unload(&saved);
+}
+
+static inline double as_held(const mesh_document *document, double value)
+{
+    return document->largest_coordinate == (double)FLT_MAX ? (double)(float)value : value;
+}
+
+static inline bool same_number(double a, double b)
+{
+    return a == b || (isnan(a) && isnan(b));
+}
+
+/* What was written is there again when the saved file is read. */
+static inline void assert_holds(const mesh_document *before, const file_input *saved, const double *positions)
+{
+    mesh_document *document = opened_bytes(before->format, saved->data, saved->size);
+    assert_int_equal(document->parts->vertex_count, before->parts->vertex_count);
+    for (size_t i = 0; i < document->parts->vertex_count; i++) {
+        double p[3];
+        document->format->read_positions(document, 0, i, 1, p);
+        for (size_t a = 0; a < 3; a++)
+            assert_true(same_number(p[a], as_held(before, positions[3 * i + a])));
+    }
+    document->format->close(document);
+}
+
+/* Moves about half of the vertices by small numbers. */
+static inline void change_and_save(mesh_document *document, draw *d)
+{
+    const mesh_format *format = document->format;
+    const mesh_part *part = document->parts;
+    double *positions = malloc((part->vertex_count + 1) * 3 * sizeof *positions);
+    file_input saved;
+    ffd_error error = {0};
+    assert_non_null(positions);
+    for (size_t i = 0; i < part->vertex_count; i++) {
+        const uint8_t changed = draw_int(d, 0, 1) == 1;
+        format->read_positions(document, 0, i, 1, positions + 3 * i);
+        for (size_t a = 0; a < 3 && changed; a++)
+            positions[3 * i + a] += draw_int(d, 0, 2) / 3.0;
+        format->write_positions(document, 0, i, 1, positions + 3 * i, &changed);
+    }
+    for (size_t n = 0; n < part->normal_count; n++) {
+        const double value[3] = {draw_int(d, 0, 1), draw_int(d, 0, 1), 0.5};
+        const uint8_t changed = draw_int(d, 0, 1) == 1;
+        format->write_normals(document, 0, n, 1, value, &changed);
+    }
+    if (save_bytes(document, &saved, &error))
+        fail_msg("%s", error.message);
+    assert_holds(document, &saved, positions);
+    ffd_file_unload(&saved);
+    free(positions);
+}
+
+/* The rest of the format's table, on a file that opened. */
+static inline void use_document(mesh_document *document)
+{
+    const mesh_format *format = document->format;
+    mesh_faces faces;
+    ffd_comparison comparison;
+    byte_buffer buffer = {0};
+    json_text json;
+    ffd_json_begin(&json, &buffer);
+    ffd_json_object(&json, NULL, true);
+    assert_int_equal(format->describe(document, &json, NULL), FFD_OK);
+    ffd_buffer_free(&buffer);
+    assert_int_equal(format->faces(document, &faces, NULL), FFD_OK);
+    for (size_t i = 0; i < faces.start[faces.face_count]; i++)
+        assert_true(faces.corners[i] < faces.vertex_count);
+    ffd_mesh_faces_free(&faces);
+    assert_int_equal(format->compare(document, document, 0, &comparison, NULL), FFD_OK);
+    assert_true(comparison.equal);
+    assert_int_equal(format->begin_results(document, true, true, NULL), FFD_OK);
+}
+
+/* Opens bytes and uses what opens. What is not touched is saved as it is; refusals have words. */
+static inline ffd_status use_bytes(const mesh_format *format, const void *bytes, size_t size, draw *d)
+{
+    char *copy = malloc(size ? size : 1); /* of the exact size, so that reading past it is seen */
+    mesh_document *document;
+    ffd_error error;
+    assert_non_null(copy);
+    memcpy(copy, bytes, size);
+    const ffd_status status = open_bytes(format, copy, size, &document, &error);
+    if (status == FFD_OK) {
+        use_document(document);
+        if (draw_int(d, 0, 9) == 0) {
+            assert_saved(document, copy, size);
+            change_and_save(document, d);
+        }
+        format->close(document);
+    } else {
+        assert_true(status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED || status == FFD_E_LIMIT);
+        assert_int_equal(error.status, status);
+        assert_true(error.message[0]);
+        assert_null(document);
+    }
+    free(copy);
+    return status;
+}
+
+static inline size_t mutate_bytes(draw *d, char *bytes, size_t size, size_t capacity, const char *likely)
+{
+    for (int count = draw_int(d, 1, 4); count > 0; count--) {
+        const size_t at = size ? (size_t)draw_int(d, 0, (int)size - 1) : 0;
+        const char byte =
+            draw_int(d, 0, 3) ? likely[draw_int(d, 0, (int)strlen(likely) - 1)] : (char)draw_int(d, 0, 255);
+        const int kind = draw_int(d, 0, 3);
+        if (kind == 0 && size < capacity) {
+            memmove(bytes + at + 1, bytes + at, size - at);
+            bytes[at] = byte;
+            size++;
+        } else if (kind == 1 && size) {
+            memmove(bytes + at, bytes + at + 1, size - at - 1);
+            size--;
+        } else if (kind == 2 && size)
+            size = draw_int(d, 0, 3) ? size : at;
+        else if (size)
+            bytes[at] = byte;
+    }
+    return size;
+}
+
+typedef struct byte_seed {
+    const char *bytes;
+    size_t size;
+} byte_seed;
+
+/* Good files with bytes changed at random; likely: bytes that the format has a meaning for. */
+static inline void use_mutations(const mesh_format *format, const byte_seed *seeds, size_t count, int rounds,
+                                 const char *likely)
+{
+    draw d = {draw_seed()};
+    int valid = 0, refused = 0;
+    char scratch[1024];
+    for (int round = 0; round < rounds; round++) {
+        const byte_seed *seed = &seeds[(size_t)round % count];
+        assert_true(seed->size < sizeof scratch);
+        memcpy(scratch, seed->bytes, seed->size);
+        const size_t size = mutate_bytes(&d, scratch, seed->size, sizeof scratch, likely);
+        const bool opens = use_bytes(format, scratch, size, &d) == FFD_OK;
+        valid += opens;
+        refused += !opens;
+    }
+    assert_true(valid > rounds / 20 && refused > rounds / 20);
+}
+
+static inline void use_truncations(const mesh_format *format, const byte_seed *seed)
+{
+    draw d = {draw_seed()};
+    for (size_t size = 0; size < seed->size; size++)
+        use_bytes(format, seed->bytes, size, &d);
+}
+
+/* Opens, describes, shows faces, and saves with one allocation after the other failing. */
+static inline ffd_status use_all(const mesh_format *format, const byte_seed *seed)
+{
+    static const double moved[3] = {7, 8, 9};
+    static const uint8_t changed = 1;
+    mesh_document *document;
+    mesh_faces faces = {0};
+    file_input saved;
+    byte_buffer buffer = {0};
+    json_text json;
+    ffd_error error;
+    ffd_status status = open_bytes(format, seed->bytes, seed->size, &document, &error);
+    if (status)
+        return status;
+    ffd_json_begin(&json, &buffer);
+    ffd_json_object(&json, NULL, true);
+    status = format->begin_results(document, true, true, &error);
+    if (status == FFD_OK) {
+        format->write_positions(document, 0, 0, 1, moved, &changed);
+        status = format->faces(document, &faces, &error);
+    }
+    if (status == FFD_OK)
+        status = format->describe(document, &json, &error);
+    if (status == FFD_OK)
+        status = save_bytes(document, &saved, &error);
+    if (status == FFD_OK)
+        ffd_file_unload(&saved);
+    ffd_buffer_free(&buffer);
+    ffd_mesh_faces_free(&faces);
+    format->close(document);
+    return status;
+}
+
+static inline void use_with_failing_memory(const mesh_format *format, const byte_seed *seed)
+{
+    long successes = 0;
+    ffd_status status = FFD_E_MEMORY;
+    for (; status == FFD_E_MEMORY && successes < 1000; successes++) {
+        ffd_alloc_fail_after(successes);
+        status = use_all(format, seed);
+        ffd_alloc_fail_after(-1);
+    }
+    assert_int_equal(status, FFD_OK);
+    assert_true(successes > 8);
+}
+
+#endif

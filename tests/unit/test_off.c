@@ -1,0 +1,365 @@
+/* OFF: headers, vertices and faces in every layout, saving and comparing, on files written here. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../support/mesh_bytes.h"
+#include "io/formats.h"
+#include "io/off/off_document.h"
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const mesh_format *const off = &ffd_off_format;
+
+static mesh_document *opened(const char *text)
+{
+    return opened_bytes(off, text, strlen(text));
+}
+
+/* Vertices as "1,2,3 4,5,6", normals likewise, faces as "0,1,2 1,2". */
+static void contents_of(const mesh_document *document, char *text, size_t capacity)
+{
+    const mesh_part *part = document->parts;
+    mesh_faces faces;
+    text[0] = 0;
+#define ADD(...) snprintf(text + strlen(text), capacity - strlen(text), __VA_ARGS__)
+    for (size_t i = 0; i < part->vertex_count; i++) {
+        double p[3];
+        off->read_positions(document, 0, i, 1, p);
+        ADD("%s%g,%g,%g", i ? " " : "", p[0], p[1], p[2]);
+    }
+    for (size_t i = 0; i < part->normal_count; i++) {
+        double n[3];
+        off->read_normals(document, 0, i, 1, n);
+        ADD("%s%g,%g,%g", i ? " " : " N ", n[0], n[1], n[2]);
+    }
+    assert_int_equal(off->faces(document, &faces, NULL), FFD_OK);
+    for (size_t f = 0; f < faces.face_count; f++) {
+        ADD("%s", f ? " " : " F ");
+        for (size_t c = faces.start[f]; c < faces.start[f + 1]; c++)
+            ADD("%s%u", c > faces.start[f] ? "," : "", (unsigned)faces.corners[c]);
+    }
+    if (faces.lines || faces.points)
+        ADD(" L%zu P%zu", faces.lines, faces.points);
+#undef ADD
+    ffd_mesh_faces_free(&faces);
+}
+
+#define TRIANGLE "0 0 0\n1 0 0\n0 1 0\n"
+#define IS_TRIANGLE "0,0,0 1,0,0 0,1,0 F 0,1,2"
+
+static void test_dialects(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *contents;
+    } cases[] = {
+        {"OFF\n3 1 0\n" TRIANGLE "3 0 1 2\n", IS_TRIANGLE},
+        {"OFF 3 1 0\n" TRIANGLE "3 0 1 2", IS_TRIANGLE},
+        {"OFF3 1 0\n" TRIANGLE "3 0 1 2", IS_TRIANGLE},
+        {"3 1 0\n" TRIANGLE "3 0 1 2\n", IS_TRIANGLE},
+        {"OFF\n3 1\n" TRIANGLE "3 0 1 2\n", IS_TRIANGLE},
+        {"OFF\n3\n1\n2\n" TRIANGLE "3 0 1 2\n", IS_TRIANGLE},
+        {"OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n", IS_TRIANGLE},
+        {"OFF\r3 1 0\r0 0 0\r1 0 0\r0 1 0\r3 0 1 2", IS_TRIANGLE},
+        {"\xEF\xBB\xBFOFF\n3 1 0\n" TRIANGLE "3 0 1 2\n", IS_TRIANGLE},
+        {"# a\nOFF # b\n\n# c\n3 1 0 # d\n\n\t\n0 0 0# e\n#\n 1\t0 0\n\n0 1 0\n# f\n3 0 1 2 # g\n",
+         IS_TRIANGLE},
+        {"OFF\n3 1 0\n+0 0.0 .0\n1.e0 0e5 -0\n0 10e-1 0\n3 0 1 2\n", "0,0,0 1,0,-0 0,1,0 F 0,1,2"},
+        /* colours, where the keyword tells and where not */
+        {"COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 .5 1 1\n0 1 0 3\n3 0 1 2\n", IS_TRIANGLE},
+        {"OFF\n3 1 0\n0 0 0 255 0 0\n1 0 0\n0 1 0 3\n3 0 1 2 0.1 0.2 0.3 1\n", IS_TRIANGLE},
+        {"OFF\n3 1 0\n" TRIANGLE "3 0 1 2 some map\n", IS_TRIANGLE},
+        {"NOFF\n1 0 0\n1 2 3 0 0 1\n", "1,2,3 N 0,0,1"},
+        {"NOFF\n1 0 0\n1 2 3 0 0 1 255 255 255\n", "1,2,3 N 0,0,1"},
+        {"CNOFF\n1 0 0\n1 2 3 0 1 0 9 9 9 9\n", "1,2,3 N 0,1,0"},
+        {"NCOFF\n1 0 0\n1 2 3 0 1 0 9 9 9 9\n", "1,2,3 N 0,1,0"},
+        {"STOFF\n1 0 0\n1 2 3 .5 .5\n", "1,2,3"},
+        {"STCNOFF\n2 0 0\n1 2 3 0 1 0 9 9 9 9 .5 .5\n4 5 6 1 0 0 9 9 9 9 .5 .5\n",
+         "1,2,3 4,5,6 N 0,1,0 1,0,0"},
+        /* fewer lines than vertices and faces: words */
+        {"OFF 3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2", IS_TRIANGLE},
+        {"OFF 3 1 0 0 0 0 1\n0 0 0 1 0 3\n 0 1 2 7 7 7", IS_TRIANGLE},
+        {"COFF 2 0 0 1 2 3 9 9 9 9 4 5 6 9 9 9 9", "1,2,3 4,5,6"},
+        {"STCNOFF 2 1 0 1 2 3 0 1 0 9 9 9 9 .5 .5 4 5 6 1 0 0 9 9 9 9 .5 .5 3 0 1 0 1 1 1",
+         "1,2,3 4,5,6 N 0,1,0 1,0,0 F 0,1,0"},
+        /* faces of all sizes */
+        {"OFF\n3 5 0\n" TRIANGLE "4 0 1 2 1\n2 0 1\n1 2\n0\n3 2 1 0\n",
+         "0,0,0 1,0,0 0,1,0 F 0,1,2,1  2,1,0 L1 P1"},
+        {"OFF\n0 0 0\n", ""},
+        {"OFF 0 0", ""},
+        {"OFF\n1 0 0\n1 2 3\n\nmore # than\nthat", "1,2,3"},
+        {"OFF\n2 0 0\nnan 2 3\n1 -inf 1e999\n", "nan,2,3 1,-inf,inf"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char contents[256];
+        mesh_document *document = opened(cases[i].text);
+        contents_of(document, contents, sizeof contents);
+        if (strcmp(contents, cases[i].contents) != 0)
+            fail_msg("case %zu: %s", i, contents);
+        assert_int_equal(off->check(document, NULL), FFD_OK);
+        assert_int_equal(off->begin_results(document, true, true, NULL), FFD_OK);
+        assert_saved(document, cases[i].text, strlen(cases[i].text));
+        off->close(document);
+    }
+}
+
+static void test_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        ffd_status status;
+        size_t line;
+        const char *message;
+    } cases[] = {
+        {"", FFD_E_INVALID, 1, "the file has no content"},
+        {"# only\n\n", FFD_E_INVALID, 3, "the file has no content"},
+        {"off\n1 0 0\n", FFD_E_INVALID, 1,
+         "the file does not begin with OFF (COFF, NOFF, STOFF ..) but with \"off\""},
+        {"\nPLY\n", FFD_E_INVALID, 2,
+         "the file does not begin with OFF (COFF, NOFF, STOFF ..) but with \"PLY\""},
+        {"CCOFF 0 0 0", FFD_E_INVALID, 1,
+         "the file does not begin with OFF (COFF, NOFF, STOFF ..) but with \"CCOFF\""},
+        {"OFFX 0 0 0", FFD_E_INVALID, 1,
+         "the file does not begin with OFF (COFF, NOFF, STOFF ..) but with \"OFFX\""},
+        {"4OFF\n1 0 0\n1 2 3 1\n", FFD_E_UNSUPPORTED, 1,
+         "vertices of other than three coordinates are not supported: \"4OFF\""},
+        {"nOFF\n3\n1 0 0\n1 2 3\n", FFD_E_UNSUPPORTED, 1,
+         "vertices of other than three coordinates are not supported: \"nOFF\""},
+        {"STCN4nOFF 5\n", FFD_E_UNSUPPORTED, 1,
+         "vertices of other than three coordinates are not supported: \"STCN4nOFF\""},
+        {"OFF BINARY\n\x01\x02", FFD_E_UNSUPPORTED, 1, "the binary form of OFF is not supported: \"BINARY\""},
+        {"CNOFF binary\n", FFD_E_UNSUPPORTED, 1, "the binary form of OFF is not supported: \"binary\""},
+        {"OFF\n", FFD_E_INVALID, 2, "the file ends before the number of vertices"},
+        {"OFF\n3", FFD_E_INVALID, 2, "the file ends before the number of faces"},
+        {"OFF\n-3 1 0\n", FFD_E_INVALID, 2, "the number of vertices is no whole number: \"-3\""},
+        {"OFF\n3 1.5 0\n", FFD_E_INVALID, 2, "the number of faces is no whole number: \"1.5\""},
+        {"OFF\n1 0 0 0\n1 2 3\n", FFD_E_INVALID, 2,
+         "behind the numbers of vertices, faces and edges stands \"0\""},
+        {"OFF\n4611686018427387904 1 0\n1 2 3\n", FFD_E_INVALID, 2,
+         "4611686018427387904 vertices and 1 faces are stated, more than the 7 bytes that follow can hold"},
+        {"OFF\n99999999999999999999999 1 0\n1 2 3\n", FFD_E_INVALID, 2,
+         "18446744073709551615 vertices and 1 faces are stated, more than the 7 bytes that follow can hold"},
+        {"OFF\n1 9223372036854775809 0\n1 2 3\n", FFD_E_INVALID, 2,
+         "1 vertices and 9223372036854775809 faces are stated, more than the 7 bytes that follow can hold"},
+        {"OFF\n2 0 0\n1 2 3\n", FFD_E_INVALID, 2,
+         "2 vertices and 0 faces are stated, more than the 7 bytes that follow can hold"},
+        {"OFF\n2 0 0\n1 2 3 4 5 6\n", FFD_E_INVALID, 4, "the file ends behind 1 of 2 vertices"},
+        {"OFF\n2 0 0\n1.0 2.0 3.0\n", FFD_E_INVALID, 4, "the file ends behind 1 of 2 vertices"},
+        {"OFF\n2 1 0\n1 2 3\n1 2 \n3 0 1 0\n", FFD_E_INVALID, 4, "a vertex needs 3 numbers, found 2"},
+        {"NOFF\n1 1 0\n1 2 3 0 0\n3 0 0 0\n", FFD_E_INVALID, 3, "a vertex needs 6 numbers, found 5"},
+        {"OFF\n1 1 0\n1 two 3\n3 0 0 0\n", FFD_E_INVALID, 3,
+         "coordinate y of a vertex is not a number: \"two\""},
+        {"NOFF\n1 1 0\n1 2 3 0 0 1x\n3 0 0 0\n", FFD_E_INVALID, 3,
+         "coordinate z of a normal is not a number: \"1x\""},
+        {"OFF\n1 0 0\n1 2 3 red\n", FFD_E_INVALID, 3, "what follows a vertex is not a number: \"red\""},
+        {"OFF\n1 0 0\n1 2 3 1 2 3 4 5\n", FFD_E_INVALID, 3, "a vertex has 7 numbers at most, found 8"},
+        {"COFF\n1 0 0\n1 2 3\n", FFD_E_INVALID, 3, "a vertex has 4 numbers at least, found 3"},
+        {"STOFF\n1 0 0\n1 2 3 1\n", FFD_E_INVALID, 3, "a vertex has 5 numbers at least, found 4"},
+        {"OFF\n3 2 0\n" TRIANGLE "3 0 1 2\n", FFD_E_INVALID, 7, "the file ends behind 1 of 2 faces"},
+        {"OFF\n3 1 0\n" TRIANGLE "3 0 1 3\n", FFD_E_INVALID, 6,
+         "vertex 3 is out of range: there are 3, counted from 0"},
+        {"OFF\n3 1 0\n" TRIANGLE "3 0 1 4294967296\n", FFD_E_INVALID, 6,
+         "vertex 4294967296 is out of range: there are 3, counted from 0"},
+        {"OFF\n3 1 0\n" TRIANGLE "3 0 1 99999999999999999999\n", FFD_E_INVALID, 6,
+         "vertex 99999999999999999999 is out of range: there are 3, counted from 0"},
+        {"OFF\n3 1 0\n" TRIANGLE "3 0 1 -1\n", FFD_E_INVALID, 6, "a corner is no whole number: \"-1\""},
+        {"OFF\n3 1 0\n" TRIANGLE "3.0 0 1 2\n", FFD_E_INVALID, 6,
+         "a face's number of corners is no whole number: \"3.0\""},
+        {"OFF\n3 1 0\n" TRIANGLE "4 0 1 2\n", FFD_E_INVALID, 6, "a face states 4 corners, found 3"},
+        {"OFF\n3 1 0\n" TRIANGLE "99999999999999999999 0 1 2\n", FFD_E_INVALID, 6,
+         "a face states 99999999999999999999 corners, found 3"},
+        {"OFF 3 1 0 0 0 0 1 0 0 0 1 0 9 0 1 2", FFD_E_INVALID, 1, "a face states 9 corners, found 3"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *document;
+        ffd_error error;
+        const ffd_status status = open_bytes(off, cases[i].text, strlen(cases[i].text), &document, &error);
+        if (status != cases[i].status || error.line != cases[i].line ||
+            strcmp(error.message, cases[i].message) != 0)
+            fail_msg("case %zu: status %d, line %zu: %s", i, status, error.line, error.message);
+        assert_string_equal(error.file, "a.mesh");
+        assert_null(document);
+    }
+}
+
+/* Results */
+
+static void test_results(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *before, *after;
+    } cases[] = {
+        {"NOFF # c\n2 0 0\n 1.0\t2.00 3e0   0 0.0 1.0 255 0 0 # d\r\n4 5 6 1 0 0\nrest",
+         "NOFF # c\n2 0 0\n 1.0\t0.1 -1e+300   0 1 1.0 255 0 0 # d\r\n4 5 6 1 0 0\nrest"},
+        {"NOFF 2 0 0 1.0 2.00\t3e0  0 0.0 1.0 4 5 6 1 0 0",
+         "NOFF 2 0 0 1.0 0.1\t-1e+300  0 1 1.0 4 5 6 1 0 0"},
+    };
+    const double place[6] = {1, 0.1, -1e300, 9, 9, 9}, direction[6] = {0, 1, 1, 9, 9, 9};
+    const uint8_t changed[2] = {1, 0}; /* what is not changed is not looked at */
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *document = opened(cases[i].before);
+        assert_int_equal(off->begin_results(document, true, false, NULL), FFD_OK);
+        off->write_positions(document, 0, 0, 2, place, changed);
+        off->write_normals(document, 0, 0, 2, direction, changed);
+        assert_saved(document, cases[i].after, strlen(cases[i].after));
+        off->close(document);
+    }
+}
+
+static void test_normals_are_kept(void **state)
+{
+    (void)state;
+    static const char text[] = "NOFF 1 0 0\n1 2 3 0 0 1\n", expected[] = "NOFF 1 0 0\n-1 2 3.5 0 0 1\n";
+    const double place[3] = {-1, 2, 3.5}, direction[3] = {1, 0, 0};
+    const uint8_t changed = 1;
+    mesh_document *document = opened(text);
+    assert_int_equal(off->begin_results(document, false, false, NULL), FFD_OK);
+    off->write_positions(document, 0, 0, 1, place, &changed);
+    off->write_normals(document, 0, 0, 1, direction, &changed);
+    assert_saved(document, expected, sizeof expected - 1);
+    off->close(document);
+}
+
+static void test_zero_signs(void **state)
+{
+    (void)state;
+    static const char text[] = "OFF 1 0 0\n0 -0 -0.0\n";
+    const double place[3] = {-0.0, 0.0, -0.0};
+    const uint8_t changed = 1;
+    mesh_document *document = opened(text);
+    assert_int_equal(off->begin_results(document, true, true, NULL), FFD_OK);
+    off->write_positions(document, 0, 0, 1, place, &changed);
+    assert_saved(document, "OFF 1 0 0\n-0 0 -0.0\n", 20);
+    off->close(document);
+}
+
+/* Description and comparison */
+
+static void test_description(void **state)
+{
+    (void)state;
+    mesh_document *document =
+        opened("STCOFF\r\n3 4 0\r\n0 0 0 255 255 255 1 1\r\n1 0 0 1 0 0\r\n0 1 0 1 1 1 1 0 0\r\n"
+               "3 0 1 2\r\n4 0 1 2 0 7\r\n2 0 1\r\n5 0 1 2 0 1\r\n\r\n# c\r\nrest");
+    byte_buffer out = {0};
+    json_text json;
+    ffd_json_begin(&json, &out);
+    ffd_json_object(&json, NULL, true);
+    assert_int_equal(off->describe(document, &json, NULL), FFD_OK);
+    ffd_json_end(&json, '}');
+    char *text = ffd_buffer_finish(&out);
+    assert_non_null(text);
+    static const char expected[] =
+        "{\"keyword\": \"STCOFF\", \"vertices\": 3, \"vertices_with_color\": 3, \"normals\": 0, "
+        "\"texcoords\": 3, "
+        "\"faces\": 3, \"faces_with_color\": 1, \"triangles\": 1, \"quads\": 1, \"ngons\": 1, \"lines\": 1, "
+        "\"points\": 0, \"bytes_behind\": 4, \"line_endings\": \"CRLF\"}\n";
+    assert_string_equal(text, expected);
+    ffd_free(text);
+    off->close(document);
+}
+
+static void test_compare(void **state)
+{
+    (void)state;
+    static const char base[] = "NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n";
+    static const struct {
+        const char *text;
+        double tolerance;
+        const char *difference; /* NULL: equal */
+    } cases[] = {
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 0, NULL},
+        {"NOFF 3 1\r\n0 0.0 0 0 0 1 # c\r1e0 0 0 0 0 1\n\n0 1 0 0 -0 1 255\n3 0 01 2 .50\nrest", 0, NULL},
+        {"NOFF 3 1 3\n0 0 0 0 0 1\n1.5 0 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 0.5, NULL},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1.5 0 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 0.25,
+         "vertex 1 counted from 0 (line 4): x differs by 0.5"},
+        {"NOFF\n\n3 1 3\n0 0 0 0 0 1\n1 nan 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 9,
+         "vertex 1 counted from 0 (lines 4 and 5): y: 0 and nan"},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0.5 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 9,
+         "vertex 1 counted from 0 (line 4): normal \"0\" and \"0.5\""},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 254\n3 0 1 2 0.5\n", 9,
+         "vertex 2 counted from 0 (line 5): followed by \"255\" and \"254\""},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255.0\n3 0 1 2 0.5\n", 9,
+         "vertex 2 counted from 0 (line 5): followed by \"255\" and \"255.0\""},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2 0.5\n", 9,
+         "vertex 2 counted from 0 (line 5): followed by \"255\" and \"\""},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2\n", 9,
+         "face 0 counted from 0 (line 6): followed by \"0.5\" and \"\""},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255\n3 0 2 1 0.5\n", 9,
+         "face 0 counted from 0 (line 6): vertices \"1\" and \"2\""},
+        {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255\n4 0 1 2 0\n", 9,
+         "face 0 counted from 0 (line 6): corners \"3\" and \"4\""},
+        {"OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0.5\n", 9, "normals of vertices are only in the first"},
+        {"CNOFF\n3 1 3\n0 0 0 0 0 1 1\n1 0 0 0 0 1 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 9,
+         "colors of vertices are only in the second"},
+        {"NOFF\n2 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n3 0 1 0 0.5\n", 9, "3 and 2 vertices"},
+        {"NOFF\n3 0 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255\n", 9, "1 and 0 faces"},
+    };
+    mesh_document *a = opened(base);
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *b = opened(cases[i].text);
+        ffd_comparison result;
+        assert_int_equal(off->compare(a, b, cases[i].tolerance, &result, NULL), FFD_OK);
+        assert_int_equal(result.equal, cases[i].difference == NULL);
+        if (strcmp(result.difference, cases[i].difference ? cases[i].difference : "") != 0)
+            fail_msg("case %zu: %s", i, result.difference);
+        assert_int_equal(off->compare(b, a, cases[i].tolerance, &result, NULL), FFD_OK);
+        assert_int_equal(result.equal, cases[i].difference == NULL);
+        if (result.equal)
+            assert_int_equal(result.positions_compared, 3);
+        off->close(b);
+    }
+    off->close(a);
+}
+
+/* Broken files, and no memory */
+
+#define SEED(text)                                                                                           \
+    {                                                                                                        \
+        text, sizeof(text) - 1                                                                               \
+    }
+
+static const byte_seed seeds[] = {
+    SEED("OFF\n4 2 0\n" TRIANGLE "1 1 0.5\n3 0 1 2\n4 0 1 3 2 255 0 0\n# end\n"),
+    SEED("CNOFF # c\r\n2 2 3\r\n0.25 -1e-3 2 0 0 1 1 0 .5 1\r\n1 2 3 0 1 0 1 0 .5 1\r\n2 0 1\r\n1 1"),
+    SEED("STCNOFF 2 1 1 1 2 3 0 1 0 9 9 9 9 .5 .5 4 5 6 1 0 0 9 9 9 9 .5 .5 3 0 1 0 1 1 1"),
+    SEED("3 1 0\n0 0 0 1 2 3\n1 0 0\n0 1 0 9\n3 0 1 2\n"),
+};
+
+static void test_truncations(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(seeds); i++)
+        use_truncations(off, &seeds[i]);
+}
+
+static void test_mutations(void **state)
+{
+    (void)state;
+    use_mutations(off, seeds, COUNT(seeds), 6000, "0123456789-+.#\r\n\t OFCNSTe4nB");
+}
+
+static void test_memory_failures(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < COUNT(seeds); i++)
+        use_with_failing_memory(off, &seeds[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_dialects),   cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_results),    cmocka_unit_test(test_normals_are_kept),
+        cmocka_unit_test(test_zero_signs), cmocka_unit_test(test_description),
+        cmocka_unit_test(test_compare),    cmocka_unit_test(test_truncations),
+        cmocka_unit_test(test_mutations),  cmocka_unit_test(test_memory_failures),
+    };
+    return cmocka_run_group_tests(tests, NULL, remove_saved);
+}
