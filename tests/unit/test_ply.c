@@ -738,8 +738,9 @@ static void test_differences(void **state)
 
 /* Hostile files */
 
-/* Whatever the bytes: a status that is meant, and a file that opens is saved as it is. */
-static ffd_status run_on(const char *bytes, size_t size)
+/* Whatever the bytes: a status that is meant, and a file that opens is saved as it is (where saves is set:
+   writing files takes time). */
+static ffd_status run_on(const char *bytes, size_t size, bool saves)
 {
     char *copy = ffd_alloc(size, 1); /* of the exact size: reading behind it is seen by the sanitizers */
     mesh_document *d = NULL;
@@ -766,7 +767,7 @@ static ffd_status run_on(const char *bytes, size_t size)
             ffd_mesh_faces_free(&faces);
         assert_int_equal(ply->compare(d, d, 0, &comparison, NULL), FFD_OK);
         assert_true(comparison.equal);
-        if (ply->begin_results(d, true, true, NULL) == FFD_OK)
+        if (ply->begin_results(d, true, true, NULL) == FFD_OK && saves)
             assert_saved(d, copy, size);
         close_document(d);
     }
@@ -780,12 +781,12 @@ static void test_every_truncation(void **state)
     for (size_t k = 0; k < 3; k++) {
         sample s = make_sample(kind_of(k));
         for (size_t size = 0; size < s.bytes.size; size++) {
-            const ffd_status status = run_on(s.bytes.data, size);
+            const ffd_status status = run_on(s.bytes.data, size, true);
             if (s.kind.encoding != PLY_ASCII || size + 3 < s.bytes.size)
                 /* "1." is another version. */
                 assert_true(status == FFD_E_INVALID || (status == FFD_E_UNSUPPORTED && size < 60));
         }
-        assert_int_equal(run_on(s.bytes.data, s.bytes.size), FFD_OK);
+        assert_int_equal(run_on(s.bytes.data, s.bytes.size, true), FFD_OK);
         ffd_buffer_free(&s.bytes);
     }
 }
@@ -801,7 +802,7 @@ static void test_changed_bytes(void **state)
             for (size_t v = 0; v < COUNT(values); v++) {
                 const char kept = s.bytes.data[at];
                 s.bytes.data[at] = values[v];
-                const bool opens = run_on(s.bytes.data, s.bytes.size) == FFD_OK;
+                const bool opens = run_on(s.bytes.data, s.bytes.size, (at + v) % 16 == 0) == FFD_OK;
                 opened_files += opens;
                 refused_files += !opens;
                 s.bytes.data[at] = kept;
