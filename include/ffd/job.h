@@ -56,6 +56,10 @@ typedef struct ffd_source {
     ffd_space space;   /* glTF: where the lattice stands */
 } ffd_source;
 
+/* Whether text is a selector as ffd_deform_desc's only takes it. Errors: FFD_E_ARGUMENT, with the nearest
+   kind. */
+FFD_API ffd_status ffd_selector_check(const char *text, ffd_error *error);
+
 /* The files that one run has written so far. Jobs that share the record neither replace nor read what an
    earlier one of them wrote: two names can lead to one file. One thread at a time. */
 typedef struct ffd_written ffd_written;
@@ -78,6 +82,12 @@ typedef struct ffd_deform_desc {
     unsigned fail_on;      /* of ffd_gate */
     bool quality; /* fill the result's folds, flipped faces and det F too: they cost time and memory */
     ffd_normals normals;
+    /* only_count selectors "KIND:NAME", or NULL: only what at least one of them names is moved, counted in
+       the result and the gates, and inside of a lattice whose box is "mesh"; all else keeps every byte. glTF
+       has the kinds node (with all below it), mesh, material; OBJ group, object, material; other formats have
+       none. FFD_E_ARGUMENT for a kind or name that the file does not have. */
+    const char *const *only;
+    size_t only_count;
     ffd_resources resources;
     int threads;          /* 0: all cores. Never changes a byte of the output. */
     bool force;           /* overwrite an existing output */

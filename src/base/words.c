@@ -10,7 +10,7 @@ static size_t least(size_t a, size_t b)
 }
 
 /* Optimal string alignment distance. */
-static size_t distance(const char *a, const char *b)
+size_t ffd_word_distance(const char *a, const char *b)
 {
     const size_t m = least(strlen(a), LONGEST), n = least(strlen(b), LONGEST);
     size_t d[LONGEST + 1][LONGEST + 1];
@@ -33,7 +33,7 @@ const char *ffd_nearest_word(const char *word, const char *const *known, size_t 
     const char *nearest = NULL;
     size_t smallest = (size_t)-1;
     for (size_t i = 0; i < count; i++) {
-        const size_t d = distance(word, known[i]);
+        const size_t d = ffd_word_distance(word, known[i]);
         if (d < smallest) {
             smallest = d;
             nearest = known[i];

@@ -10,6 +10,19 @@ static bool add_lattice(void *context, const cli_option *option, const char *val
     return cli_set_text(&job->lattices[job->lattice_count++], option, value);
 }
 
+static bool add_selector(void *context, const cli_option *option, const char *value)
+{
+    cli_job *job = context;
+    ffd_error error;
+    (void)option; /* the message names it */
+    if (ffd_selector_check(value, &error)) {
+        cli_fail(&error);
+        return false;
+    }
+    job->only[job->only_count++] = value;
+    return true;
+}
+
 static const struct {
     const char *name;
     ffd_gate gate;
@@ -66,6 +79,9 @@ const cli_option cli_job_options[] = {
     {"space", 0, "scene|mesh",
      "glTF: the lattice stands in the scene, or in each mesh's own space; default scene", cli_set_choice,
      AT(space), space_names},
+    {"only", 0, "KIND:NAME",
+     "only this part, repeatable; glTF: node (and all below), mesh, material; OBJ: group, object, material",
+     add_selector, 0, NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_text, AT(embedding), NULL},
     {"fail-on", 0, "GATES", "of folds,outside,multiple,singular: exit 1, nothing written, if there are any",
@@ -85,7 +101,10 @@ bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **a
                    int *exit_code)
 {
     job->lattices = calloc((size_t)count + 1, sizeof *job->lattices);
-    if (!job->lattices) {
+    job->only = calloc((size_t)count + 1, sizeof *job->only);
+    if (!job->lattices || !job->only) {
+        free(job->lattices);
+        free(job->only);
         cli_complain("out of memory");
         *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
         return false;
@@ -93,6 +112,7 @@ bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **a
     if (cli_begin(command, job, &job->help, count, arguments, words, exit_code))
         return true;
     free(job->lattices);
+    free(job->only);
     return false;
 }
 
@@ -100,6 +120,7 @@ void cli_job_end(cli_job *job, cli_words *words)
 {
     free(words->words);
     free(job->lattices);
+    free(job->only);
 }
 
 bool cli_is_stream(const char *path)
@@ -169,6 +190,8 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->fail_on = job->fail_on;
     desc->quality = job->report != NULL;
     desc->normals = (ffd_normals)job->normals;
+    desc->only = job->only;
+    desc->only_count = job->only_count;
     desc->threads = job->threads;
     desc->written = job->written;
     desc->log = cli_log;

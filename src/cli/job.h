@@ -8,6 +8,8 @@
 typedef struct cli_job {
     const char **lattices;
     size_t lattice_count;
+    const char **only;
+    size_t only_count;
     int outside, normals, space;
     double falloff; /* 0: not given */
     const char *embedding;

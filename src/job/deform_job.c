@@ -4,6 +4,7 @@
 #include "job/figures.h"
 #include "job/gates.h"
 #include "job/placement.h"
+#include "job/selection.h"
 #include "job/source.h"
 #include "job/written.h"
 #include <math.h>
@@ -39,7 +40,8 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 
 static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 {
-    if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices))
+    if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices) ||
+        (desc->only_count && !desc->only))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is no length", desc->falloff);
@@ -72,6 +74,8 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     ffd_status status = ffd_chain_load(desc->lattices, desc->lattice_count, &outside, &job->chain, error);
     if (!status)
         status = ffd_source_open(&desc->input, &job->document, error);
+    if (!status)
+        status = ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
     result->seconds_read = ffd_clock_seconds() - start;
     return status;
 }
@@ -148,6 +152,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     }
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
+    if (!status && job->desc->only_count && job->totals.vertices == 0)
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "--only: what is selected has no vertex");
     if (!status && !job->check)
         ffd_figures_warn(job, result);
     ffd_figures_free(&arrays);

@@ -1,6 +1,7 @@
 #include "job/figures.h"
 #include "base/memory.h"
 #include "job/quality.h"
+#include "job/selection.h"
 #include "job/source.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -12,7 +13,7 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
     const ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
     arrays->has_faces = status == FFD_OK;
     if (!status)
-        return FFD_OK;
+        return job->desc->only_count ? ffd_selection_reduce(job->document, &arrays->faces, error) : FFD_OK;
     if (job->check || status == FFD_E_MEMORY) {
         if (error)
             *error = own;

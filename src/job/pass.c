@@ -14,7 +14,9 @@ typedef struct tile_scratch {
     double raw[3 * TILE];   /* positions as the file has them */
     double place[3 * TILE]; /* in the lattice's space, from rest to deformed */
     double before[3 * TILE];
-    ffd_location locations[TILE];
+    size_t chosen[TILE]; /* vertices of the tile that are selected */
+    size_t chosen_count;
+    ffd_location locations[TILE]; /* of the chosen ones */
     chain_point points[TILE];
     uint8_t changed[TILE];
     double normals[3 * TILE], tangents[4 * TILE];
@@ -207,6 +209,10 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
         const uint64_t number = work->first_vertex + first + i;
         const chain_point *point = &scratch->points[i];
         double *p = scratch->raw + 3 * i;
+        fill_arrays(work, point, scratch->place + 3 * i, number, totals);
+        scratch->changed[i] = false;
+        if (!ffd_part_selects(work->part, first + i))
+            continue;
         count_point(work, point, scratch->before + 3 * i, scratch->place + 3 * i, number, totals);
         scratch->changed[i] = !work->part->singular && move_back(work->part, point, p);
         if (scratch->changed[i]) {
@@ -214,7 +220,6 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
             if (!fits_file(pass->document, p))
                 totals->first_overflow = least(totals->first_overflow, number);
         }
-        fill_arrays(work, point, scratch->place + 3 * i, number, totals);
     }
     if (pass->write)
         format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
@@ -244,6 +249,9 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
             (*vertex)++;
         double *n = scratch->normals + 3 * i;
         int collapsed = 0;
+        scratch->normals_changed[i] = false;
+        if (part->selected_normals && !part->selected_normals[from + i])
+            continue;
         scratch->normals_changed[i] =
             (uint8_t)ffd_deform_normal(scratch->points[*vertex - first].gradient, n, n, &collapsed);
         totals->normals_collapsed += (uint64_t)collapsed;
@@ -287,15 +295,43 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
 
 /* Takes the first link's locations from the embedding, in which repeated positions do not stand again.
    Returns whether it did. */
-static bool recall(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
 {
     const mesh_pass *pass = work->pass;
     if (!pass->embedding || work->part->repeats_positions)
         return false;
-    for (size_t i = 0; i < count; i++)
-        ffd_embedding_locate(pass->embedding, (size_t)work->first_vertex + first + i,
+    for (size_t i = 0; i < scratch->chosen_count; i++)
+        ffd_embedding_locate(pass->embedding, (size_t)work->first_vertex + first + scratch->chosen[i],
                              pass->chain->links[0].lattice, scratch->place + 3 * i, &scratch->locations[i]);
     return true;
+}
+
+/* Puts the selected vertices' places at the front. */
+static void choose(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+{
+    size_t chosen = 0;
+    for (size_t i = 0; i < count; i++)
+        if (ffd_part_selects(work->part, first + i)) {
+            if (chosen < i)
+                memcpy(scratch->place + 3 * chosen, scratch->place + 3 * i, 3 * sizeof *scratch->place);
+            scratch->chosen[chosen++] = i;
+        }
+    scratch->chosen_count = chosen;
+}
+
+/* Brings what has become of the selected vertices to where they stand in the tile; the others stay. */
+static void spread(tile_scratch *scratch, size_t count)
+{
+    size_t left = scratch->chosen_count;
+    for (size_t i = count; i-- > left;)
+        if (left > 0 && scratch->chosen[left - 1] == i) {
+            left--;
+            memcpy(scratch->place + 3 * i, scratch->place + 3 * left, 3 * sizeof *scratch->place);
+            scratch->points[i] = scratch->points[left];
+        } else {
+            memcpy(scratch->place + 3 * i, scratch->before + 3 * i, 3 * sizeof *scratch->place);
+            scratch->points[i] = (chain_point){0};
+        }
 }
 
 static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -316,10 +352,11 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     memcpy(scratch->place, scratch->raw, 3 * count * sizeof(double));
     ffd_part_place(part, scratch->place, count);
     memcpy(scratch->before, scratch->place, 3 * count * sizeof(double));
+    choose(work, scratch, first, count);
     chain_run run = {.x = scratch->place,
-                     .count = count,
+                     .count = scratch->chosen_count,
                      .gradients = gradients,
-                     .located = recall(work, scratch, first, count),
+                     .located = recall(work, scratch, first),
                      .locations = scratch->locations,
                      .points = scratch->points};
     scratch->status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
@@ -329,6 +366,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         atomic_store(&work->stopped, true);
         return;
     }
+    spread(scratch, count);
     if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);
     if (attributes)

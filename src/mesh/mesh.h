@@ -9,6 +9,7 @@
 #include "base/buffer.h"
 #include "base/file.h"
 #include "base/json_text.h"
+#include "mesh/selector.h"
 #include <ffd/job.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,7 +33,17 @@ typedef struct mesh_part {
     double linear[9], offset[3]; /* x = linear p + offset */
     double inverse[9];           /* of linear */
     bool singular;               /* linear has no inverse: the part's vertices are kept */
+
+    /* What select has left: a vertex whose byte is 0 stays as it is and is not counted, a normal whose byte
+       is 0 stays. NULL: all vertices; the normals of the selected vertices. Lent by the document. */
+    const uint8_t *selected, *selected_normals;
+    bool skipped; /* nothing of the part is selected */
 } mesh_part;
+
+static inline bool ffd_part_selects(const mesh_part *part, size_t vertex)
+{
+    return !part->skipped && (!part->selected || part->selected[vertex]);
+}
 
 /* Takes count points (3 doubles each) from the file's space to the lattice's: x = linear p + offset. */
 void ffd_part_place(const mesh_part *part, double *points, size_t count);
@@ -76,6 +87,14 @@ typedef struct mesh_format {
        pass. */
     ffd_status (*check)(const mesh_document *document, ffd_error *error);
     double largest_coordinate; /* that the format's numbers can hold */
+
+    /* From now on only what one of the selectors names is moved, counted and written: sets selected and
+       skipped of the parts, whose numbers and vertices stay. At most once, before results. selector_kinds is
+       the set of kinds that the format has (0: select is NULL). Errors: FFD_E_ARGUMENT where a name is not in
+       the file. */
+    unsigned selector_kinds;
+    ffd_status (*select)(mesh_document *document, const mesh_selector *selectors, size_t count,
+                         ffd_error *error);
 
     /* Raw values of the file, as double: 3 a position or normal, 4 a tangent (x,y,z and the handedness). Any
      * thread. */
