@@ -96,6 +96,10 @@ static void free_document(obj_document *d)
     ffd_free(d->directions);
     ffd_free(d->pair_start);
     ffd_free(d->pair_normal);
+    ffd_free(d->selected_vertices);
+    ffd_free(d->selected_faces);
+    ffd_free(d->selected_pairs);
+    ffd_free(d->held_normals);
     ffd_free(d->new_positions);
     ffd_free(d->new_directions);
     ffd_free(d);

@@ -27,6 +27,9 @@ typedef struct obj_document {
     uint32_t *pair_start, *pair_normal;
     /* Where `vn` can be added so that every index keeps its meaning: an offset into the file. */
     size_t addition;
+    /* What ffd_obj_select left: bytes of vertices, faces, pairs; and of `vn` that a corner of a face uses
+       which is not selected, so that they must stay. NULL: all is selected. */
+    uint8_t *selected_vertices, *selected_faces, *selected_pairs, *held_normals;
     double *new_positions;  /* 3 a vertex; NULL before ffd_obj_begin_results */
     double *new_directions; /* 3 a pair; NULL: normals are kept */
 } obj_document;
@@ -41,10 +44,15 @@ void ffd_obj_document_walk(const obj_document *document, obj_walk *walk);
 /* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
 ffd_status ffd_obj_read_faces(obj_document *document, ffd_error *error);
 
+/* The pair of a face's corner that has a normal. */
+size_t ffd_obj_find_pair(const obj_document *document, const obj_face_corner *corner);
+
 /* The entries of the format's table. */
 ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error);
 void ffd_obj_close(mesh_document *document);
+ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selectors, size_t count,
+                          ffd_error *error);
 void ffd_obj_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                             double *xyz);
 void ffd_obj_read_normals(const mesh_document *document, size_t part, size_t first, size_t count,

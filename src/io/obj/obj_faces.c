@@ -192,6 +192,20 @@ ffd_status ffd_obj_read_faces(obj_document *d, ffd_error *error)
     return FFD_OK;
 }
 
+/* The normal's place in the vertex's ascending list. */
+size_t ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner)
+{
+    size_t low = d->pair_start[corner->vertex], high = d->pair_start[corner->vertex + 1];
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (d->pair_normal[middle] <= corner->normal)
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
 static void fill_faces(const obj_document *d, mesh_faces *faces)
 {
     obj_walk walk;

@@ -17,6 +17,9 @@ const mesh_format ffd_obj_format = {
     .close = ffd_obj_close,
     .check = check,
     .largest_coordinate = DBL_MAX,
+    .selector_kinds =
+        SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),
+    .select = ffd_obj_select,
     .read_positions = ffd_obj_read_positions,
     .read_normals = ffd_obj_read_normals,
     .begin_results = ffd_obj_begin_results,

@@ -30,8 +30,9 @@ size_t ffd_obj_names_distinct(obj_names *names)
     qsort(names->words, names->count, sizeof *names->words, compare_words);
     size_t distinct = 1;
     for (size_t i = 1; i < names->count; i++)
-        distinct += compare_words(&names->words[i - 1], &names->words[i]) != 0;
-    return distinct;
+        if (compare_words(&names->words[distinct - 1], &names->words[i]) != 0)
+            names->words[distinct++] = names->words[i];
+    return names->count = distinct;
 }
 
 void ffd_obj_names_free(obj_names *names)

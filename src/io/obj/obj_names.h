@@ -12,7 +12,7 @@ typedef struct obj_names {
 
 /* False when there is no memory. */
 bool ffd_obj_names_add(obj_names *names, obj_word word);
-/* How many different words were added. Changes their order. */
+/* Leaves each word once, in another order, and tells how many that are. */
 size_t ffd_obj_names_distinct(obj_names *names);
 void ffd_obj_names_free(obj_names *names);
 

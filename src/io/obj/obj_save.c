@@ -24,27 +24,13 @@ static void replace_numbers(saver *s, obj_scan *scan, const double *before, cons
             ffd_obj_splice_number(&s->splice, word, after[a]);
 }
 
-/* The pair of a face's corner: its normal's place in the vertex's ascending list. */
-static size_t find_pair(const obj_document *d, const obj_face_corner *corner)
-{
-    size_t low = d->pair_start[corner->vertex], high = d->pair_start[corner->vertex + 1];
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (d->pair_normal[middle] <= corner->normal)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
-
 static void renumber_corners(saver *s, obj_walk *walk)
 {
     obj_face_corner corner;
     while (ffd_obj_walk_corner(walk, &corner)) {
         if (!corner.has_normal)
             continue;
-        const uint32_t target = s->split.target[find_pair(s->document, &corner)];
+        const uint32_t target = s->split.target[ffd_obj_find_pair(s->document, &corner)];
         if (target == OBJ_NONE)
             continue;
         char text[24];
@@ -122,14 +108,17 @@ static void write_statements(saver *s)
 {
     const obj_document *d = s->document;
     obj_walk walk;
+    size_t faces = 0;
     ffd_obj_document_walk(d, &walk);
     while (s->splice.status == FFD_OK && ffd_obj_walk_next(&walk)) {
+        faces += walk.scan.keyword == OBJ_FACE;
         const size_t v = walk.vertices.seen - 1;
         if (walk.scan.keyword == OBJ_VERTEX)
             replace_numbers(s, &walk.scan, d->positions + 3 * v, d->new_positions + 3 * v);
         else if (walk.scan.keyword == OBJ_NORMAL && s->split.keeper)
             replace_normal(s, &walk);
-        else if (walk.scan.keyword == OBJ_FACE && s->split.target)
+        else if (walk.scan.keyword == OBJ_FACE && s->split.target &&
+                 (!d->selected_faces || d->selected_faces[faces - 1]))
             renumber_corners(s, &walk);
     }
 }

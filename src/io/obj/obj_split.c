@@ -22,6 +22,8 @@ static void choose_keepers(const obj_document *d, uint32_t *keeper)
     for (size_t n = 0; n < d->normals; n++)
         keeper[n] = OBJ_NONE;
     for (uint32_t pair = 0; pair < d->part.normal_count; pair++) {
+        if (d->held_normals && d->held_normals[d->pair_normal[pair]])
+            continue;
         uint32_t *kept = &keeper[d->pair_normal[pair]];
         if (*kept == OBJ_NONE || (is_unchanged(d, pair) && !is_unchanged(d, *kept)))
             *kept = pair;
@@ -30,7 +32,9 @@ static void choose_keepers(const obj_document *d, uint32_t *keeper)
 
 static bool needs_own(const obj_document *d, const uint32_t *keeper, uint32_t pair)
 {
-    return !ffd_obj_same_vector(value_of(d, pair), value_of(d, keeper[d->pair_normal[pair]]));
+    const uint32_t kept = keeper[d->pair_normal[pair]];
+    return kept == OBJ_NONE ? !is_unchanged(d, pair)
+                            : !ffd_obj_same_vector(value_of(d, pair), value_of(d, kept));
 }
 
 /* The finalizer of MurmurHash3 over the words of a value and its `vn`. */

@@ -7,7 +7,8 @@
 /* Every `vn` keeps one value: the old one where a vertex still needs it, else that of the first vertex that
    uses it. Each other value of the same `vn` gets an added `vn`, once. Pairs are those of the document. */
 typedef struct obj_split {
-    uint32_t *keeper; /* of each `vn`: a pair that has its value; OBJ_NONE: no corner uses it, it stays */
+    uint32_t *keeper; /* of each `vn`: a pair that has its value; OBJ_NONE: it stays: no corner uses it, or
+                         one that is not selected does */
     uint32_t *added;  /* of each added `vn`: a pair that has its value */
     size_t added_count;
     uint32_t *target; /* of each pair: its added `vn`, or OBJ_NONE: its own; NULL where none is added */

@@ -1,0 +1,161 @@
+/* obj_select.c - which faces, lines and points `--only` leaves, and so which vertices and normals. A `g` puts
+   what follows into each group that it names, one without names, and the file's beginning, into "default"; an
+   `o` or `usemtl` has one name, which may hold blanks. */
+#include "base/memory.h"
+#include "io/obj/obj_document.h"
+#include "io/obj/obj_names.h"
+#include <string.h>
+
+typedef struct selecting {
+    obj_document *document;
+    const mesh_selector *selectors;
+    size_t count;
+    bool *found;                  /* a selector: its name was there */
+    bool group, object, material; /* is selected, at the current statement */
+    bool in_default;              /* no `g` has named a group */
+} selecting;
+
+/* Whether a selector has this name. */
+static bool names(const selecting *s, selector_kind kind, obj_word name)
+{
+    bool any = false;
+    for (size_t i = 0; i < s->count; i++)
+        if (s->selectors[i].kind == kind &&
+            ffd_selector_is(&s->selectors[i], name.first, (size_t)(name.last - name.first)))
+            any = s->found[i] = true;
+    return any;
+}
+
+/* From the first to the last word that is left; empty where there is none. */
+static obj_word take_line(obj_scan *scan)
+{
+    obj_word name = {0}, word;
+    while (ffd_obj_scan_word(scan, &word))
+        name = (obj_word){name.first ? name.first : word.first, word.last};
+    return name;
+}
+
+static void enter_groups(selecting *s, obj_scan *scan)
+{
+    obj_word word;
+    s->group = false;
+    s->in_default = true;
+    while (ffd_obj_scan_word(scan, &word)) {
+        s->group = names(s, SELECT_GROUP, word) || s->group;
+        s->in_default = false;
+    }
+}
+
+/* Whether an element that stands here is selected. */
+static bool is_selected(selecting *s)
+{
+    static const char text[] = "default";
+    if (s->in_default)
+        s->group = names(s, SELECT_GROUP, (obj_word){text, text + sizeof text - 1});
+    return s->group || s->object || s->material;
+}
+
+static void mark_corners(selecting *s, obj_walk *walk, bool selected)
+{
+    obj_document *d = s->document;
+    obj_face_corner corner;
+    const bool face = walk->scan.keyword == OBJ_FACE && d->pair_start;
+    while (ffd_obj_walk_corner(walk, &corner)) {
+        if (selected)
+            d->selected_vertices[corner.vertex] = 1;
+        if (!face || !corner.has_normal)
+            continue;
+        if (selected)
+            d->selected_pairs[ffd_obj_find_pair(d, &corner)] = 1;
+        else
+            d->held_normals[corner.normal] = 1;
+    }
+}
+
+static void mark_elements(selecting *s)
+{
+    obj_walk walk;
+    size_t face = 0;
+    ffd_obj_document_walk(s->document, &walk);
+    while (ffd_obj_walk_next(&walk)) {
+        switch (walk.scan.keyword) {
+        case OBJ_GROUP:
+            enter_groups(s, &walk.scan);
+            break;
+        case OBJ_OBJECT:
+            s->object = names(s, SELECT_OBJECT, take_line(&walk.scan));
+            break;
+        case OBJ_MATERIAL:
+            s->material = names(s, SELECT_MATERIAL, take_line(&walk.scan));
+            break;
+        case OBJ_FACE:
+            s->document->selected_faces[face] = is_selected(s);
+            mark_corners(s, &walk, s->document->selected_faces[face]);
+            face++;
+            break;
+        case OBJ_LINE:
+        case OBJ_POINT:
+            mark_corners(s, &walk, is_selected(s));
+            break;
+        default:
+            break;
+        }
+    }
+}
+
+static bool offer_line(const selector_nearest *nearest, obj_names *known, obj_scan *scan)
+{
+    obj_word word;
+    if (nearest->selector->kind != SELECT_GROUP)
+        return ffd_obj_names_add(known, take_line(scan));
+    while (ffd_obj_scan_word(scan, &word))
+        if (!ffd_obj_names_add(known, word))
+            return false;
+    return true;
+}
+
+/* Each distinct name once: their distances cost time. */
+static ffd_status refuse_unknown(const obj_document *d, const mesh_selector *selector, ffd_error *error)
+{
+    static const obj_keyword keywords[SELECTOR_KINDS] = {
+        [SELECT_GROUP] = OBJ_GROUP, [SELECT_OBJECT] = OBJ_OBJECT, [SELECT_MATERIAL] = OBJ_MATERIAL};
+    selector_nearest nearest = {.selector = selector};
+    obj_names known = {0};
+    obj_walk walk;
+    bool room = true;
+    ffd_obj_document_walk(d, &walk);
+    while (room && ffd_obj_walk_next(&walk))
+        if (walk.scan.keyword == keywords[selector->kind])
+            room = offer_line(&nearest, &known, &walk.scan);
+    const size_t distinct = room ? ffd_obj_names_distinct(&known) : 0;
+    for (size_t i = 0; i < distinct; i++)
+        if (known.words[i].first < known.words[i].last)
+            ffd_selector_offer(&nearest, known.words[i].first,
+                               (size_t)(known.words[i].last - known.words[i].first));
+    ffd_obj_names_free(&known);
+    return room ? ffd_selector_unknown(&nearest, d->name, error) : ffd_fail_memory(error);
+}
+
+ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selectors, size_t count,
+                          ffd_error *error)
+{
+    obj_document *d = (obj_document *)document;
+    selecting s = {.document = d, .selectors = selectors, .count = count, .in_default = true};
+    s.found = ffd_alloc_zero(count, sizeof *s.found);
+    d->selected_vertices = ffd_alloc_zero(d->vertices, 1);
+    d->selected_faces = ffd_alloc_zero(d->faces, 1);
+    d->selected_pairs = ffd_alloc_zero(d->part.normal_count, 1);
+    d->held_normals = ffd_alloc_zero(d->normals, 1);
+    ffd_status status = FFD_OK;
+    if (!s.found || !d->selected_vertices || !d->selected_faces || !d->selected_pairs || !d->held_normals)
+        status = ffd_fail_memory(error);
+    if (status == FFD_OK)
+        mark_elements(&s);
+    for (size_t i = 0; i < count && status == FFD_OK; i++)
+        if (!s.found[i])
+            status = refuse_unknown(d, &selectors[i], error);
+    d->part.selected = d->selected_vertices;
+    d->part.selected_normals = d->selected_pairs;
+    ffd_free(s.found);
+    return status;
+}
