@@ -197,9 +197,11 @@ static void free_document(gltf_document *d)
 {
     gltf_values *const lists[] = {&d->buffer_values, &d->view_values,  &d->accessor_values, &d->mesh_values,
                                   &d->node_values,   &d->image_values, &d->primitive_values};
-    for (size_t i = 0; d->parts && i < d->base.part_count; i++)
+    for (size_t i = 0; d->parts && i < d->base.part_count; i++) {
         for (int s = 0; s < GLTF_DEFORMED; s++)
             ffd_free(d->parts[i].streams[s].result);
+        ffd_free(d->parts[i].selected);
+    }
     for (size_t i = 0; d->buffers && i < d->buffer_values.count; i++)
         ffd_gltf_free_buffer(&d->buffers[i]);
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
@@ -309,6 +311,8 @@ const mesh_format ffd_gltf_format = {
     .close = close_document,
     .check = check,
     .largest_coordinate = FLT_MAX,
+    .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
+    .select = ffd_gltf_select,
     .read_positions = read_positions,
     .read_normals = read_normals,
     .read_tangents = read_tangents,

@@ -34,11 +34,13 @@ typedef struct gltf_stream {
 typedef struct gltf_part {
     size_t node; /* GLTF_NONE in mesh space */
     gltf_stream streams[GLTF_DEFORMED];
+    uint8_t *selected; /* the mesh_part's; NULL: see there */
 } gltf_part;
 
 /* A primitive under a node that shows it (or by itself, in mesh space). */
 typedef struct gltf_instance {
     size_t part[GLTF_DEFORMED]; /* where its attribute is deformed; GLTF_NONE: has none, or cannot be read */
+    bool selected;              /* false: it shows what it showed before */
 } gltf_instance;
 
 /* The instances of a mesh: for each primitive, for each node. */
@@ -111,6 +113,11 @@ ffd_status ffd_gltf_refuse_unreadable(const gltf_document *document, size_t mesh
 void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *triangles, size_t *lines,
                             size_t *points);
 
+/* gltf_faces.c: the vertices (0, 1, ..) that a primitive with positions draws, one after the other, for the
+   caller to free; NULL after a failure. */
+ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,
+                                 uint32_t **corners, size_t *count, ffd_error *error);
+
 /* gltf_read.c: elements [first, first + count) of an accessor as double, `components` values of each (the
  * first ones). */
 void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first, size_t count,
@@ -128,7 +135,10 @@ void ffd_gltf_write_normals(mesh_document *document, size_t part, size_t first, 
 void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first, size_t count,
                              const double *xyzw, const uint8_t *changed);
 
-/* gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_compare.c: entries of the table (mesh.h). */
+/* gltf_select.c, gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_compare.c: entries of the table (mesh.h).
+ */
+ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selectors, size_t count,
+                           ffd_error *error);
 ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                          const mesh_log *log, ffd_error *error);
 ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd_error *error);

@@ -103,8 +103,7 @@ static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *ba
     }
 }
 
-/* The vertices (0, 1, ..) that a primitive draws, one after the other. */
-static ffd_status read_corners(const gltf_document *d, size_t m, size_t p, size_t count, uint32_t *corners,
+static ffd_status fill_corners(const gltf_document *d, size_t m, size_t p, size_t count, uint32_t *corners,
                                ffd_error *error)
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
@@ -126,6 +125,25 @@ static ffd_status read_corners(const gltf_document *d, size_t m, size_t p, size_
     return FFD_OK;
 }
 
+ffd_status ffd_gltf_read_corners(const gltf_document *d, size_t m, size_t p, uint32_t **corners,
+                                 size_t *count, ffd_error *error)
+{
+    ffd_status status = refuse_primitive(d, m, p, error);
+    *corners = NULL;
+    if (status)
+        return status;
+    *count = count_drawing(d, &d->model.meshes[m].primitives[p]).corners;
+    *corners = ffd_alloc(*count, sizeof **corners);
+    if (!*corners)
+        return ffd_fail_memory(error);
+    status = fill_corners(d, m, p, *count, *corners, error);
+    if (status) {
+        ffd_free(*corners);
+        *corners = NULL;
+    }
+    return status;
+}
+
 /* Every second triangle of a strip is turned round (glTF 2.0, 3.7.2.1). */
 static void triangle_corners(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3])
 {
@@ -145,10 +163,9 @@ static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, cons
     const gltf_showing *showing = &d->showings[m];
     if (counted.triangles == 0 || showing->node_count == 0)
         return FFD_OK;
-    uint32_t *corners = ffd_alloc(counted.corners, sizeof *corners);
-    if (!corners)
-        return ffd_fail_memory(error);
-    const ffd_status status = read_corners(d, m, p, counted.corners, corners, error);
+    uint32_t *corners;
+    size_t count;
+    const ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &count, error);
     for (size_t n = 0; n < showing->node_count && status == FFD_OK; n++) {
         const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + n];
         for (size_t t = 0; t < counted.triangles; t++) {

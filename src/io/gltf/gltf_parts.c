@@ -90,6 +90,7 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
         accessors[s] = readable_accessor(d, primitive, (gltf_semantic)s);
         instance->part[s] = GLTF_NONE;
     }
+    instance->selected = true;
     if (accessors[GLTF_NORMAL] == GLTF_NONE)
         accessors[GLTF_TANGENT] = GLTF_NONE; /* to be ignored without normals (glTF 2.0, 3.7.2.1) */
     if (accessors[GLTF_POSITION] == GLTF_NONE)

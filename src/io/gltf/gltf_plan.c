@@ -131,7 +131,7 @@ size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t
         return GLTF_NONE;
     const gltf_showing *showing = &d->showings[mesh];
     const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + place];
-    const size_t part = instance->part[semantic];
+    const size_t part = instance->selected ? instance->part[semantic] : GLTF_NONE;
     return part == GLTF_NONE ? GLTF_NONE : plan->part_versions[part * GLTF_DEFORMED + semantic];
 }
 

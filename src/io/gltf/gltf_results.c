@@ -36,7 +36,8 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
         status = ffd_gltf_refuse_store(d, normals, tangents, error);
     for (size_t i = 0; i < d->base.part_count; i++)
         for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
-            if (wanted[s] && !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
+            if (wanted[s] && !d->mesh_parts[i].skipped &&
+                !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
                 status = make_result(d, i, (gltf_semantic)s, error);
     return status;
 }
