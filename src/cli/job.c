@@ -80,7 +80,7 @@ const cli_option cli_job_options[] = {
      "glTF: the lattice stands in the scene, or in each mesh's own space; default scene", cli_set_choice,
      AT(space), space_names},
     {"only", 0, "KIND:NAME",
-     "only this part, repeatable; glTF: node (and all below), mesh, material; OBJ: group, object, material",
+     "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
      add_selector, 0, NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_text, AT(embedding), NULL},
