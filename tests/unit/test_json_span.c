@@ -178,6 +178,52 @@ static void edits_replace_spans_only(void **state)
     ffd_buffer_free(&out);
 }
 
+/* Takes out of an object or array of 4 the children whose bits are set. */
+static void check_removal(const char *text, unsigned gone, const char *expected)
+{
+    json_span tree;
+    json_edits edits = {0};
+    byte_buffer out = {0};
+    uint32_t values[4];
+    size_t count = 0;
+    assert_int_equal(parse(text, &tree, NULL), FFD_OK);
+    for (size_t i = 0; i < 4; i++) {
+        uint32_t v = ffd_json_span_first(&tree, 0);
+        for (size_t k = 0; k < i; k++)
+            v = ffd_json_span_after(&tree, v);
+        if (gone >> i & 1)
+            values[count++] = v;
+    }
+    ffd_edits_remove(&edits, &tree, 0, values, count);
+    ffd_edits_sort(&edits);
+    ffd_edits_apply(&edits, text, 0, (uint32_t)strlen(text), &out);
+    char *made = ffd_buffer_finish(&out);
+    assert_string_equal(made, expected);
+    ffd_free(made);
+    ffd_edits_free(&edits);
+    ffd_json_span_free(&tree);
+}
+
+static void members_go_with_their_commas(void **state)
+{
+    (void)state;
+    static const char *const object = "{ \"a\":1, \"b\" : [2,3],\"c\":{\"d\":4} ,\"e\":null }";
+    static const char *const array = "[ 1, \"b\" ,[3],4 ]";
+    check_removal(object, 0, object);
+    check_removal(object, 1, "{ \"b\" : [2,3],\"c\":{\"d\":4} ,\"e\":null }");
+    check_removal(object, 2, "{ \"a\":1,\"c\":{\"d\":4} ,\"e\":null }");
+    check_removal(object, 3, "{ \"c\":{\"d\":4} ,\"e\":null }");
+    check_removal(object, 6, "{ \"a\":1 ,\"e\":null }");
+    check_removal(object, 8, "{ \"a\":1, \"b\" : [2,3],\"c\":{\"d\":4} }");
+    check_removal(object, 9, "{ \"b\" : [2,3],\"c\":{\"d\":4} }");
+    check_removal(object, 11, "{ \"c\":{\"d\":4} }");
+    check_removal(object, 15, "{  }");
+    check_removal(array, 1, "[ \"b\" ,[3],4 ]");
+    check_removal(array, 10, "[ 1 ,[3] ]");
+    check_removal(array, 14, "[ 1 ]");
+    check_removal(array, 15, "[  ]");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -188,6 +234,7 @@ int main(void)
         cmocka_unit_test(many_members_are_compared),
         cmocka_unit_test(memory_may_run_out_anywhere),
         cmocka_unit_test(edits_replace_spans_only),
+        cmocka_unit_test(members_go_with_their_commas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

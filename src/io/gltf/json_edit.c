@@ -12,7 +12,11 @@ static json_edit *add(json_edits *edits, uint32_t begin, uint32_t end)
         return NULL;
     }
     json_edit *edit = &edits->edits[edits->count++];
-    *edit = (json_edit){.begin = begin, .end = end, .text = edits->pool.size, .buffer = EDIT_NO_BUFFER};
+    *edit = (json_edit){.begin = begin,
+                        .end = end,
+                        .order = edits->count,
+                        .text = edits->pool.size,
+                        .buffer = EDIT_NO_BUFFER};
     return edit;
 }
 
@@ -45,6 +49,41 @@ void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffe
         edit->buffer = buffer;
 }
 
+static bool is_among(uint32_t value, const uint32_t *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (values[i] == value)
+            return true;
+    return false;
+}
+
+/* Where a member with its key, or an element, begins. */
+static uint32_t start_of(const json_value *value)
+{
+    return value->key_end > value->key_begin ? value->key_begin : value->begin;
+}
+
+/* What goes takes the comma before it along; where nothing before it stays, the one behind it. */
+void ffd_edits_remove(json_edits *edits, const json_span *tree, uint32_t container, const uint32_t *gone,
+                      size_t gone_count)
+{
+    bool kept = false;
+    uint32_t before = JSON_NONE;
+    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE;
+         v = ffd_json_span_after(tree, v)) {
+        const uint32_t after = ffd_json_span_after(tree, v);
+        if (!is_among(v, gone, gone_count))
+            kept = true;
+        else if (kept)
+            ffd_edits_replace(edits, tree->values[before].end, tree->values[v].end, "", 0);
+        else
+            ffd_edits_replace(edits, start_of(&tree->values[v]),
+                              after == JSON_NONE ? tree->values[v].end : start_of(&tree->values[after]), "",
+                              0);
+        before = v;
+    }
+}
+
 static int compare_edits(const void *a, const void *b)
 {
     const json_edit *x = a, *y = b;
@@ -52,7 +91,7 @@ static int compare_edits(const void *a, const void *b)
         return x->begin < y->begin ? -1 : 1;
     if (x->end != y->end)
         return x->end < y->end ? -1 : 1;
-    return (x->text > y->text) - (x->text < y->text);
+    return (x->order > y->order) - (x->order < y->order);
 }
 
 void ffd_edits_sort(json_edits *edits)

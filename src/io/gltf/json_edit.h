@@ -3,12 +3,14 @@
 #define FFD_IO_GLTF_JSON_EDIT_H
 
 #include "base/buffer.h"
+#include "io/gltf/json_span.h"
 #include <stdint.h>
 
 #define EDIT_NO_BUFFER (-1)
 
 typedef struct json_edit {
     uint32_t begin, end;    /* replaced; equal: inserted */
+    size_t order;           /* of the call */
     size_t text, text_size; /* the new text, in the list's pool */
     int buffer;             /* instead of text: the base64 of this buffer's new content; or EDIT_NO_BUFFER */
 } json_edit;
@@ -25,6 +27,10 @@ void ffd_edits_replace(json_edits *edits, uint32_t begin, uint32_t end, const ch
 void ffd_edits_format(json_edits *edits, uint32_t begin, uint32_t end, const char *format, ...)
     FFD_PRINTF(4, 5);
 void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffer);
+
+/* Takes members of an object (or elements of an array) out, with the commas that go; once a container. */
+void ffd_edits_remove(json_edits *edits, const json_span *tree, uint32_t container, const uint32_t *gone,
+                      size_t gone_count);
 
 /* Must come before what follows. */
 void ffd_edits_sort(json_edits *edits);
