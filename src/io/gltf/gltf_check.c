@@ -2,8 +2,10 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Zeros need no bytes in the file: without a limit a few characters could ask for any amount of memory. */
-#define MOST_ZEROS ((uint64_t)1 << 26)
+/* Zeros need no bytes in the file: without a limit a few characters could ask for any amount of memory.
+   Elements without bytes, of all accessors: so many, and so many more for a byte of a buffer. */
+#define MOST_ZEROS ((uint64_t)1 << 23)
+#define MOST_ZEROS_A_BYTE 4
 
 /* A failure at a member of a value, or at the value where the member is absent. */
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
@@ -142,10 +144,6 @@ static ffd_status check_sparse(gltf_document *d, size_t i, ffd_error *error)
         sparse->indices_type != GLTF_U32)
         return refuse(d, indices, "componentType", error, "sparse indices cannot have component type %d",
                       sparse->indices_type);
-    if (accessor->view < 0 && accessor->count > MOST_ZEROS)
-        return ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, FFD_E_LIMIT, error,
-                                  "%llu elements without bytes are more than %llu",
-                                  (unsigned long long)accessor->count, (unsigned long long)MOST_ZEROS);
     const size_t size = ffd_gltf_component_size(sparse->indices_type);
     ffd_status status = check_sparse_view(d, indices, sparse->indices_view, sparse->indices_offset,
                                           sparse->count * size, size, error);
@@ -155,8 +153,7 @@ static ffd_status check_sparse(gltf_document *d, size_t i, ffd_error *error)
                                    ffd_gltf_component_size(accessor->component), error);
     if (status)
         return status;
-    layout->readable = (accessor->view < 0 || layout->readable) &&
-                       has_bytes(d, &d->model.views[sparse->indices_view]) &&
+    layout->readable = layout->readable && has_bytes(d, &d->model.views[sparse->indices_view]) &&
                        has_bytes(d, &d->model.views[sparse->values_view]);
     return check_sparse_indices(d, accessor, value, error);
 }
@@ -166,6 +163,7 @@ static ffd_status check_accessor(gltf_document *d, size_t i, ffd_error *error)
     const gltf_accessor *accessor = &d->model.accessors[i];
     gltf_layout *layout = &d->layouts[i];
     measure(accessor, layout);
+    layout->readable = true; /* zeros, if nothing else is said */
     if (accessor->view >= 0 ||
         ffd_json_span_member(&d->tree, d->accessor_values.values[i], "bufferView") != JSON_NONE) {
         ffd_status status = check_index(d, d->accessor_values.values[i], "bufferView", accessor->view,
@@ -249,14 +247,50 @@ static ffd_status check_primitive(const gltf_document *d, size_t mesh, size_t p,
     return FFD_OK;
 }
 
-static ffd_status check_mesh(const gltf_document *d, size_t m, ffd_error *error)
+/* What has no bufferView in a primitive under Draco is in the compressed data. */
+static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t value)
+{
+    const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
+    if (!ffd_gltf_has_extension(d, value, "KHR_draco_mesh_compression"))
+        return;
+    for (size_t i = 0; i < primitive->attribute_count; i++) {
+        const int accessor = primitive->attributes[i].accessor;
+        if (d->model.accessors[accessor].view < 0)
+            d->layouts[accessor].readable = false;
+    }
+    if (primitive->indices >= 0 && d->model.accessors[primitive->indices].view < 0)
+        d->layouts[primitive->indices].readable = false;
+}
+
+static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
+{
+    uint64_t left = MOST_ZEROS;
+    for (size_t b = 0; b < d->buffer_values.count; b++)
+        left += MOST_ZEROS_A_BYTE * (uint64_t)d->buffers[b].size;
+    for (size_t i = 0; i < d->model.accessor_count; i++) {
+        const gltf_accessor *accessor = &d->model.accessors[i];
+        if (accessor->view >= 0 || !d->layouts[i].readable)
+            continue;
+        if (accessor->count > left)
+            return ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, FFD_E_LIMIT, error,
+                                      "%llu elements without bytes are more than the %llu allowed here",
+                                      (unsigned long long)accessor->count, (unsigned long long)left);
+        left -= accessor->count;
+    }
+    return FFD_OK;
+}
+
+static ffd_status check_mesh(gltf_document *d, size_t m, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     size_t p = 0;
     const uint32_t primitives = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
     for (uint32_t v = ffd_json_span_first(&d->tree, primitives); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(&d->tree, v))
-        status = check_primitive(d, m, p++, v, error);
+         v = ffd_json_span_after(&d->tree, v), p++) {
+        status = check_primitive(d, m, p, v, error);
+        if (status == FFD_OK)
+            mark_compressed(d, m, p, v);
+    }
     return status;
 }
 
@@ -302,6 +336,8 @@ ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
         status = check_accessor(d, i, error);
     for (size_t i = 0; i < d->model.mesh_count && status == FFD_OK; i++)
         status = check_mesh(d, i, error);
+    if (status == FFD_OK)
+        status = limit_zeros(d, error);
     const uint32_t skins = ffd_json_span_member(&d->tree, 0, "skins");
     const size_t skin_count = skins == JSON_NONE ? 0 : d->tree.values[skins].count;
     for (size_t i = 0; i < d->model.node_count && status == FFD_OK; i++)

@@ -18,14 +18,15 @@ typedef struct gltf_values {
 
 /* How an accessor's elements lie; made by ffd_gltf_check. */
 typedef struct gltf_layout {
-    const unsigned char *data; /* its first element; NULL: no bytes (compressed, or zeros) */
+    const unsigned char *data; /* its first element; NULL: no bytes (compressed), or all zeros */
     size_t element_size, stride;
     size_t begin;  /* of the first element in the buffer */
     bool readable; /* false: compressed, or its buffer has no bytes */
     bool meshopt;  /* its bufferView is compressed */
 } gltf_layout;
 
-/* One attribute that is deformed, under one node: a float result of 3 components an element. */
+/* One attribute that is deformed, under one node: a result of 3 components an element, as float whatever the
+   accessor's type, rounded to the steps of that. */
 typedef struct gltf_stream {
     size_t accessor; /* GLTF_NONE: the part has none */
     float *result;   /* 3 * count; NULL before begin_results, and where a part repeats */
@@ -122,6 +123,12 @@ ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, siz
  * first ones). */
 void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first, size_t count,
                    size_t components, double *values);
+/* The bytes of element i of a readable accessor: those of its sparse value, of its bufferView, or zeros. */
+const unsigned char *ffd_gltf_element(const gltf_document *document, size_t accessor, size_t i);
+/* The first 3 components of an element as results hold them (gltf_stream): floats bit for bit. */
+void ffd_gltf_original(const gltf_document *document, size_t accessor, size_t i, float values[3]);
+/* The number that a component's bytes stand for. */
+double ffd_gltf_read_number(const unsigned char *at, int component, bool normalized);
 /* Element i of a sparse.indices or index accessor. */
 uint32_t ffd_gltf_read_index(const unsigned char *at, int component);
 size_t ffd_gltf_component_size(int component);

@@ -1,6 +1,8 @@
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 
+#define LARGEST_ELEMENT 64 /* MAT4 of floats */
+
 size_t ffd_gltf_component_size(int component)
 {
     switch (component) {
@@ -33,7 +35,7 @@ static double read_float(const unsigned char *at)
 }
 
 /* Normalized integers as glTF 2.0, 3.11 has them. */
-static double read_component(const unsigned char *at, int component, bool normalized)
+double ffd_gltf_read_number(const unsigned char *at, int component, bool normalized)
 {
     double value, scale;
     switch (component) {
@@ -68,7 +70,7 @@ static void read_element(const gltf_accessor *accessor, const unsigned char *at,
 {
     const size_t size = ffd_gltf_component_size(accessor->component);
     for (size_t c = 0; c < components; c++)
-        values[c] = read_component(at + c * size, accessor->component, accessor->normalized);
+        values[c] = ffd_gltf_read_number(at + c * size, accessor->component, accessor->normalized);
 }
 
 /* The first of the sparse elements that is not before element `first`. */
@@ -86,16 +88,59 @@ static uint64_t find_sparse(const gltf_sparse *sparse, const unsigned char *indi
     return low;
 }
 
+static const unsigned char *view_bytes(const gltf_document *d, int number, uint64_t offset)
+{
+    const gltf_view *view = &d->model.views[number];
+    return d->buffers[view->buffer].data + view->offset + offset;
+}
+
+static const unsigned char *sparse_indices(const gltf_document *d, const gltf_sparse *sparse)
+{
+    return view_bytes(d, sparse->indices_view, sparse->indices_offset);
+}
+
+static const unsigned char *sparse_elements(const gltf_document *d, const gltf_sparse *sparse)
+{
+    return view_bytes(d, sparse->values_view, sparse->values_offset);
+}
+
+const unsigned char *ffd_gltf_element(const gltf_document *d, size_t a, size_t i)
+{
+    static const unsigned char zeros[LARGEST_ELEMENT] = {0};
+    const gltf_layout *layout = &d->layouts[a];
+    const gltf_sparse *sparse = &d->model.accessors[a].sparse;
+    if (sparse->present) {
+        const unsigned char *indices = sparse_indices(d, sparse);
+        const uint64_t found = find_sparse(sparse, indices, i);
+        const size_t size = ffd_gltf_component_size(sparse->indices_type);
+        if (found < sparse->count && ffd_gltf_read_index(indices + found * size, sparse->indices_type) == i)
+            return sparse_elements(d, sparse) + found * layout->element_size;
+    }
+    return layout->data ? layout->data + i * layout->stride : zeros;
+}
+
+void ffd_gltf_original(const gltf_document *d, size_t a, size_t i, float values[3])
+{
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    const unsigned char *element = ffd_gltf_element(d, a, i);
+    if (accessor->component == GLTF_FLOAT) {
+        for (size_t c = 0; c < 3; c++) {
+            const uint32_t bits = ffd_glb_read_u32(element + 4 * c);
+            memcpy(values + c, &bits, sizeof bits);
+        }
+        return;
+    }
+    double numbers[3];
+    read_element(accessor, element, 3, numbers);
+    for (size_t c = 0; c < 3; c++)
+        values[c] = (float)numbers[c];
+}
+
 static void read_sparse(const gltf_document *d, const gltf_accessor *accessor, size_t element_size,
                         size_t first, size_t count, size_t components, double *values)
 {
     const gltf_sparse *sparse = &accessor->sparse;
-    const gltf_view *index_view = &d->model.views[sparse->indices_view];
-    const gltf_view *value_view = &d->model.views[sparse->values_view];
-    const unsigned char *indices =
-        d->buffers[index_view->buffer].data + index_view->offset + sparse->indices_offset;
-    const unsigned char *elements =
-        d->buffers[value_view->buffer].data + value_view->offset + sparse->values_offset;
+    const unsigned char *indices = sparse_indices(d, sparse), *elements = sparse_elements(d, sparse);
     const size_t size = ffd_gltf_component_size(sparse->indices_type);
     for (uint64_t i = find_sparse(sparse, indices, first); i < sparse->count; i++) {
         const size_t index = ffd_gltf_read_index(indices + i * size, sparse->indices_type);
