@@ -1,9 +1,9 @@
 #include "base/memory.h"
+#include "io/gltf/gltf_encode.h"
 #include "io/gltf/gltf_saver.h"
 #include <stdlib.h>
 #include <string.h>
 
-#define FLOAT_SIZE 4
 #define LARGEST_BUFFER ((size_t)1 << 53)
 
 static size_t buffer_of(const gltf_document *d, size_t accessor)
@@ -11,22 +11,54 @@ static size_t buffer_of(const gltf_document *d, size_t accessor)
     return (size_t)d->model.views[d->model.accessors[accessor].view].buffer;
 }
 
-static ffd_status make_room(gltf_saver *saver, ffd_error *error)
+size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
+{
+    if (d->model.accessors[accessor].view >= 0 && d->buffers[buffer_of(d, accessor)].kind != BUFFER_EMPTY)
+        return buffer_of(d, accessor);
+    size_t b = 0;
+    while (b < d->buffer_values.count && d->buffers[b].kind == BUFFER_EMPTY)
+        b++;
+    return b;
+}
+
+static bool needs_buffer(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
-    saver->buffers = ffd_alloc_zero(d->buffer_values.count, sizeof *saver->buffers);
+    for (size_t i = 0; i < saver->plan.appended_count; i++)
+        if (ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor) ==
+            d->buffer_values.count)
+            return true;
+    return false;
+}
+
+/* A GLB's first buffer may be its BIN chunk; every other one has a URI. */
+static gltf_buffer_kind kind_of_added(const gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    return saver->binary && d->buffer_values.count == 0 && !d->glb.has_bin ? BUFFER_BIN : BUFFER_DATA;
+}
+
+static ffd_status make_room(gltf_saver *saver, ffd_error *error)
+{
+    static const gltf_buffer nothing = {.kind = BUFFER_EMPTY};
+    const gltf_document *d = saver->document;
+    saver->buffer_count = d->buffer_values.count + needs_buffer(saver);
+    saver->buffers = ffd_alloc_zero(saver->buffer_count, sizeof *saver->buffers);
     if (!saver->buffers)
         return ffd_fail_memory(error);
+    for (size_t b = 0; b < saver->buffer_count; b++)
+        saver->buffers[b].old = b < d->buffer_values.count ? &d->buffers[b] : &nothing;
     for (size_t a = 0; a < d->model.accessor_count; a++)
         if (saver->plan.in_place[a] != GLTF_NONE)
             saver->buffers[buffer_of(d, a)].overwrite_count++;
     for (size_t i = 0; i < saver->plan.appended_count; i++)
-        saver->buffers[buffer_of(d, saver->plan.versions[saver->plan.appended[i]].accessor)].append_count++;
-    for (size_t b = 0; b < d->buffer_values.count; b++) {
+        saver->buffers[ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor)]
+            .append_count++;
+    for (size_t b = 0; b < saver->buffer_count; b++) {
         gltf_new_buffer *buffer = &saver->buffers[b];
-        buffer->length = d->buffers[b].length;
+        buffer->length = buffer->old->length;
         buffer->changed = buffer->overwrite_count + buffer->append_count > 0;
-        buffer->kind = d->buffers[b].kind;
+        buffer->kind = b < d->buffer_values.count ? buffer->old->kind : kind_of_added(saver);
         buffer->overwrites = ffd_alloc(buffer->overwrite_count, sizeof *buffer->overwrites);
         buffer->appends = ffd_alloc(buffer->append_count, sizeof *buffer->appends);
         if (!buffer->overwrites || !buffer->appends)
@@ -53,12 +85,13 @@ static void list_overwrites(gltf_saver *saver)
         const size_t count = (size_t)d->model.accessors[a].count;
         gltf_new_buffer *buffer = &saver->buffers[buffer_of(d, a)];
         buffer->overwrites[buffer->overwrite_count++] =
-            (gltf_overwrite){.begin = layout->begin,
-                             .end = layout->begin + (count - 1) * layout->stride + 3 * FLOAT_SIZE,
+            (gltf_overwrite){.accessor = a,
+                             .begin = layout->begin,
+                             .end = layout->begin + (count - 1) * layout->stride + layout->element_size,
                              .stride = layout->stride,
                              .values = saver->plan.versions[version].values};
     }
-    for (size_t b = 0; b < d->buffer_values.count; b++) {
+    for (size_t b = 0; b < saver->buffer_count; b++) {
         gltf_new_buffer *buffer = &saver->buffers[b];
         if (buffer->overwrite_count > 0)
             qsort(buffer->overwrites, buffer->overwrite_count, sizeof *buffer->overwrites,
@@ -71,18 +104,30 @@ static void list_overwrites(gltf_saver *saver)
     }
 }
 
+static size_t padded(size_t size)
+{
+    return (size + 3) / 4 * 4;
+}
+
+static size_t element_size(const gltf_document *d, const gltf_version *version)
+{
+    return (size_t)d->model.accessors[version->accessor].rows * ffd_gltf_component_size(version->component);
+}
+
 static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
-        const size_t version = saver->plan.appended[i], accessor = saver->plan.versions[version].accessor;
-        gltf_new_buffer *buffer = &saver->buffers[buffer_of(d, accessor)];
-        const size_t offset = (buffer->length + 3) / 4 * 4;
-        const size_t size = (size_t)d->model.accessors[accessor].count * d->layouts[accessor].element_size;
+        const size_t number = saver->plan.appended[i];
+        const gltf_version *version = &saver->plan.versions[number];
+        gltf_new_buffer *buffer = &saver->buffers[ffd_gltf_append_buffer(d, version->accessor)];
+        const size_t offset = padded(buffer->length);
+        const size_t stride = padded(element_size(d, version));
+        const size_t size = (size_t)d->model.accessors[version->accessor].count * stride;
         if (size > LARGEST_BUFFER || offset > LARGEST_BUFFER - size)
             return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
                                  "a buffer would have more than 2^53 bytes");
-        buffer->appends[buffer->append_count++] = (gltf_append){offset, size, version};
+        buffer->appends[buffer->append_count++] = (gltf_append){offset, size, stride, number};
         buffer->length = offset + size;
     }
     return FFD_OK;
@@ -99,7 +144,7 @@ ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
 
 void ffd_gltf_free_content(gltf_saver *saver)
 {
-    for (size_t b = 0; saver->buffers && b < saver->document->buffer_values.count; b++) {
+    for (size_t b = 0; saver->buffers && b < saver->buffer_count; b++) {
         ffd_free(saver->buffers[b].overwrites);
         ffd_free(saver->buffers[b].appends);
         ffd_free(saver->buffers[b].target);
@@ -110,17 +155,7 @@ void ffd_gltf_free_content(gltf_saver *saver)
 size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer)
 {
     const gltf_new_buffer *made = &saver->buffers[buffer];
-    const gltf_buffer *old = &saver->document->buffers[buffer];
-    return made->append_count > 0 || made->kind != old->kind ? made->length : old->size;
-}
-
-static void write_floats(const float *values, size_t count, unsigned char *bytes)
-{
-    for (size_t i = 0; i < count; i++) {
-        uint32_t bits;
-        memcpy(&bits, values + i, sizeof bits);
-        ffd_glb_write_u32(bytes + FLOAT_SIZE * i, bits);
-    }
+    return made->append_count > 0 || made->kind != made->old->kind ? made->length : made->old->size;
 }
 
 /* Copies what `size` bytes at `at` and the range [offset, offset + length) have in common. */
@@ -133,20 +168,24 @@ static void copy_common(const unsigned char *from, size_t at, size_t size, size_
         memcpy(bytes + (begin - offset), from + (begin - at), end - begin);
 }
 
-static void apply_overwrite(const gltf_overwrite *overwrite, size_t offset, size_t size, unsigned char *bytes)
+static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwrite, size_t offset,
+                            size_t size, unsigned char *bytes)
 {
-    const size_t element = 3 * FLOAT_SIZE;
+    const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];
+    const size_t element = d->layouts[overwrite->accessor].element_size;
     size_t i =
         offset > overwrite->begin + element ? (offset - overwrite->begin - element) / overwrite->stride : 0;
     for (size_t at = overwrite->begin + i * overwrite->stride; at < offset + size && at < overwrite->end;
          i++, at += overwrite->stride) {
-        unsigned char encoded[3 * FLOAT_SIZE];
-        write_floats(overwrite->values + 3 * i, 3, encoded);
+        unsigned char encoded[GLTF_LARGEST_VECTOR];
+        ffd_gltf_encode(accessor, accessor->component, ffd_gltf_element(d, overwrite->accessor, i),
+                        overwrite->values + 3 * i, encoded);
         copy_common(encoded, at, element, offset, size, bytes);
     }
 }
 
-static void apply_overwrites(const gltf_new_buffer *buffer, size_t offset, size_t size, unsigned char *bytes)
+static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buffer, size_t offset,
+                             size_t size, unsigned char *bytes)
 {
     size_t low = 0, high = buffer->overwrite_count;
     while (low < high) {
@@ -158,22 +197,21 @@ static void apply_overwrites(const gltf_new_buffer *buffer, size_t offset, size_
     }
     for (size_t i = low; i < buffer->overwrite_count && buffer->overwrites[i].begin < offset + size; i++)
         if (buffer->overwrites[i].end > offset)
-            apply_overwrite(&buffer->overwrites[i], offset, size, bytes);
+            apply_overwrite(d, &buffer->overwrites[i], offset, size, bytes);
 }
 
-/* The new elements stand one behind the other; a tangent keeps its 4th component. */
 static void apply_append(const gltf_saver *saver, const gltf_append *append, size_t offset, size_t size,
                          unsigned char *bytes)
 {
     const gltf_version *version = &saver->plan.versions[append->version];
-    const gltf_layout *layout = &saver->document->layouts[version->accessor];
-    const size_t element = layout->element_size;
-    size_t i = offset > append->offset ? (offset - append->offset) / element : 0;
-    for (; i * element < append->size && append->offset + i * element < offset + size; i++) {
-        unsigned char encoded[4 * FLOAT_SIZE];
-        memcpy(encoded, layout->data + i * layout->stride, element);
-        write_floats(version->values + 3 * i, 3, encoded);
-        copy_common(encoded, append->offset + i * element, element, offset, size, bytes);
+    const gltf_accessor *accessor = &saver->document->model.accessors[version->accessor];
+    const size_t element = element_size(saver->document, version), stride = append->stride;
+    size_t i = offset > append->offset ? (offset - append->offset) / stride : 0;
+    for (; i * stride < append->size && append->offset + i * stride < offset + size; i++) {
+        unsigned char encoded[GLTF_LARGEST_VECTOR];
+        ffd_gltf_encode(accessor, version->component, ffd_gltf_element(saver->document, version->accessor, i),
+                        version->values + 3 * i, encoded);
+        copy_common(encoded, append->offset + i * stride, element, offset, size, bytes);
     }
 }
 
@@ -195,12 +233,12 @@ static void apply_appends(const gltf_saver *saver, const gltf_new_buffer *buffer
 void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, size_t size,
                            unsigned char *bytes)
 {
-    const gltf_buffer *old = &saver->document->buffers[b];
     const gltf_new_buffer *made = &saver->buffers[b];
+    const gltf_buffer *old = made->old;
     /* Bytes behind the old byteLength are no content: a buffer that grows does so from there. */
     const size_t kept = made->append_count > 0 ? old->length : old->size;
     memset(bytes, 0, size);
     copy_common(old->data, 0, kept, offset, size, bytes);
-    apply_overwrites(made, offset, size, bytes);
+    apply_overwrites(saver->document, made, offset, size, bytes);
     apply_appends(saver, made, offset, size, bytes);
 }

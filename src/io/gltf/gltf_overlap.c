@@ -122,8 +122,11 @@ static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user
         return false;
     const gltf_version *a = &plan->versions[plan->in_place[x->accessor]];
     const gltf_version *b = &plan->versions[plan->in_place[y->accessor]];
-    const size_t values = 3 * (size_t)d->model.accessors[x->accessor].count;
-    return a->hash == b->hash && memcmp(a->values, b->values, values * sizeof *a->values) == 0;
+    const gltf_accessor *first = &d->model.accessors[x->accessor], *second = &d->model.accessors[y->accessor];
+    const size_t values = 3 * (size_t)first->count;
+    return first->component == second->component && first->normalized == second->normalized &&
+           first->rows == second->rows && first->count == second->count && a->hash == b->hash &&
+           memcmp(a->values, b->values, values * sizeof *a->values) == 0;
 }
 
 /* Walks over all pairs that share bytes; returns whether one was taken back. */

@@ -1,51 +1,9 @@
 #include "base/memory.h"
-#include "base/number.h"
 #include "io/gltf/gltf_saver.h"
-#include <float.h>
-#include <math.h>
-#include <string.h>
 
 static const json_value *value_of(const gltf_saver *saver, uint32_t value)
 {
     return &saver->document->tree.values[value];
-}
-
-/* Writes the least or largest stored values into a "min" or "max", where they are not what it says. */
-static void edit_bound(const gltf_saver *saver, uint32_t array, const float bound[3], json_edits *edits)
-{
-    const json_span *tree = &saver->document->tree;
-    size_t c = 0;
-    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && c < 3;
-         v = ffd_json_span_after(tree, v)) {
-        double old;
-        const float wanted = bound[c++];
-        if (ffd_json_span_number(tree, v, &old) && fabs(old) <= FLT_MAX && (float)old == wanted)
-            continue;
-        char text[FFD_NUMBER_CAPACITY];
-        const size_t size = ffd_number_format((double)wanted, text);
-        ffd_edits_replace(edits, tree->values[v].begin, tree->values[v].end, text, size);
-    }
-}
-
-static void edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits)
-{
-    const gltf_document *d = saver->document;
-    const uint32_t accessor = d->accessor_values.values[version->accessor];
-    const uint32_t min = ffd_json_span_member(&d->tree, accessor, "min");
-    const uint32_t max = ffd_json_span_member(&d->tree, accessor, "max");
-    if (min == JSON_NONE && max == JSON_NONE)
-        return;
-    float least[3], largest[3];
-    memcpy(least, version->values, sizeof least);
-    memcpy(largest, version->values, sizeof largest);
-    for (size_t i = 1; i < d->model.accessors[version->accessor].count; i++)
-        for (size_t c = 0; c < 3; c++) {
-            const float value = version->values[3 * i + c];
-            least[c] = value < least[c] ? value : least[c];
-            largest[c] = value > largest[c] ? value : largest[c];
-        }
-    edit_bound(saver, min, least, edits);
-    edit_bound(saver, max, largest, edits);
 }
 
 /* Lets a mesh's attributes name the accessors that hold what it shows at a place. */
@@ -71,65 +29,91 @@ static void replace_number(const gltf_saver *saver, uint32_t object, const char 
         ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", number);
 }
 
-/* Inserts a value at the end of an array that is not empty. */
-static void add_element(gltf_saver *saver, const gltf_values *array, const byte_buffer *text)
+/* Adds a copy of an element to its list, changed by edits of its own. */
+static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key, size_t i, json_edits *edits)
 {
-    const uint32_t end = value_of(saver, array->values[array->count - 1])->end;
-    ffd_edits_replace(&saver->edits, end, end, ",", 1);
-    ffd_edits_replace(&saver->edits, end, end, text->data, text->size);
-    saver->edits.failed = saver->edits.failed || text->failed;
-}
-
-/* Inserts a copy of a value, changed by edits of its own. */
-static void add_copy(gltf_saver *saver, const gltf_values *array, size_t i, json_edits *edits)
-{
-    const json_value *value = value_of(saver, array->values[i]);
+    const json_value *value = value_of(saver, list->values[i]);
     byte_buffer text = {0};
     ffd_edits_sort(edits);
     ffd_edits_apply(edits, saver->document->tree.text, value->begin, value->end, &text);
-    add_element(saver, array, &text);
+    ffd_gltf_add_elements(saver, list, key, &text);
     saver->edits.failed = saver->edits.failed || ffd_edits_failed(edits);
     ffd_buffer_free(&text);
     ffd_edits_free(edits);
 }
 
-static void add_view(gltf_saver *saver, const gltf_append *append, size_t buffer)
+/* What the bufferView of the accessor says of its use; one that had none held an attribute all the same. */
+static void write_target(const gltf_saver *saver, size_t accessor, byte_buffer *text)
 {
     const gltf_document *d = saver->document;
-    const int old = d->model.accessors[saver->plan.versions[append->version].accessor].view;
-    const uint32_t target = ffd_json_span_member(&d->tree, d->view_values.values[old], "target");
-    byte_buffer text = {0};
-    ffd_buffer_format(&text, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu", buffer, append->offset,
-                      append->size);
+    const int view = d->model.accessors[accessor].view;
+    if (view < 0) {
+        ffd_buffer_text(text, ",\"target\":34962");
+        return;
+    }
+    const uint32_t target = ffd_json_span_member(&d->tree, d->view_values.values[view], "target");
     if (target != JSON_NONE)
-        ffd_buffer_format(&text, ",\"target\":%.*s",
+        ffd_buffer_format(text, ",\"target\":%.*s",
                           (int)(value_of(saver, target)->end - value_of(saver, target)->begin),
                           d->tree.text + value_of(saver, target)->begin);
-    ffd_buffer_text(&text, "}");
-    add_element(saver, &d->view_values, &text);
-    ffd_buffer_free(&text);
 }
 
-static void add_accessors(gltf_saver *saver)
+static void write_view(const gltf_saver *saver, const gltf_append *append, size_t buffer, byte_buffer *text)
+{
+    const gltf_version *version = &saver->plan.versions[append->version];
+    const size_t element = (size_t)saver->document->model.accessors[version->accessor].rows *
+                           ffd_gltf_component_size(version->component);
+    ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
+                      text->size > 0 ? "," : "", buffer, append->offset, append->size);
+    if (append->stride > element)
+        ffd_buffer_format(text, ",\"byteStride\":%zu", append->stride);
+    write_target(saver, version->accessor, text);
+    ffd_buffer_text(text, "}");
+}
+
+static void add_views(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
-    size_t *next = ffd_alloc_zero(d->buffer_values.count, sizeof *next);
+    byte_buffer text = {0};
+    size_t *next = ffd_alloc_zero(saver->buffer_count, sizeof *next);
     if (!next) {
         saver->edits.failed = true;
         return;
     }
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
-        const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
-        const uint32_t value = d->accessor_values.values[version->accessor];
-        const size_t buffer = (size_t)d->model.views[d->model.accessors[version->accessor].view].buffer;
-        add_view(saver, &saver->buffers[buffer].appends[next[buffer]++], buffer);
-        json_edits edits = {0};
-        replace_number(saver, value, "bufferView", d->view_values.count + i, &edits);
-        replace_number(saver, value, "byteOffset", 0, &edits);
-        edit_bounds(saver, version, &edits);
-        add_copy(saver, &d->accessor_values, version->accessor, &edits);
+        const size_t accessor = saver->plan.versions[saver->plan.appended[i]].accessor;
+        const size_t buffer = ffd_gltf_append_buffer(d, accessor);
+        write_view(saver, &saver->buffers[buffer].appends[next[buffer]++], buffer, &text);
     }
+    ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &text);
+    ffd_buffer_free(&text);
     ffd_free(next);
+}
+
+/* Lets an accessor's copy name its own bufferView, which holds all elements. */
+static void edit_place(const gltf_saver *saver, uint32_t accessor, size_t view, json_edits *edits)
+{
+    const json_span *tree = &saver->document->tree;
+    const uint32_t sparse = ffd_json_span_member(tree, accessor, "sparse");
+    const uint32_t inside = value_of(saver, accessor)->begin + 1;
+    if (ffd_json_span_member(tree, accessor, "bufferView") == JSON_NONE)
+        ffd_edits_format(edits, inside, inside, "\"bufferView\":%zu,", view);
+    replace_number(saver, accessor, "bufferView", view, edits);
+    replace_number(saver, accessor, "byteOffset", 0, edits);
+    if (sparse != JSON_NONE)
+        ffd_edits_remove(edits, tree, accessor, &sparse, 1);
+}
+
+static void add_accessors(gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    for (size_t i = 0; i < saver->plan.appended_count; i++) {
+        const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
+        json_edits edits = {0};
+        edit_place(saver, d->accessor_values.values[version->accessor], d->view_values.count + i, &edits);
+        ffd_gltf_edit_bounds(saver, version, &edits);
+        add_copy(saver, &d->accessor_values, "accessors", version->accessor, &edits);
+    }
 }
 
 static void add_meshes(gltf_saver *saver)
@@ -139,7 +123,7 @@ static void add_meshes(gltf_saver *saver)
         const gltf_mesh_copy *copy = &saver->plan.copies[i];
         json_edits edits = {0};
         edit_attributes(saver, copy->mesh, copy->place, &edits);
-        add_copy(saver, &d->mesh_values, copy->mesh, &edits);
+        add_copy(saver, &d->mesh_values, "meshes", copy->mesh, &edits);
     }
     for (size_t i = 0; i < saver->plan.change_count; i++) {
         const gltf_node_change *change = &saver->plan.changes[i];
@@ -187,12 +171,14 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     const gltf_document *d = saver->document;
     for (size_t a = 0; a < d->model.accessor_count; a++)
         if (saver->plan.in_place[a] != GLTF_NONE)
-            edit_bounds(saver, &saver->plan.versions[saver->plan.in_place[a]], &saver->edits);
+            ffd_gltf_edit_bounds(saver, &saver->plan.versions[saver->plan.in_place[a]], &saver->edits);
     for (size_t m = 0; m < d->model.mesh_count; m++)
         edit_attributes(saver, m, saver->plan.base_places[m], &saver->edits);
+    add_views(saver);
     add_accessors(saver);
     add_meshes(saver);
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);
+    ffd_gltf_add_buffer(saver);
     return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
 }

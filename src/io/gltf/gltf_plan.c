@@ -1,5 +1,6 @@
 #include "io/gltf/gltf_plan.h"
 #include "base/memory.h"
+#include "io/gltf/gltf_encode.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,15 +14,11 @@ typedef struct candidate {
 
 static bool is_changed(const gltf_document *d, size_t part, const gltf_stream *stream)
 {
-    const gltf_layout *layout = &d->layouts[stream->accessor];
     for (size_t i = 0; i < d->mesh_parts[part].vertex_count; i++) {
-        const unsigned char *at = layout->data + i * layout->stride;
-        for (size_t c = 0; c < 3; c++) {
-            uint32_t bits;
-            memcpy(&bits, stream->result + 3 * i + c, sizeof bits);
-            if (bits != ffd_glb_read_u32(at + 4 * c))
-                return true;
-        }
+        float original[3];
+        ffd_gltf_original(d, stream->accessor, i, original);
+        if (memcmp(original, stream->result + 3 * i, sizeof original) != 0)
+            return true;
     }
     return false;
 }
@@ -96,6 +93,13 @@ static void join_candidates(const candidate *candidates, size_t count, gltf_plan
     }
 }
 
+static void choose_component(const gltf_document *d, gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
+    const bool fits = ffd_gltf_fits(accessor, version->values, 3 * (size_t)accessor->count);
+    version->component = fits ? accessor->component : GLTF_FLOAT;
+}
+
 static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     const size_t most = d->base.part_count * GLTF_DEFORMED;
@@ -113,8 +117,10 @@ static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_err
     join_candidates(candidates, list_candidates(d, candidates), plan);
     if (plan->version_count > 0)
         qsort(plan->versions, plan->version_count, sizeof *plan->versions, compare_versions);
-    for (size_t i = 0; i < plan->version_count; i++)
+    for (size_t i = 0; i < plan->version_count; i++) {
         numbers[plan->versions[i].order] = i;
+        choose_component(d, &plan->versions[i]);
+    }
     for (size_t i = 0; i < most; i++)
         if (plan->part_versions[i] != GLTF_NONE)
             plan->part_versions[i] = numbers[plan->part_versions[i]];
@@ -258,6 +264,13 @@ static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size
         }
 }
 
+/* Whether the accessor's own bytes can hold the version. Sparse ones are only the exceptions. */
+static bool has_place(const gltf_document *d, const gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
+    return accessor->view >= 0 && !accessor->sparse.present && version->component == accessor->component;
+}
+
 static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     bool *original = ffd_alloc_zero(d->model.accessor_count, sizeof *original);
@@ -274,7 +287,8 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
     for (size_t a = 0; a < d->model.accessor_count; a++)
         plan->in_place[a] = GLTF_NONE;
     for (size_t v = plan->version_count; v-- > 0;)
-        if (plan->versions[v].needed && !original[plan->versions[v].accessor])
+        if (plan->versions[v].needed && !original[plan->versions[v].accessor] &&
+            has_place(d, &plan->versions[v]))
             plan->in_place[plan->versions[v].accessor] = v;
     ffd_free(original);
     return FFD_OK;

@@ -12,6 +12,7 @@ typedef struct gltf_version {
     uint64_t hash;
     size_t order; /* of the first part and attribute that has it */
     bool needed;
+    int component; /* of its numbers: the accessor's, or GLTF_FLOAT where that does not hold them */
     size_t output; /* the accessor that holds it in the output; GLTF_NONE: none yet */
 } gltf_version;
 

@@ -152,8 +152,6 @@ static ffd_status refuse_accessor(const gltf_document *d, size_t mesh, size_t p,
     if (d->layouts[a].meshopt)
         return refuse(d, d->view_values.values[accessor->view], error,
                       "EXT_meshopt_compression is not supported");
-    if (accessor->sparse.present)
-        return refuse(d, value, error, "a sparse accessor is not supported");
     if (accessor->component != GLTF_FLOAT)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error,
                                   "quantized data (component type %d) is not supported", accessor->component);

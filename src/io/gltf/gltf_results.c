@@ -1,18 +1,6 @@
 #include "base/memory.h"
 #include "io/gltf/gltf_document.h"
-#include <string.h>
-
-/* The first 3 components of each element, bit for bit. */
-static void copy_original(const gltf_layout *layout, size_t count, float *to)
-{
-    for (size_t i = 0; i < count; i++) {
-        const unsigned char *at = layout->data + i * layout->stride;
-        for (size_t c = 0; c < 3; c++) {
-            const uint32_t bits = ffd_glb_read_u32(at + 4 * c);
-            memcpy(to + 3 * i + c, &bits, sizeof bits);
-        }
-    }
-}
+#include "io/gltf/gltf_encode.h"
 
 static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic semantic, ffd_error *error)
 {
@@ -23,7 +11,8 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     stream->result = ffd_alloc(count, 3 * sizeof *stream->result);
     if (!stream->result)
         return ffd_fail_memory(error);
-    copy_original(&d->layouts[stream->accessor], count, stream->result);
+    for (size_t i = 0; i < count; i++)
+        ffd_gltf_original(d, stream->accessor, i, stream->result + 3 * i);
     return FFD_OK;
 }
 
@@ -42,15 +31,26 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     return status;
 }
 
+/* Directions in integers that are not normalized are not valid: no unit vector would survive their steps. */
+static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
+{
+    return semantic == GLTF_POSITION || accessor->normalized;
+}
+
 static void write_result(mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
                          size_t count, const double *values, size_t components, const uint8_t *changed)
 {
-    float *result = ((gltf_document *)document)->parts[part].streams[semantic].result;
+    const gltf_document *d = ffd_gltf_of(document);
+    const gltf_stream *stream = &d->parts[part].streams[semantic];
+    float *result = stream->result;
     if (!result)
         return;
+    const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
+    const bool steps = has_steps(accessor, semantic);
     for (size_t i = 0; i < count; i++)
         for (size_t c = 0; c < 3 && changed[i]; c++)
-            result[3 * (first + i) + c] = (float)values[components * i + c];
+            result[3 * (first + i) + c] = steps ? ffd_gltf_round(accessor, values[components * i + c])
+                                                : (float)values[components * i + c];
 }
 
 void ffd_gltf_write_positions(mesh_document *document, size_t part, size_t first, size_t count,

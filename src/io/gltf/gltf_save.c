@@ -135,7 +135,7 @@ static glb_sizes measure_glb(const gltf_saver *saver)
     glb_sizes sizes = {.json_end = json_end(saver), .rest = d->glb.end - d->glb.rest_begin};
     sizes.json = json_size(saver, sizes.json_end);
     sizes.json_chunk = d->binary && sizes.json == d->tree.size ? sizes.json : padded(sizes.json);
-    sizes.own_bin = d->buffer_values.count > 0 && saver->buffers[0].kind == BUFFER_BIN;
+    sizes.own_bin = saver->buffer_count > 0 && saver->buffers[0].kind == BUFFER_BIN;
     sizes.has_bin = sizes.own_bin || d->glb.has_bin;
     sizes.bin = sizes.own_bin ? ffd_gltf_content_size(saver, 0) : d->glb.bin_size;
     sizes.bin_chunk = d->binary && sizes.bin == d->glb.bin_size ? sizes.bin : padded(sizes.bin);

@@ -7,6 +7,7 @@
 
 /* An accessor whose content changes where it stands. */
 typedef struct gltf_overwrite {
+    size_t accessor;
     size_t begin, end, stride; /* in its buffer */
     size_t end_so_far;         /* the largest end up to this one in the list */
     const float *values;
@@ -14,11 +15,12 @@ typedef struct gltf_overwrite {
 
 /* A new accessor's content behind the old end of its buffer. */
 typedef struct gltf_append {
-    size_t offset, size;
+    size_t offset, size, stride; /* size: all of it; stride: a multiple of 4, as attributes need */
     size_t version;
 } gltf_append;
 
 typedef struct gltf_new_buffer {
+    const gltf_buffer *old;     /* lent; of kind BUFFER_EMPTY and of no length for one that is added */
     size_t length;              /* its new byteLength */
     bool changed;               /* its bytes are not those of before */
     gltf_buffer_kind kind;      /* how the output holds it */
@@ -35,7 +37,8 @@ typedef struct gltf_saver {
     file_output *output;
     const mesh_log *log;
     gltf_plan plan;
-    gltf_new_buffer *buffers;
+    gltf_new_buffer *buffers; /* those of the document, then an added one */
+    size_t buffer_count;      /* one more than the document has where none of those takes bytes */
     json_edits edits;
     bool binary;   /* the output is a GLB */
     bool in_place; /* the output is the input */
@@ -46,6 +49,8 @@ void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *form
 
 /* gltf_content.c: fills overwrites, appends and lengths of saver->buffers from the plan. */
 ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error);
+/* The buffer that an accessor's copy is appended to. */
+size_t ffd_gltf_append_buffer(const gltf_document *document, size_t accessor);
 void ffd_gltf_free_content(gltf_saver *saver);
 /* Bytes of the new content of a buffer: more than its length where the old one had more and did not grow. */
 size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer);
@@ -63,6 +68,14 @@ void ffd_gltf_move_buffers(gltf_saver *saver);
 void ffd_gltf_add_uri(gltf_saver *saver, size_t buffer, const char *uri);
 /* gltf_patch.c: the edits of the JSON that the plan and the new buffers need. */
 ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);
+/* gltf_bounds.c: "min" and "max" of an accessor that gets a version, where it has them. */
+void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits);
+/* gltf_lists.c: adds elements (their text, with commas between them) to a list at the top of the JSON, which
+   is made where it is missing; more than once only if it is not empty before. */
+void ffd_gltf_add_elements(gltf_saver *saver, const gltf_values *list, const char *key,
+                           const byte_buffer *text);
+/* The added buffer, where there is one. */
+void ffd_gltf_add_buffer(gltf_saver *saver);
 /* gltf_targets.c: names for the buffers' files, and their URIs. */
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
 /* gltf_resources.c: images beside the output, or their URIs. Refuses an image that has the name of a file of

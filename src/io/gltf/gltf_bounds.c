@@ -1,0 +1,67 @@
+#include "base/number.h"
+#include "io/gltf/gltf_encode.h"
+#include "io/gltf/gltf_saver.h"
+#include <float.h>
+#include <math.h>
+
+/* Bounds are numbers as they are stored: of normalized integers too, the integers (glTF 2.0, 3.6.2.5). */
+typedef struct stored_bounds {
+    double least[4], largest[4];
+} stored_bounds;
+
+static stored_bounds find_bounds(const gltf_document *d, const gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
+    const size_t size = ffd_gltf_component_size(version->component);
+    stored_bounds bounds = {{0}, {0}};
+    for (size_t i = 0; i < accessor->count; i++) {
+        unsigned char element[GLTF_LARGEST_VECTOR];
+        ffd_gltf_encode(accessor, version->component, ffd_gltf_element(d, version->accessor, i),
+                        version->values + 3 * i, element);
+        for (size_t c = 0; c < (size_t)accessor->rows; c++) {
+            const double value = ffd_gltf_read_number(element + c * size, version->component, false);
+            if (i == 0 || value < bounds.least[c])
+                bounds.least[c] = value;
+            if (i == 0 || value > bounds.largest[c])
+                bounds.largest[c] = value;
+        }
+    }
+    return bounds;
+}
+
+/* Whether the file's number, read in the accessor's type, is the wanted one. */
+static bool says(double number, double wanted, int component)
+{
+    const double read = component == GLTF_FLOAT && fabs(number) <= FLT_MAX ? (float)number : number;
+    return !(read < wanted) && !(read > wanted);
+}
+
+/* Writes the least or largest stored values into a "min" or "max", where they are not what it says. */
+static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[4], int component,
+                       json_edits *edits)
+{
+    const json_span *tree = &saver->document->tree;
+    size_t c = 0;
+    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && c < 4;
+         v = ffd_json_span_after(tree, v), c++) {
+        double old;
+        if (ffd_json_span_number(tree, v, &old) && says(old, bound[c], component))
+            continue;
+        char text[FFD_NUMBER_CAPACITY];
+        const size_t size = ffd_number_format(bound[c], text);
+        ffd_edits_replace(edits, tree->values[v].begin, tree->values[v].end, text, size);
+    }
+}
+
+void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits)
+{
+    const gltf_document *d = saver->document;
+    const uint32_t accessor = d->accessor_values.values[version->accessor];
+    const uint32_t min = ffd_json_span_member(&d->tree, accessor, "min");
+    const uint32_t max = ffd_json_span_member(&d->tree, accessor, "max");
+    if (min == JSON_NONE && max == JSON_NONE)
+        return;
+    const stored_bounds bounds = find_bounds(d, version);
+    edit_bound(saver, min, bounds.least, version->component, edits);
+    edit_bound(saver, max, bounds.largest, version->component, edits);
+}
