@@ -116,7 +116,7 @@ typedef struct ffd_job_result {
     ffd_bounds before, after;
     double displacement_max, displacement_rms;
     uint64_t normals_collapsed;
-    uint64_t transforms_singular; /* vertices kept because their node's matrix has no inverse */
+    uint64_t transforms_singular; /* vertices kept because their node's or skin's matrix has no inverse */
     bool has_folds;               /* the proof ran: for check, quality and FFD_GATE_FOLDS */
     ffd_folds folds;      /* of all lattices: the worst verdict (some, unknown, none), sums of cells, the
                              least min_det, the witness of the first lattice that has one */

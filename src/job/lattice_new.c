@@ -26,10 +26,14 @@ static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *d
     if (status != FFD_OK)
         return status;
     const uint64_t count = ffd_pass_vertex_count(document);
-    double *xyz = all_positions(document, count);
-    ffd_source_close(&document);
-    status = xyz ? ffd_lattice_create(desc, xyz, (size_t)count, lattice, error) : ffd_fail_memory(error);
+    double *xyz = NULL;
+    status = document->format->check(document, error);
+    if (status == FFD_OK) {
+        xyz = all_positions(document, count);
+        status = xyz ? ffd_lattice_create(desc, xyz, (size_t)count, lattice, error) : ffd_fail_memory(error);
+    }
     ffd_free(xyz);
+    ffd_source_close(&document);
     /* Other failures are of the description, not of the mesh. */
     if (status == FFD_E_INVALID)
         ffd_fail_name_file(error, ffd_source_name(mesh));

@@ -19,6 +19,8 @@ typedef struct tile_scratch {
     ffd_location locations[TILE]; /* of the chosen ones */
     chain_point points[TILE];
     uint8_t changed[TILE];
+    double transforms[12 * TILE], inverses[9 * TILE]; /* of the vertices of a skinned part */
+    bool singular[TILE];                              /* which of them have no inverse */
     double normals[3 * TILE], tangents[4 * TILE];
     uint8_t normals_changed[TILE], tangents_changed[TILE];
     ffd_status status; /* of the first tile of this worker that failed, and what it said */
@@ -34,6 +36,36 @@ typedef struct part_work {
     pass_totals *tiles;    /* what each tile adds */
     atomic_bool stopped;   /* a tile failed: the others need not be looked at */
 } part_work;
+
+/* How one vertex stands in the lattice's space. */
+typedef struct vertex_place {
+    const double *linear, *inverse;
+    bool identity, singular;
+} vertex_place;
+
+static vertex_place place_of(const part_work *work, const tile_scratch *scratch, size_t i)
+{
+    const mesh_part *part = work->part;
+    if (part->skinned)
+        return (vertex_place){scratch->transforms + 12 * i, scratch->inverses + 9 * i, false,
+                              scratch->singular[i]};
+    return (vertex_place){part->linear, part->inverse, part->identity, part->singular};
+}
+
+/* Takes the points (positions as the file has them) of a tile to the lattice's space. */
+static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                         double *points)
+{
+    const mesh_document *document = work->pass->document;
+    if (!work->part->skinned) {
+        ffd_part_place(document, work->part_number, first, count, points);
+        return;
+    }
+    document->format->read_transforms(document, work->part_number, first, count, scratch->transforms);
+    for (size_t i = 0; i < count; i++)
+        scratch->singular[i] = !mat_invert(scratch->transforms + 12 * i, scratch->inverses + 9 * i);
+    ffd_points_place(scratch->transforms, count, points);
+}
 
 static void clear_totals(pass_totals *totals)
 {
@@ -97,13 +129,13 @@ static void join_totals(pass_totals *all, const pass_totals *tile)
 
 /* Only the displacement goes back to the file's space: p' = p + linear^{-1} delta. A coordinate whose
    displacement is 0 keeps its bits. Returns whether one changed. */
-static bool move_back(const mesh_part *part, const chain_point *point, double p[3])
+static bool move_back(const vertex_place *place, const chain_point *point, double p[3])
 {
     double delta[3] = {point->delta[0], point->delta[1], point->delta[2]};
     if (delta[0] == 0 && delta[1] == 0 && delta[2] == 0)
         return false;
-    if (!part->identity)
-        mat_apply(part->inverse, delta, delta);
+    if (!place->identity)
+        mat_apply(place->inverse, delta, delta);
     bool changed = false;
     for (int a = 0; a < 3; a++)
         if (delta[a] != 0) {
@@ -114,7 +146,7 @@ static bool move_back(const mesh_part *part, const chain_point *point, double p[
     return changed;
 }
 
-static void count_point(const part_work *work, const chain_point *point, const double before[3],
+static void count_point(bool singular, const chain_point *point, const double before[3],
                         const double after[3], uint64_t number, pass_totals *totals)
 {
     totals->vertices++;
@@ -140,7 +172,7 @@ static void count_point(const part_work *work, const chain_point *point, const d
     }
     widen(&totals->before, before);
     widen(&totals->after, after);
-    if (work->part->singular) {
+    if (singular) {
         totals->transforms_singular++;
         return;
     }
@@ -166,11 +198,9 @@ static void note_determinant(const chain_point *point, pass_totals *totals)
 }
 
 /* What the caller wants to have of a vertex. */
-static void fill_arrays(const part_work *work, const chain_point *point, const double place[3],
+static void fill_arrays(const mesh_pass *pass, bool singular, const chain_point *point, const double place[3],
                         uint64_t number, pass_totals *totals)
 {
-    const mesh_pass *pass = work->pass;
-    const bool singular = work->part->singular;
     if (pass->uvw)
         memcpy(pass->uvw + 3 * number, point->uvw, sizeof point->uvw);
     if (pass->statuses)
@@ -208,13 +238,14 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
     for (size_t i = 0; i < count; i++) {
         const uint64_t number = work->first_vertex + first + i;
         const chain_point *point = &scratch->points[i];
+        const vertex_place place = place_of(work, scratch, i);
         double *p = scratch->raw + 3 * i;
-        fill_arrays(work, point, scratch->place + 3 * i, number, totals);
+        fill_arrays(pass, place.singular, point, scratch->place + 3 * i, number, totals);
         scratch->changed[i] = false;
         if (!ffd_part_selects(work->part, first + i))
             continue;
-        count_point(work, point, scratch->before + 3 * i, scratch->place + 3 * i, number, totals);
-        scratch->changed[i] = !work->part->singular && move_back(work->part, point, p);
+        count_point(place.singular, point, scratch->before + 3 * i, scratch->place + 3 * i, number, totals);
+        scratch->changed[i] = !place.singular && move_back(&place, point, p);
         if (scratch->changed[i]) {
             totals->moved++;
             if (!fits_file(pass->document, p))
@@ -226,14 +257,16 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
                                 scratch->changed);
 }
 
-/* The deformation's gradient in the file's own space: linear^{-1} E linear. */
-static void bring_gradient_back(const mesh_part *part, double gradient[9])
+/* The deformation's gradient in the file's own space: linear^{-1} E linear. What has no inverse stays. */
+static void bring_gradient_back(const vertex_place *place, double gradient[9])
 {
     double product[9];
-    if (part->identity)
+    if (place->singular)
+        memset(gradient, 0, sizeof product);
+    if (place->identity || place->singular)
         return;
-    mat_multiply(gradient, part->linear, product);
-    mat_multiply(part->inverse, product, gradient);
+    mat_multiply(gradient, place->linear, product);
+    mat_multiply(place->inverse, product, gradient);
 }
 
 /* Normals [from, to) of a tile whose first vertex is `first`; vertex is the place to go on from. */
@@ -279,8 +312,10 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
                               pass_totals *totals)
 {
     const mesh_part *part = work->part;
-    for (size_t i = 0; i < count; i++)
-        bring_gradient_back(part, scratch->points[i].gradient);
+    for (size_t i = 0; i < count; i++) {
+        const vertex_place place = place_of(work, scratch, i);
+        bring_gradient_back(&place, scratch->points[i].gradient);
+    }
     if (part->normal_count) {
         size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;
         const size_t end = part->normal_start ? part->normal_start[first + count] : first + count;
@@ -350,7 +385,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         return;
     pass->document->format->read_positions(pass->document, work->part_number, first, count, scratch->raw);
     memcpy(scratch->place, scratch->raw, 3 * count * sizeof(double));
-    ffd_part_place(part, scratch->place, count);
+    place_points(work, scratch, first, count, scratch->place);
     memcpy(scratch->before, scratch->place, 3 * count * sizeof(double));
     choose(work, scratch, first, count);
     chain_run run = {.x = scratch->place,

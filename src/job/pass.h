@@ -38,7 +38,7 @@ typedef struct mesh_pass {
     double *uvw;       /* 3 a vertex, or NULL: u,v,w in the last link, NaN where there is none */
     uint8_t *statuses; /* one a vertex, or NULL */
     double *deformed;  /* 3 a vertex, or NULL: where the chain brings it, in the lattice's space, unrounded;
-                          NaN in parts whose transform is singular */
+                          NaN where the transform is singular */
     double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row by row, in the lattice's space;
                           NaN likewise. The totals have the range of det F only with these. */
 } mesh_pass;

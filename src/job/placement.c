@@ -103,7 +103,8 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      " vertices the search ended at its limits: the lattice folds or collapses there",
                      totals->unresolved);
     if (totals->transforms_singular)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " vertices stay: their node's matrix has no inverse",
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " vertices stay: their node's or skin's matrix has no inverse",
                      totals->transforms_singular);
     if (totals->normals_collapsed)
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " normals stay: the deformation collapses them",

@@ -51,7 +51,7 @@ void ffd_source_close(mesh_document **document)
 void ffd_source_positions(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
 {
     document->format->read_positions(document, part, first, count, xyz);
-    ffd_part_place(&document->parts[part], xyz, count);
+    ffd_part_place(document, part, first, count, xyz);
 }
 
 void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...)

@@ -33,6 +33,8 @@ typedef struct mesh_part {
     double linear[9], offset[3]; /* x = linear p + offset */
     double inverse[9];           /* of linear */
     bool singular;               /* linear has no inverse: the part's vertices are kept */
+    bool skinned; /* every vertex has a linear and offset of its own (read_transforms); those above are then
+                     not used, and identity and singular are false */
 
     /* What select has left: a vertex whose byte is 0 stays as it is and is not counted, a normal whose byte
        is 0 stays. NULL: all vertices; the normals of the selected vertices. Lent by the document. */
@@ -44,9 +46,6 @@ static inline bool ffd_part_selects(const mesh_part *part, size_t vertex)
 {
     return !part->skipped && (!part->selected || part->selected[vertex]);
 }
-
-/* Takes count points (3 doubles each) from the file's space to the lattice's: x = linear p + offset. */
-void ffd_part_place(const mesh_part *part, double *points, size_t count);
 
 /* Polygons over all vertices of the document, for topology. Vertex numbers count the vertices of parts in
    order (the order of `ffd embed`); a document may give a subset where parts repeat storage. */
@@ -73,6 +72,12 @@ typedef struct mesh_log {
 } mesh_log;
 
 typedef struct mesh_document mesh_document;
+
+/* Takes the positions of a part's vertices [first, first + count) (3 doubles each) from the file's space to
+   the lattice's: x = linear p + offset. Any thread. */
+void ffd_part_place(const mesh_document *document, size_t part, size_t first, size_t count, double *points);
+/* The same with the vertices' own transforms, as read_transforms gives them. */
+void ffd_points_place(const double *transforms, size_t count, double *points);
 
 typedef struct mesh_format {
     ffd_format format;
@@ -103,6 +108,10 @@ typedef struct mesh_format {
     void (*read_normals)(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz);
     void (*read_tangents)(const mesh_document *document, size_t part, size_t first, size_t count,
                           double *xyzw);
+
+    /* Of a skinned part: 12 numbers a vertex, linear row by row and offset. NULL where no part is skinned. */
+    void (*read_transforms)(const mesh_document *document, size_t part, size_t first, size_t count,
+                            double *transforms);
 
     /* Results. ffd_mesh_begin_results must come first (it makes room); the writers may run in several threads
        on disjoint ranges. changed: one byte a value, 0: kept as it was (xyz is then not looked at). */

@@ -1,13 +1,37 @@
 #include "base/vec.h"
 #include "mesh/mesh.h"
 
-void ffd_part_place(const mesh_part *part, double *points, size_t count)
+#define BLOCK ((size_t)64)
+
+static void place(const double linear[9], const double offset[3], double point[3])
 {
-    if (part->identity)
-        return;
-    for (size_t i = 0; i < count; i++) {
-        mat_apply(part->linear, points + 3 * i, points + 3 * i);
-        for (int a = 0; a < 3; a++)
-            points[3 * i + (size_t)a] += part->offset[a];
+    mat_apply(linear, point, point);
+    for (int a = 0; a < 3; a++)
+        point[a] += offset[a];
+}
+
+void ffd_points_place(const double *transforms, size_t count, double *points)
+{
+    for (size_t i = 0; i < count; i++)
+        place(transforms + 12 * i, transforms + 12 * i + 9, points + 3 * i);
+}
+
+static void place_skinned(const mesh_document *document, size_t part, size_t first, size_t count,
+                          double *points)
+{
+    double transforms[12 * BLOCK];
+    for (size_t at = 0; at < count; at += BLOCK) {
+        const size_t size = count - at < BLOCK ? count - at : BLOCK;
+        document->format->read_transforms(document, part, first + at, size, transforms);
+        ffd_points_place(transforms, size, points + 3 * at);
     }
+}
+
+void ffd_part_place(const mesh_document *document, size_t part, size_t first, size_t count, double *points)
+{
+    const mesh_part *p = &document->parts[part];
+    if (p->skinned)
+        place_skinned(document, part, first, count, points);
+    for (size_t i = 0; i < count && !p->skinned && !p->identity; i++)
+        place(p->linear, p->offset, points + 3 * i);
 }

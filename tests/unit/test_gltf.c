@@ -174,7 +174,8 @@ static void broken_values_are_refused(void **state)
     check_refusals(cases, sizeof cases / sizeof *cases);
 }
 
-#define WITH_NODE(node) "{" DATA "," ACCESSORS "," MESHES ",\"skins\":[{}],\"nodes\":[" node "]}"
+#define WITH_NODE(node)                                                                                      \
+    "{" DATA "," ACCESSORS "," MESHES ",\"skins\":[{\"joints\":[0]}],\"nodes\":[" node "]}"
 #define WITH_ACCESSOR(accessor) "{" DATA ",\"accessors\":[" accessor "]," MESHES "," SCENE "}"
 #define WITH_PRIMITIVE(primitive)                                                                            \
     "{" DATA "," ACCESSORS ",\"meshes\":[{\"primitives\":[" primitive "]}]," SCENE "}"
@@ -183,10 +184,6 @@ static void unsupported_things_are_named(void **state)
 {
     (void)state;
     static const refusal cases[] = {
-        {WITH_NODE("{\"mesh\":0,\"skin\":0}"),
-         "t.gltf:/nodes/0/skin: skins are not supported in scene space (--space mesh deforms the mesh before "
-         "its skin)",
-         FFD_E_UNSUPPORTED},
         {WITH_NODE("{\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{}}}"),
          "t.gltf:/nodes/0: EXT_mesh_gpu_instancing is not supported in scene space", FFD_E_UNSUPPORTED},
         {WITH_PRIMITIVE("{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0}]}"),
@@ -222,7 +219,7 @@ static void what_is_not_deformed_is_not_refused(void **state)
         /* A skin and a morph in a scene that is not shown. */
         "{" DATA "," ACCESSORS
         ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{}]}]}],"
-        "\"skins\":[{}],\"nodes\":[{\"mesh\":0,\"skin\":0},{}],\"scenes\":[{\"nodes\":[1]}]}",
+        "\"skins\":[{\"joints\":[0]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{}],\"scenes\":[{\"nodes\":[1]}]}",
         /* Integers that are not plain digits, tinygltf would take 0 for them. */
         "{" DATA
         ",\"accessors\":[{\"bufferView\":0.0,\"byteOffset\":1.2e1,\"componentType\":5126,\"count\":2.0,"
@@ -278,7 +275,7 @@ static void parts_are_pairs_of_accessor_and_node(void **state)
     }
     double xyz[9];
     gltf->read_positions(document, 0, 0, 3, xyz);
-    ffd_part_place(&document->parts[0], xyz, 3);
+    ffd_part_place(document, 0, 0, 3, xyz);
     static const double expected[9] = {11, 2, 3, 11, 4, 3, 9, 2, 3};
     for (int i = 0; i < 9; i++)
         assert_true(xyz[i] > expected[i] - 1e-14 && xyz[i] < expected[i] + 1e-14);

@@ -261,7 +261,7 @@ static void other_users_of_the_bytes_keep_them(void **state)
         {"", "", "", ",\"images\":[{\"bufferView\":0}]", "1", "1"},
         {",{\"buffer\":0,\"byteOffset\":24,\"byteLength\":12}",
          ",{\"bufferView\":1,\"componentType\":5126,\"count\":1,\"type\":\"VEC3\"}", "", "", "2", "2"},
-        {"", "", "", ",\"skins\":[{\"inverseBindMatrices\":0}]", "1", "1"},
+        {"", "", "", ",\"skins\":[{\"joints\":[0],\"inverseBindMatrices\":0}]", "1", "1"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char before[2048], after[2048];

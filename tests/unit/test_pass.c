@@ -72,7 +72,7 @@ static bool place_of(const cloud *mesh, size_t number, double p[3])
     const size_t part = number < MOST ? 0 : number < MOST + 1024 ? 2 : 3;
     const size_t first = part == 0 ? 0 : part == 2 ? MOST : MOST + 1024;
     memcpy(p, mesh->xyz[part] + 3 * (number - first), 3 * sizeof *p);
-    ffd_part_place(&mesh->parts[part], p, 1);
+    ffd_part_place(&mesh->head, part, number - first, 1, p);
     return part != 3;
 }
 

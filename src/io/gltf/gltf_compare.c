@@ -221,8 +221,8 @@ static ffd_status compare_values(const comparer *c, uint32_t x, uint32_t y)
     }
 }
 
-/* Compares positions as the part places them: differences in the lattice's units. part may be NULL. */
-static void compare_positions(const comparer *c, size_t accessor, const mesh_part *part)
+/* Compares positions as the part (GLTF_NONE: none) places them: differences in the lattice's units. */
+static void compare_positions(const comparer *c, size_t accessor, size_t part)
 {
     const size_t count = (size_t)c->a->model.accessors[accessor].count;
     double a[3 * BLOCK], b[3 * BLOCK];
@@ -232,9 +232,9 @@ static void compare_positions(const comparer *c, size_t accessor, const mesh_par
         ffd_gltf_read(c->b, accessor, first, size, 3, b);
         if (memcmp(a, b, 3 * size * sizeof *a) == 0)
             continue;
-        if (part) {
-            ffd_part_place(part, a, size);
-            ffd_part_place(part, b, size);
+        if (part != GLTF_NONE) {
+            ffd_part_place(&c->a->base, part, first, size, a);
+            ffd_part_place(&c->a->base, part, first, size, b);
         }
         for (size_t i = 0; i < 3 * size; i++) {
             const double difference = fabs(a[i] - b[i]);
@@ -264,12 +264,12 @@ static ffd_status compare_all_positions(const comparer *c)
         const size_t accessor = d->parts[i].streams[GLTF_POSITION].accessor;
         if (d->mesh_parts[i].repeats_positions || !both_read(c, accessor))
             continue;
-        compare_positions(c, accessor, &d->mesh_parts[i]);
+        compare_positions(c, accessor, i);
         done[accessor] = true;
     }
     for (size_t a = 0; a < d->model.accessor_count; a++)
         if (c->is_position[a] && !done[a] && both_read(c, a))
-            compare_positions(c, a, NULL);
+            compare_positions(c, a, GLTF_NONE);
     ffd_free(done);
     return FFD_OK;
 }

@@ -65,7 +65,8 @@ static ffd_status list_all_values(gltf_document *d, ffd_error *error)
         gltf_values *list;
     } lists[] = {{"buffers", &d->buffer_values},     {"bufferViews", &d->view_values},
                  {"accessors", &d->accessor_values}, {"meshes", &d->mesh_values},
-                 {"nodes", &d->node_values},         {"images", &d->image_values}};
+                 {"nodes", &d->node_values},         {"skins", &d->skin_values},
+                 {"images", &d->image_values}};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < sizeof lists / sizeof *lists && status == FFD_OK; i++)
         status = list_values(d, lists[i].key, lists[i].list, error);
@@ -195,8 +196,9 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
 
 static void free_document(gltf_document *d)
 {
-    gltf_values *const lists[] = {&d->buffer_values, &d->view_values,  &d->accessor_values, &d->mesh_values,
-                                  &d->node_values,   &d->image_values, &d->primitive_values};
+    gltf_values *const lists[] = {&d->buffer_values, &d->view_values,     &d->accessor_values,
+                                  &d->mesh_values,   &d->node_values,     &d->skin_values,
+                                  &d->image_values,  &d->primitive_values};
     for (size_t i = 0; d->parts && i < d->base.part_count; i++) {
         for (int s = 0; s < GLTF_DEFORMED; s++)
             ffd_free(d->parts[i].streams[s].result);
@@ -206,6 +208,7 @@ static void free_document(gltf_document *d)
         ffd_gltf_free_buffer(&d->buffers[i]);
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         ffd_free(lists[i]->values);
+    ffd_gltf_free_skins(d);
     ffd_gltf_free_model(&d->model);
     ffd_json_span_free(&d->tree);
     ffd_free(d->first_primitive);
@@ -240,8 +243,14 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         return ffd_fail_memory(error);
     status = ffd_gltf_check(d, error);
     if (status == FFD_OK)
+        status = ffd_gltf_list_skins(d, error);
+    if (status == FFD_OK)
         status = ffd_gltf_make_scene(d, error);
-    return status ? status : ffd_gltf_make_parts(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_make_parts(d, error);
+    if (status == FFD_OK)
+        d->skins_status = ffd_gltf_place_skins(d, &d->skins_error);
+    return status == FFD_OK && d->skins_status == FFD_E_MEMORY ? ffd_fail_memory(error) : status;
 }
 
 static ffd_status open_document(file_input *input, const ffd_source *source, mesh_document **document,
@@ -316,6 +325,7 @@ const mesh_format ffd_gltf_format = {
     .read_positions = read_positions,
     .read_normals = read_normals,
     .read_tangents = read_tangents,
+    .read_transforms = ffd_gltf_read_transforms,
     .begin_results = ffd_gltf_begin_results,
     .write_positions = ffd_gltf_write_positions,
     .write_normals = ffd_gltf_write_normals,

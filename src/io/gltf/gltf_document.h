@@ -32,8 +32,18 @@ typedef struct gltf_stream {
     float *result;   /* 3 * count; NULL before begin_results, and where a part repeats */
 } gltf_stream;
 
+typedef struct gltf_skin {
+    size_t *joints; /* nodes */
+    size_t joint_count;
+    int inverse_bind; /* accessor; -1: absent */
+    double *matrices; /* 12 a joint: world matrix * inverse bind matrix; NULL until a shown node needs them */
+} gltf_skin;
+
 typedef struct gltf_part {
-    size_t node; /* GLTF_NONE in mesh space */
+    size_t node;                      /* GLTF_NONE in mesh space */
+    const gltf_skin *skin;            /* NULL: none, or not looked at */
+    const gltf_influence *influences; /* lent by the model; with a skin */
+    size_t influence_count;
     gltf_stream streams[GLTF_DEFORMED];
     uint8_t *selected; /* the mesh_part's; NULL: see there */
 } gltf_part;
@@ -61,14 +71,19 @@ typedef struct gltf_document {
     bool binary;
     glb_layout glb;
     json_span tree;
-    gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, image_values;
+    gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
+        image_values;
     gltf_values primitive_values; /* of all meshes */
     size_t *first_primitive;      /* of a mesh, in them */
     gltf_model model;
+    gltf_skin *skins; /* skin_values.count */
+    /* What keeps the skins from placing their vertices: such a document can only be described. */
+    ffd_status skins_status;
+    ffd_error skins_error;
     gltf_buffer *buffers; /* buffer_values.count */
     gltf_layout *layouts; /* model.accessor_count */
 
-    double *world;  /* 12 a node: linear row by row, offset; of shown nodes */
+    double *world;  /* 12 a node: linear row by row, offset */
     bool *is_shown; /* a node */
     size_t *shown_nodes;
     size_t hidden_nodes; /* with a mesh, not shown */
@@ -98,6 +113,14 @@ extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
 ffd_status ffd_gltf_check(gltf_document *document, ffd_error *error);
 /* gltf_scene.c: which nodes are shown, and their matrices. Refuses cycles and second parents. */
 ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
+/* gltf_skin.c. list: reads the skins. place: gives the skins of shown nodes their matrices, and checks what
+   weighs them. */
+ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
+ffd_status ffd_gltf_place_skins(gltf_document *document, ffd_error *error);
+void ffd_gltf_free_skins(gltf_document *document);
+/* mesh.h's read_transforms. */
+void ffd_gltf_read_transforms(const mesh_document *document, size_t part, size_t first, size_t count,
+                              double *transforms);
 /* gltf_parts.c */
 ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
 /* gltf_refuse.c: valid, but more than can be done. read: what would make the positions wrong or unreadable;

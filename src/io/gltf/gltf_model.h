@@ -49,12 +49,19 @@ typedef struct gltf_attribute {
     int accessor;
 } gltf_attribute;
 
+/* Accessors of JOINTS_n and WEIGHTS_n of one n; -1 where only the other is there. */
+typedef struct gltf_influence {
+    int joints, weights;
+} gltf_influence;
+
 typedef struct gltf_primitive {
     int accessor[GLTF_DEFORMED]; /* of POSITION, NORMAL, TANGENT */
     gltf_attribute *attributes;  /* all */
     size_t attribute_count;
     gltf_attribute *targets; /* the attributes of all morph targets */
     size_t target_attribute_count, target_count;
+    gltf_influence *influences; /* n from 0 until neither is there */
+    size_t influence_count;
     int indices, mode;
 } gltf_primitive;
 

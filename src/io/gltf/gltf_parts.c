@@ -6,7 +6,7 @@
 #define MOST_INSTANCES ((size_t)1 << 24)
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
 
-/* Finds the parts of one POSITION accessor under one node. */
+/* Finds the parts of one POSITION accessor under one node and, with a skin, of the same influences. */
 typedef struct part_table {
     size_t *heads; /* first part of a slot's key, GLTF_NONE: free */
     size_t mask;
@@ -27,12 +27,29 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
     return FFD_OK;
 }
 
-static size_t *find_slot(const gltf_document *d, const part_table *table, size_t accessor, size_t node)
+/* Whether two parts of one node are moved by the same joints. */
+static bool same_influences(const gltf_part *a, const gltf_part *b)
 {
-    size_t slot = (accessor * 0x9e3779b1u + node * 0x85ebca6bu) & table->mask;
+    if (a->influence_count != b->influence_count)
+        return false;
+    for (size_t i = 0; i < a->influence_count; i++)
+        if (a->influences[i].joints != b->influences[i].joints ||
+            a->influences[i].weights != b->influences[i].weights)
+            return false;
+    return true;
+}
+
+static size_t *find_slot(const gltf_document *d, const part_table *table, const gltf_part *wanted)
+{
+    const size_t accessor = wanted->streams[GLTF_POSITION].accessor;
+    size_t slot = accessor * 0x9e3779b1u + wanted->node * 0x85ebca6bu;
+    for (size_t i = 0; i < wanted->influence_count; i++)
+        slot = slot * 31 + (size_t)wanted->influences[i].joints + 7 * (size_t)wanted->influences[i].weights;
+    slot &= table->mask;
     while (table->heads[slot] != GLTF_NONE) {
         const gltf_part *part = &d->parts[table->heads[slot]];
-        if (part->streams[GLTF_POSITION].accessor == accessor && part->node == node)
+        if (part->streams[GLTF_POSITION].accessor == accessor && part->node == wanted->node &&
+            same_influences(part, wanted))
             break;
         slot = (slot + 1) & table->mask;
     }
@@ -53,10 +70,13 @@ static bool serves(const gltf_part *part, size_t normal, size_t tangent)
            (tangent == GLTF_NONE || part->streams[GLTF_TANGENT].accessor == tangent);
 }
 
-static void place_part(const gltf_document *d, size_t node, mesh_part *part)
+static void place_part(const gltf_document *d, const gltf_part *from, mesh_part *part)
 {
     static const double unit[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-    const double *world = node == GLTF_NONE ? unit : d->world + 12 * node;
+    const double *world = from->node == GLTF_NONE ? unit : d->world + 12 * from->node;
+    part->skinned = from->skin != NULL;
+    if (part->skinned)
+        return;
     part->identity = true;
     for (int i = 0; i < 12; i++)
         part->identity = part->identity && !(world[i] < unit[i] || world[i] > unit[i]);
@@ -65,44 +85,54 @@ static void place_part(const gltf_document *d, size_t node, mesh_part *part)
     part->singular = !mat_invert(part->linear, part->inverse);
 }
 
-static size_t add_part(gltf_document *d, size_t node, const size_t accessors[GLTF_DEFORMED], bool repeats)
+static size_t add_part(gltf_document *d, const gltf_part *part, bool repeats)
 {
     const size_t index = d->base.part_count++;
-    gltf_part *part = &d->parts[index];
     mesh_part *shown = &d->mesh_parts[index];
-    part->node = node;
-    for (int s = 0; s < GLTF_DEFORMED; s++)
-        part->streams[s].accessor = accessors[s];
-    shown->vertex_count = (size_t)d->model.accessors[accessors[GLTF_POSITION]].count;
-    shown->normal_count = accessors[GLTF_NORMAL] == GLTF_NONE ? 0 : shown->vertex_count;
-    shown->has_tangents = accessors[GLTF_TANGENT] != GLTF_NONE;
+    d->parts[index] = *part;
+    shown->vertex_count = (size_t)d->model.accessors[part->streams[GLTF_POSITION].accessor].count;
+    shown->normal_count = part->streams[GLTF_NORMAL].accessor == GLTF_NONE ? 0 : shown->vertex_count;
+    shown->has_tangents = part->streams[GLTF_TANGENT].accessor != GLTF_NONE;
     shown->repeats_positions = repeats;
-    place_part(d, node, shown);
+    place_part(d, part, shown);
     return index;
+}
+
+/* The part that a primitive under a node wants. */
+static gltf_part describe_part(const gltf_document *d, const gltf_primitive *primitive, size_t node)
+{
+    gltf_part part = {.node = node};
+    for (int s = 0; s < GLTF_DEFORMED; s++)
+        part.streams[s].accessor = readable_accessor(d, primitive, (gltf_semantic)s);
+    if (part.streams[GLTF_NORMAL].accessor == GLTF_NONE)
+        part.streams[GLTF_TANGENT].accessor = GLTF_NONE; /* to be ignored without (glTF 2.0, 3.7.2.1) */
+    if (node != GLTF_NONE && d->model.nodes[node].skin >= 0) {
+        part.skin = &d->skins[d->model.nodes[node].skin];
+        part.influences = primitive->influences;
+        part.influence_count = primitive->influence_count;
+    }
+    return part;
 }
 
 static void add_instance(gltf_document *d, const part_table *table, size_t mesh, size_t p, size_t node,
                          gltf_instance *instance)
 {
-    const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
-    size_t accessors[GLTF_DEFORMED];
-    for (int s = 0; s < GLTF_DEFORMED; s++) {
-        accessors[s] = readable_accessor(d, primitive, (gltf_semantic)s);
+    const gltf_part wanted = describe_part(d, &d->model.meshes[mesh].primitives[p], node);
+    const size_t normal = wanted.streams[GLTF_NORMAL].accessor;
+    const size_t tangent = wanted.streams[GLTF_TANGENT].accessor;
+    for (int s = 0; s < GLTF_DEFORMED; s++)
         instance->part[s] = GLTF_NONE;
-    }
     instance->selected = true;
-    if (accessors[GLTF_NORMAL] == GLTF_NONE)
-        accessors[GLTF_TANGENT] = GLTF_NONE; /* to be ignored without normals (glTF 2.0, 3.7.2.1) */
-    if (accessors[GLTF_POSITION] == GLTF_NONE)
+    if (wanted.streams[GLTF_POSITION].accessor == GLTF_NONE)
         return;
-    size_t *const head = find_slot(d, table, accessors[GLTF_POSITION], node);
+    size_t *const head = find_slot(d, table, &wanted);
     size_t part = *head, last = GLTF_NONE;
-    while (part != GLTF_NONE && !serves(&d->parts[part], accessors[GLTF_NORMAL], accessors[GLTF_TANGENT])) {
+    while (part != GLTF_NONE && !serves(&d->parts[part], normal, tangent)) {
         last = part;
         part = table->next[part];
     }
     if (part == GLTF_NONE) {
-        part = add_part(d, node, accessors, *head != GLTF_NONE);
+        part = add_part(d, &wanted, *head != GLTF_NONE);
         table->next[part] = GLTF_NONE;
         if (last == GLTF_NONE)
             *head = part;
@@ -111,7 +141,7 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
     }
     instance->part[GLTF_POSITION] = *head;
     for (int s = GLTF_NORMAL; s < GLTF_DEFORMED; s++)
-        if (accessors[s] != GLTF_NONE)
+        if (wanted.streams[s].accessor != GLTF_NONE)
             instance->part[s] = part;
 }
 

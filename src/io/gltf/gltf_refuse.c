@@ -57,10 +57,6 @@ static ffd_status refuse_unknown_extensions(const gltf_document *d, ffd_error *e
 static ffd_status refuse_node(const gltf_document *d, size_t n, ffd_error *error)
 {
     const uint32_t value = d->node_values.values[n];
-    if (ffd_json_span_member(&d->tree, value, "skin") != JSON_NONE)
-        return refuse(
-            d, ffd_json_span_member(&d->tree, value, "skin"), error,
-            "skins are not supported in scene space (--space mesh deforms the mesh before its skin)");
     if (ffd_gltf_has_extension(d, value, "EXT_mesh_gpu_instancing"))
         return refuse(d, value, error, "EXT_mesh_gpu_instancing is not supported in scene space");
     return FFD_OK;
@@ -91,6 +87,25 @@ static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, f
         return refuse(d, ffd_json_span_member(&d->tree, value, "targets"), error,
                       "morph targets are not supported");
     return ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
+}
+
+/* What moves the vertices of a node with a skin must be readable. */
+static ffd_status refuse_skin(const gltf_document *d, size_t node, ffd_error *error)
+{
+    const size_t m = (size_t)d->model.nodes[node].mesh;
+    const gltf_skin *skin = d->model.nodes[node].skin < 0 ? NULL : &d->skins[d->model.nodes[node].skin];
+    ffd_status status = FFD_OK;
+    for (size_t p = 0; skin && p < d->model.meshes[m].primitive_count && status == FFD_OK; p++) {
+        const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+        if (skin->inverse_bind >= 0)
+            status = ffd_gltf_refuse_unreadable(d, m, p, skin->inverse_bind, error);
+        for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++) {
+            status = ffd_gltf_refuse_unreadable(d, m, p, primitive->influences[i].joints, error);
+            if (status == FFD_OK)
+                status = ffd_gltf_refuse_unreadable(d, m, p, primitive->influences[i].weights, error);
+        }
+    }
+    return status;
 }
 
 static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
@@ -127,6 +142,11 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
         status = refuse_shared_child(d, error);
     if (status == FFD_OK)
         status = refuse_unknown_extensions(d, error);
+    if (status == FFD_OK && d->skins_status) {
+        if (error)
+            *error = d->skins_error;
+        return d->skins_status;
+    }
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         const gltf_showing *showing = &d->showings[m];
         for (size_t n = 0; showing->nodes && n < showing->node_count && status == FFD_OK; n++)
@@ -134,6 +154,8 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
         for (size_t p = 0;
              p < d->model.meshes[m].primitive_count && showing->node_count > 0 && status == FFD_OK; p++)
             status = refuse_primitive(d, m, p, error);
+        for (size_t n = 0; showing->nodes && n < showing->node_count && status == FFD_OK; n++)
+            status = refuse_skin(d, showing->nodes[n], error);
     }
     return status;
 }

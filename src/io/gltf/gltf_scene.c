@@ -61,8 +61,9 @@ static void find_parents(gltf_document *d, size_t *parents)
         }
 }
 
-/* With one parent each, a node is in a cycle or below one exactly if no root reaches it. */
-static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, size_t *pending,
+/* With one parent each, a node is in a cycle or below one exactly if no root reaches it. order: all nodes,
+   parents first. */
+static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, size_t *order,
                                 ffd_error *error)
 {
     size_t reached = 0, waiting = 0;
@@ -71,17 +72,16 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
         return ffd_fail_memory(error);
     for (size_t n = 0; n < d->model.node_count; n++)
         if (parents[n] == GLTF_NONE) {
-            pending[waiting++] = n;
+            order[waiting++] = n;
             seen[n] = true;
         }
-    while (waiting > 0) {
-        const size_t n = pending[--waiting];
+    while (reached < waiting) {
+        const size_t n = order[reached++];
         const gltf_node *node = &d->model.nodes[n];
-        reached++;
         for (size_t i = 0; i < node->child_count; i++) {
             const size_t child = (size_t)node->children[i];
             if (parents[child] == n && !seen[child])
-                pending[waiting++] = child;
+                order[waiting++] = child;
             seen[child] = seen[child] || parents[child] == n;
         }
     }
@@ -94,7 +94,16 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
     return status;
 }
 
-/* Starts at a root and places all nodes below it. */
+/* Joints may stand outside the shown scene: all nodes get their place. */
+static void place_all(gltf_document *d, const size_t *parents, const size_t *order)
+{
+    for (size_t i = 0; i < d->model.node_count; i++) {
+        const size_t n = order[i], parent = parents[n];
+        place(d, n, parent == GLTF_NONE ? NULL : d->world + 12 * parent);
+    }
+}
+
+/* Shows a root and all nodes below it. */
 static void show(gltf_document *d, size_t root, const size_t *parents, size_t *pending)
 {
     size_t waiting = 0;
@@ -103,7 +112,6 @@ static void show(gltf_document *d, size_t root, const size_t *parents, size_t *p
     while (waiting > 0) {
         const size_t n = pending[--waiting];
         const gltf_node *node = &d->model.nodes[n];
-        place(d, n, n == root ? NULL : d->world + 12 * parents[n]);
         for (size_t i = 0; i < node->child_count; i++) {
             const size_t child = (size_t)node->children[i];
             if (parents[child] != n || d->is_shown[child])
@@ -198,6 +206,7 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
         show_meshes_alone(d);
         goto done;
     }
+    place_all(d, parents, pending);
     if (d->model.scene_count > 0)
         status = show_scene(d, parents, pending, error);
     else

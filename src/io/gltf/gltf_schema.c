@@ -85,6 +85,8 @@ static const rule node_rules[] = {
     {"translation", RULE_NUMBERS, false, 3, NULL}, {"rotation", RULE_NUMBERS, false, 4, NULL},
     {"scale", RULE_NUMBERS, false, 3, NULL},       {"extensions", RULE_OBJECT, false, 0, NULL},
     {"name", RULE_STRING, false, 0, NULL},         {0}};
+static const rule skin_rules[] = {
+    {"joints", RULE_INDICES, true, 0, NULL}, {"inverseBindMatrices", RULE_INDEX, false, 0, NULL}, {0}};
 static const rule scene_rules[] = {{"nodes", RULE_INDICES, false, 0, NULL}, {0}};
 static const rule image_rules[] = {
     {"uri", RULE_STRING, false, 0, NULL}, {"bufferView", RULE_INDEX, false, 0, NULL}, {0}};
@@ -99,7 +101,7 @@ static const rule root_rules[] = {{"asset", RULE_OBJECT, true, 0, asset_rules},
                                   {"scenes", RULE_OBJECTS, false, 0, scene_rules},
                                   {"scene", RULE_INDEX, false, 0, NULL},
                                   {"images", RULE_OBJECTS, false, 0, image_rules},
-                                  {"skins", RULE_OBJECTS, false, 0, NULL},
+                                  {"skins", RULE_OBJECTS, false, 0, skin_rules},
                                   {"animations", RULE_OBJECTS, false, 0, NULL},
                                   {0}};
 

@@ -69,6 +69,25 @@ gltf_accessor to_c(const tinygltf::Accessor &from)
     return to;
 }
 
+int attribute_of(const tinygltf::Primitive &primitive, const std::string &name)
+{
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+void influences_to_c(const tinygltf::Primitive &from, gltf_primitive &to)
+{
+    to.influences = make_array<gltf_influence>(from.attributes.size());
+    for (;;) {
+        const std::string number = std::to_string(to.influence_count);
+        const gltf_influence next = {attribute_of(from, "JOINTS_" + number),
+                                     attribute_of(from, "WEIGHTS_" + number)};
+        if (next.joints < 0 && next.weights < 0)
+            break;
+        to.influences[to.influence_count++] = next;
+    }
+}
+
 void to_c(const tinygltf::Primitive &from, gltf_primitive &to)
 {
     to.indices = from.indices;
@@ -82,6 +101,7 @@ void to_c(const tinygltf::Primitive &from, gltf_primitive &to)
         if (semantic != GLTF_OTHER)
             to.accessor[semantic] = attribute.second;
     }
+    influences_to_c(from, to);
     size_t target_attributes = 0;
     for (const auto &target : from.targets)
         target_attributes += target.size();
