@@ -97,3 +97,43 @@ void ffd_sincos_degrees(double degrees, double *sine, double *cosine)
         break;
     }
 }
+
+/* atan(k/8) */
+static const double ARC_OF_EIGHTHS[] = {0,
+                                        0x1.fd5ba9aac2f6ep-4,
+                                        0x1.f5b75f92c80ddp-3,
+                                        0x1.6f61941e4def1p-2,
+                                        0x1.dac670561bb4fp-2,
+                                        0x1.1e00babdefeb4p-1,
+                                        0x1.4978fa3269ee1p-1,
+                                        0x1.700a7c5784634p-1,
+                                        0x1.921fb54442d18p-1};
+static const double HALF_TURN = 0x1.921fb54442d18p+1, QUARTER_TURN = 0x1.921fb54442d18p+0;
+
+/* atan(y/x) for 0 <= y <= x, 0 < x: with c the multiple of 1/8 nearest to y/x, atan(y/x) = atan(c) +
+   atan((y - c x)/(x + c y)), whose argument z is at most 1/16: Taylor's sum to z^15, the next term is below
+   2^-72. */
+static double arc_of_octant(double y, double x)
+{
+    static const double term[] = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
+    const int eighths = (int)(8 * (y / x) + 0.5);
+    const double c = eighths / 8.0, z = (y - c * x) / (x + c * y), square = z * z;
+    double sum = 0;
+    for (int i = (int)(sizeof term / sizeof *term) - 1; i >= 0; i--)
+        sum = sum * square + term[i];
+    return ARC_OF_EIGHTHS[eighths] + (z + z * square * sum);
+}
+
+double ffd_arc_tangent(double y, double x)
+{
+    double size = fabs(x);
+    if (y == 0)
+        return x < 0 ? HALF_TURN : 0;
+    /* So that x + c y does not overflow. */
+    if (y > 0x1p1000 || size > 0x1p1000) {
+        y *= 0x1p-30;
+        size *= 0x1p-30;
+    }
+    const double arc = y <= size ? arc_of_octant(y, size) : QUARTER_TURN - arc_of_octant(size, y);
+    return x < 0 ? HALF_TURN - arc : arc;
+}

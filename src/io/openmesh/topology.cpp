@@ -1,178 +1,12 @@
 #include "io/openmesh/topology.h"
-#include "base/memory.h"
-/* OpenMesh's vectors begin unset, and gcc sees them copied into new vertices before they get their value. */
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
+#include "io/openmesh/surface.h"
 #include <algorithm>
-#include <climits>
-#include <new>
-#include <stdexcept>
 #include <tuple>
-#include <vector>
 
 namespace
 {
 
-/* Arrays whose memory comes from base/memory.h. */
-template <class T> struct base_allocator {
-    typedef T value_type;
-    base_allocator() = default;
-    template <class U> base_allocator(const base_allocator<U> &) {}
-    T *allocate(size_t count)
-    {
-        void *block = ffd_alloc(count, sizeof(T));
-        if (!block)
-            throw std::bad_alloc();
-        return static_cast<T *>(block);
-    }
-    void deallocate(T *block, size_t) { ffd_free(block); }
-    template <class U> bool operator==(const base_allocator<U> &) const { return true; }
-    template <class U> bool operator!=(const base_allocator<U> &) const { return false; }
-};
-
-template <class T> using array = std::vector<T, base_allocator<T>>;
-
-struct double_traits : OpenMesh::DefaultTraits {
-    typedef OpenMesh::Vec3d Point;
-    typedef OpenMesh::Vec3d Normal;
-};
-
-typedef OpenMesh::PolyMesh_ArrayKernelT<double_traits> half_edge_mesh;
-typedef half_edge_mesh::VertexHandle vertex_handle;
-typedef half_edge_mesh::HalfedgeHandle halfedge_handle;
-
-/* Half-edges are numbered by int, and a corner makes two at most. */
-const size_t most_corners = INT_MAX / 2;
-
-/* add_face walks round each corner's vertex: a hub of a million faces would take their square. A vertex with
-   this many faces hands over to a copy of itself. */
-const unsigned most_faces_of_vertex = 64;
-
-/* The faces as half-edges. Vertices are made when a face first needs them and know their number in the file,
-   their source; where half-edges cannot express what the file has, a source has several vertices. */
-class surface
-{
-  public:
-    explicit surface(const mesh_faces &faces);
-
-    /* corners: at least 3, no neighbours equal; simple: all different. */
-    void add_face(const array<uint32_t> &corners, bool simple);
-
-    uint32_t source(vertex_handle vertex) const { return mesh.property(source_, vertex); }
-    bool has_copies(uint32_t vertex) const { return vertices_of_[vertex] > 1; }
-
-    half_edge_mesh mesh;
-
-  private:
-    vertex_handle new_vertex(uint32_t source);
-    bool fits() const;
-    bool closes_fan(halfedge_handle previous, halfedge_handle next) const;
-
-    const double *positions_;
-    OpenMesh::VPropHandleT<uint32_t> source_;
-    OpenMesh::VPropHandleT<unsigned> faces_of_;
-    array<vertex_handle> current_;     /* of each source, what the next face joins; may be invalid */
-    array<unsigned char> vertices_of_; /* of each source: 0, 1, or 2 for more */
-    array<vertex_handle> handles_;     /* of the face being added */
-};
-
-surface::surface(const mesh_faces &faces)
-    : positions_(faces.positions), current_(faces.vertex_count), vertices_of_(faces.vertex_count)
-{
-    mesh.add_property(source_);
-    mesh.add_property(faces_of_);
-}
-
-vertex_handle surface::new_vertex(uint32_t source)
-{
-    const double *p = positions_ + 3 * static_cast<size_t>(source);
-    const vertex_handle vertex = mesh.new_vertex(half_edge_mesh::Point(p[0], p[1], p[2]));
-    mesh.property(source_, vertex) = source;
-    mesh.property(faces_of_, vertex) = 0;
-    if (vertices_of_[source] < 2)
-        vertices_of_[source]++;
-    return vertex;
-}
-
-/* Whether a face between these two boundary half-edges, which meet at a vertex, would close the fan that they
-   bound while other fans stand in its gap. */
-bool surface::closes_fan(halfedge_handle previous, halfedge_handle next) const
-{
-    halfedge_handle incoming = mesh.opposite_halfedge_handle(next);
-    while (!mesh.is_boundary(incoming))
-        incoming = mesh.opposite_halfedge_handle(mesh.next_halfedge_handle(incoming));
-    return incoming == previous && mesh.next_halfedge_handle(previous) != next;
-}
-
-/* Whether add_face will take the face of handles_. It would find out itself, but says so on a stream that
-   belongs to the whole process. */
-bool surface::fits() const
-{
-    const size_t count = handles_.size();
-    halfedge_handle previous = mesh.find_halfedge(handles_[count - 1], handles_[0]);
-    for (size_t i = 0; i < count; i++) {
-        const halfedge_handle next = mesh.find_halfedge(handles_[i], handles_[(i + 1) % count]);
-        if (!mesh.is_boundary(handles_[i]) || (next.is_valid() && !mesh.is_boundary(next)))
-            return false;
-        if (previous.is_valid() && next.is_valid() && closes_fan(previous, next))
-            return false;
-        previous = next;
-    }
-    return true;
-}
-
-void surface::add_face(const array<uint32_t> &corners, bool simple)
-{
-    const size_t count = corners.size();
-    handles_.resize(count);
-    for (size_t i = 0; simple && i < count; i++) {
-        vertex_handle &vertex = current_[corners[i]];
-        if (!vertex.is_valid())
-            vertex = new_vertex(corners[i]);
-        handles_[i] = vertex;
-    }
-    if (!simple || !fits())
-        for (size_t i = 0; i < count; i++)
-            handles_[i] = new_vertex(corners[i]);
-    if (!mesh.add_face(handles_.data(), count).is_valid())
-        throw std::logic_error("a face does not fit");
-    for (size_t i = 0; i < count; i++)
-        if (++mesh.property(faces_of_, handles_[i]) >= most_faces_of_vertex)
-            current_[corners[i]] = vertex_handle();
-}
-
-/* Adds all faces with at least three different corners; returns how many have not. */
-size_t add_faces(const mesh_faces &faces, surface &s)
-{
-    array<size_t> seen_in(faces.vertex_count); /* the last face with the vertex, from 1 */
-    array<uint32_t> corners;
-    size_t degenerate = 0;
-    for (size_t f = 0; f < faces.face_count; f++) {
-        size_t distinct = 0;
-        corners.clear();
-        for (size_t c = faces.start[f]; c < faces.start[f + 1]; c++) {
-            const uint32_t vertex = faces.corners[c];
-            if (seen_in[vertex] != f + 1)
-                distinct++;
-            seen_in[vertex] = f + 1;
-            if (corners.empty() || corners.back() != vertex)
-                corners.push_back(vertex);
-        }
-        while (corners.size() > 1 && corners.back() == corners.front())
-            corners.pop_back();
-        if (distinct < 3)
-            degenerate++;
-        else
-            s.add_face(corners, distinct == corners.size());
-    }
-    return degenerate;
-}
+using namespace ffd_openmesh;
 
 /* The edges of the file: those of the half-edge mesh, where edges between copies of the same two sources are
  * one. */
@@ -328,7 +162,7 @@ mesh_topology compute(const mesh_faces &faces)
 {
     mesh_topology topology = {};
     surface s(faces);
-    topology.degenerate_faces = add_faces(faces, s);
+    topology.degenerate_faces = s.add_faces(faces);
     const source_edges edges(s);
     edge_uses uses(edges.count);
     use_edges(s, edges, uses);
@@ -345,36 +179,16 @@ mesh_topology compute(const mesh_faces &faces)
     return topology;
 }
 
-ffd_status check(const mesh_faces &faces, ffd_error *error)
-{
-    const size_t corners = faces.face_count ? faces.start[faces.face_count] : 0;
-    if (corners > most_corners)
-        return ffd_fail(error, FFD_E_LIMIT,
-                        "%zu corners of faces are more than the %zu that topology is made for", corners,
-                        most_corners);
-    for (size_t c = 0; c < corners; c++)
-        if (faces.corners[c] >= faces.vertex_count)
-            return ffd_fail(error, FFD_E_ARGUMENT, "a face names vertex %lu of %zu",
-                            static_cast<unsigned long>(faces.corners[c]), faces.vertex_count);
-    return FFD_OK;
-}
-
 } // namespace
 
 ffd_status ffd_topology_compute(const mesh_faces *faces, mesh_topology *topology, ffd_error *error)
 {
-    try {
-        const ffd_status status = check(*faces, error);
-        if (status == FFD_OK)
-            *topology = compute(*faces);
-        return status;
-    } catch (const std::bad_alloc &) {
-        return ffd_fail_memory(error);
-    } catch (const std::length_error &) {
-        return ffd_fail_memory(error);
-    } catch (const std::exception &e) {
-        return ffd_fail(error, FFD_E_LIMIT, "the topology cannot be computed: %s", e.what());
-    } catch (...) {
-        return ffd_fail(error, FFD_E_LIMIT, "the topology cannot be computed");
-    }
+    return guarded(
+        [&] {
+            const ffd_status status = check(*faces, error);
+            if (status == FFD_OK)
+                *topology = compute(*faces);
+            return status;
+        },
+        "the topology", error);
 }
