@@ -2,12 +2,13 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "base/vec.h"
+#include "job/vertex_place.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
 
-#define TILE ((size_t)1024)
+#define TILE VERTEX_PLACES
 
 /* What one worker needs for a tile. */
 typedef struct tile_scratch {
@@ -19,8 +20,7 @@ typedef struct tile_scratch {
     ffd_location locations[TILE]; /* of the chosen ones */
     chain_point points[TILE];
     uint8_t changed[TILE];
-    double transforms[12 * TILE], inverses[9 * TILE]; /* of the vertices of a skinned part */
-    bool singular[TILE];                              /* which of them have no inverse */
+    vertex_places places;
     double normals[3 * TILE], tangents[4 * TILE];
     uint8_t normals_changed[TILE], tangents_changed[TILE];
     ffd_status status; /* of the first tile of this worker that failed, and what it said */
@@ -37,34 +37,16 @@ typedef struct part_work {
     atomic_bool stopped;   /* a tile failed: the others need not be looked at */
 } part_work;
 
-/* How one vertex stands in the lattice's space. */
-typedef struct vertex_place {
-    const double *linear, *inverse;
-    bool identity, singular;
-} vertex_place;
-
-static vertex_place place_of(const part_work *work, const tile_scratch *scratch, size_t i)
-{
-    const mesh_part *part = work->part;
-    if (part->skinned)
-        return (vertex_place){scratch->transforms + 12 * i, scratch->inverses + 9 * i, false,
-                              scratch->singular[i]};
-    return (vertex_place){part->linear, part->inverse, part->identity, part->singular};
-}
-
 /* Takes the points (positions as the file has them) of a tile to the lattice's space. */
 static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                          double *points)
 {
     const mesh_document *document = work->pass->document;
-    if (!work->part->skinned) {
+    ffd_vertex_places_read(document, work->part_number, first, count, &scratch->places);
+    if (work->part->skinned)
+        ffd_points_place(scratch->places.transforms, count, points);
+    else
         ffd_part_place(document, work->part_number, first, count, points);
-        return;
-    }
-    document->format->read_transforms(document, work->part_number, first, count, scratch->transforms);
-    for (size_t i = 0; i < count; i++)
-        scratch->singular[i] = !mat_invert(scratch->transforms + 12 * i, scratch->inverses + 9 * i);
-    ffd_points_place(scratch->transforms, count, points);
 }
 
 static void clear_totals(pass_totals *totals)
@@ -238,7 +220,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
     for (size_t i = 0; i < count; i++) {
         const uint64_t number = work->first_vertex + first + i;
         const chain_point *point = &scratch->points[i];
-        const vertex_place place = place_of(work, scratch, i);
+        const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
         double *p = scratch->raw + 3 * i;
         fill_arrays(pass, place.singular, point, scratch->place + 3 * i, number, totals);
         scratch->changed[i] = false;
@@ -255,18 +237,6 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
     if (pass->write)
         format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
                                 scratch->changed);
-}
-
-/* The deformation's gradient in the file's own space: linear^{-1} E linear. What has no inverse stays. */
-static void bring_gradient_back(const vertex_place *place, double gradient[9])
-{
-    double product[9];
-    if (place->singular)
-        memset(gradient, 0, sizeof product);
-    if (place->identity || place->singular)
-        return;
-    mat_multiply(gradient, place->linear, product);
-    mat_multiply(place->inverse, product, gradient);
 }
 
 /* Normals [from, to) of a tile whose first vertex is `first`; vertex is the place to go on from. */
@@ -313,8 +283,8 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
 {
     const mesh_part *part = work->part;
     for (size_t i = 0; i < count; i++) {
-        const vertex_place place = place_of(work, scratch, i);
-        bring_gradient_back(&place, scratch->points[i].gradient);
+        const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
+        ffd_gradient_bring_back(&place, scratch->points[i].gradient);
     }
     if (part->normal_count) {
         size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;

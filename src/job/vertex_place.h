@@ -1,0 +1,33 @@
+/* vertex_place.h - how the vertices of a part stand in the lattice's space, one by one. */
+#ifndef FFD_JOB_VERTEX_PLACE_H
+#define FFD_JOB_VERTEX_PLACE_H
+
+#include "mesh/mesh.h"
+
+/* So many vertices at once. */
+#define VERTEX_PLACES ((size_t)1024)
+
+/* x = linear p + an offset. */
+typedef struct vertex_place {
+    const double *linear, *inverse;
+    bool identity, singular; /* singular: there is no inverse */
+} vertex_place;
+
+typedef struct vertex_places {
+    const mesh_part *part;
+    double transforms[12 * VERTEX_PLACES],
+        inverses[9 * VERTEX_PLACES]; /* of the vertices of a skinned part */
+    bool singular[VERTEX_PLACES];
+} vertex_places;
+
+/* Those of a part's vertices [first, first + count), count being VERTEX_PLACES at most. */
+void ffd_vertex_places_read(const mesh_document *document, size_t part, size_t first, size_t count,
+                            vertex_places *places);
+/* That of vertex first + i. Lent by places and the part. */
+vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i);
+
+/* Takes a gradient E from the lattice's space to the file's own: linear^{-1} E linear. 0 where there is no
+   inverse. */
+void ffd_gradient_bring_back(const vertex_place *place, double gradient[9]);
+
+#endif
