@@ -21,7 +21,8 @@ typedef enum ffd_format {
     FFD_FORMAT_GLTF,
     FFD_FORMAT_GLB,
     FFD_FORMAT_PLY,
-    FFD_FORMAT_OFF
+    FFD_FORMAT_OFF,
+    FFD_FORMAT_STL
 } ffd_format;
 
 /* The format that a file name's ending (or a bare ending, "obj") stands for, any case; FFD_FORMAT_AUTO if

@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 /* The mesh formats, for help and complaints. */
-#define CLI_FORMATS "obj, gltf, glb, ply or off"
+#define CLI_FORMATS "obj, gltf, glb, ply, off or stl"
 
 typedef struct cli_option cli_option;
 

@@ -13,6 +13,8 @@ const mesh_format *ffd_format_table(ffd_format format)
         return &ffd_ply_format;
     case FFD_FORMAT_OFF:
         return &ffd_off_format;
+    case FFD_FORMAT_STL:
+        return &ffd_stl_format;
     case FFD_FORMAT_AUTO:
         break;
     }
@@ -24,11 +26,8 @@ ffd_format ffd_format_from_name(const char *name)
     static const struct {
         const char *ending;
         ffd_format format;
-    } known[] = {{".obj", FFD_FORMAT_OBJ},
-                 {".gltf", FFD_FORMAT_GLTF},
-                 {".glb", FFD_FORMAT_GLB},
-                 {".ply", FFD_FORMAT_PLY},
-                 {".off", FFD_FORMAT_OFF}};
+    } known[] = {{".obj", FFD_FORMAT_OBJ}, {".gltf", FFD_FORMAT_GLTF}, {".glb", FFD_FORMAT_GLB},
+                 {".ply", FFD_FORMAT_PLY}, {".off", FFD_FORMAT_OFF},   {".stl", FFD_FORMAT_STL}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_path_has_ending(name, known[i].ending))
             return known[i].format;

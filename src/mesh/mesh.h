@@ -55,6 +55,9 @@ typedef struct mesh_faces {
     size_t *start;        /* face_count+1 */
     uint32_t *corners;    /* start[face_count] vertex numbers */
     size_t lines, points; /* primitives that are no faces: counted only */
+    /* Vertices in no face because an earlier one at the same position stands for them (formats that list a
+       vertex for every corner): topology does not count them. */
+    size_t repeated;
 } mesh_faces;
 
 void ffd_mesh_faces_free(mesh_faces *faces);

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """OFF and STL files, with readers of their own here: what deform changes in them, what the other commands say of
 them, and what is refused."""
+import math
 import re
+import struct
 
-from harness import (CUBE, INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main, models)
+from harness import (CUBE, INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main, models,
+                     near)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
 POINTS = [[0.1, 0.2, 0.3], [-1.5, 0.25, 1.75], [0.0, 0.0, 0.0], [1.0 / 3, -2.0 / 3, 1e-3], [5.0, 5.0, 5.0]]
@@ -112,7 +115,7 @@ def streams(run, name, data, **options):
     ending = name.split(".")[1]
     run.write("l.json", lattice(moves=BUMP))
     run.write(name, data)
-    run.ffd("deform", name, "out." + ending, "-l", "l.json", **options)
+    run.ffd("deform", name, "out." + ending, "-l", "l.json", "--force", **options)
     done = run.ffd("deform", "-", "-", "-l", "l.json", "--input-format", ending, "--output-format", ending,
                    stdin=run.read(name), **options)
     equal(done.out, run.read("out." + ending), "through the streams")
@@ -236,6 +239,246 @@ def off_models(run):
         check(end != start and all(a[1] == b[1] for a, b in zip(start, end)), name, "moves along x and z")
         equal(same_but_numbers(name, before, run.read("q.off")),
               sum(a != b for p, q in zip(start, end) for a, b in zip(p, q)), f"{name}: words that changed")
+        other_commands(run, path)
+    check(not MODELS or len(found) >= 7, f"{len(found)} models")
+
+
+# STL
+
+def cube_facets():
+    """Two triangles a side of the unit cube, at places whose coordinates are no short floats."""
+    corners = [[x * 0.7 + 0.1, y * 0.7 - 0.1, z * 0.7 + 0.05] for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+    quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    return [[corners[q[i]] for i in triangle] for q in quads for triangle in ((0, 1, 2), (0, 2, 3))]
+
+
+def cross_normal(facet):
+    a, b, c = facet
+    u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
+    n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    length = math.hypot(*n)
+    return [x / length for x in n]
+
+
+def as_float(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+def binary_stl(facets, normals, header=b"a test", attributes=None):
+    data = header.ljust(80, b"\0") + struct.pack("<I", len(facets))
+    for i, (facet, normal) in enumerate(zip(facets, normals)):
+        data += struct.pack("<12f", *normal, *(x for p in facet for x in p))
+        data += struct.pack("<H", attributes[i] if attributes else 0)
+    return data
+
+
+def text_stl(facets, normals, name="a test", end="\n"):
+    lines = [f"solid {name}"]
+    for facet, normal in zip(facets, normals):
+        lines += [f"  facet normal {row(normal)}", "    outer loop", *(f"      vertex   {row(p)}" for p in facet),
+                  "    endloop", "  endfacet"]
+    return end.join(lines + [f"endsolid {name}", ""])
+
+
+def read_stl(data):
+    """Facets and normals."""
+    count = struct.unpack_from("<I", data, 80)[0] if len(data) >= 84 else -1
+    if len(data) == 84 + 50 * count:
+        values = [struct.unpack_from("<12f", data, 84 + 50 * i) for i in range(count)]
+    else:
+        number = rb"\s+(\S+)\s+(\S+)\s+(\S+)"
+        found = re.findall(rb"(?i)normal" + number + rb"\s+outer\s+loop" + (rb"\s+vertex" + number) * 3, data)
+        values = [[float(x) for x in facet] for facet in found]
+    return ([[list(v[i:i + 3]) for i in (3, 6, 9)] for v in values], [list(v[:3]) for v in values])
+
+
+def flat(facets):
+    return [p for facet in facets for p in facet]
+
+
+def rounded(points):
+    return [[as_float(x) for x in p] for p in points]
+
+
+@case
+def stl_text(run):
+    """Positions get the bits that those of an OBJ do; normals are those of the corners as written; all else stays."""
+    run.write("l.json", lattice(moves=BUMP))
+    facets = cube_facets()
+    normals = [cross_normal(f) for f in facets]
+    expected = carried(run, flat(facets), "l.json")
+    for end in ("\n", "\r\n", "\r"):
+        before = text_stl(facets, normals, "the name  of it", end).replace("vertex   0.8", "VERTEX +.8e0")
+        run.write("t.stl", before)
+        run.ffd("deform", "t.stl", "u.stl", "-l", "l.json", "--force")
+        after = run.read("u.stl")
+        moved, turned = read_stl(after)
+        equal(flat(moved), expected, "positions")
+        check(flat(moved) != flat(facets) and turned != normals, "the lattice moves")
+        near(turned, [cross_normal(f) for f in moved], 1e-15, "normals")
+        check(same_but_numbers("t.stl", before.encode(), after) > 30, "words that changed")
+        run.ffd("deform", "t.stl", "k.stl", "-l", "l.json", "--normals", "keep", "--force")
+        equal(read_stl(run.read("k.stl")), (moved, normals), "--normals keep")
+
+
+@case
+def stl_binary(run):
+    run.write("l.json", lattice(moves=BUMP))
+    facets = [rounded(f) for f in cube_facets()]
+    normals = rounded([cross_normal(f) for f in facets])
+    attributes = [0x8000 + 7 * i for i in range(len(facets))]
+    expected = rounded(carried(run, flat(facets), "l.json"))
+    for header in (b"a test", b"solid of a binary file", b"solid" + b"x" * 75):
+        before = binary_stl(facets, normals, header, attributes)
+        run.write("b.stl", before)
+        run.ffd("deform", "b.stl", "c.stl", "-l", "l.json", "--force")
+        after = run.read("c.stl")
+        moved, turned = read_stl(after)
+        equal(flat(moved), expected, "positions")
+        near(turned, [cross_normal(f) for f in moved], 1e-7, "normals")
+        equal(after, binary_stl(moved, turned, header, attributes), "every other byte")
+        check(turned != normals, "the normals turn")
+
+
+@case
+def stl_equal_positions_stay_equal(run):
+    """Corners that met meet still, in the same file and in another."""
+    run.write("l.json", lattice(moves=BUMP))
+    facets = [rounded(f) for f in cube_facets()]
+    normals = [cross_normal(f) for f in facets]
+    places = {}
+    for order in (facets, facets[::-1], [f[1:] + f[:1] for f in facets]):
+        run.write("b.stl", binary_stl(order, normals))
+        run.ffd("deform", "b.stl", "c.stl", "-l", "l.json", "--force", "--threads", "2")
+        for old, new in zip(flat(order), flat(read_stl(run.read("c.stl"))[0])):
+            equal(struct.pack("<3f", *new), places.setdefault(tuple(old), struct.pack("<3f", *new)), str(old))
+    equal(len(places), 8, "corners of the cube")
+    equal(run.ffd("info", "c.stl", "--json").json["topology"]["vertices"], 8, "corners that topology joins")
+
+
+@case
+def stl_normals_that_stay(run):
+    """Facets that do not move, have no area or no normal keep theirs."""
+    run.write("l.json", lattice(moves=[{"by": [0.25, 0, 0]}]))
+    facets = [[[3.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, 0.0, 1.0]], [[0.0, 0.0, 0.0]] * 3, cube_facets()[0],
+              [[0.5, 0.0, 0.0], [0.5, 1.0, 0.0], [0.5, 0.0, 1.0]]]
+    normals = [[0.0, 0.0, 2.0], [0.5, 0.5, 0.5], [0.0, 0.0, 0.0], [-3.0, 0.0, 1.0]]
+    run.write("t.stl", text_stl(facets, normals))
+    run.ffd("deform", "t.stl", "u.stl", "-l", "l.json",
+            err="t.stl: 3 of 12 vertices are not inside: 3 outside (left where they are)")
+    moved, turned = read_stl(run.read("u.stl"))
+    equal(moved[0], facets[0])
+    near([p[0] - q[0] for p, q in zip(flat(moved[1:]), flat(facets[1:]))], [0.25] * 9, 1e-14)
+    equal(turned, normals[:3] + [[-1.0, 0.0, 0.0]], "the last points against the order of its corners, as before")
+
+
+@case
+def stl_solids(run):
+    text = ("SOLID first\r\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 1.0 0 0 vertex 0 1 0 endloop endfacet\r\n"
+            "endsolid first\r\n\r\nsolid\nendsolid\nsolid second facet normal 0 0 1\nOUTER LOOP\nVertex 0\n0\t1e0 vertex 1 0 1\n"
+            "vertex 0 1 1\nENDLOOP\nENDFACET\nendsolid")
+    run.write("s.stl", text)
+    run.write("l.json", lattice(moves=[{"by": [0, 0, 0.5]}]))
+    run.ffd("deform", "s.stl", "u.stl", "-l", "l.json")
+    equal(run.read("u.stl").decode(), re.sub(r"(?i)(vertex\s+\S+\s+\S+\s+)(\S+)", lambda m: m[1] + {"0": "0.5"}.get(m[2], "1.5"), text))
+    found = run.ffd("info", "s.stl", "--json").json
+    equal(found["contents"], {"encoding": "ascii", "facets": 2, "degenerate_facets": 0, "names": ["first", "", "second"],
+                              "solids": 3, "line_endings": "mixed"})
+    equal([found["topology"][key] for key in ("vertices", "faces", "isolated_vertices", "components")], [6, 2, 0, 2])
+
+
+@case
+def stl_streams(run):
+    facets = cube_facets()
+    normals = [cross_normal(f) for f in facets]
+    streams(run, "p.stl", text_stl(facets, normals))
+    streams(run, "b.stl", binary_stl(facets, normals))
+
+
+@case
+def stl_embedding_and_lattice(run):
+    facets = cube_facets()
+    run.write("p.stl", text_stl(facets, [cross_normal(f) for f in facets]))
+    points = flat(facets)
+    run.write("p.obj", "".join("v %r %r %r\n" % tuple(p) for p in points)
+              + "".join("f " + " ".join(str(1 + points.index(p)) for p in f) + "\n" for f in facets))
+    as_obj(run, "p", "stl", 3 * len(facets))
+
+
+@case
+def stl_compare(run):
+    facets = [rounded(f) for f in cube_facets()]
+    normals = rounded([cross_normal(f) for f in facets])
+    moved = [[list(p) for p in f] for f in facets]
+    moved[2][1][0] += 0.25
+    run.write("t.stl", text_stl(facets, normals))
+    run.write("b.stl", binary_stl(facets, normals))
+    run.write("m.stl", text_stl(moved, normals))
+    run.ffd("compare", "t.stl", "b.stl", out="")
+    run.ffd("compare", "t.stl", "m.stl", code=NO,
+            out="t.stl and m.stl differ: facet 2 counted from 0 (line 16), corner 1: x differs by 0.25\n")
+    run.ffd("compare", "b.stl", "m.stl", "--tolerance", "0.25", out="")
+    run.write("n.stl", text_stl(facets, normals[::-1]))
+    run.ffd("compare", "b.stl", "n.stl", "--tolerance", "9", code=NO)
+
+
+@case
+def stl_refused(run):
+    run.write("l.json", lattice())
+    good = binary_stl([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[0, 0, 1]])
+    nan = binary_stl([[[0, 0, 0], [math.nan, 0, 0], [0, 1, 0]]], [[0, 0, 1]])
+    for content, says in (
+            (b"", "p.stl: is no STL file: it neither begins with \"solid\" nor has, with 0 bytes, the 84 of a binary "
+                  "file's header"),
+            (good[:-1], "p.stl: 1 facets are stated, which take 134 bytes: the file has 133"),
+            (good[:80] + b"\xff" * 4 + good[84:],
+             "p.stl: 4294967295 facets are stated, which take 214748364834 bytes: the file has 134"),
+            (nan, "p.stl: vertex 1 (counted from 0) has a coordinate that is not finite"),
+            ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 inf vertex 1 0 0 vertex 0 1 0\nendloop\nendfacet\nendsolid",
+             "p.stl: vertex 0 (counted from 0) has a coordinate that is not finite"),
+            ("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0 vertex 1 0",
+             "p.stl:4: the file ends where a coordinate is expected"),
+            ("solid a\n" + "x" * 100000 + "\n",
+             "p.stl:2: expected facet or endsolid, found \"" + "x" * 40 + "\"")):
+        run.write("p.stl", content)
+        run.ffd("deform", "p.stl", "q.stl", "-l", "l.json", code=INVALID, err=says)
+        check(not run.exists("q.stl"), "an output of a failure")
+    run.folder_of("d.stl")
+    run.ffd("deform", "d.stl", "r.stl", "-l", "l.json", code=IO)
+    run.write("far.json", lattice(moves=[{"by": [1e39, 0, 0]}]))
+    run.write("p.stl", good)
+    run.ffd("deform", "p.stl", "q.stl", "-l", "far.json", code=INVALID)
+    run.write("p.stl", text_stl([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[0, 0, 1]]))
+    run.ffd("deform", "p.stl", "q.stl", "-l", "far.json")
+    run.ffd("deform", "p.stl", "a.off", "-l", "l.json", code=UNSUPPORTED)
+
+
+@case
+def stl_models(run):
+    found = models(".stl")
+    write_model_lattices(run)
+    for name, path, before in found:
+        run.ffd("deform", path, "q.stl", "-l", "still.json", "--force")
+        equal(run.read("q.stl"), before, name)
+        run.ffd("deform", path, "q.stl", "-l", "moved.json", "--force")
+        after = run.read("q.stl")
+        (start, old), (end, new) = read_stl(before), read_stl(after)
+        check(len(start) > 0 and start != end, name, "moves")
+        is_binary = not before.lstrip().startswith(b"solid")
+        expected = carried(run, flat(start), "moved.json")
+        equal(flat(end), rounded(expected) if is_binary else expected, name)
+        for was, now, normal, renewed in zip(start, end, old, new):
+            if was == now or renewed == normal:
+                equal(renewed, normal, name)
+            else:
+                sign = 1 if sum(a * b for a, b in zip(cross_normal(was), normal)) >= 0 else -1
+                near([sign * x for x in renewed], cross_normal(now), 1e-6, name)
+        if is_binary:
+            equal(after[:84], before[:84], name)
+            for i in range(len(start)):
+                equal(after[84 + 50 * i + 48:84 + 50 * i + 50], before[84 + 50 * i + 48:84 + 50 * i + 50], name)
+        else:
+            same_but_numbers(name, before, after)
         other_commands(run, path)
     check(not MODELS or len(found) >= 7, f"{len(found)} models")
 

@@ -58,10 +58,10 @@ def a_pipe_of_two_runs(run):
 def formats_are_needed(run):
     start(run)
     run.ffd("deform", "-", "b.obj", "-l", "l.json", stdin=CUBE.encode(), code=USAGE,
-            err="standard input needs --input-format obj, gltf, glb, ply or off")
-    run.ffd("deform", "a.obj", "-", "-l", "l.json", code=USAGE, err="standard output needs --output-format obj, gltf, glb, ply or off")
+            err="standard input needs --input-format obj, gltf, glb, ply, off or stl")
+    run.ffd("deform", "a.obj", "-", "-l", "l.json", code=USAGE, err="standard output needs --output-format obj, gltf, glb, ply, off or stl")
     run.ffd("embed", "-", "-l", "l.json", "-o", "e.npy", stdin=CUBE.encode(), code=USAGE,
-            err="standard input needs --input-format obj, gltf, glb, ply or off")
+            err="standard input needs --input-format obj, gltf, glb, ply, off or stl")
 
 
 @case

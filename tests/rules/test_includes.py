@@ -16,15 +16,16 @@ LAYERS = {
     "deform": {"embed", "lattice", "base"},
     "fold": {"embed", "lattice", "spline", "base"},
     "mesh": {"base"},
-    "io": {"io/obj", "io/gltf", "io/npy", "io/off", "io/openmesh", "io/ply", "mesh", "base"},
+    "io": {"io/obj", "io/gltf", "io/npy", "io/off", "io/openmesh", "io/ply", "io/stl", "mesh", "base"},
     "io/obj": {"io", "mesh", "base"},
     "io/gltf": {"io", "mesh", "base"},
     "io/off": {"io", "mesh", "base"},
     "io/ply": {"io", "mesh", "base"},
+    "io/stl": {"io", "mesh", "base"},
     "io/npy": {"base"},
     "io/openmesh": {"mesh", "base"},
     "job": {"base", "spline", "lattice", "embed", "deform", "fold", "mesh", "io", "io/obj", "io/gltf", "io/npy",
-            "io/off", "io/openmesh", "io/ply"},
+            "io/off", "io/openmesh", "io/ply", "io/stl"},
     "cli": set(),
 }
 

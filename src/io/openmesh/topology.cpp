@@ -172,6 +172,8 @@ mesh_topology compute(const mesh_faces &faces)
     topology.edges = edges.count;
     count_edges(uses, topology);
     count_vertices(uses, topology);
+    topology.vertices -= faces.repeated;
+    topology.isolated_vertices -= faces.repeated;
     topology.euler = static_cast<long long>(topology.vertices - topology.isolated_vertices) -
                      static_cast<long long>(topology.edges) + static_cast<long long>(topology.faces);
     for (size_t f = 0; f < topology.faces; f++)

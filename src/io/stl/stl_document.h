@@ -1,0 +1,69 @@
+/* stl_document.h - an STL file, ascii or binary, as a mesh document: one part that stands in the lattice's
+   space.
+
+   Each corner of each facet is a vertex, in the order of the file. Facet normals are none of a vertex: saving
+   renews them from the corners. */
+#ifndef FFD_IO_STL_STL_DOCUMENT_H
+#define FFD_IO_STL_STL_DOCUMENT_H
+
+#include "io/stl/stl_text.h"
+#include "mesh/mesh.h"
+
+/* Binary files: a header, the number of facets, and for each its normal, three corners and two bytes. */
+#define STL_HEADER 80
+#define STL_START 84
+#define STL_FACET 50
+#define STL_NORMAL 12 /* bytes */
+#define STL_ATTRIBUTE 48
+
+/* Facets that a file may have: the numbers of their corners are 32 bits. */
+#define STL_FACETS_MAX ((UINT32_MAX - 1) / 3)
+
+typedef struct stl_document {
+    mesh_document base;
+    mesh_part part;
+    file_input input;
+    char *name; /* for messages */
+    bool binary;
+    size_t facets;
+    double *positions;     /* ascii: 9 a facet */
+    double *new_positions; /* 9 a facet, as the file can hold them; NULL before ffd_stl_begin_results */
+    bool renew_normals;
+} stl_document;
+
+static inline const stl_document *ffd_stl_of(const mesh_document *document)
+{
+    return (const stl_document *)document;
+}
+
+/* The bytes of a facet of a binary file. */
+static inline const unsigned char *ffd_stl_facet(const stl_document *document, size_t facet)
+{
+    return document->input.data + STL_START + STL_FACET * facet;
+}
+
+/* Three floats of a binary file. */
+void ffd_stl_load(const unsigned char *bytes, double xyz[3]);
+void ffd_stl_store(unsigned char *bytes, const double *values, size_t count);
+
+/* The right-hand normal of a facet with 9 coordinates, of length 1. False where they have no area beyond what
+   their rounding can make. */
+bool ffd_stl_normal(const double corners[9], double normal[3]);
+
+/* The entries of the format's table. */
+ffd_status ffd_stl_open(file_input *input, const ffd_source *source, mesh_document **document,
+                        ffd_error *error);
+void ffd_stl_close(mesh_document *document);
+void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                            double *xyz);
+ffd_status ffd_stl_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
+void ffd_stl_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                             const double *xyz, const uint8_t *changed);
+ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                        const mesh_log *log, ffd_error *error);
+ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+ffd_status ffd_stl_describe(const mesh_document *document, json_text *json, ffd_error *error);
+ffd_status ffd_stl_compare(const mesh_document *a, const mesh_document *b, double tolerance,
+                           ffd_comparison *comparison, ffd_error *error);
+
+#endif

@@ -1,0 +1,27 @@
+#include "io/formats.h"
+#include "io/stl/stl_document.h"
+#include <float.h>
+
+/* Nothing in an STL file moves vertices but the file's own numbers. */
+static ffd_status check(const mesh_document *document, ffd_error *error)
+{
+    (void)document;
+    (void)error;
+    return FFD_OK;
+}
+
+const mesh_format ffd_stl_format = {
+    .format = FFD_FORMAT_STL,
+    .name = "STL",
+    .open = ffd_stl_open,
+    .close = ffd_stl_close,
+    .check = check,
+    .largest_coordinate = DBL_MAX,
+    .read_positions = ffd_stl_read_positions,
+    .begin_results = ffd_stl_begin_results,
+    .write_positions = ffd_stl_write_positions,
+    .save = ffd_stl_save,
+    .faces = ffd_stl_faces,
+    .describe = ffd_stl_describe,
+    .compare = ffd_stl_compare,
+};

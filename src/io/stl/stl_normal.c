@@ -1,0 +1,28 @@
+#include "base/vec.h"
+#include "io/stl/stl_document.h"
+#include <float.h>
+
+bool ffd_stl_normal(const double corners[9], double normal[3])
+{
+    double extent = 0, largest = 0, sides[2][3];
+    for (int i = 0; i < 3; i++)
+        for (int a = 0; a < 3; a++) {
+            extent = fmax(extent, fabs(corners[3 * i + a]));
+            largest = fmax(largest, fabs(corners[3 * i + a] - corners[a]));
+        }
+    if (!vec_is_finite(corners) || !vec_is_finite(corners + 3) || !vec_is_finite(corners + 6) ||
+        !(largest > 0 && isfinite(largest)))
+        return false;
+    for (int i = 0; i < 2; i++)
+        for (int a = 0; a < 3; a++)
+            sides[i][a] = (corners[3 * (i + 1) + a] - corners[a]) / largest;
+    vec_cross(sides[0], sides[1], normal);
+    /* Differences of coordinates that are off by eps extent move their products by twice that times the
+       other side's length; twice again for good measure. */
+    const double length = vec_length(normal);
+    if (!(length > 4 * DBL_EPSILON * (extent / largest) * (vec_length(sides[0]) + vec_length(sides[1]))))
+        return false;
+    for (int a = 0; a < 3; a++)
+        normal[a] /= length;
+    return true;
+}

@@ -1,0 +1,65 @@
+#include "base/little_endian.h"
+#include "base/memory.h"
+#include "io/stl/stl_document.h"
+
+void ffd_stl_load(const unsigned char *bytes, double xyz[3])
+{
+    for (size_t a = 0; a < 3; a++) {
+        const uint32_t bits = load_u32(bytes + 4 * a);
+        float value;
+        memcpy(&value, &bits, sizeof value);
+        xyz[a] = (double)value;
+    }
+}
+
+void ffd_stl_store(unsigned char *bytes, const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const float value = (float)values[i];
+        uint32_t bits;
+        memcpy(&bits, &value, sizeof bits);
+        store_u32(bytes + 4 * i, bits);
+    }
+}
+
+void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                            double *xyz)
+{
+    const stl_document *d = ffd_stl_of(document);
+    (void)part; /* there is one */
+    if (!d->binary) {
+        if (count)
+            memcpy(xyz, d->positions + 3 * first, 3 * count * sizeof *xyz);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const size_t vertex = first + i;
+        ffd_stl_load(ffd_stl_facet(d, vertex / 3) + STL_NORMAL * (1 + vertex % 3), xyz + 3 * i);
+    }
+}
+
+ffd_status ffd_stl_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+{
+    stl_document *d = (stl_document *)document;
+    (void)tangents; /* there are none */
+    d->renew_normals = normals;
+    if (d->new_positions)
+        return FFD_OK;
+    d->new_positions = ffd_alloc(d->facets, 9 * sizeof *d->new_positions);
+    if (!d->new_positions)
+        return ffd_fail_memory(error);
+    ffd_stl_read_positions(document, 0, 0, 3 * d->facets, d->new_positions);
+    return FFD_OK;
+}
+
+void ffd_stl_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                             const double *xyz, const uint8_t *changed)
+{
+    const stl_document *d = ffd_stl_of(document);
+    (void)part;
+    for (size_t i = 0; i < count; i++)
+        for (size_t a = 0; a < 3 && changed[i]; a++) {
+            const double value = xyz[3 * i + a];
+            d->new_positions[3 * (first + i) + a] = d->binary ? (double)(float)value : value;
+        }
+}

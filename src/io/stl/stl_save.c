@@ -1,0 +1,105 @@
+#include "base/number.h"
+#include "base/vec.h"
+#include "io/splice.h"
+#include "io/stl/stl_document.h"
+#include <string.h>
+
+typedef struct stl_saver {
+    const stl_document *document;
+    file_splice splice;
+} stl_saver;
+
+static void corners_before(const stl_document *d, size_t facet, double corners[9])
+{
+    ffd_stl_read_positions(&d->base, 0, 3 * facet, 3, corners);
+}
+
+/* The normal of a moved facet, from its corners as they are written. It points to the side of the facet that
+   the file's normal does: where that is at odds with the order of the corners it stays so. False where it
+   stays as it is: the corners give none, or it is zero, by which many programs say that the order of the
+   corners tells it. */
+static bool renew_normal(const stl_document *d, const double before[9], const double after[9],
+                         const double old[3], double normal[3])
+{
+    double rest[3];
+    if (!d->renew_normals || (old[0] == 0 && old[1] == 0 && old[2] == 0) || !ffd_stl_normal(after, normal))
+        return false;
+    if (ffd_stl_normal(before, rest) && vec_dot(rest, old) < 0)
+        for (int a = 0; a < 3; a++)
+            normal[a] = 0 - normal[a]; /* 0 stays 0 */
+    return true;
+}
+
+static void replace_words(stl_saver *s, const text_word *words, const double *before, const double *after,
+                          size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char text[FFD_NUMBER_CAPACITY];
+        if (memcmp(before + i, after + i, sizeof *after) != 0)
+            ffd_splice_replace(&s->splice, words[i].first, words[i].last, text,
+                               ffd_number_format(after[i], text));
+    }
+}
+
+static void write_text_facet(stl_saver *s, const stl_facet *facet, const double *before, const double *after)
+{
+    double old[3], normal[3];
+    for (int a = 0; a < 3; a++)
+        ffd_stl_text_normal(facet->normal[a], &old[a]);
+    if (renew_normal(s->document, before, after, old, normal))
+        replace_words(s, facet->normal, old, normal, 3);
+    replace_words(s, facet->corners, before, after, 9);
+}
+
+static void write_binary_facet(stl_saver *s, size_t facet, const double *before, const double *after)
+{
+    const char *first = (const char *)ffd_stl_facet(s->document, facet);
+    unsigned char bytes[STL_ATTRIBUTE];
+    double old[3], normal[3];
+    memcpy(bytes, first, sizeof bytes);
+    ffd_stl_load(bytes, old);
+    if (renew_normal(s->document, before, after, old, normal))
+        ffd_stl_store(bytes, normal, 3);
+    for (size_t i = 0; i < 9; i++)
+        if (memcmp(before + i, after + i, sizeof *after) != 0)
+            ffd_stl_store(bytes + STL_NORMAL + 4 * i, after + i, 1);
+    ffd_splice_replace(&s->splice, first, first + sizeof bytes, bytes, sizeof bytes);
+}
+
+static void write_facets(stl_saver *s)
+{
+    const stl_document *d = s->document;
+    stl_text text;
+    stl_facet facet;
+    bool found;
+    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    for (size_t i = 0; s->splice.status == FFD_OK && i < d->facets; i++) {
+        const double *after = d->new_positions + 9 * i;
+        double before[9];
+        corners_before(d, i, before);
+        const bool moved = memcmp(before, after, sizeof before) != 0;
+        if (!d->binary)
+            ffd_stl_text_next(&text, d->name, &facet, &found, NULL);
+        if (moved && d->binary)
+            write_binary_facet(s, i, before, after);
+        else if (moved)
+            write_text_facet(s, &facet, before, after);
+    }
+}
+
+ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                        const mesh_log *log, ffd_error *error)
+{
+    stl_saver s = {.document = ffd_stl_of(document)};
+    const file_input *input = &s.document->input;
+    (void)log;
+    ffd_status status = ffd_output_begin(output, options->path, options->force, error);
+    if (status == FFD_OK)
+        status = ffd_splice_begin(&s.splice, input->data, output, error);
+    if (status)
+        return status;
+    if (s.document->new_positions)
+        write_facets(&s);
+    ffd_splice_copy(&s.splice, (const char *)input->data + input->size);
+    return ffd_splice_end(&s.splice);
+}

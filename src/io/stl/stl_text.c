@@ -1,0 +1,164 @@
+#include "io/stl/stl_text.h"
+#include "base/number.h"
+#include <math.h>
+
+typedef struct text_reader {
+    text_scan *scan;
+    const char *name;
+    ffd_error *error;
+} text_reader;
+
+void ffd_stl_text_begin(stl_text *text, const void *data, size_t size)
+{
+    *text = (stl_text){0};
+    ffd_text_begin(&text->scan, data, size, false);
+}
+
+bool ffd_stl_text_normal(text_word word, double *value)
+{
+    const char *end = ffd_number_parse(word.first, word.last, value);
+    if (end && end != word.last)
+        *value = NAN;
+    return end;
+}
+
+static ffd_status refuse_word(text_reader *r, const char *expected, text_word word)
+{
+    return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan->line, "expected %s, found \"%.*s\"",
+                         expected, ffd_text_shown(word), word.first);
+}
+
+static ffd_status take_word(text_reader *r, const char *expected, text_word *word)
+{
+    if (!ffd_text_find(r->scan))
+        return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan->line,
+                             "the file ends where %s is expected", expected);
+    ffd_text_word(r->scan, word);
+    return FFD_OK;
+}
+
+static ffd_status take_keyword(text_reader *r, const char *keyword)
+{
+    text_word word;
+    const ffd_status status = take_word(r, keyword, &word);
+    if (status || ffd_text_is_any_case(word, keyword))
+        return status;
+    return refuse_word(r, keyword, word);
+}
+
+static ffd_status take_normal(text_reader *r, text_word normal[3])
+{
+    ffd_status status = FFD_OK;
+    double value;
+    for (int a = 0; status == FFD_OK && a < 3; a++) {
+        status = take_word(r, "a number of the normal", &normal[a]);
+        if (status == FFD_OK && !ffd_stl_text_normal(normal[a], &value))
+            status = refuse_word(r, "a number of the normal", normal[a]);
+    }
+    return status;
+}
+
+static ffd_status take_corner(text_reader *r, text_word corner[3])
+{
+    ffd_status status = take_keyword(r, "vertex");
+    for (int a = 0; status == FFD_OK && a < 3; a++) {
+        double value;
+        status = take_word(r, "a coordinate", &corner[a]);
+        if (status == FFD_OK && !ffd_text_number(corner[a], &value))
+            status = refuse_word(r, "a coordinate", corner[a]);
+    }
+    return status;
+}
+
+/* What follows "facet". */
+static ffd_status take_facet(text_reader *r, stl_facet *facet)
+{
+    static const char *const before[] = {"outer", "loop"}, *const after[] = {"endloop", "endfacet"};
+    ffd_status status = take_keyword(r, "normal");
+    if (status == FFD_OK)
+        status = take_normal(r, facet->normal);
+    for (size_t i = 0; status == FFD_OK && i < 2; i++)
+        status = take_keyword(r, before[i]);
+    for (size_t i = 0; status == FFD_OK && i < 3; i++)
+        status = take_corner(r, facet->corners + 3 * i);
+    for (size_t i = 0; status == FFD_OK && i < 2; i++)
+        status = take_keyword(r, after[i]);
+    return status;
+}
+
+/* Takes a name of any number of words. */
+static text_word take_name(text_scan *scan)
+{
+    text_word name = {scan->at, scan->at}, word;
+    for (bool first = true;; first = false) {
+        text_scan ahead = *scan;
+        if (!ffd_text_word(&ahead, &word))
+            return name;
+        if (ffd_text_is_any_case(word, "facet")) {
+            text_word next;
+            text_scan beyond = ahead;
+            if (ffd_text_word(&beyond, &next) && ffd_text_is_any_case(next, "normal"))
+                return name;
+        }
+        name = (text_word){first ? word.first : name.first, word.last};
+        *scan = ahead;
+    }
+}
+
+static ffd_status begin_solid(text_reader *r, stl_text *text)
+{
+    const ffd_status status = take_keyword(r, "solid");
+    if (status)
+        return status;
+    text->name = take_name(r->scan);
+    text->solids++;
+    text->inside = true;
+    return FFD_OK;
+}
+
+/* What follows the beginning of a solid or a facet of it. */
+static ffd_status step_inside(text_reader *r, stl_text *text, stl_facet *facet, stl_event *event)
+{
+    text_word word;
+    const ffd_status status = take_word(r, "facet or endsolid", &word);
+    if (status)
+        return status;
+    facet->line = text->scan.line;
+    if (ffd_text_is_any_case(word, "facet")) {
+        *event = STL_AT_FACET;
+        return take_facet(r, facet);
+    }
+    if (!ffd_text_is_any_case(word, "endsolid"))
+        return refuse_word(r, "facet or endsolid", word);
+    take_name(&text->scan);
+    text->inside = false;
+    return FFD_OK;
+}
+
+ffd_status ffd_stl_text_step(stl_text *text, const char *name, stl_facet *facet, stl_event *event,
+                             ffd_error *error)
+{
+    text_reader r = {&text->scan, name, error};
+    *event = STL_AT_END;
+    if (text->inside) {
+        const ffd_status status = step_inside(&r, text, facet, event);
+        if (status || *event == STL_AT_FACET)
+            return status;
+    }
+    if (!ffd_text_find(&text->scan))
+        return FFD_OK;
+    *event = STL_AT_SOLID;
+    return begin_solid(&r, text);
+}
+
+ffd_status ffd_stl_text_next(stl_text *text, const char *name, stl_facet *facet, bool *found,
+                             ffd_error *error)
+{
+    stl_event event;
+    ffd_status status;
+    do
+        status = ffd_stl_text_step(text, name, facet, &event, error);
+    while (status == FFD_OK && event == STL_AT_SOLID);
+    *found = status == FFD_OK && event == STL_AT_FACET;
+    return status;
+}

@@ -1,0 +1,569 @@
+/* STL: which encoding a file has, facets of text in every spacing, binary records, normals, saving and
+   comparing, on files written here. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../support/mesh_bytes.h"
+#include "base/little_endian.h"
+#include "io/formats.h"
+#include "io/stl/stl_document.h"
+
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const mesh_format *const stl = &ffd_stl_format;
+
+static mesh_document *opened(const char *text)
+{
+    return opened_bytes(stl, text, strlen(text));
+}
+
+/* A binary file. */
+typedef struct record {
+    float normal[3], corners[9];
+    unsigned attribute;
+} record;
+
+static void put_float(byte_buffer *out, float value)
+{
+    unsigned char bytes[4];
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    store_u32(bytes, bits);
+    ffd_buffer_append(out, bytes, sizeof bytes);
+}
+
+static byte_buffer binary(const char *header, const record *records, size_t count)
+{
+    byte_buffer out = {0};
+    unsigned char head[STL_START] = {0};
+    memcpy(head, header, strlen(header));
+    store_u32(head + STL_HEADER, (uint32_t)count);
+    ffd_buffer_append(&out, head, sizeof head);
+    for (size_t i = 0; i < count; i++) {
+        const unsigned char attribute[2] = {(unsigned char)records[i].attribute,
+                                            (unsigned char)(records[i].attribute >> 8)};
+        for (size_t a = 0; a < 3; a++)
+            put_float(&out, records[i].normal[a]);
+        for (size_t a = 0; a < 9; a++)
+            put_float(&out, records[i].corners[a]);
+        ffd_buffer_append(&out, attribute, sizeof attribute);
+    }
+    assert_false(out.failed);
+    return out;
+}
+
+#define UP                                                                                                   \
+    {                                                                                                        \
+        0, 0, 1                                                                                              \
+    }
+#define FLAT                                                                                                 \
+    {                                                                                                        \
+        0, 0, 0, 1, 0, 0, 0, 1, 0                                                                            \
+    }
+
+/* Positions as "0,0,0 1,0,0 0,1,0", a facet a bar. */
+static void contents_of(const mesh_document *document, char *text, size_t capacity)
+{
+    text[0] = 0;
+    for (size_t i = 0; i < document->parts->vertex_count; i++) {
+        double p[3];
+        stl->read_positions(document, 0, i, 1, p);
+        snprintf(text + strlen(text), capacity - strlen(text), "%s%g,%g,%g",
+                 i == 0       ? ""
+                 : i % 3 == 0 ? " | "
+                              : " ",
+                 p[0], p[1], p[2]);
+    }
+}
+
+#define FACET(normal, corners) "facet normal " normal "\nouter loop\n" corners "endloop\nendfacet\n"
+#define CORNERS "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+#define TEXT "solid a\n" FACET("0 0 1", CORNERS) "endsolid a\n"
+#define IS_TEXT "0,0,0 1,0,0 0,1,0"
+
+static void test_texts(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *contents;
+    } cases[] = {
+        {TEXT, IS_TEXT},
+        {"solid\n" FACET("0 0 1", CORNERS) "endsolid", IS_TEXT},
+        {"\xEF\xBB\xBFsolid\n" FACET("0 0 1", CORNERS) "endsolid", IS_TEXT},
+        {"\n\n  SOLID  A b\r\nFACET\tNORMAL 0 0 1\r\nOuter Loop\rVERTEX 0 0 0\r\n vertex +1 .0 "
+         "0e5\nVertex\n0\n1E0\n0 "
+         "EndLoop\nENDFACET\nEndSolid A b\n\n",
+         IS_TEXT},
+        {"solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet "
+         "endsolid a",
+         IS_TEXT},
+        {"solid a facet of a wheel\n" FACET("0 0 1", CORNERS) "endsolid a facet of a wheel\n", IS_TEXT},
+        {"solid solid endsolid\n" FACET("0 0 1", CORNERS) "endsolid solid\n", IS_TEXT},
+        {"solid a\nendsolid a\nsolid b\n" FACET("0 0 1", CORNERS)
+             FACET("1 0 0", CORNERS) "endsolid b\nsolid\n" FACET("0 1 0", CORNERS) "endsolid\n",
+         IS_TEXT " | " IS_TEXT " | " IS_TEXT},
+        {"solid a\nendsolid a\n", ""},
+        /* normals of programs that had none */
+        {"solid\n" FACET("nan -nan inf", CORNERS) "endsolid", IS_TEXT},
+        {"solid\n" FACET("-1.#IND 1.#QNAN -1.#J", CORNERS) "endsolid", IS_TEXT},
+        {"solid\n" FACET("0 0 1", "vertex nan 0 1e999\nvertex 1 2 3\nvertex 1 2 3\n") "endsolid",
+         "nan,0,inf 1,2,3 1,2,3"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        char contents[256];
+        mesh_document *document = opened(cases[i].text);
+        contents_of(document, contents, sizeof contents);
+        if (strcmp(contents, cases[i].contents) != 0)
+            fail_msg("case %zu: %s", i, contents);
+        assert_true(document->largest_coordinate == DBL_MAX);
+        assert_int_equal(document->parts->normal_count, 0);
+        assert_int_equal(stl->check(document, NULL), FFD_OK);
+        assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
+        assert_saved(document, cases[i].text, strlen(cases[i].text));
+        stl->close(document);
+    }
+}
+
+static void test_refused_texts(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t line;
+        const char *message;
+    } cases[] = {
+        {"solid a\n", 2, "the file ends where facet or endsolid is expected"},
+        {"solid a\nface normal 0 0 1\n", 2, "expected facet or endsolid, found \"face\""},
+        {"solid a\nfacet\nouter loop\n", 3, "expected normal, found \"outer\""},
+        {"solid a\nfacet normal 0 0\nouter loop\n", 3, "expected a number of the normal, found \"outer\""},
+        {"solid a\nfacet normal 0 0 1,0\nouter loop\nvertex", 4,
+         "the file ends where a coordinate is expected"},
+        {"solid a\nfacet normal 0 0 x\nouter loop\n", 2, "expected a number of the normal, found \"x\""},
+        {"solid a\nfacet normal 0 0 1\nouter lop\n", 3, "expected loop, found \"lop\""},
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0\nvertex 0 1 0\n"), 6,
+         "expected a coordinate, found \"vertex\""},
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0x\nvertex 0 1 0\n"), 5,
+         "expected a coordinate, found \"0x\""},
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0\n"), 6, "expected vertex, found \"endloop\""},
+        {"solid a\n" FACET("0 0 1", CORNERS "vertex 1 1 0\n"), 7, "expected endloop, found \"vertex\""},
+        {"solid a\n" FACET("0 0 1", CORNERS), 9, "the file ends where facet or endsolid is expected"},
+        {TEXT "facet", 10, "expected solid, found \"facet\""},
+        {TEXT "solid", 10, "the file ends where facet or endsolid is expected"},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *document;
+        ffd_error error;
+        const ffd_status status = open_bytes(stl, cases[i].text, strlen(cases[i].text), &document, &error);
+        if (status != FFD_E_INVALID || error.line != cases[i].line ||
+            strcmp(error.message, cases[i].message) != 0)
+            fail_msg("case %zu: status %d, line %zu: %s", i, status, error.line, error.message);
+        assert_string_equal(error.file, "a.mesh");
+        assert_null(document);
+    }
+}
+
+/* Binary files */
+
+static void test_binary(void **state)
+{
+    (void)state;
+    static const record records[2] = {{UP, FLAT, 0x1234}, {{0, 0, 0}, {1, 2, 3, 4, 5, 6, -0.1F, 8, 9}, 0}};
+    static const char *const headers[] = {"", "made by a test", "solid a\nfacet normal 0 0 1\nouter loop\n"};
+    for (size_t h = 0; h < COUNT(headers); h++)
+        for (size_t count = 0; count <= 2; count++)
+            for (int behind = 0; behind < 2; behind++) {
+                static const char *const expected[] = {"", IS_TEXT, IS_TEXT " | 1,2,3 4,5,6 -0.1,8,9"};
+                char contents[128];
+                byte_buffer file = binary(headers[h], records, count);
+                ffd_buffer_append(&file, "behind", behind ? 6 : 0);
+                mesh_document *document = opened_bytes(stl, file.data, file.size);
+                contents_of(document, contents, sizeof contents);
+                assert_string_equal(contents, expected[count]);
+                assert_true(document->largest_coordinate == (double)FLT_MAX);
+                assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
+                assert_saved(document, file.data, file.size);
+                stl->close(document);
+                ffd_buffer_free(&file);
+            }
+}
+
+/* A header of 80 letters that begins with "solid" has no 0 in it: the size tells. */
+static void test_full_header(void **state)
+{
+    (void)state;
+    static const record records[1] = {{UP, FLAT, 0}};
+    byte_buffer file =
+        binary("solid 6789012345678901234567890123456789012345678901234567890123456789012345678", records, 1);
+    file.data[STL_HEADER - 1] = '0';
+    mesh_document *document = opened_bytes(stl, file.data, file.size);
+    assert_int_equal(document->parts->vertex_count, 3);
+    stl->close(document);
+    ffd_buffer_free(&file);
+}
+
+static void test_refused_binary(void **state)
+{
+    (void)state;
+    static const record records[1] = {{UP, FLAT, 0}};
+    static const struct {
+        uint32_t stated;
+        size_t size;
+        const char *message;
+    } cases[] = {
+        {1, 0,
+         "is no STL file: it neither begins with \"solid\" nor has, with 0 bytes, the 84 of a binary file's "
+         "header"},
+        {1, 83,
+         "is no STL file: it neither begins with \"solid\" nor has, with 83 bytes, the 84 of a binary file's "
+         "header"},
+        {1, 84, "1 facets are stated, which take 134 bytes: the file has 84"},
+        {1, 133, "1 facets are stated, which take 134 bytes: the file has 133"},
+        {2, 134, "2 facets are stated, which take 184 bytes: the file has 134"},
+        {UINT32_MAX, 134, "4294967295 facets are stated, which take 214748364834 bytes: the file has 134"},
+    };
+    byte_buffer file = binary("x", records, 1);
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        mesh_document *document;
+        ffd_error error;
+        store_u32((unsigned char *)file.data + STL_HEADER, cases[i].stated);
+        assert_int_equal(open_bytes(stl, file.data, cases[i].size, &document, &error), FFD_E_INVALID);
+        assert_string_equal(error.message, cases[i].message);
+        assert_int_equal(error.line, 0);
+    }
+    ffd_buffer_free(&file);
+}
+
+/* Normals */
+
+static void test_normal(void **state)
+{
+    (void)state;
+    static const struct {
+        double corners[9], normal[3];
+        bool found;
+    } cases[] = {
+        {FLAT, UP, true},
+        {{0, 0, 0, 0, 1, 0, 1, 0, 0}, {0, 0, -1}, true},
+        {{5, 5, 5, 5, 8, 5, 5, 5, 9}, {1, 0, 0}, true},
+        {{0, 0, 0, 1e-200, 0, 0, 0, 1e-200, 0}, UP, true},
+        {{0, 0, 0, 1e300, 0, 0, 0, 1e300, 0}, UP, true},
+        {{0, 0, 0, 1, 0, 0, 0, 1e-9, 0}, UP, true},
+        {{0, 0, 0, 0, 0, 0, 0, 1, 0}, {0}, false},
+        {{0, 0, 0, 1, 1, 1, 2, 2, 2}, {0}, false},
+        {{0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.3, 0.3, 0.3}, {0}, false},
+        {{-1e308, 0, 0, 1e308, 0, 0, 0, 1e308, 0}, {0}, false},
+        {{NAN, 0, 0, 1, 0, 0, 0, 1, 0}, {0}, false},
+        {{0, 0, 0, 1, 0, 0, 0, INFINITY, 0}, {0}, false},
+    };
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        double normal[3] = {0};
+        assert_int_equal(ffd_stl_normal(cases[i].corners, normal), cases[i].found);
+        for (int a = 0; cases[i].found && a < 3; a++)
+            assert_true(normal[a] == cases[i].normal[a]);
+    }
+}
+
+/* What a move of the three corners to z x y (a turn) makes of a text's facet. */
+static void assert_turned(const char *normal, bool renew, const char *expected)
+{
+    static const double turned[9] = {0, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const uint8_t changed[3] = {1, 1, 1};
+    char before[256], after[256];
+    snprintf(before, sizeof before,
+             "solid\n facet normal %s\nouter loop\n" CORNERS "endloop endfacet\nendsolid", normal);
+    snprintf(after, sizeof after,
+             "solid\n facet normal %s\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 0 0 1\nendloop "
+             "endfacet\nendsolid",
+             expected);
+    mesh_document *document = opened(before);
+    assert_int_equal(stl->begin_results(document, renew, renew, NULL), FFD_OK);
+    stl->write_positions(document, 0, 0, 3, turned, changed);
+    assert_saved(document, after, strlen(after));
+    stl->close(document);
+}
+
+static void test_normals_are_renewed(void **state)
+{
+    (void)state;
+    assert_turned("0 0 1.0", true, "1 0 0");
+    assert_turned("0 0.0\t0.99", true, "1 0.0\t0"); /* a number that stays keeps its text */
+    assert_turned("0 0 1.0", false, "0 0 1.0");
+    assert_turned("0 0 -1", true, "-1 0 0"); /* against the order of the corners */
+    assert_turned("0 0.0 -0", true, "0 0.0 -0");
+    assert_turned("nan nan nan", true, "1 0 0");
+    assert_turned("-1.#IND -1.#IND -1.#IND", true, "1 0 0");
+}
+
+static void test_which_normals_are_renewed(void **state)
+{
+    (void)state;
+    static const record records[4] = {
+        {{0, 0, 2}, FLAT, 7}, {{0, 0, 2}, FLAT, 8}, {{0, 0, 2}, FLAT, 9}, {{0}, FLAT, 10}};
+    record after[4];
+    double place[36];
+    uint8_t changed[12] = {0, 1, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1};
+    memcpy(after, records, sizeof after);
+    for (size_t i = 0; i < 36; i++)
+        place[i] = (double)records[i / 9].corners[i % 9];
+    place[5] = -1.1; /* the first facet turns about its side on y */
+    for (size_t i = 18; i < 27; i++)
+        place[i] = 1.0 / 3; /* the third collapses */
+    place[29] = 5;          /* a corner of the fourth */
+    after[0].corners[5] = -1.1F;
+    for (size_t i = 0; i < 9; i++)
+        after[2].corners[i] = (float)(1.0 / 3);
+    after[3].corners[2] = 5;
+    /* From the corner as it is written: a float. */
+    const double rise = (double)-1.1F, length = sqrt(1 + rise * rise);
+    after[0].normal[0] = (float)(-rise / length);
+    after[0].normal[2] = (float)(1 / length);
+    byte_buffer before_file = binary("solid", records, 4), after_file = binary("solid", after, 4);
+    mesh_document *document = opened_bytes(stl, before_file.data, before_file.size);
+    assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
+    stl->write_positions(document, 0, 0, 12, place, changed);
+    file_input saved;
+    assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
+    assert_int_equal(saved.size, after_file.size);
+    for (size_t i = 0; i < saved.size; i++) {
+        /* the first normal, but for the last bit of a float */
+        const bool normal = i >= STL_START && i < STL_START + 3 * sizeof(float);
+        assert_true(saved.data[i] == (unsigned char)after_file.data[i] || normal);
+    }
+    double normal[3];
+    ffd_stl_load(saved.data + STL_START, normal);
+    for (int a = 0; a < 3; a++)
+        assert_true(fabs(normal[a] - (double)after[0].normal[a]) < 1e-7);
+    ffd_file_unload(&saved);
+    stl->close(document);
+    ffd_buffer_free(&before_file);
+    ffd_buffer_free(&after_file);
+}
+
+static void test_texts_are_double(void **state)
+{
+    (void)state;
+    static const char before[] =
+        "solid\n" FACET("0 0 1", "vertex 1.0 2.00 3\nvertex 1 0 0\nvertex 0 1 0\n") "endsolid",
+                      after[] = "solid\n" FACET(
+                          "0 0 1", "vertex 1.0 0.1 1e-300\nvertex 1 0 0\nvertex 0 1 0\n") "endsolid";
+    const double place[3] = {1, 0.1, 1e-300};
+    const uint8_t changed = 1;
+    mesh_document *document = opened(before);
+    assert_int_equal(stl->begin_results(document, false, false, NULL), FFD_OK);
+    stl->write_positions(document, 0, 0, 1, place, &changed);
+    assert_saved(document, after, sizeof after - 1);
+    stl->close(document);
+}
+
+/* Topology, description, comparison */
+
+static void test_faces(void **state)
+{
+    (void)state;
+    static const record records[3] = {
+        {UP, FLAT, 0}, {UP, {1, 0, 0, 1, 1, 0, -0.0F, 1, 0}, 0}, {UP, {0, 0, 0, NAN, 0, 0, NAN, 0, 0}, 0}};
+    static const uint32_t corners[9] = {0, 1, 2, 1, 4, 2, 0, 7, 7};
+    byte_buffer file = binary("", records, 3);
+    mesh_document *document = opened_bytes(stl, file.data, file.size);
+    mesh_faces faces;
+    assert_int_equal(stl->faces(document, &faces, NULL), FFD_OK);
+    assert_int_equal(faces.vertex_count, 9);
+    assert_int_equal(faces.face_count, 3);
+    assert_int_equal(faces.repeated, 4);
+    assert_memory_equal(faces.corners, corners, sizeof corners);
+    for (size_t i = 0; i <= 3; i++)
+        assert_int_equal(faces.start[i], 3 * i);
+    ffd_mesh_faces_free(&faces);
+    stl->close(document);
+    ffd_buffer_free(&file);
+}
+
+static void assert_described(const void *bytes, size_t size, const char *expected)
+{
+    mesh_document *document = opened_bytes(stl, bytes, size);
+    byte_buffer out = {0};
+    json_text json;
+    ffd_json_begin(&json, &out);
+    ffd_json_object(&json, NULL, true);
+    assert_int_equal(stl->describe(document, &json, NULL), FFD_OK);
+    ffd_json_end(&json, '}');
+    char *text = ffd_buffer_finish(&out);
+    assert_non_null(text);
+    assert_string_equal(text, expected);
+    ffd_free(text);
+    stl->close(document);
+}
+
+static void test_description(void **state)
+{
+    (void)state;
+    static const record records[2] = {{UP, FLAT, 0x8000}, {UP, {0}, 0}};
+    static const char text[] = "solid a  b \r\n" FACET("0 0 1", CORNERS) "endsolid\nsolid\nendsolid";
+    byte_buffer file = binary("a\nb  ", records, 2);
+    assert_described(
+        file.data, file.size,
+        "{\"encoding\": \"binary\", \"facets\": 2, \"degenerate_facets\": 1, \"header\": \"a\\nb\", "
+        "\"facets_with_attribute\": 1, \"bytes_behind\": 0}\n");
+    ffd_buffer_free(&file);
+    assert_described(
+        text, sizeof text - 1,
+        "{\"encoding\": \"ascii\", \"facets\": 1, \"degenerate_facets\": 0, \"names\": [\"a  b\", \"\"], "
+        "\"solids\": 2, \"line_endings\": \"mixed\"}\n");
+}
+
+static ffd_comparison compared(const byte_buffer *a, const byte_buffer *b, double tolerance)
+{
+    mesh_document *x = opened_bytes(stl, a->data, a->size), *y = opened_bytes(stl, b->data, b->size);
+    ffd_comparison result;
+    assert_int_equal(stl->compare(x, y, tolerance, &result, NULL), FFD_OK);
+    stl->close(x);
+    stl->close(y);
+    return result;
+}
+
+static void assert_compared(const byte_buffer *a, const byte_buffer *b, double tolerance,
+                            const char *difference)
+{
+    const ffd_comparison result = compared(a, b, tolerance), turned = compared(b, a, tolerance);
+    if (strcmp(result.difference, difference ? difference : "") != 0)
+        fail_msg("%s", result.difference);
+    assert_int_equal(result.equal, difference == NULL);
+    assert_int_equal(turned.equal, difference == NULL);
+}
+
+static void test_compare_texts(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        double tolerance;
+        const char *difference;
+    } cases[] = {
+        {TEXT, 0, NULL},
+        {"SOLID a facet normal 0 -0 1e0\nOUTER loop vertex 0 0 0.0 vertex 1 0 0 vertex 0 1 0 endloop "
+         "endfacet endsolid",
+         0, NULL},
+        {"solid b\n" FACET("0 0 1", CORNERS) "endsolid b\n", 9,
+         "solid 0 counted from 0 is named \"a\" and \"b\""},
+        {"solid a\nendsolid\nsolid a\n" FACET("0 0 1", CORNERS) "endsolid a\n", 9,
+         "solid 0 counted from 0 has more facets in the first"},
+        {TEXT "solid c\nendsolid", 9, "solid 1 counted from 0 is only in the second"},
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0.5\nvertex 0 1 0\n") "endsolid a\n", 0.5,
+         NULL},
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0.5\nvertex 0 1 0\n") "endsolid a\n", 0.25,
+         "facet 0 counted from 0 (line 2), corner 1: z differs by 0.5"},
+        {"solid a\n\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 nan 0\nvertex 0 1 0\n") "endsolid a\n", 9,
+         "facet 0 counted from 0 (lines 2 and 3), corner 1: y: 0 and nan"},
+        {"solid a\n" FACET("0 0 0.5", CORNERS) "endsolid a\n", 9,
+         "facet 0 counted from 0 (line 2): z of the normal: 1 and 0.5"},
+        {"solid a\nendsolid a\n", 9, "1 and 0 facets"},
+    };
+    byte_buffer a = {0};
+    ffd_buffer_text(&a, TEXT);
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        byte_buffer b = {0};
+        ffd_buffer_text(&b, cases[i].text);
+        assert_compared(&a, &b, cases[i].tolerance, cases[i].difference);
+        ffd_buffer_free(&b);
+    }
+    ffd_buffer_free(&a);
+}
+
+static void test_compare_binary(void **state)
+{
+    (void)state;
+    static const record one[1] = {{UP, FLAT, 7}}, none[1] = {{UP, FLAT, 0}};
+    byte_buffer a = binary("head", one, 1), same = binary("head", one, 1), plain = binary("head", none, 1),
+                other = binary("heap", one, 1), text = {0};
+    ffd_buffer_text(&same, "behind");
+    ffd_buffer_text(&text, TEXT);
+    assert_compared(&a, &same, 0, NULL);
+    assert_compared(&a, &plain, 0, "facet 0 counted from 0: attribute 7 and 0");
+    assert_compared(&a, &other, 0, "the headers of 80 bytes are not the same");
+    assert_compared(&plain, &text, 0, NULL);
+    assert_compared(&text, &a, 0, "facet 0 counted from 0: attribute 0 and 7");
+    ffd_buffer_free(&a);
+    ffd_buffer_free(&same);
+    ffd_buffer_free(&plain);
+    ffd_buffer_free(&other);
+    ffd_buffer_free(&text);
+}
+
+/* Broken files, and no memory */
+
+static const char plain_seed[] = TEXT,
+                  odd_seed[] = "SOLID a b\r\n" FACET("nan 0 -1.#IND", CORNERS)
+                      FACET("1 0 0", "vertex .5 5e-1 -1E0\rvertex 1 2 3 vertex\t1 2 4\n") "ENDSOLID\nsolid\n"
+                                                                                          "endsolid";
+
+static void with_seeds(void (*use)(const byte_seed *seeds, size_t count))
+{
+    static const record records[2] = {{UP, FLAT, 7}, {{0}, {1, 2, 3, 4, 5, 6, 7, 8, 9}, 0}};
+    byte_buffer file = binary("solid", records, 2);
+    const byte_seed seeds[] = {
+        {plain_seed, sizeof plain_seed - 1}, {odd_seed, sizeof odd_seed - 1}, {file.data, file.size}};
+    use(seeds, COUNT(seeds));
+    ffd_buffer_free(&file);
+}
+
+static void truncate_seeds(const byte_seed *seeds, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        use_truncations(stl, &seeds[i]);
+}
+
+static void mutate_seeds(const byte_seed *seeds, size_t count)
+{
+    use_mutations(stl, seeds, count, 6000, "0123456789-+.#e\r\n\t sofn\1\2");
+}
+
+static void starve_seeds(const byte_seed *seeds, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        use_with_failing_memory(stl, &seeds[i]);
+}
+
+static void test_truncations(void **state)
+{
+    (void)state;
+    with_seeds(truncate_seeds);
+}
+
+static void test_mutations(void **state)
+{
+    (void)state;
+    with_seeds(mutate_seeds);
+}
+
+static void test_memory_failures(void **state)
+{
+    (void)state;
+    with_seeds(starve_seeds);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_texts),
+        cmocka_unit_test(test_refused_texts),
+        cmocka_unit_test(test_binary),
+        cmocka_unit_test(test_full_header),
+        cmocka_unit_test(test_refused_binary),
+        cmocka_unit_test(test_normal),
+        cmocka_unit_test(test_normals_are_renewed),
+        cmocka_unit_test(test_which_normals_are_renewed),
+        cmocka_unit_test(test_texts_are_double),
+        cmocka_unit_test(test_faces),
+        cmocka_unit_test(test_description),
+        cmocka_unit_test(test_compare_texts),
+        cmocka_unit_test(test_compare_binary),
+        cmocka_unit_test(test_truncations),
+        cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_memory_failures),
+    };
+    return cmocka_run_group_tests(tests, NULL, remove_saved);
+}
