@@ -363,10 +363,9 @@ def what_is_not_there_yet_says_so(run):
     """Valid files that need more than this version has: exit 6, or done right; never something wrong."""
     start(run)
     asset, data = gltf_json(CUBE_CORNERS)
-    for path, value in (("meshes/0/primitives/0/targets", [{"POSITION": 0}]), ("accessors/0/componentType", 5122)):
-        run.write("m.glb", glb(changed(asset, path, value), data))
-        done = run.ffd("deform", "m.glb", "out.glb", "-l", "l.json", code=UNSUPPORTED)
-        check(done.err[0].startswith("m.glb:/"), done.err[0])
+    run.write("m.glb", glb(changed(asset, "meshes/0/primitives/0/targets", [{"POSITION": 0}]), data))
+    done = run.ffd("deform", "m.glb", "out.glb", "-l", "l.json", code=UNSUPPORTED)
+    check(done.err[0].startswith("m.glb:/"), done.err[0])
 
 
 @case

@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""How glTF stores what is deformed: sparse accessors, accessors without bytes, in every container."""
+"""How glTF stores what is deformed: sparse accessors, accessors without bytes, integers of every type, in every
+container. What integers must become is taken from a twin of the file that has floats instead."""
 import base64
+import copy
 import itertools
 import json
+import os
 import struct
 
-from gltf_reader import FLOAT, TYPES, Gltf, check_bounds, check_rest
-from harness import LIMIT, case, check, equal, glb, lattice, main, near, pad
+from gltf_reader import (DEFORMED, FLOAT, SCALES, TYPES, Gltf, check_bounds, check_rest, deformed_accessors)
+from harness import FFD, LIMIT, MODELS, OK, UNSUPPORTED, case, check, equal, glb, lattice, main, near, pad
 
 POINTS = [(-1.0, -1.0, -0.5), (1.0, -1.0, 0.25), (-1.0, 1.0, 0.5), (1.0, 1.0, 0.0), (0.0, 0.5, 1.0), (0.0, 0.0, 0.0)]
 SHIFT = (0.25, -0.5, 0.125)
@@ -79,11 +82,11 @@ def bounds(elements):
     return {"min": [min(column) for column in zip(*elements)], "max": [max(column) for column in zip(*elements)]}
 
 
-def deform(run, source, content=ALL, options=(), lines=0):
+def deform(run, source, content=ALL, normals="keep", options=(), lines=0):
     """Deforms a file; both as Gltf. Whatever is changed, what must stay does."""
     run.write("l.json", content)
     target = "out" + source[source.rindex("."):]
-    done = run.ffd("deform", source, target, "-l", "l.json", "--force", "--normals", "keep", *options, lines=lines)
+    done = run.ffd("deform", source, target, "-l", "l.json", "--force", "--normals", normals, *options, lines=lines)
     before, after = Gltf(run.path(source)), Gltf(run.path(target))
     check_rest(before, after)
     for index in range(len(after.asset["accessors"])):
@@ -196,6 +199,282 @@ def too_many_zeros(run):
         maker.mesh({"POSITION": maker.accessor(count)})
         source = maker.write(run, "in", "data")
         run.ffd("deform", source, "out.gltf", "-l", "l.json", code=LIMIT)
+
+
+
+QUANTIZED = {"extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"]}
+INTEGERS = tuple(itertools.product((5120, 5121, 5122, 5123), (False, True)))
+SINGLE = 2.0 ** -24
+
+
+def limits(component):
+    bits = 8 * TYPES[component][1]
+    return (0, 2 ** bits - 1) if component in (5121, 5123) else (-2 ** (bits - 1), 2 ** (bits - 1) - 1)
+
+
+def integers(component, reach):
+    """Points of a type; reach: how much of its range they use."""
+    low, high = limits(component)
+    middle, half = (low + high) / 2, (high - low) / 2 * reach
+    return [tuple(round(middle + half * x) for x in p) for p in POINTS]
+
+
+def in_scene(component, normalized):
+    """The node that brings the type's range to the box [-1, 1]."""
+    low, high = limits(component)
+    unit = SCALES[component] if normalized else 1
+    scale = 2 * unit / (high - low)
+    return {"mesh": 0, "scale": [scale] * 3, "translation": [-(low + high) / 2 * scale / unit] * 3}
+
+
+def float_twin(run, source, name):
+    """The same scene with floats for every deformed accessor."""
+    file = Gltf(source)
+    asset = copy.deepcopy(file.asset)
+    for buffer, data in zip(asset.get("buffers", []), file.buffers):
+        if data is not None:
+            buffer["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    data, twins = b"", {}
+    views = asset.setdefault("bufferViews", [])
+    buffers = asset.setdefault("buffers", [])
+    for index in sorted(deformed_accessors(file.asset)):
+        elements = packed(file.decoded(index), FLOAT)
+        views.append({"buffer": len(buffers), "byteOffset": len(data), "byteLength": len(elements)})
+        data += elements
+        twins[index] = len(asset["accessors"])
+        asset["accessors"].append({"bufferView": len(views) - 1, "componentType": FLOAT,
+                                   "count": file.accessor(index)["count"], "type": file.accessor(index)["type"]})
+    for mesh in asset["meshes"]:
+        for primitive in mesh["primitives"]:
+            for attribute in DEFORMED:
+                if attribute in primitive["attributes"]:
+                    primitive["attributes"][attribute] = twins[primitive["attributes"][attribute]]
+    buffers.append({"byteLength": len(data),
+                    "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()})
+    return run.write(name, asset)
+
+
+def check_like_twin(file, twin, old):
+    """Every deformed attribute is that of the twin, to half a step of the type that it had."""
+    for a, b, was in zip(file.primitives(), twin.primitives(), old.primitives()):
+        for name in DEFORMED:
+            if name not in was["attributes"]:
+                continue
+            half = old.step(was["attributes"][name]) / 2
+            found, wanted = file.decoded(a["attributes"][name]), twin.decoded(b["attributes"][name])
+            for p, q in zip(found, wanted, strict=True):
+                for x, y in zip(p, q, strict=True):
+                    check(abs(x - y) <= half * 1.001 + 4 * SINGLE * max(abs(x), abs(y), 1),
+                          f"{name}: {x!r} instead of {y!r}, half a step is {half!r}")
+
+
+def deform_with_twin(run, source, content, normals="keep", **others):
+    before, after, said = deform(run, source, content, normals, **others)
+    twin = float_twin(run, run.path(source), "twin.gltf")
+    run.ffd("deform", twin, "twin-out.gltf", "-l", "l.json", "--force", "--normals", normals)
+    check_like_twin(after, Gltf(run.path("twin-out.gltf")), before)
+    return before, after, said
+
+
+def on_grid(file, index, step):
+    for element in file.decoded(index):
+        for x in element:
+            check(abs(x / step - round(x / step)) <= abs(x / step) * 2 * SINGLE, f"{x!r} is on no step of {step!r}")
+
+
+@case
+def integers_stay_integers(run):
+    """What fits is written in place, whatever the type and the container; what does not move keeps its bits."""
+    for (component, normalized), container in itertools.product(INTEGERS, CONTAINERS):
+        points = integers(component, 0.5)
+        maker = Maker(**QUANTIZED, nodes=[in_scene(component, normalized)])
+        flags = {"normalized": True} if normalized else {}
+        maker.mesh({"POSITION": maker.dense(points, component, **bounds(points), **flags)})
+        source = maker.write(run, "in", container)
+        before, after, _ = deform_with_twin(run, source, lattice(low=(-1,) * 3, high=(1,) * 3, moves=[{"by": [0.1, -0.2, 0.15]}]))
+        equal(after.asset["meshes"], before.asset["meshes"], "the accessor")
+        equal(after.asset["extensionsUsed"], QUANTIZED["extensionsUsed"], "extensions")
+        check(after.stored(0) != points, "nothing moved")
+        before, after, _ = deform_with_twin(run, source, lattice(size=(8, 8, 8), low=(-1,) * 3, high=(1,) * 3,
+                                                                 moves=[{"at": [[5, 7], [3, 7], [3, 7]], "by": [0.2, 0.2, 0]}]))
+        equal(after.stored(0)[0], points[0], "the vertex in the far corner")
+        check(after.stored(0)[3] != points[3], "the vertex in the near corner")
+        check_unmoved(run, source)
+
+
+@case
+def integers_become_floats(run):
+    """One vertex that leaves the range makes the accessor one of floats, on the same steps."""
+    for component, normalized in INTEGERS:
+        points = integers(component, 1)
+        maker = Maker(**QUANTIZED, nodes=[in_scene(component, normalized)])
+        flags = {"normalized": True} if normalized else {"normalized": False}
+        maker.mesh({"POSITION": maker.dense(points, component, **bounds(points), **flags)})
+        source = maker.write(run, "in", "glb")
+        before, after, said = deform_with_twin(run, source, ALL, options=("-v",), lines=2)
+        equal(said[0], f"{source}: accessor 0: its component type {component} does not hold what is deformed, which "
+              "goes into accessor 1 as floats", "what is said")
+        copied = after.accessor(1)
+        equal((copied["componentType"], "normalized" in copied), (FLOAT, False), "the type")
+        on_grid(after, 1, before.step(0))
+        check("extensionsUsed" not in after.asset and "extensionsRequired" not in after.asset, "extensions")
+
+
+@case
+def the_extension_goes_when_nothing_needs_it(run):
+    texcoords = [(i, i) for i in range(len(POINTS))]
+    uses = {
+        "another name": ({}, ["EXT_a", "KHR_mesh_quantization", "EXT_b"], ["EXT_a", "EXT_b"]),
+        "alone": ({}, ["KHR_mesh_quantization"], None),
+        "texture coordinates that glTF itself knows": ({"TEXCOORD_0": (5123, True)}, ["KHR_mesh_quantization"], None),
+        "other texture coordinates": ({"TEXCOORD_0": (5123, False)}, ["KHR_mesh_quantization"], ["KHR_mesh_quantization"]),
+        "more of them": ({"TEXCOORD_1": (5122, True)}, ["KHR_mesh_quantization"], ["KHR_mesh_quantization"]),
+        "its own attribute": ({"_BYTES": (5120, False)}, ["KHR_mesh_quantization"], None),
+    }
+    for what, (more, used, left) in uses.items():
+        points = integers(5122, 1)
+        maker = Maker(extensionsUsed=used, nodes=[in_scene(5122, True)])
+        attributes = {"POSITION": maker.dense(points, 5122, normalized=True, **bounds(points))}
+        for name, (component, normalized) in more.items():
+            data = b"".join(pad(packed([t], component), b"\0") for t in texcoords)
+            view = maker.view(data, byteStride=4)
+            attributes[name] = maker.accessor(len(POINTS), component, "VEC2", bufferView=view, normalized=normalized)
+        maker.mesh(attributes)
+        _, after, _ = deform(run, maker.write(run, "in", "data"))
+        equal(after.asset.get("extensionsUsed"), left, what)
+    # A second mesh that stays in its range keeps it; so does one that no node shows.
+    for shown in (True, False):
+        points, small = integers(5122, 1), integers(5122, 0.25)
+        node = in_scene(5122, True)
+        maker = Maker(extensionsUsed=["KHR_mesh_quantization"], nodes=[node, {**node, "mesh": 1}],
+                      scenes=[{"nodes": [0, 1] if shown else [0]}])
+        for p in (points, small):
+            maker.mesh({"POSITION": maker.dense(p, 5122, normalized=True, **bounds(p))})
+        _, after, _ = deform(run, maker.write(run, "in", "data"), lines=0 if shown else 1)
+        equal(after.asset.get("extensionsUsed"), ["KHR_mesh_quantization"], "a second mesh")
+
+
+@case
+def neighbours_stay_neighbours(run):
+    """Equal positions in an accessor that becomes floats and in one that stays: equal results."""
+    for component, normalized in INTEGERS:
+        inner, outer = integers(component, 0.4), integers(component, 1)
+        flags = {"normalized": True} if normalized else {}
+        maker = Maker(nodes=[in_scene(component, normalized)])
+        maker.mesh({"POSITION": maker.dense(inner, component, **bounds(inner), **flags)},
+                   {"POSITION": maker.dense(inner + outer, component, **bounds(inner + outer), **flags)})
+        _, after, _ = deform(run, maker.write(run, "in", "glb"), ALL)
+        a, b = (after.primitives()[i]["attributes"]["POSITION"] for i in range(2))
+        equal((after.accessor(a)["componentType"], after.accessor(b)["componentType"]), (component, FLOAT), "types")
+        equal([struct.pack("<3f", *p) for p in after.decoded(a)],
+              [struct.pack("<3f", *p) for p in after.decoded(b)[:len(inner)]], "the common vertices")
+
+
+@case
+def copies_of_integers_are_aligned(run):
+    """Where a copy is needed, its elements stand at multiples of 4 bytes, even if the old ones did not."""
+    for (component, normalized), aligned in itertools.product(INTEGERS, (False, True)):
+        points = integers(component, 0.5)
+        flags = {"normalized": True} if normalized else {}
+        size = 3 * TYPES[component][1]
+        stride = (size + 3) // 4 * 4 if aligned else size
+        data = b"".join(packed([p], component) + b"\xcc" * (stride - size) for p in points)
+        node = in_scene(component, normalized)
+        maker = Maker(nodes=[node, {"mesh": 0, "translation": [9, 0, 0]}], scenes=[{"nodes": [0, 1]}])
+        view = maker.view(data, **({"byteStride": stride} if aligned else {}), target=34962)
+        maker.mesh({"POSITION": maker.accessor(len(points), component, bufferView=view, **bounds(points), **flags)})
+        moves = lattice(low=(-1,) * 3, high=(1,) * 3, moves=[{"by": [0.1, -0.2, 0.15]}])
+        before, after, _ = deform(run, maker.write(run, "in", "glb"), moves, lines=1)
+        made = after.asset["bufferViews"][1]
+        equal([p["attributes"] for p in after.primitives()], [{"POSITION": 1}, {"POSITION": 0}], "accessors")
+        equal([node["mesh"] for node in after.asset["nodes"]], [0, 1], "meshes")
+        equal(after.accessor(1)["componentType"], component, "the type")
+        equal((made["byteOffset"] % 4, made.get("byteStride", 4), made["target"]), (0, (size + 3) // 4 * 4, 34962),
+              "the new view")
+        equal(after.stored(0), points, "the original")
+        check(after.stored(1) != points, "the copy")
+        # In place its stride stays.
+        maker.asset["nodes"], maker.asset["scenes"] = [node], [{"nodes": [0]}]
+        before, after, _ = deform_with_twin(run, maker.write(run, "in", "glb"), moves)
+        equal(after.asset["bufferViews"], before.asset["bufferViews"], "views")
+
+
+@case
+def interleaved_integers(run):
+    """Position, normal and tangent of different types in one view; the rest between them stays."""
+    points = integers(5122, 0.5)
+    rows = [struct.pack("<3hxx4h3bx2HBBBB", *p, 0, 32767, 0, (-1) ** i * 32767, 0, 0, 127, 7 * i, 9 * i, 1, 2, 3, i)
+            for i, p in enumerate(points)]
+    count, stride = len(rows), len(rows[0])
+    maker = Maker(**QUANTIZED, nodes=[in_scene(5122, True)])
+    view = maker.view(b"".join(rows), byteStride=stride)
+    part = {"bufferView": view, "normalized": True}
+    maker.mesh({"POSITION": maker.accessor(count, 5122, **part, **bounds(points)),
+                "TANGENT": maker.accessor(count, 5122, "VEC4", **part, byteOffset=8),
+                "NORMAL": maker.accessor(count, 5120, **part, byteOffset=16),
+                "TEXCOORD_0": maker.accessor(count, 5123, "VEC2", **part, byteOffset=20)})
+    twisted = lattice(low=(-1,) * 3, high=(1,) * 3, moves=[{"rotate": {"axis": [1, 2, 3], "degrees": 20}},
+                                                           {"twist": {"axis": "y", "degrees": 30}}])
+    for container in CONTAINERS:
+        source = maker.write(run, "in", container)
+        before, after, _ = deform_with_twin(run, source, twisted, "transform")
+        equal(after.asset["accessors"][1:], before.asset["accessors"][1:], "all in place")
+        equal([t[3] for t in after.stored(1)], [t[3] for t in before.stored(1)], "handedness")
+        check(after.stored(1) != before.stored(1) and after.stored(2) != before.stored(2), "directions do not change")
+        check_unmoved(run, source)
+
+
+@case
+def directions_in_other_integers(run):
+    """glTF does not allow normals in integers without sign or scale: they become floats, of unit length."""
+    points = [tuple(float(x) for x in p) for p in POINTS]
+    twisted = lattice(moves=[{"rotate": {"axis": [1, 2, 3], "degrees": 20}}])
+    for component, normalized in ((5120, False), (5121, False), (5121, True), (5123, True), (5122, False)):
+        one = SCALES[component] if normalized else 1
+        maker = Maker()
+        flags = {"normalized": True} if normalized else {}
+        maker.mesh({"POSITION": maker.dense(points), "NORMAL": maker.dense([(0, 0, one)] * len(points), component, **flags)})
+        run.write("l.json", twisted)
+        source = maker.write(run, "in", "glb")
+        run.ffd("deform", source, "out.glb", "-l", "l.json", "--force")
+        after = Gltf(run.path("out.glb"))
+        normal = after.primitives()[0]["attributes"]["NORMAL"]
+        equal(after.accessor(normal)["componentType"], FLOAT, "the type")
+        for n in after.decoded(normal):
+            check(abs(sum(x * x for x in n) - 1) < 1e-6, f"{n} has no unit length")
+
+
+@case
+def models_like_their_float_twins(run):
+    """Every sample model with integers, sparse data or none at all; those that need more are left out."""
+    if not MODELS:
+        return
+    done = 0
+    for folder, _, names in sorted(os.walk(MODELS)):
+        for name in sorted(names):
+            if not name.endswith((".gltf", ".glb")):
+                continue
+            path = os.path.join(folder, name)
+            before = Gltf(path)
+            accessors = [before.accessor(i) for i in deformed_accessors(before.asset)]
+            if not any(a["componentType"] != FLOAT or "sparse" in a or "bufferView" not in a for a in accessors):
+                continue
+            target = "out" + os.path.splitext(name)[1]
+            run.write("l.json", lattice(size=(4, 6, 4), rest={"box": "mesh", "margin": 0.05},
+                                        moves=[{"twist": {"axis": "y", "degrees": 60}}]))
+            options = ("-l", "l.json", "--force", "-q", "--resources", "reference")
+            if run.ffd("deform", path, target, *options, code=(OK, UNSUPPORTED)).code != OK:
+                continue
+            after = Gltf(run.path(target))
+            run.ffd("deform", float_twin(run, path, "twin.gltf"), "twin-out.gltf", *options)
+            check_like_twin(after, Gltf(run.path("twin-out.gltf")), before)
+            for index in range(len(after.asset["accessors"])):
+                check_bounds(after, index)
+            if not any(node.get("skin") is not None for node in before.asset["nodes"]):
+                check_rest(before, after)
+            done += 1
+    print(f"{done} models")
+    check(done > 0, "no model was deformed")
 
 
 main()

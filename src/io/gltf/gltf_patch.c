@@ -90,18 +90,39 @@ static void add_views(gltf_saver *saver)
     ffd_free(next);
 }
 
-/* Lets an accessor's copy name its own bufferView, which holds all elements. */
-static void edit_place(const gltf_saver *saver, uint32_t accessor, size_t view, json_edits *edits)
+/* Lets an accessor's copy name its own bufferView, which holds all elements, and their type. */
+static void edit_storage(const gltf_saver *saver, const gltf_version *version, size_t view, json_edits *edits)
 {
-    const json_span *tree = &saver->document->tree;
+    const gltf_document *d = saver->document;
+    const json_span *tree = &d->tree;
+    const uint32_t accessor = d->accessor_values.values[version->accessor];
     const uint32_t sparse = ffd_json_span_member(tree, accessor, "sparse");
+    const uint32_t normalized = ffd_json_span_member(tree, accessor, "normalized");
     const uint32_t inside = value_of(saver, accessor)->begin + 1;
+    uint32_t gone[2];
+    size_t gone_count = 0;
     if (ffd_json_span_member(tree, accessor, "bufferView") == JSON_NONE)
         ffd_edits_format(edits, inside, inside, "\"bufferView\":%zu,", view);
     replace_number(saver, accessor, "bufferView", view, edits);
     replace_number(saver, accessor, "byteOffset", 0, edits);
     if (sparse != JSON_NONE)
-        ffd_edits_remove(edits, tree, accessor, &sparse, 1);
+        gone[gone_count++] = sparse;
+    if (version->component != d->model.accessors[version->accessor].component) {
+        replace_number(saver, accessor, "componentType", (size_t)version->component, edits);
+        if (normalized != JSON_NONE)
+            gone[gone_count++] = normalized;
+    }
+    ffd_edits_remove(edits, tree, accessor, gone, gone_count);
+}
+
+static void announce_floats(const gltf_saver *saver, const gltf_version *version)
+{
+    const int component = saver->document->model.accessors[version->accessor].component;
+    if (version->component != component)
+        ffd_gltf_log(saver, FFD_LOG_INFO,
+                     "accessor %zu: its component type %d does not hold what is deformed, which goes into "
+                     "accessor %zu as floats",
+                     version->accessor, component, version->output);
 }
 
 static void add_accessors(gltf_saver *saver)
@@ -110,9 +131,10 @@ static void add_accessors(gltf_saver *saver)
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
         json_edits edits = {0};
-        edit_place(saver, d->accessor_values.values[version->accessor], d->view_values.count + i, &edits);
+        edit_storage(saver, version, d->view_values.count + i, &edits);
         ffd_gltf_edit_bounds(saver, version, &edits);
         add_copy(saver, &d->accessor_values, "accessors", version->accessor, &edits);
+        announce_floats(saver, version);
     }
 }
 
@@ -180,5 +202,6 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);
     ffd_gltf_add_buffer(saver);
+    ffd_gltf_drop_extensions(saver);
     return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
 }

@@ -160,12 +160,11 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
     return status;
 }
 
-/* What keeps float results from being written in the accessor's place, or beside it. */
+/* What keeps results from being written in the accessor's place, or beside it. */
 static ffd_status refuse_accessor(const gltf_document *d, size_t mesh, size_t p, int a, ffd_error *error)
 {
     const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
     const gltf_accessor *accessor = &d->model.accessors[a];
-    const uint32_t value = d->accessor_values.values[a];
     if (ffd_gltf_has_extension(d, primitive, "KHR_draco_mesh_compression"))
         return refuse(d, primitive, error, "KHR_draco_mesh_compression is not supported");
     const ffd_status status = ffd_gltf_refuse_unreadable(d, mesh, p, a, error);
@@ -174,9 +173,6 @@ static ffd_status refuse_accessor(const gltf_document *d, size_t mesh, size_t p,
     if (d->layouts[a].meshopt)
         return refuse(d, d->view_values.values[accessor->view], error,
                       "EXT_meshopt_compression is not supported");
-    if (accessor->component != GLTF_FLOAT)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error,
-                                  "quantized data (component type %d) is not supported", accessor->component);
     return FFD_OK;
 }
 

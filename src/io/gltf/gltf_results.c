@@ -31,10 +31,12 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     return status;
 }
 
-/* Directions in integers that are not normalized are not valid: no unit vector would survive their steps. */
+/* Whether results are rounded to the type's steps. Directions in integers that are not normalized or have no
+   sign are not valid, and a unit vector would not survive their steps: such become floats. */
 static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
 {
-    return semantic == GLTF_POSITION || accessor->normalized;
+    return semantic == GLTF_POSITION ||
+           (accessor->normalized && (accessor->component == GLTF_I8 || accessor->component == GLTF_I16));
 }
 
 static void write_result(mesh_document *document, size_t part, gltf_semantic semantic, size_t first,

@@ -76,6 +76,9 @@ void ffd_gltf_add_elements(gltf_saver *saver, const gltf_values *list, const cha
                            const byte_buffer *text);
 /* The added buffer, where there is one. */
 void ffd_gltf_add_buffer(gltf_saver *saver);
+/* gltf_extensions.c: takes extensions that the output no longer needs out of the lists of those used and
+   required. */
+void ffd_gltf_drop_extensions(gltf_saver *saver);
 /* gltf_targets.c: names for the buffers' files, and their URIs. */
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
 /* gltf_resources.c: images beside the output, or their URIs. Refuses an image that has the name of a file of
