@@ -1,10 +1,10 @@
 /* fuzz_lattice.c - a lattice file's text, a 0 byte, raw float64 points: everything that is done with them
    must keep what the headers promise. Without points, the lattice's own are taken (probe.h). */
-#include "fuzz_lattice.h"
 #include "base/memory.h"
 #include "check_boundary.h"
 #include "check_embedding.h"
 #include "check_folds.h"
+#include "fuzz_target.h"
 #include "lattice/spec.h"
 #include "promise.h"
 #include <math.h>

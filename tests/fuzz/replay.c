@@ -1,10 +1,10 @@
-/* replay.c - runs the fuzz target without a fuzzer: over every file of the folders named, and over mutations
+/* replay.c - runs a fuzz target without a fuzzer: over every file of the folders named, and over mutations
    of each.
 
        replay FOLDER...
    FFD_SEED and FFD_CASES (mutations of a file) make other and longer runs; FFD_DUMP=FILE keeps the input that
    is being run there. */
-#include "fuzz_lattice.h"
+#include "fuzz_target.h"
 #include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
@@ -70,7 +70,7 @@ static void run_file(const char *folder, const char *name, uint8_t *data, size_t
             memcpy(mutant, data, size);
             mutant_size = size;
         }
-        mutant_size = mutate_lattice(mutant, mutant_size, MOST_BYTES, seed * UINT64_C(1000003) + i);
+        mutant_size = fuzz_mutate(mutant, mutant_size, MOST_BYTES, seed * UINT64_C(1000003) + i);
         run(mutant, mutant_size);
     }
     *runs += 1 + (size_t)count;

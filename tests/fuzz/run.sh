@@ -1,18 +1,36 @@
 #!/bin/sh
-# Fuzzes lattice files and points with clang's libFuzzer under the address and undefined-behaviour sanitizers.
-#     sh tests/fuzz/run.sh SECONDS [FOLDER]
-# Builds in FOLDER (default .build-test/fuzz). What is found new goes to FOLDER/corpus, which the next run goes
-# on with; inputs that end in a finding go to FOLDER/findings. Ends with 0 when there was none.
+# Fuzzes lattice files or a reader of meshes with clang's libFuzzer under the address and undefined-behaviour
+# sanitizers.
+#     sh tests/fuzz/run.sh [-t TARGET] SECONDS [FOLDER]
+# TARGET: lattice (default), obj, gltf, glb, ply. Builds in FOLDER (default .build-test/fuzz). What is found new
+# goes to FOLDER/TARGET/corpus, which the next run goes on with; inputs that end in a finding go to
+# FOLDER/TARGET/findings. Meshes start from the small ones of the folder FFD_MODELS too, where that is set. Ends
+# with 0 when there was no finding.
 set -eu
 
-if [ $# -lt 1 ] || [ $# -gt 2 ]; then
-    echo "usage: sh tests/fuzz/run.sh SECONDS [FOLDER]" >&2
+usage() {
+    echo "usage: sh tests/fuzz/run.sh [-t lattice|obj|gltf|glb|ply] SECONDS [FOLDER]" >&2
     exit 2
+}
+
+target=lattice
+if [ "${1-}" = -t ]; then
+    [ $# -ge 2 ] || usage
+    target=$2
+    shift 2
 fi
+[ $# -ge 1 ] && [ $# -le 2 ] || usage
 seconds=$1
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 work=${2-$root/.build-test/fuzz}
+
+case $target in
+lattice) length=8192 dictionary=lattice.dict ;;
+gltf | glb) length=16384 dictionary=gltf.dict ;;
+obj | ply) length=8192 dictionary=$target.dict ;;
+*) usage ;;
+esac
 
 if [ ! -f "$work/build.ninja" ]; then
     # Watching every comparison of numbers would take most of the time.
@@ -21,11 +39,20 @@ if [ ! -f "$work/build.ninja" ]; then
         -Db_sanitize=address,undefined -Db_lundef=false -Dc_args="$coverage" -Dcpp_args="$coverage" \
         "$work" "$root"
 fi
-ninja -C "$work" tests/fuzz/fuzz_lattice
+ninja -C "$work" "tests/fuzz/fuzz_$target"
 
-mkdir -p "$work/corpus" "$work/findings"
+mkdir -p "$work/$target/corpus" "$work/$target/findings"
+seeds=
+if [ "$target" != lattice ] && [ -n "${FFD_MODELS-}" ]; then
+    python3 "$here/make_corpus.py" "$work/seeds" "$FFD_MODELS"
+    [ ! -d "$work/seeds/$target" ] || seeds=$work/seeds/$target
+fi
+# Outputs are written for every input: in memory, where there is such a folder.
+if [ -z "${TMPDIR-}" ] && [ -w /dev/shm ]; then
+    export TMPDIR=/dev/shm
+fi
 export ASAN_OPTIONS="halt_on_error=1:detect_leaks=1:allocator_may_return_null=1"
 export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
-exec "$work/tests/fuzz/fuzz_lattice" -max_total_time="$seconds" -max_len=8192 -timeout=20 -rss_limit_mb=2048 \
-    -dict="$here/lattice.dict" -artifact_prefix="$work/findings/" -print_final_stats=1 \
-    "$work/corpus" "$here/corpus/lattice"
+exec "$work/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len="$length" -timeout=20 -rss_limit_mb=2048 \
+    -dict="$here/$dictionary" -artifact_prefix="$work/$target/findings/" -print_final_stats=1 \
+    "$work/$target/corpus" "$here/corpus/$target" ${seeds:+"$seeds"}

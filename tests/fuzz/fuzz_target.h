@@ -1,6 +1,7 @@
-/* fuzz_lattice.h - the fuzz target, and mutations that keep a lattice file a lattice file. */
-#ifndef FFD_TESTS_FUZZ_FUZZ_LATTICE_H
-#define FFD_TESTS_FUZZ_FUZZ_LATTICE_H
+/* fuzz_target.h - what every fuzz target consists of: what is done with an input, and mutations that know
+   what the input is. */
+#ifndef FFD_TESTS_FUZZ_FUZZ_TARGET_H
+#define FFD_TESTS_FUZZ_FUZZ_TARGET_H
 
 #include <stddef.h>
 #include <stdint.h>
@@ -10,6 +11,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* Changes data of size bytes, of which there is room for capacity, by what seed says; returns its new size.
  */
-size_t mutate_lattice(uint8_t *data, size_t size, size_t capacity, uint64_t seed);
+size_t fuzz_mutate(uint8_t *data, size_t size, size_t capacity, uint64_t seed);
 
 #endif

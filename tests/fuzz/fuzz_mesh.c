@@ -1,0 +1,307 @@
+#include "fuzz_mesh.h"
+#include "base/memory.h"
+#include "base/vec.h"
+#include "io/formats.h"
+#include "job/deform_job.h"
+#include "job/placement.h"
+#include "job/source.h"
+#include "promise.h"
+#include "work_folder.h"
+#include <math.h>
+#include <string.h>
+
+/* Larger meshes only take longer. */
+#define MOST_VERTICES 4096
+/* What a position of a file may be off by, relative to the sizes it is made of: float32, there and back. */
+#define POSITION_ERROR 1e-6
+/* Nothing is said of positions behind matrices that lose more digits. */
+#define WORST_CONDITION 1e6
+
+typedef struct trial {
+    ffd_format format;
+    const char *input, *output; /* names in the work folder */
+    char lattice[WORK_PATH];
+} trial;
+
+static const char rest[] =
+    "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [3, 2, 2], \"rest\": {\"box\": "
+    "{\"min\": [-2, -2, -2], \"max\": [2, 2, 2]}}, \"moves\": [";
+static const char moves[] = "{\"at\": [1, \"all\", \"all\"], \"by\": [0.25, 0.5, -0.125]}, "
+                            "{\"twist\": {\"axis\": \"x\", \"degrees\": 40}}";
+
+static void check_refusal(ffd_status status, const ffd_error *error)
+{
+    PROMISE(status == FFD_E_INVALID || status == FFD_E_LIMIT || status == FFD_E_UNSUPPORTED ||
+                status == FFD_E_IO || status == FFD_E_MEMORY,
+            "status %d: %s", status, error->message);
+    PROMISE(error->status == status && error->message[0] && !strpbrk(error->message, "\r\n"),
+            "status %d says '%s'", status, error->message);
+}
+
+/* The bytes are in a block of their own size, so that reading past the end is seen. NULL: refused, *error
+   says why. */
+static mesh_document *try_open(const trial *of, const char *name, const uint8_t *data, size_t size,
+                               ffd_error *error)
+{
+    char path[WORK_PATH];
+    work_path(name, path);
+    unsigned char *const block = malloc(size > 0 ? size : 1);
+    PROMISE(block, "no memory");
+    memcpy(block, data, size);
+    file_input input = {.data = block, .size = size, .block = block};
+    const ffd_source source = {.path = path, .format = of->format};
+    mesh_document *document = NULL;
+    const ffd_status status = ffd_format_table(of->format)->open(&input, &source, &document, error);
+    if (status) {
+        check_refusal(status, error);
+        PROMISE(!document, "a document in spite of status %d", status);
+        ffd_file_unload(&input);
+    }
+    return document;
+}
+
+/* What was accepted before. */
+static mesh_document *open_again(const trial *of, const char *name, const uint8_t *data, size_t size)
+{
+    ffd_error error = {0};
+    mesh_document *const document = try_open(of, name, data, size, &error);
+    PROMISE(document, "%s is refused: %s: %s", name, error.pointer, error.message);
+    return document;
+}
+
+static bool is_small(const mesh_document *document)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < document->part_count; i++)
+        count += document->parts[i].vertex_count + document->parts[i].normal_count;
+    return count <= MOST_VERTICES && document->part_count <= MOST_VERTICES;
+}
+
+static void check_description(const mesh_document *document)
+{
+    ffd_error error = {0};
+    byte_buffer out = {0};
+    json_text json;
+    ffd_json_begin(&json, &out);
+    ffd_json_object(&json, NULL, false);
+    const ffd_status status = document->format->describe(document, &json, &error);
+    ffd_json_end(&json, '}');
+    PROMISE(status == FFD_OK && !out.failed, "cannot be described: %s", error.message);
+    ffd_buffer_free(&out);
+}
+
+/* False: refused. */
+static bool take_faces(const mesh_document *document, mesh_faces *faces)
+{
+    ffd_error error = {0};
+    memset(faces, 0, sizeof *faces);
+    const ffd_status status = document->format->faces(document, faces, &error);
+    if (status) {
+        check_refusal(status, &error);
+        return false;
+    }
+    PROMISE(faces->face_count == 0 || faces->start[0] == 0, "the first face starts at %zu", faces->start[0]);
+    for (size_t f = 0; f < faces->face_count; f++) {
+        PROMISE(faces->start[f] <= faces->start[f + 1], "face %zu ends before it starts", f);
+        for (size_t c = faces->start[f]; c < faces->start[f + 1]; c++)
+            PROMISE(faces->corners[c] < faces->vertex_count, "face %zu has vertex %u of %zu", f,
+                    faces->corners[c], faces->vertex_count);
+    }
+    return true;
+}
+
+static void check_same_faces(const mesh_faces *before, const mesh_document *document)
+{
+    mesh_faces after;
+    PROMISE(take_faces(document, &after), "the faces of what was saved are refused");
+    PROMISE(before->vertex_count == after.vertex_count && before->face_count == after.face_count,
+            "%zu vertices and %zu faces became %zu and %zu", before->vertex_count, before->face_count,
+            after.vertex_count, after.face_count);
+    PROMISE(before->face_count == 0 ||
+                (!memcmp(before->start, after.start, (before->face_count + 1) * sizeof *before->start) &&
+                 !memcmp(before->corners, after.corners,
+                         before->start[before->face_count] * sizeof *before->corners)),
+            "the faces changed");
+    ffd_mesh_faces_free(&after);
+}
+
+static ffd_status save(const trial *of, const deform_job *job, ffd_error *error)
+{
+    char path[WORK_PATH];
+    work_path(of->output, path);
+    const mesh_save_options options = {.path = path, .format = of->format, .force = true};
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (!status)
+        status = job->document->format->save(job->document, &options, output, &job->log, error);
+    if (!status)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status;
+}
+
+/* Deforms the document by of->lattice, saves it as of->output, and closes it. False: refused. */
+static bool deform(const trial *of, ffd_normals normals, mesh_document *document, uint64_t *moved)
+{
+    const char *const lattices[] = {of->lattice};
+    ffd_deform_desc desc;
+    ffd_job_result result;
+    deform_job job;
+    ffd_deform_desc_init(&desc);
+    desc.input.path = of->input;
+    desc.lattices = lattices;
+    desc.lattice_count = 1;
+    desc.normals = normals;
+    desc.threads = 1;
+    ffd_status status = ffd_deform_job_begin(&job, &desc, false, &result);
+    job.document = document;
+    if (!status)
+        status = ffd_chain_load(lattices, 1, &(chain_outside){0}, &job.chain, &result.error);
+    PROMISE(!status, "%s", result.error.message);
+    status = ffd_deform_job_run(&job, &result, &result.error);
+    if (!status)
+        status = save(of, &job, &result.error);
+    if (status)
+        check_refusal(status, &result.error);
+    *moved = result.moved;
+    return ffd_deform_job_end(&job, status, &result, NULL) == FFD_OK;
+}
+
+static void load_output(const trial *of, file_input *saved)
+{
+    char path[WORK_PATH];
+    ffd_error error;
+    work_path(of->output, path);
+    PROMISE(ffd_file_load(path, saved, &error) == FFD_OK, "%s", error.message);
+}
+
+/* Where nothing moves the file stays as it is, but for the names of its buffers. */
+static void check_empty_move(trial *of, const uint8_t *data, size_t size)
+{
+    uint64_t moved;
+    file_input saved;
+    mesh_document *const document = open_again(of, of->input, data, size);
+    work_path("empty.json", of->lattice);
+    if (!deform(of, FFD_NORMALS_TRANSFORM, document, &moved))
+        return;
+    PROMISE(moved == 0, "%llu vertices moved in an empty move", (unsigned long long)moved);
+    load_output(of, &saved);
+    mesh_document *const again = open_again(of, of->output, saved.data, saved.size);
+    again->format->close(again);
+    const bool same = saved.size == size && !memcmp(saved.data, data, size);
+    ffd_file_unload(&saved);
+    PROMISE(work_clear("out") > 1 || same, "an empty move changed the file");
+}
+
+/* The largest sum of a row's sizes. */
+static double norm_of(const double m[9])
+{
+    double most = 0;
+    for (int r = 0; r < 3; r++)
+        most = fmax(most, fabs(m[3 * r]) + fabs(m[3 * r + 1]) + fabs(m[3 * r + 2]));
+    return most;
+}
+
+/* The vertices of what was saved are where the lattice brings those of the file. */
+static void check_positions(const mesh_document *document, const double *expected)
+{
+    size_t number = 0;
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *const part = &document->parts[i];
+        const double size = part->identity ? 1 : norm_of(part->linear);
+        const double condition = part->identity || part->singular ? 1 : size * norm_of(part->inverse);
+        const double offset = part->identity ? 0 : vec_length(part->offset);
+        if (part->repeats_positions)
+            continue;
+        for (size_t v = 0; v < part->vertex_count; v++, number++) {
+            double p[3], placed[3];
+            document->format->read_positions(document, i, v, 1, p);
+            memcpy(placed, p, sizeof p);
+            ffd_part_place(part, placed, 1);
+            if (part->singular || !(condition < WORST_CONDITION))
+                continue;
+            const double error = POSITION_ERROR * condition * (size * vec_length(p) + offset + 1);
+            for (int a = 0; a < 3; a++)
+                PROMISE(!(fabs(placed[a] - expected[3 * number + (size_t)a]) > error),
+                        "vertex %zu has %c %.17g, not %.17g", number, "xyz"[a], placed[a],
+                        expected[3 * number + (size_t)a]);
+        }
+    }
+}
+
+/* Where the moved lattice brings the vertices of the file; NULL: refused. */
+static double *deformed_positions(const trial *of, const uint8_t *data, size_t size)
+{
+    const char *const lattices[] = {of->lattice};
+    lattice_chain chain = {0};
+    ffd_error error;
+    pass_totals totals;
+    mesh_document *document = open_again(of, of->input, data, size);
+    PROMISE(ffd_chain_load(lattices, 1, &(chain_outside){0}, &chain, &error) == FFD_OK &&
+                ffd_chain_place(&chain, document, 1, &error) == FFD_OK,
+            "no lattice");
+    double *const deformed = malloc((size_t)ffd_pass_vertex_count(document) * 3 * sizeof *deformed + 1);
+    const mesh_pass pass = {
+        .document = document, .chain = &chain, .links = 1, .threads = 1, .deformed = deformed};
+    PROMISE(deformed && ffd_pass_run(&pass, &totals, &error) == FFD_OK, "no pass");
+    ffd_chain_free(&chain);
+    ffd_source_close(&document);
+    return deformed;
+}
+
+static void check_move(trial *of, ffd_normals normals, const uint8_t *data, size_t size,
+                       const mesh_faces *faces)
+{
+    uint64_t moved;
+    file_input saved;
+    mesh_document *document = open_again(of, of->input, data, size);
+    work_path("moves.json", of->lattice);
+    if (deform(of, normals, document, &moved)) {
+        double *const expected = deformed_positions(of, data, size);
+        load_output(of, &saved);
+        document = open_again(of, of->output, saved.data, saved.size);
+        check_description(document);
+        check_positions(document, expected);
+        check_same_faces(faces, document);
+        ffd_source_close(&document);
+        ffd_file_unload(&saved);
+        free(expected);
+    }
+    work_clear("out");
+}
+
+static void prepare_files(void)
+{
+    static bool prepared;
+    char text[1024];
+    if (prepared)
+        return;
+    prepared = true;
+    work_write("empty.json", text, (size_t)snprintf(text, sizeof text, "%s]}", rest));
+    work_write("moves.json", text, (size_t)snprintf(text, sizeof text, "%s%s]}", rest, moves));
+}
+
+void fuzz_mesh(ffd_format format, const uint8_t *data, size_t size)
+{
+    trial of = {.format = format, .input = "m", .output = "out/m"};
+    mesh_faces faces;
+    ffd_error error = {0};
+    const uint8_t *const end = format == FFD_FORMAT_GLTF && size > 0 ? memchr(data, 0, size) : NULL;
+    prepare_files();
+    if (end) {
+        work_write("m.bin", end + 1, size - (size_t)(end + 1 - data));
+        size = (size_t)(end - data);
+    }
+    mesh_document *document = try_open(&of, of.input, data, size, &error);
+    if (!document)
+        return;
+    check_description(document);
+    const bool goes_on = is_small(document) && take_faces(document, &faces);
+    ffd_source_close(&document);
+    if (!goes_on)
+        return;
+    check_empty_move(&of, data, size);
+    check_move(&of, FFD_NORMALS_TRANSFORM, data, size, &faces);
+    check_move(&of, FFD_NORMALS_KEEP, data, size, &faces);
+    ffd_mesh_faces_free(&faces);
+}

@@ -1,0 +1,265 @@
+#!/usr/bin/env python3
+"""Writes the mesh files that fuzzing starts from, one for each thing that a reader knows.
+
+    python3 tests/fuzz/make_corpus.py FOLDER [MODELS]
+Makes FOLDER/obj, FOLDER/gltf and so on. With MODELS it makes them of the small models of that folder instead.
+glTF text is followed by a 0 and the bytes of its first external buffer, whose name becomes m.bin."""
+
+import base64
+import copy
+import json
+import os
+import re
+import struct
+import sys
+
+MOST_BYTES = 16384
+CORNERS = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+TRIANGLES = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4]
+
+
+class Builder:
+    """A glTF asset that grows accessor by accessor, in one buffer."""
+
+    CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
+    SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+
+    def __init__(self):
+        self.data = b""
+        self.asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                      "meshes": [], "buffers": [], "bufferViews": [], "accessors": []}
+
+    def view(self, data, **members):
+        self.data += b"\0" * (-len(self.data) % 4)
+        self.asset["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **members})
+        self.data += data
+        return len(self.asset["bufferViews"]) - 1
+
+    def accessor(self, rows, kind="VEC3", component=5126, bounds=False, **members):
+        code = self.CODES[component]
+        size = struct.calcsize(code) * self.SIZES[kind]
+        gap = -size % 4 if kind != "SCALAR" else 0
+        data = b"".join(struct.pack("<%d%s" % (self.SIZES[kind], code), *row) + b"\0" * gap for row in rows)
+        view = self.view(data, **({"byteStride": size + gap} if gap else {}))
+        self.asset["accessors"].append({"bufferView": view, "componentType": component, "count": len(rows),
+                                        "type": kind, **members})
+        if bounds:
+            columns = list(zip(*rows))
+            self.asset["accessors"][-1] |= {"min": list(map(min, columns)), "max": list(map(max, columns))}
+        return len(self.asset["accessors"]) - 1
+
+    def positions(self, rows=CORNERS, **members):
+        return self.accessor(rows, bounds=True, **members)
+
+    def indices(self, values=TRIANGLES, component=5123):
+        return self.accessor([(v,) for v in values], "SCALAR", component)
+
+    def mesh(self, *primitives, **members):
+        self.asset["meshes"].append({"primitives": list(primitives), **members})
+        return self
+
+    def finished(self, uri=None):
+        asset = copy.deepcopy(self.asset)
+        asset["buffers"] = [{**({"uri": uri} if uri else {}), "byteLength": len(self.data)}]
+        return asset
+
+
+def plain():
+    b = Builder()
+    normals = [tuple(c * 0.5773502588272095 for c in p) for p in CORNERS]
+    return b.mesh({"attributes": {"POSITION": b.positions(), "NORMAL": b.accessor(normals)}, "indices": b.indices()})
+
+
+def tangents():
+    b = Builder()
+    return b.mesh({"attributes": {"POSITION": b.positions(), "NORMAL": b.accessor([(0, 0, 1)] * 8),
+                                  "TANGENT": b.accessor([(1, 0, 0, -1)] * 8, "VEC4"),
+                                  "TEXCOORD_0": b.accessor([(0, 1)] * 8, "VEC2")}, "indices": b.indices(component=5121)})
+
+
+def modes():
+    b = Builder()
+    position = b.positions()
+    return b.mesh(*({"attributes": {"POSITION": position}, "mode": mode} for mode in range(7)))
+
+
+def interleaved():
+    b = Builder()
+    view = b.view(b"".join(struct.pack("<6f", *p, 0, 0, 1) for p in CORNERS), byteStride=24)
+    for offset in (0, 12):
+        b.asset["accessors"].append({"bufferView": view, "byteOffset": offset, "componentType": 5126, "count": 8,
+                                     "type": "VEC3"})
+    b.asset["accessors"][0] |= {"min": [-1] * 3, "max": [1] * 3}
+    return b.mesh({"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": b.indices(component=5125)})
+
+
+def sparse():
+    b = Builder()
+    for base in (True, False):
+        at = b.positions() if base else len(b.asset["accessors"])
+        if not base:
+            b.asset["accessors"].append({"componentType": 5126, "count": 8, "type": "VEC3", "min": [0] * 3, "max": [1] * 3})
+        b.asset["accessors"][at]["sparse"] = {
+            "count": 2, "indices": {"bufferView": b.view(struct.pack("<2H", 1, 6)), "componentType": 5123},
+            "values": {"bufferView": b.view(struct.pack("<6f", 0, 0, 1, 1, 1, 0))}}
+    return b.mesh({"attributes": {"POSITION": 0}}, {"attributes": {"POSITION": 1}})
+
+
+def quantized():
+    b = Builder()
+    b.asset |= {"extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"]}
+    b.asset["nodes"] = [{"mesh": 0, "scale": [0.01, 0.01, 0.01]}]
+    rows = [tuple(c * 100 for c in p) for p in CORNERS]
+    return b.mesh({"attributes": {"POSITION": b.accessor(rows, component=5122, bounds=True),
+                                  "NORMAL": b.accessor([(0, 0, 127)] * 8, component=5120, normalized=True)},
+                   "indices": b.indices()},
+                  {"attributes": {"POSITION": b.accessor([tuple((c + 1) * 127 for c in p) for p in CORNERS],
+                                                         component=5121, bounds=True, normalized=True)}})
+
+
+def morphs():
+    b = Builder()
+    targets = [{"POSITION": b.positions([(0, 0, 0.5)] * 8), "NORMAL": b.accessor([(0.1, 0, 0)] * 8)},
+               {"POSITION": b.positions([(0.25 * x, 0, 0) for x, _, _ in CORNERS])}]
+    return b.mesh({"attributes": {"POSITION": b.positions(), "NORMAL": b.accessor([(0, 0, 1)] * 8)},
+                   "indices": b.indices(), "targets": targets}, weights=[0.5, 0], extras={"targetNames": ["a", "b"]})
+
+
+def skin():
+    b = Builder()
+    b.asset["nodes"] = [{"mesh": 0, "skin": 0}, {"translation": [0, 0, 0.5], "children": [2]},
+                        {"rotation": [0, 0, 0.7071067811865476, 0.7071067811865476]}]
+    b.asset["scenes"] = [{"nodes": [0, 1]}]
+    matrices = [(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -0.5, 1), (0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, -0.5, 1)]
+    b.asset["skins"] = [{"joints": [1, 2], "skeleton": 1, "inverseBindMatrices": b.accessor(matrices, "MAT4")}]
+    return b.mesh({"attributes": {"POSITION": b.positions(), "JOINTS_0": b.accessor([(0, 1, 0, 0)] * 8, "VEC4", 5121),
+                                  "WEIGHTS_0": b.accessor([(0.25, 0.75, 0, 0)] * 8, "VEC4")}, "indices": b.indices()})
+
+
+def nodes():
+    b = Builder()
+    b.asset["nodes"] = [{"children": [1, 2, 3]}, {"mesh": 0, "scale": [-1, 2, 0.5]},
+                        {"mesh": 0, "matrix": [1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1]},
+                        {"mesh": 1, "scale": [0, 0, 0]}, {"mesh": 1, "name": "hidden"}]
+    position = b.positions()
+    normal = b.accessor([(0, 0, 1)] * 8)
+    for _ in range(2):
+        b.mesh({"attributes": {"POSITION": position, "NORMAL": normal}, "indices": b.indices(), "material": 0})
+    b.asset["materials"] = [{"name": "m"}]
+    return b
+
+
+def instanced():
+    b = Builder()
+    b.asset["extensionsUsed"] = ["EXT_mesh_gpu_instancing"]
+    b.asset["nodes"] = [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {
+        "TRANSLATION": b.accessor([(0, 0, 0), (4, 0, 0)])}}}}]
+    return b.mesh({"attributes": {"POSITION": b.positions()}})
+
+
+def strange():
+    """What is carried through: extras, unknown extensions, long integers, names, images."""
+    b = plain()
+    b.asset |= {"extensionsUsed": ["ACME_x"], "extensions": {"ACME_x": {"n": 123456789012345678901234567890}},
+                "extras": {"a\u00e4\n": [None, True, -0.0, 1e-7]}, "images": [{"uri": "none.png"}]}
+    del b.asset["scene"]
+    return b
+
+
+ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, nodes, instanced, strange]
+
+
+def glb_of(asset, data):
+    text = json.dumps(asset, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    data += b"\0" * (-len(data) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
+    if data:
+        chunks += struct.pack("<II", len(data), 0x004E4942) + data
+    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+
+
+def data_uri(data):
+    return "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+
+
+CUBE = "".join("v %g %g %g\n" % p for p in CORNERS)
+OBJ = {
+    "plain": CUBE + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\n",
+    "normals": "vn 0 0 1\n" + CUBE + "vn 1 0 0\nvt 0 1\nf 1/1/1 2/1/1 4/1/2\nf 1//1 3//2 4//2\nf 2 3/1 4\n",
+    "negative": CUBE + "vn 0 0 1\nvn 0 1 0\nf -1//-1 -2//-1 -3//-2\nv 0 0 0\nf -1 -2 -3\nl 1 -1\np -1\n",
+    "words": "mtllib m.mtl\no a\ng b c\ns 1\nusemtl d\n" + CUBE + "s off\nf 1 2 3\ng e\nusemtl f\nf 4 5 6 7\n#x\n",
+    "colours": "v 0 0 0 1 0.5 0\nv 1 0 0 1\nv 1e0 .5 -0.0 0 0 1\nf 1 2 3\n",
+    "ends": "\ufeffv 0 0 0\r\nv 1 0 0\rv 0 \\\n 1 0\n\n\tv 1 1 \\\r\n1\nf 1 \\\n2 3\r\nf 2 3 4",
+    "numbers": "v 1e-400 +1 -1e308\nv 0.1234567 0.12345678901234567 1E5\nv 00001 -.5 5.\nf 1 2 3\n",
+    "not-finite": "v nan inf -inf\nv 0 0 0\nf 1 2 2\n",
+    "free-form": CUBE + "cstype bspline\ndeg 3 3\nsurf 0 1 0 1 1 2 3 4 5 6 7 8\nparm u 0 0 0 0 1 1 1 1\nend\ncurv 0 1 1 2 3 4\n",
+    "many-normals": CUBE + "vn 0 0 1\n" + "f 1//1 2//1 4//1 3//1\nf 5//1 6//1 8//1 7//1\nf -8//-1 -7//-1 -3//-1 -4//-1\n",
+}
+
+
+def ply_files():
+    faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4)]
+    for name, order, kind, code in (("ascii", None, "float", "f"), ("ascii-double", None, "double", "d"),
+                                    ("little", "<", "float", "f"), ("big", ">", "double", "d")):
+        layout = {None: "ascii", "<": "binary_little_endian", ">": "binary_big_endian"}[order]
+        header = ("ply\nformat %s 1.0\ncomment c\nobj_info o\nelement vertex 8\n" % layout
+                  + "".join("property %s %s\n" % (kind, axis) for axis in ("x", "y", "z", "nx", "ny", "nz"))
+                  + "property uchar red\nelement face 3\nproperty list uchar int vertex_indices\n"
+                  + "element extra 1\nproperty list ushort double l\nproperty int8 i\nend_header\n").encode()
+        if order is None:
+            body = "".join("%r %r %r 0 0 1 255\n" % p for p in CORNERS)
+            body = (body + "".join("4 %d %d %d %d\n" % f for f in faces) + "2 0.5 1e9 -7\n").encode()
+        else:
+            body = b"".join(struct.pack(order + "6" + code + "B", *p, 0, 0, 1, 255) for p in CORNERS)
+            body += b"".join(struct.pack(order + "B4i", 4, *f) for f in faces) + struct.pack(order + "Hddb", 2, 0.5, 1e9, -7)
+        yield name, header + body
+    yield "plain", b"ply\r\nformat ascii 1.0\r\nelement vertex 1\r\nproperty double x\r\nproperty float y\r\n" \
+                   b"property short z\r\nelement face 0\r\nproperty list uchar uint vertex_index\r\nend_header\r\n1 2 3\r\n"
+
+
+def crafted():
+    for make in ASSETS:
+        asset = make()
+        name = make.__name__
+        yield "glb", name, glb_of(asset.finished(), asset.data)
+        yield "gltf", name, json.dumps(asset.finished("m.bin"), indent=1).encode() + b"\0" + asset.data
+        if make is plain:
+            yield "gltf", "data", json.dumps(asset.finished(data_uri(asset.data))).encode()
+            yield "glb", "none", glb_of({"asset": {"version": "2.0"}}, b"")
+    for name, text in OBJ.items():
+        yield "obj", name, text.encode()
+    for name, data in ply_files():
+        yield "ply", name, data
+
+
+def of_models(models):
+    for folder, _, names in sorted(os.walk(models)):
+        for name in sorted(names):
+            path = os.path.join(folder, name)
+            stem, ending = os.path.splitext(name)
+            kind = ending[1:].lower()
+            if kind not in ("obj", "gltf", "glb", "ply", "off", "stl") or os.path.getsize(path) > MOST_BYTES:
+                continue
+            with open(path, "rb") as file:
+                data = file.read()
+            buffer = re.search(rb'"uri"\s*:\s*"([^":]*\.bin)"', data) if kind == "gltf" else None
+            if buffer:
+                try:
+                    with open(os.path.join(folder, buffer.group(1).decode()), "rb") as file:
+                        data = data.replace(buffer.group(1), b"m.bin") + b"\0" + file.read()
+                except OSError:
+                    continue
+            if len(data) <= MOST_BYTES:
+                yield kind, stem, data
+
+
+def main():
+    folder = sys.argv[1]
+    for kind, name, data in of_models(sys.argv[2]) if len(sys.argv) > 2 else crafted():
+        os.makedirs(os.path.join(folder, kind), exist_ok=True)
+        with open(os.path.join(folder, kind, name), "wb") as file:
+            file.write(data)
+
+
+main()

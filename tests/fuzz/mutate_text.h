@@ -1,0 +1,28 @@
+/* mutate_text.h - changes of an input's numbers and bytes, for the mutations of all targets. */
+#ifndef FFD_TESTS_FUZZ_MUTATE_TEXT_H
+#define FFD_TESTS_FUZZ_MUTATE_TEXT_H
+
+#include "../support/draw.h"
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct mutant {
+    uint8_t *data;
+    size_t size, capacity;
+    size_t text; /* leading bytes that are text */
+    draw random;
+} mutant;
+
+/* Below count, which is not 0. */
+size_t mutant_pick(mutant *m, size_t count);
+
+/* Puts other bytes in the place of length ones; no change where there is no room. */
+void mutant_replace(mutant *m, size_t at, size_t length, const void *with, size_t with_length);
+
+double mutant_changed_number(mutant *m, double value);
+
+/* A number of the text: changed; put in the place of another. Nothing where the text has none. */
+void mutant_change_number(mutant *m);
+void mutant_copy_number(mutant *m);
+
+#endif
