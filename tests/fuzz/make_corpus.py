@@ -218,6 +218,20 @@ def ply_files():
                    b"property short z\r\nelement face 0\r\nproperty list uchar uint vertex_index\r\nend_header\r\n1 2 3\r\n"
 
 
+OFF = {
+    "plain": "OFF\n8 3 0\n" + "".join("%g %g %g\n" % p for p in CORNERS) + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n",
+    "colours": "COFF # c\n\n3 1 3\n0 0 0 1 0 0 1\n1 0 0 0 255 0 255\n# x\n0 1 0 0.5 0.5 0.5 1\n3 0 1 2 0.1 0.2 0.3\n",
+    "normals": "NOFF\r\n3 1 0\r\n0 0 0 0 0 1\r\n1 0 0 0 0 1\r\n0 1 0 0 1 0\r\n3 0 1 2 255 0 0\r\n",
+    "headless": "3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2",
+}
+
+STL_TEXT = ("solid a b\n" + "".join(
+    " facet normal 0 0 1\n  outer loop\n" + "".join("   vertex %g %g %ge0\n" % CORNERS[c] for c in TRIANGLES[i:i + 3])
+    + "  endloop\n endfacet\n" for i in range(0, 18, 3)) + "endsolid a b\n")
+STL_BYTES = b"header".ljust(80, b" ") + struct.pack("<I", 6) + b"".join(
+    struct.pack("<12fH", 0, 0, 1, *(x for c in TRIANGLES[i:i + 3] for x in CORNERS[c]), i) for i in range(0, 18, 3))
+
+
 def crafted():
     for make in ASSETS:
         asset = make()
@@ -231,6 +245,10 @@ def crafted():
         yield "obj", name, text.encode()
     for name, data in ply_files():
         yield "ply", name, data
+    for name, text in OFF.items():
+        yield "off", name, text.encode()
+    yield "stl", "text", STL_TEXT.encode()
+    yield "stl", "bytes", STL_BYTES
 
 
 def of_models(models):

@@ -29,9 +29,12 @@ static stored_bounds find_bounds(const gltf_document *d, const gltf_version *ver
     return bounds;
 }
 
-/* Whether the file's number, read in the accessor's type, is the wanted one. */
+/* Whether the file's number, read in the accessor's type, is the wanted one, or the wanted one is none that
+   JSON can hold (a normal or tangent of an input that is not valid). */
 static bool says(double number, double wanted, int component)
 {
+    if (!isfinite(wanted))
+        return true;
     const double read = component == GLTF_FLOAT && fabs(number) <= FLT_MAX ? (float)number : number;
     return !(read < wanted) && !(read > wanted);
 }

@@ -149,12 +149,11 @@ static ffd_status add_property(header_reader *r, const ply_property *property)
 {
     ply_header *h = r->header;
     ply_element *element = &h->elements[h->element_count - 1];
-    const ply_property *own = h->properties + (h->property_count - element->property_count);
-    for (size_t i = 0; i < element->property_count; i++)
-        if (ffd_text_same(own[i].name, property->name))
+    for (size_t i = h->property_count - element->property_count; i < h->property_count; i++)
+        if (ffd_text_same(h->properties[i].name, property->name))
             return FAIL(r, r->line, "a second property %.*s of element %.*s: the first is on line %zu",
                         ffd_text_shown(property->name), property->name.first, ffd_text_shown(element->name),
-                        element->name.first, own[i].line);
+                        element->name.first, h->properties[i].line);
     if (h->property_count == PLY_DECLARATIONS_MAX)
         return refuse_too_many(r);
     if (!ffd_grow((void **)&h->properties, &h->property_capacity, h->property_count + 1,
