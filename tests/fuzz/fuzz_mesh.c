@@ -14,6 +14,8 @@
 #define MOST_VERTICES 4096
 /* What a position of a file may be off by, relative to the sizes it is made of: float32, there and back. */
 #define POSITION_ERROR 1e-6
+/* The same of quantized positions: the quantum of unsigned bytes that are not normalized. */
+#define QUANTUM 1.0
 /* Nothing is said of positions behind matrices that lose more digits. */
 #define WORST_CONDITION 1e6
 
@@ -21,6 +23,7 @@ typedef struct trial {
     ffd_format format;
     ffd_space space;
     ffd_normals normals;
+    bool is_quantized;          /* or may be so */
     const char *input, *output; /* names in the work folder */
     char lattice[WORK_PATH];
 } trial;
@@ -220,8 +223,10 @@ static double condition_of(const mesh_part *part)
     return norm_of(part->linear) * norm_of(part->inverse);
 }
 
-static void check_part(const mesh_document *document, size_t part_number, const double *expected)
+static void check_part(const trial *of, const mesh_document *document, size_t part_number,
+                       const double *expected)
 {
+    const double quantum = of->is_quantized ? QUANTUM : 0;
     const mesh_part *const part = &document->parts[part_number];
     const double condition = condition_of(part);
     const double size = part->identity ? 1 : norm_of(part->linear);
@@ -231,7 +236,8 @@ static void check_part(const mesh_document *document, size_t part_number, const 
         document->format->read_positions(document, part_number, v, 1, p);
         memcpy(placed, p, sizeof p);
         ffd_part_place(document, part_number, v, 1, placed);
-        const double error = POSITION_ERROR * condition * (size * vec_length(p) + offset + 1);
+        const double error =
+            condition * (POSITION_ERROR * (size * vec_length(p) + offset + 1) + quantum * size);
         for (size_t a = 0; a < 3; a++)
             PROMISE(!(fabs(placed[a] - expected[3 * v + a]) > error),
                     "vertex %zu of part %zu has %c %.17g, not %.17g", v, part_number, "xyz"[a], placed[a],
@@ -240,11 +246,11 @@ static void check_part(const mesh_document *document, size_t part_number, const 
 }
 
 /* The vertices of what was saved are where the lattice brings those of the file. */
-static void check_positions(const mesh_document *document, const double *expected)
+static void check_positions(const trial *of, const mesh_document *document, const double *expected)
 {
     for (size_t i = 0; i < document->part_count; i++)
         if (!document->parts[i].repeats_positions) {
-            check_part(document, i, expected);
+            check_part(of, document, i, expected);
             expected += 3 * document->parts[i].vertex_count;
         }
 }
@@ -282,7 +288,7 @@ static void check_move(trial *of, const uint8_t *data, size_t size, const mesh_f
         check_description(document);
         /* In the scene meshes may have become several, whose vertices have other numbers. */
         if (!is_gltf(of->format) || of->space == FFD_SPACE_MESH)
-            check_positions(document, expected);
+            check_positions(of, document, expected);
         check_same_faces(of, faces, document);
         ffd_source_close(&document);
         ffd_file_unload(&saved);
@@ -300,6 +306,15 @@ static void prepare_files(void)
     prepared = true;
     work_write("empty.json", text, (size_t)snprintf(text, sizeof text, "%s]}", rest));
     work_write("moves.json", text, (size_t)snprintf(text, sizeof text, "%s%s]}", rest, moves));
+}
+
+static bool holds(const uint8_t *data, size_t size, const char *text)
+{
+    const size_t length = strlen(text);
+    for (size_t i = 0; i + length <= size; i++)
+        if (!memcmp(data + i, text, length))
+            return true;
+    return false;
 }
 
 static void run(trial *of, const uint8_t *data, size_t size)
@@ -328,6 +343,7 @@ void fuzz_mesh(ffd_format format, const uint8_t *data, size_t size)
         work_write("m.bin", end + 1, size - (size_t)(end + 1 - data));
         size = (size_t)(end - data);
     }
+    of.is_quantized = is_gltf(format) && holds(data, size, "KHR_mesh_quantization");
     run(&of, data, size);
     of.space = FFD_SPACE_MESH;
     of.normals = is_gltf(format) ? FFD_NORMALS_TRANSFORM : FFD_NORMALS_KEEP;
