@@ -444,6 +444,108 @@ def directions_in_other_integers(run):
             check(abs(sum(x * x for x in n) - 1) < 1e-6, f"{n} has no unit length")
 
 
+def other_users():
+    """name -> a maker of a file whose POSITION 0 shares bytes, and what it is expected to stay in: in place or not."""
+    points = integers(5122, 0.5)
+    node = in_scene(5122, False)
+    size = 6
+
+    def maker(nodes=1):
+        made = Maker(nodes=[{**node, "mesh": i} for i in range(nodes)], scenes=[{"nodes": list(range(nodes))}])
+        made.data = b""
+        view = made.view(packed(points, 5122) + b"\0" * 8)
+        made.accessor(len(points), 5122, bufferView=view, **bounds(points))
+        return made
+
+    made = maker()
+    made.accessor(2 * len(points), 5123, "SCALAR", bufferView=0, byteOffset=2)
+    made.mesh({"POSITION": 0})
+    yield "an accessor that nothing uses", made, False
+    made = maker()
+    made.accessor(4, 5123, "SCALAR", bufferView=0, byteOffset=size * len(points))
+    made.mesh({"POSITION": 0})
+    made.asset["meshes"][0]["primitives"][0]["indices"] = 1
+    yield "indices behind the positions", made, True
+    made = maker()
+    made.accessor(4, 5123, "SCALAR", bufferView=0, byteOffset=size * len(points) - 2)
+    made.mesh({"POSITION": 0}, {"POSITION": made.dense([(0, 0, 0)] * 65536, 5122, **bounds([(0, 0, 0)]))})
+    made.asset["meshes"][0]["primitives"][1]["indices"] = 1
+    yield "indices that begin in the last number", made, False
+    made = maker(2)
+    made.accessor(len(points) - 1, 5122, bufferView=0, byteOffset=size, **bounds(points[1:]))
+    made.mesh({"POSITION": 0})
+    made.mesh({"POSITION": 1})
+    yield "positions that begin one vertex later", made, False
+    made = maker(2)
+    made.accessor(len(points), 5122, bufferView=0, **bounds(points))
+    made.mesh({"POSITION": 0})
+    made.mesh({"POSITION": 1})
+    yield "the same positions under another number", made, True
+    made = maker(2)
+    made.accessor(len(points), 5122, bufferView=0, normalized=True, **bounds(points))
+    made.mesh({"POSITION": 0})
+    made.mesh({"POSITION": 1})
+    made.asset["nodes"][1] = {**in_scene(5122, True), "mesh": 1}
+    yield "the same bytes as normalized numbers", made, False
+    made = maker()
+    made.mesh({"POSITION": 0}, {"POSITION": made.dense(points, 5122, **bounds(points)), "_OLD": 0})
+    yield "an attribute of another name", made, False
+    made = maker()
+    made.mesh({"POSITION": 0}, {"POSITION": made.dense(points, 5122, **bounds(points)), "NORMAL": 0})
+    yield "normals", made, False
+    made = maker()
+    made.asset["extensions"] = {"EXT_structural_metadata": {"propertyTables": [{"count": 1, "properties": {"a": {"values": 0}}}]}}
+    made.mesh({"POSITION": 0})
+    yield "a property table", made, False
+    made = maker()
+    made.asset["accessors"].append({"componentType": 5122, "count": 9, "type": "VEC3", "sparse": {
+        "count": 1, "indices": {"bufferView": made.view(b"\0\0"), "componentType": 5121},
+        "values": {"bufferView": 0}}})
+    made.mesh({"POSITION": 0})
+    yield "values of a sparse accessor", made, False
+    rows = [struct.pack("<3h3h", *p, *(x // 2 for x in p)) for p in points]
+    made = maker(2)
+    view = made.view(b"".join(rows), byteStride=12)
+    for i in range(2):
+        half = [tuple(x // (i + 1) for x in p) for p in points]
+        made.mesh({"POSITION": made.accessor(len(points), 5122, bufferView=view, byteOffset=6 * i, **bounds(half))})
+    yield "positions between positions", made, True
+
+
+@case
+def bytes_that_others_use(run):
+    """Integers are written in place only where nothing else reads these bytes, or all want the same."""
+    moves = lattice(low=(-1,) * 3, high=(1,) * 3, moves=[{"by": [0.1, -0.2, 0.15]}])
+    for what, maker, in_place in other_users():
+        for container in CONTAINERS:
+            before, after, _ = deform_with_twin(run, maker.write(run, "in", container), moves)
+            added = len(after.asset["accessors"]) - len(before.asset["accessors"])
+            if in_place:
+                equal(added, 0, f"{what}: new accessors")
+                continue
+            check(added > 0, f"{what}: no new accessor")
+            stayed = {0}.union(*(p["attributes"].values() for p in after.primitives()), [
+                p["indices"] for p in after.primitives() if "indices" in p])
+            for index in (i for i in stayed if i < len(before.asset["accessors"])):
+                if index == 0 or index not in deformed_accessors(before.asset):
+                    equal(after.stored(index), before.stored(index), f"{what}: accessor {index}")
+        check_unmoved(run, "in.gltf")
+
+
+@case
+def positions_that_an_animation_reads(run):
+    """The output of a sampler and the times of one keep their numbers."""
+    for key, kind in (("output", "VEC3"), ("input", "VEC3")):
+        points = [tuple(float(x) for x in p) for p in POINTS]
+        maker = Maker()
+        maker.mesh({"POSITION": maker.dense(points, FLOAT, kind, **bounds(points))})
+        times = maker.dense([(float(i),) for i in range(len(points))], FLOAT, "SCALAR", min=[0], max=[5])
+        maker.asset["animations"] = [{"channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}],
+                                      "samplers": [{"input": times, "output": times, key: 0}]}]
+        before, after, _ = deform_with_twin(run, maker.write(run, "in", "glb"), ALL)
+        equal(after.stored(0), before.stored(0), key)
+
+
 @case
 def models_like_their_float_twins(run):
     """Every sample model with integers, sparse data or none at all; those that need more are left out."""

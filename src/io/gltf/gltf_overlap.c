@@ -63,6 +63,17 @@ static void add_compressed(const gltf_document *d, uint32_t view, user_list *lis
     }
 }
 
+/* Keys of numbers of bufferViews: of images, sparse and compressed data; of property tables in
+   EXT_structural_metadata. */
+static bool names_view(const json_span *tree, uint32_t value)
+{
+    static const char *const keys[] = {"bufferView", "values", "arrayOffsets", "stringOffsets"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (ffd_json_span_key_is(tree, value, keys[i]))
+            return true;
+    return false;
+}
+
 /* Marks the views that something else than an accessor names. */
 static void mark_other_views(const gltf_document *d, bool *others)
 {
@@ -70,7 +81,7 @@ static void mark_other_views(const gltf_document *d, bool *others)
     const uint32_t accessors = ffd_json_span_member(tree, 0, "accessors");
     for (uint32_t v = 1; v < tree->count; v++) {
         double view;
-        if (tree->values[v].kind != JSON_NUMBER || !ffd_json_span_key_is(tree, v, "bufferView") ||
+        if (tree->values[v].kind != JSON_NUMBER || !names_view(tree, v) ||
             tree->values[tree->values[v].parent].parent == accessors)
             continue;
         if (ffd_json_span_number(tree, v, &view) && view >= 0 && view < (double)d->model.view_count)
