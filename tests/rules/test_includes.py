@@ -33,6 +33,7 @@ LAYERS = {
 OUTSIDE = [
     (r"OpenMesh/", {"io/openmesh"}),
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf"}),
+    (r"draco/|meshoptimizer\.h", {"io/gltf"}),
     (r"jansson\.h", {"lattice", "io/gltf", "job"}),
     (r"charconv", {"base"}),
     (r"xxhash\.h|xxh3\.h", {"base"}),

@@ -1,0 +1,40 @@
+/* draco_sample.h - meshes compressed by the Draco library, for tests. */
+#ifndef TESTS_DRACO_SAMPLE_H
+#define TESTS_DRACO_SAMPLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Ids of the attributes that a sample has, as far as its mesh has them. */
+enum { SAMPLE_POSITION = 3, SAMPLE_NORMAL = 7, SAMPLE_JOINTS = 300, SAMPLE_FACTOR = 8, SAMPLE_TEXCOORD = 9 };
+
+typedef struct sample_mesh {
+    size_t point_count, triangle_count;
+    const float *positions;    /* 3 a point */
+    const float *normals;      /* 3 a point, or NULL */
+    const float *texcoords;    /* 2 a point, or NULL */
+    const uint16_t *joints;    /* 4 a point, or NULL */
+    const uint8_t *factors;    /* 1 a point, normalized, or NULL */
+    const uint32_t *triangles; /* 3 each */
+} sample_mesh;
+
+typedef struct sample_options {
+    bool edgebreaker; /* else the sequential method, which keeps the order of points and triangles */
+    int bits;         /* of quantized numbers; 0: floats as they are */
+    bool metadata;    /* with some metadata */
+    bool as_points;   /* a point cloud instead of a mesh */
+} sample_options;
+
+/* Compresses a mesh; NULL where the library fails. Free the bytes with free(). */
+unsigned char *make_draco(const sample_mesh *mesh, const sample_options *options, size_t *size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,342 @@
+/* test_draco.c - decoding of Draco data: both methods, types, what the file says against what the data says,
+   and data that is broken. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/draco_sample.h"
+#include "io/gltf/draco.h"
+#include "io/gltf/gltf_model.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIDE 9
+#define POINTS (SIDE * SIDE)
+#define TRIANGLES (2 * (SIDE - 1) * (SIDE - 1))
+#define MUTATIONS 4000
+
+typedef struct grid {
+    float positions[3 * POINTS], normals[3 * POINTS], texcoords[2 * POINTS];
+    uint16_t joints[4 * POINTS];
+    uint8_t factors[POINTS];
+    uint32_t triangles[3 * TRIANGLES];
+    sample_mesh mesh;
+} grid;
+
+static uint32_t next_number(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(*state >> 33);
+}
+
+static void make_grid(grid *g)
+{
+    for (uint32_t i = 0; i < POINTS; i++) {
+        const float x = (float)(i % SIDE) / 8, y = (float)(i / SIDE) / 8;
+        const float position[3] = {x, y, x * y}, normal[3] = {0.6f, 0, 0.8f};
+        memcpy(g->positions + 3 * i, position, sizeof position);
+        memcpy(g->normals + 3 * i, normal, sizeof normal);
+        g->texcoords[2 * i] = x / 2;
+        g->texcoords[2 * i + 1] = y * y;
+        for (uint32_t c = 0; c < 4; c++)
+            g->joints[4 * i + c] = (uint16_t)(i + 60 * c);
+        g->factors[i] = (uint8_t)(3 * i);
+    }
+    uint32_t *to = g->triangles;
+    for (uint32_t y = 0; y + 1 < SIDE; y++)
+        for (uint32_t x = 0; x + 1 < SIDE; x++) {
+            const uint32_t i = y * SIDE + x;
+            const uint32_t square[6] = {i, i + 1, i + SIDE, i + 1, i + SIDE + 1, i + SIDE};
+            memcpy(to, square, sizeof square);
+            to += 6;
+        }
+    g->mesh = (sample_mesh){POINTS,       TRIANGLES, g->positions, g->normals,
+                            g->texcoords, g->joints, g->factors,   g->triangles};
+}
+
+static const draco_claim grid_claim = {POINTS, 3 * TRIANGLES};
+
+static draco_mesh *decode_grid(const sample_options *options)
+{
+    static grid g;
+    ffd_error error = {0};
+    size_t size;
+    draco_mesh *mesh = NULL;
+    make_grid(&g);
+    unsigned char *bytes = make_draco(&g.mesh, options, &size);
+    assert_non_null(bytes);
+    if (ffd_draco_decode(bytes, size, &grid_claim, &mesh, &error))
+        fail_msg("%s", error.message);
+    free(bytes);
+    assert_int_equal(ffd_draco_point_count(mesh), POINTS);
+    assert_int_equal(ffd_draco_corner_count(mesh), 3 * TRIANGLES);
+    return mesh;
+}
+
+static void read_attribute(const draco_mesh *mesh, uint32_t id, int component, int components, size_t stride,
+                           void *bytes)
+{
+    ffd_error error = {0};
+    if (ffd_draco_attribute(mesh, id, component, components, stride, bytes, &error))
+        fail_msg("%s", error.message);
+}
+
+static void sequential_data_comes_back_as_it_was(void **state)
+{
+    (void)state;
+    static grid g;
+    const sample_options options = {.metadata = true};
+    draco_mesh *mesh = decode_grid(&options);
+    float positions[3 * POINTS], texcoords[2 * POINTS], factors[POINTS];
+    uint16_t joints[4 * POINTS];
+    unsigned char spread[8 * POINTS], narrow[3 * TRIANGLES];
+    uint32_t corners[3 * TRIANGLES];
+    make_grid(&g);
+    read_attribute(mesh, SAMPLE_POSITION, GLTF_FLOAT, 3, 12, positions);
+    read_attribute(mesh, SAMPLE_TEXCOORD, GLTF_FLOAT, 2, 8, texcoords);
+    read_attribute(mesh, SAMPLE_JOINTS, GLTF_U16, 4, 8, joints);
+    assert_memory_equal(positions, g.positions, sizeof positions);
+    assert_memory_equal(texcoords, g.texcoords, sizeof texcoords);
+    assert_memory_equal(joints, g.joints, sizeof joints);
+    memset(spread, 0xee, sizeof spread);
+    read_attribute(mesh, SAMPLE_FACTOR, GLTF_U8, 1, 8, spread);
+    read_attribute(mesh, SAMPLE_FACTOR, GLTF_FLOAT, 1, 4, factors);
+    for (size_t i = 0; i < POINTS; i++) {
+        assert_int_equal(spread[8 * i], g.factors[i]);
+        assert_int_equal(spread[8 * i + 1], 0xee);
+        assert_true(fabsf(factors[i] - (float)g.factors[i] / 255) <= 0); /* normalized */
+    }
+    assert_int_equal(ffd_draco_indices(mesh, GLTF_U32, (unsigned char *)corners, NULL), FFD_OK);
+    assert_memory_equal(corners, g.triangles, sizeof corners);
+    assert_int_equal(ffd_draco_indices(mesh, GLTF_U8, narrow, NULL), FFD_OK);
+    for (size_t i = 0; i < 3 * TRIANGLES; i++)
+        assert_int_equal(narrow[i], g.triangles[i]);
+    ffd_draco_free(mesh);
+}
+
+/* The original point that stands where a decoded one does. */
+static uint32_t find_point(const grid *g, const float position[3])
+{
+    for (uint32_t i = 0; i < POINTS; i++) {
+        float distance = 0;
+        for (size_t c = 0; c < 3; c++)
+            distance += fabsf(g->positions[3 * i + c] - position[c]);
+        if (distance < 0.01f)
+            return i;
+    }
+    fail_msg("a point at %g %g %g", (double)position[0], (double)position[1], (double)position[2]);
+    return 0;
+}
+
+/* Edgebreaker changes the order of points and triangles, and quantizes. */
+static void edgebreaker_data_comes_back_within_its_bits(void **state)
+{
+    (void)state;
+    static grid g;
+    const sample_options options = {.edgebreaker = true, .bits = 12};
+    draco_mesh *mesh = decode_grid(&options);
+    float positions[3 * POINTS], normals[3 * POINTS], texcoords[2 * POINTS];
+    uint16_t joints[4 * POINTS];
+    uint32_t corners[3 * TRIANGLES], points[POINTS];
+    size_t area = 0;
+    make_grid(&g);
+    read_attribute(mesh, SAMPLE_POSITION, GLTF_FLOAT, 3, 12, positions);
+    read_attribute(mesh, SAMPLE_NORMAL, GLTF_FLOAT, 3, 12, normals);
+    read_attribute(mesh, SAMPLE_TEXCOORD, GLTF_FLOAT, 2, 8, texcoords);
+    read_attribute(mesh, SAMPLE_JOINTS, GLTF_U16, 4, 8, joints);
+    for (size_t i = 0; i < POINTS; i++) {
+        points[i] = find_point(&g, positions + 3 * i);
+        assert_memory_equal(joints + 4 * i, g.joints + 4 * points[i], 8);
+        for (size_t c = 0; c < 3; c++)
+            assert_true(fabsf(normals[3 * i + c] - g.normals[3 * points[i] + c]) < 0.01f);
+        for (size_t c = 0; c < 2; c++)
+            assert_true(fabsf(texcoords[2 * i + c] - g.texcoords[2 * points[i] + c]) < 0.01f);
+    }
+    assert_int_equal(ffd_draco_indices(mesh, GLTF_U32, (unsigned char *)corners, NULL), FFD_OK);
+    for (size_t t = 0; t < TRIANGLES; t++)
+        for (size_t i = 0; i < TRIANGLES; i++)
+            for (size_t turn = 0; turn < 3; turn++)
+                area += points[corners[3 * t]] == g.triangles[3 * i + turn] &&
+                        points[corners[3 * t + 1]] == g.triangles[3 * i + (turn + 1) % 3] &&
+                        points[corners[3 * t + 2]] == g.triangles[3 * i + (turn + 2) % 3];
+    assert_int_equal(area, TRIANGLES); /* each triangle once, none turned over */
+    ffd_draco_free(mesh);
+}
+
+static void what_does_not_fit_the_accessor_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        uint32_t id;
+        int component, components;
+        const char *message;
+    } cases[] = {
+        {SAMPLE_POSITION, GLTF_FLOAT, 2,
+         "attribute 3 of the Draco data has 3 components, its accessor has 2"},
+        {77, GLTF_FLOAT, 3, "the Draco data has no attribute 77"},
+        {SAMPLE_JOINTS, GLTF_U8, 4,
+         "point 76 of the Draco data has a value in attribute 300 that the accessor's component type does "
+         "not "
+         "hold"},
+    };
+    const sample_options options = {0};
+    draco_mesh *mesh = decode_grid(&options);
+    unsigned char bytes[16 * POINTS];
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ffd_error error = {0};
+        assert_int_equal(ffd_draco_attribute(mesh, cases[i].id, cases[i].component, cases[i].components, 16,
+                                             bytes, &error),
+                         FFD_E_INVALID);
+        assert_string_equal(error.message, cases[i].message);
+    }
+    ffd_draco_free(mesh);
+}
+
+static void check_refusal(const unsigned char *bytes, size_t size, const draco_claim *claim,
+                          ffd_status status, const char *message)
+{
+    ffd_error error = {0};
+    draco_mesh *mesh = NULL;
+    assert_int_equal(ffd_draco_decode(bytes, size, claim, &mesh, &error), status);
+    assert_null(mesh);
+    assert_string_equal(error.message, message);
+}
+
+static void what_the_file_says_otherwise_is_refused(void **state)
+{
+    (void)state;
+    static grid g;
+    make_grid(&g);
+    for (int edgebreaker = 0; edgebreaker < 2; edgebreaker++) {
+        const sample_options options = {.edgebreaker = edgebreaker, .bits = 11};
+        const draco_claim fewer = {POINTS - 1, 3 * TRIANGLES}, more = {POINTS + 1, UINT64_MAX},
+                          other = {POINTS, 3 * TRIANGLES + 3};
+        size_t size;
+        unsigned char *bytes = make_draco(&g.mesh, &options, &size);
+        assert_non_null(bytes);
+        check_refusal(bytes, size, &fewer, FFD_E_INVALID,
+                      "the Draco data has 81 points, its accessors have 80 elements");
+        check_refusal(bytes, size, &more, FFD_E_INVALID,
+                      "the Draco data has 81 points, its accessors have 82 elements");
+        check_refusal(bytes, size, &other, FFD_E_INVALID,
+                      "the Draco data has 128 triangles, its indices have 387 elements");
+        free(bytes);
+    }
+}
+
+static void other_data_is_refused(void **state)
+{
+    (void)state;
+    static grid g;
+    make_grid(&g);
+    const sample_options cloud = {.as_points = true, .bits = 8}, plain = {0};
+    size_t size;
+    unsigned char *bytes = make_draco(&g.mesh, &cloud, &size);
+    assert_non_null(bytes);
+    check_refusal(bytes, size, &grid_claim, FFD_E_UNSUPPORTED,
+                  "Draco data of type 0 is no triangle mesh and not supported");
+    free(bytes);
+    bytes = make_draco(&g.mesh, &plain, &size);
+    assert_non_null(bytes);
+    check_refusal(bytes, 10, &grid_claim, FFD_E_INVALID,
+                  "the compressed data is not Draco's: it has no header of it");
+    bytes[6] = 3;
+    check_refusal(bytes, size, &grid_claim, FFD_E_UNSUPPORTED,
+                  "Draco bitstream version 2.3 is not known, only up to 2.2");
+    bytes[6] = 2;
+    bytes[8] = 9;
+    check_refusal(bytes, size, &grid_claim, FFD_E_UNSUPPORTED, "Draco encoding method 9 is not known");
+    free(bytes);
+}
+
+/* A header that asks for 2^31 triangles, and the file agrees. */
+static void memory_is_asked_for_in_proportion(void **state)
+{
+    (void)state;
+    static const unsigned char edgebreaker[] = {'D',  'R',  'A',  'C',  'O',  2, 2, 1, 1,
+                                                0,    0,    0,             /* standard */
+                                                0xff, 0xff, 0xff, 0xff, 3, /* 2^30-1 points */
+                                                0xff, 0xff, 0xff, 0xff, 4, /* triangles */
+                                                1,    0xff, 0xff, 0xff, 0xff, 4, 0, 0, 0};
+    const draco_claim huge = {1u << 30, 3 * (uint64_t)0x4fffffff};
+    check_refusal(edgebreaker, sizeof edgebreaker, &huge, FFD_E_LIMIT,
+                  "the Draco data needs more than 67112832 bytes of memory");
+}
+
+/* A tree whose nodes each promise as many children as there are bytes. */
+static void metadata_is_skipped(void **state)
+{
+    (void)state;
+    enum { NODES = 200000 };
+    unsigned char *bytes = calloc(NODES, 3), *at = bytes;
+    static const unsigned char header[] = {'D', 'R', 'A', 'C', 'O', 2, 2, 1, 1, 0, 0x80, 0, 0};
+    memcpy(bytes, header, sizeof header);
+    for (at += sizeof header; at + 8 < bytes + 3 * NODES; at += 5) {
+        const unsigned char node[] = {0x80, 0x80, 8, 0, 0}; /* 2^17 children; no name, no entries */
+        memcpy(at, node, sizeof node);
+    }
+    check_refusal(bytes, 3 * NODES, &grid_claim, FFD_E_INVALID, "the metadata of the Draco data is broken");
+    free(bytes);
+}
+
+/* Cut and changed data ends in success or a refusal; sanitizers watch the memory. */
+static void broken_data_does_no_harm(void **state)
+{
+    (void)state;
+    static grid g;
+    uint64_t seed = 11;
+    size_t refused = 0;
+    make_grid(&g);
+    for (int kind = 0; kind < 4; kind++) {
+        const sample_options options = {
+            .edgebreaker = kind % 2, .bits = kind < 2 ? 10 : 0, .metadata = kind == 3};
+        size_t size;
+        unsigned char *bytes = make_draco(&g.mesh, &options, &size);
+        assert_non_null(bytes);
+        for (size_t run = 0; run < MUTATIONS / 4; run++) {
+            const size_t kept = next_number(&seed) % 4 ? size : next_number(&seed) % size;
+            unsigned char *changed = malloc(kept ? kept : 1);
+            memcpy(changed, bytes, kept);
+            for (uint32_t flips = 1 + next_number(&seed) % 3; flips > 0 && kept > 0; flips--)
+                changed[next_number(&seed) % kept] ^= (unsigned char)(1 << next_number(&seed) % 8);
+            const draco_claim points = {POINTS, UINT64_MAX};
+            draco_mesh *mesh = NULL;
+            ffd_error error = {0};
+            ffd_status status =
+                ffd_draco_decode(changed, kept, run % 2 ? &points : &grid_claim, &mesh, &error);
+            unsigned char values[16 * POINTS];
+            if (status == FFD_OK)
+                status = ffd_draco_attribute(mesh, SAMPLE_POSITION, GLTF_FLOAT, 3, 12, values, &error);
+            if (status == FFD_OK) {
+                unsigned char *corners = malloc(ffd_draco_corner_count(mesh) + 1);
+                status = ffd_draco_indices(mesh, GLTF_U8, corners, &error);
+                free(corners);
+            }
+            assert_true(status == FFD_OK || status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED ||
+                        status == FFD_E_LIMIT || status == FFD_E_MEMORY);
+            refused += status != FFD_OK;
+            ffd_draco_free(mesh);
+            free(changed);
+        }
+        free(bytes);
+    }
+    assert_in_range(refused, MUTATIONS / 10, MUTATIONS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(sequential_data_comes_back_as_it_was),
+        cmocka_unit_test(edgebreaker_data_comes_back_within_its_bits),
+        cmocka_unit_test(what_does_not_fit_the_accessor_is_refused),
+        cmocka_unit_test(what_the_file_says_otherwise_is_refused),
+        cmocka_unit_test(other_data_is_refused),
+        cmocka_unit_test(memory_is_asked_for_in_proportion),
+        cmocka_unit_test(metadata_is_skipped),
+        cmocka_unit_test(broken_data_does_no_harm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,339 @@
+/* test_meshopt.c - views of EXT_meshopt_compression: every mode and filter, and streams that are broken. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "io/gltf/meshopt_view.h"
+#include <math.h>
+#include <meshoptimizer.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNT 700
+#define CAPACITY 40000
+#define MUTATIONS 4000
+
+typedef struct stream {
+    meshopt_view view;
+    unsigned char bytes[CAPACITY];
+} stream;
+
+/* A small generator of numbers that are the same everywhere. */
+static uint32_t next_number(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (uint32_t)(*state >> 33);
+}
+
+static void fill_indices(uint32_t *indices)
+{
+    for (uint32_t i = 0; i < COUNT / 3 * 3; i++)
+        indices[i] = i / 3 + i % 3 * (1 + i % 5);
+}
+
+static void finish(stream *s, size_t size)
+{
+    assert_in_range(size, 1, CAPACITY);
+    s->view.size = size;
+    s->view.bytes = s->bytes;
+}
+
+static void make_attributes(stream *s, size_t stride, const void *elements)
+{
+    s->view = (meshopt_view){.mode = MESHOPT_ATTRIBUTES, .count = COUNT, .stride = stride};
+    finish(s, meshopt_encodeVertexBuffer(s->bytes, CAPACITY, elements, COUNT, stride));
+}
+
+static void make_triangles(stream *s, size_t stride, int version)
+{
+    uint32_t indices[COUNT];
+    fill_indices(indices);
+    s->view = (meshopt_view){.mode = MESHOPT_TRIANGLES, .count = COUNT / 3 * 3, .stride = stride};
+    meshopt_encodeIndexVersion(version);
+    finish(s, meshopt_encodeIndexBuffer(s->bytes, CAPACITY, indices, COUNT / 3 * 3));
+}
+
+static void make_indices(stream *s, size_t stride)
+{
+    uint32_t indices[COUNT];
+    fill_indices(indices);
+    s->view = (meshopt_view){.mode = MESHOPT_INDICES, .count = COUNT / 3 * 3, .stride = stride};
+    meshopt_encodeIndexVersion(1);
+    finish(s, meshopt_encodeIndexSequence(s->bytes, CAPACITY, indices, COUNT / 3 * 3));
+}
+
+/* Decodes into a block of exactly the right size. */
+static ffd_status decode(const meshopt_view *view, unsigned char **bytes, ffd_error *error)
+{
+    *bytes = NULL;
+    const ffd_status status = ffd_meshopt_check(view, error);
+    if (status)
+        return status;
+    assert_true(view->count * view->stride <= 64 * (uint64_t)view->size);
+    *bytes = ffd_alloc((size_t)view->count, (size_t)view->stride);
+    assert_non_null(*bytes);
+    return ffd_meshopt_decode(view, *bytes, error);
+}
+
+static void attributes_come_back(void **state)
+{
+    (void)state;
+    uint64_t seed = 1;
+    for (size_t stride = 4; stride <= 256; stride += 36) {
+        unsigned char *elements = malloc(COUNT * stride), *bytes = NULL;
+        static stream s;
+        ffd_error error = {0};
+        for (size_t i = 0; i < COUNT * stride; i++)
+            elements[i] = (unsigned char)(i / stride + next_number(&seed) % 7);
+        s.view = (meshopt_view){.mode = MESHOPT_ATTRIBUTES, .count = COUNT, .stride = stride};
+        unsigned char *room = malloc(meshopt_encodeVertexBufferBound(COUNT, stride));
+        s.view.size = meshopt_encodeVertexBuffer(room, meshopt_encodeVertexBufferBound(COUNT, stride),
+                                                 elements, COUNT, stride);
+        s.view.bytes = room;
+        assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+        assert_memory_equal(bytes, elements, COUNT * stride);
+        ffd_free(bytes);
+        free(room);
+        free(elements);
+    }
+}
+
+static uint32_t read_index(const unsigned char *bytes, size_t i, size_t stride)
+{
+    uint32_t value = 0;
+    for (size_t b = 0; b < stride; b++)
+        value |= (uint32_t)bytes[i * stride + b] << (8 * b);
+    return value;
+}
+
+/* The codec may turn a triangle's corners round, but keeps its winding and place. */
+static void check_triangle(const uint32_t *wanted, const uint32_t found[3])
+{
+    for (size_t turn = 0; turn < 3; turn++)
+        if (wanted[0] == found[turn] && wanted[1] == found[(turn + 1) % 3] &&
+            wanted[2] == found[(turn + 2) % 3])
+            return;
+    fail_msg("%u %u %u instead of %u %u %u", found[0], found[1], found[2], wanted[0], wanted[1], wanted[2]);
+}
+
+static void indices_come_back(void **state)
+{
+    (void)state;
+    static stream s;
+    uint32_t indices[COUNT];
+    fill_indices(indices);
+    for (int run = 0; run < 6; run++) {
+        const size_t stride = run % 2 ? 2 : 4;
+        unsigned char *bytes = NULL;
+        ffd_error error = {0};
+        if (run < 4)
+            make_triangles(&s, stride, run / 2);
+        else
+            make_indices(&s, stride);
+        assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+        for (size_t i = 0; i < COUNT / 3; i++) {
+            uint32_t found[3];
+            for (size_t c = 0; c < 3; c++)
+                found[c] = read_index(bytes, 3 * i + c, stride);
+            check_triangle(indices + 3 * i, found);
+            if (run >= 4)
+                assert_int_equal(found[0], indices[3 * i]);
+        }
+        ffd_free(bytes);
+    }
+}
+
+/* Four numbers of length 1. */
+static void make_unit(uint64_t *seed, int dimensions, float unit[4])
+{
+    double square = 0, value[4] = {0};
+    for (int c = 0; c < dimensions; c++) {
+        value[c] = (double)next_number(seed) / 2147483648.0 - 0.5;
+        square += value[c] * value[c];
+    }
+    for (int c = 0; c < 4; c++)
+        unit[c] = (float)(value[c] / sqrt(square));
+}
+
+static void octahedral_filter_gives_unit_vectors(void **state)
+{
+    (void)state;
+    static float units[4 * COUNT];
+    static stream s;
+    uint64_t seed = 3;
+    for (size_t i = 0; i < COUNT; i++)
+        make_unit(&seed, 3, units + 4 * i);
+    for (size_t stride = 4; stride <= 8; stride += 4) {
+        unsigned char elements[8 * COUNT], *bytes = NULL;
+        ffd_error error = {0};
+        meshopt_encodeFilterOct(elements, COUNT, stride, stride == 4 ? 8 : 12, units);
+        make_attributes(&s, stride, elements);
+        s.view.filter = MESHOPT_OCTAHEDRAL;
+        assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+        for (size_t i = 0; i < COUNT; i++)
+            for (size_t c = 0; c < 3; c++) {
+                const unsigned char *at = bytes + i * stride + c * (stride / 4);
+                const double value =
+                    stride == 4 ? (signed char)at[0] / 127.0 : (int16_t)(at[0] | at[1] << 8) / 32767.0;
+                assert_true(fabs(value - (double)units[4 * i + c]) < (stride == 4 ? 0.02 : 0.002));
+            }
+        ffd_free(bytes);
+    }
+}
+
+static void quaternion_filter_gives_rotations(void **state)
+{
+    (void)state;
+    static float units[4 * COUNT];
+    static stream s;
+    unsigned char elements[8 * COUNT], *bytes = NULL;
+    uint64_t seed = 4;
+    ffd_error error = {0};
+    for (size_t i = 0; i < COUNT; i++)
+        make_unit(&seed, 4, units + 4 * i);
+    meshopt_encodeFilterQuat(elements, COUNT, 8, 14, units);
+    make_attributes(&s, 8, elements);
+    s.view.filter = MESHOPT_QUATERNION;
+    assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        double dot = 0;
+        for (size_t c = 0; c < 4; c++)
+            dot += (int16_t)(bytes[8 * i + 2 * c] | bytes[8 * i + 2 * c + 1] << 8) / 32767.0 *
+                   (double)units[4 * i + c];
+        assert_true(fabs(dot) > 0.999); /* q and -q are the same rotation */
+    }
+    ffd_free(bytes);
+}
+
+static void exponential_filter_gives_floats(void **state)
+{
+    (void)state;
+    static float values[3 * COUNT];
+    static stream s;
+    unsigned char elements[12 * COUNT], *bytes = NULL;
+    uint64_t seed = 5;
+    ffd_error error = {0};
+    for (size_t i = 0; i < 3 * COUNT; i++)
+        values[i] = (float)next_number(&seed) / 1048576.0f - 1000.0f;
+    meshopt_encodeFilterExp(elements, COUNT, 12, 20, values);
+    make_attributes(&s, 12, elements);
+    s.view.filter = MESHOPT_EXPONENTIAL;
+    assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+    for (size_t i = 0; i < 3 * COUNT; i++) {
+        float value;
+        memcpy(&value, bytes + 4 * i, sizeof value);
+        assert_true(fabs((double)value - (double)values[i]) < 0.01);
+    }
+    ffd_free(bytes);
+}
+
+static void check_refusal(const meshopt_view *view, ffd_status status, const char *message)
+{
+    ffd_error error = {0};
+    unsigned char *bytes = NULL;
+    assert_int_equal(decode(view, &bytes, &error), status);
+    assert_string_equal(error.message, message);
+    ffd_free(bytes);
+}
+
+static void what_cannot_be_is_refused_before_there_is_memory(void **state)
+{
+    (void)state;
+    static stream s, changed;
+    const float zeros[4 * COUNT] = {0};
+    make_attributes(&s, 16, zeros);
+    changed = s;
+    changed.view.bytes = changed.bytes;
+    changed.view.count = (uint64_t)1 << 53;
+    check_refusal(&changed.view, FFD_E_INVALID,
+                  "209 bytes cannot hold 9007199254740992 elements of mode ATTRIBUTES");
+    changed.view = s.view;
+    changed.view.stride = 18;
+    check_refusal(&changed.view, FFD_E_INVALID, "byteStride 18 is not one of mode ATTRIBUTES");
+    changed.view.stride = 260;
+    check_refusal(&changed.view, FFD_E_INVALID, "byteStride 260 is not one of mode ATTRIBUTES");
+    changed.view = s.view;
+    changed.view.filter = MESHOPT_QUATERNION;
+    check_refusal(&changed.view, FFD_E_INVALID,
+                  "the filter does not go with mode ATTRIBUTES and byteStride 16");
+    changed.view = s.view;
+    changed.view.mode = MESHOPT_INDICES;
+    changed.view.stride = 4;
+    check_refusal(&changed.view, FFD_E_INVALID, "the compressed data is not of mode INDICES");
+    changed.view = s.view;
+    changed.view.size = 0;
+    check_refusal(&changed.view, FFD_E_INVALID, "the compressed data is not of mode ATTRIBUTES");
+    changed.view = s.view;
+    changed.view.bytes = changed.bytes;
+    changed.bytes[0]++;
+    check_refusal(&changed.view, FFD_E_UNSUPPORTED,
+                  "version 1 of the meshopt codec for ATTRIBUTES is not known, only up to 0");
+    make_triangles(&s, 4, 1);
+    s.view.count--;
+    check_refusal(&s.view, FFD_E_INVALID, "count 698 is not a multiple of 3");
+    s.view.count = 3000000000;
+    check_refusal(&s.view, FFD_E_INVALID, "764 bytes cannot hold 3000000000 elements of mode TRIANGLES");
+}
+
+/* Truncated and changed streams end in success or FFD_E_INVALID; sanitizers watch the memory. */
+static void broken_streams_do_no_harm(void **state)
+{
+    (void)state;
+    static stream s;
+    uint64_t seed = 9;
+    size_t refused = 0;
+    float values[COUNT];
+    for (size_t i = 0; i < COUNT; i++)
+        values[i] = (float)(next_number(&seed) % 1000);
+    for (size_t run = 0; run < MUTATIONS; run++) {
+        unsigned char *bytes = NULL;
+        ffd_error error = {0};
+        switch (run % 4) {
+        case 0:
+            make_attributes(&s, 4, values);
+            s.view.filter = run % 8 ? MESHOPT_OCTAHEDRAL : MESHOPT_EXPONENTIAL;
+            break;
+        case 1:
+            make_triangles(&s, run % 8 < 4 ? 2 : 4, run % 3 ? 1 : 0);
+            break;
+        case 2:
+            make_indices(&s, run % 8 < 4 ? 2 : 4);
+            break;
+        default:
+            make_attributes(&s, 8, values); /* reads half of it twice */
+            s.view.count = COUNT / 2;
+            s.view.filter = MESHOPT_QUATERNION;
+            break;
+        }
+        for (uint32_t flips = next_number(&seed) % 4; flips > 0; flips--)
+            s.bytes[next_number(&seed) % s.view.size] ^= (unsigned char)(1 << next_number(&seed) % 8);
+        if (next_number(&seed) % 2)
+            s.view.size -= next_number(&seed) % s.view.size;
+        unsigned char *exact = malloc(s.view.size); /* so that reading past the end is seen */
+        memcpy(exact, s.bytes, s.view.size);
+        s.view.bytes = exact;
+        const ffd_status status = decode(&s.view, &bytes, &error);
+        assert_true(status == FFD_OK || status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED);
+        refused += status != FFD_OK;
+        ffd_free(bytes);
+        free(exact);
+    }
+    assert_in_range(refused, MUTATIONS / 4, MUTATIONS);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(attributes_come_back),
+        cmocka_unit_test(indices_come_back),
+        cmocka_unit_test(octahedral_filter_gives_unit_vectors),
+        cmocka_unit_test(quaternion_filter_gives_rotations),
+        cmocka_unit_test(exponential_filter_gives_floats),
+        cmocka_unit_test(what_cannot_be_is_refused_before_there_is_memory),
+        cmocka_unit_test(broken_streams_do_no_harm),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
