@@ -47,16 +47,6 @@ static ffd_status check_view(const gltf_document *d, size_t i, ffd_error *error)
     return FFD_OK;
 }
 
-static bool has_bytes(const gltf_document *d, const gltf_view *view)
-{
-    return d->buffers[view->buffer].kind != BUFFER_EMPTY;
-}
-
-static const unsigned char *bytes_of(const gltf_document *d, const gltf_view *view, uint64_t offset)
-{
-    return has_bytes(d, view) ? d->buffers[view->buffer].data + view->offset + offset : NULL;
-}
-
 /* Columns of a matrix start at multiples of 4 bytes (glTF 2.0, 3.6.2.4). */
 static void measure(const gltf_accessor *accessor, gltf_layout *layout)
 {
@@ -113,9 +103,10 @@ static ffd_status check_sparse_indices(const gltf_document *d, const gltf_access
                                        ffd_error *error)
 {
     const gltf_sparse *sparse = &accessor->sparse;
-    const unsigned char *at = bytes_of(d, &d->model.views[sparse->indices_view], sparse->indices_offset);
+    const unsigned char *at = ffd_gltf_view_bytes(d, (size_t)sparse->indices_view);
     if (!at)
         return FFD_OK;
+    at += sparse->indices_offset;
     const size_t size = ffd_gltf_component_size(sparse->indices_type);
     for (uint64_t i = 0; i < sparse->count; i++) {
         const uint32_t index = ffd_gltf_read_index(at + i * size, sparse->indices_type);
@@ -153,8 +144,8 @@ static ffd_status check_sparse(gltf_document *d, size_t i, ffd_error *error)
                                    ffd_gltf_component_size(accessor->component), error);
     if (status)
         return status;
-    layout->readable = layout->readable && has_bytes(d, &d->model.views[sparse->indices_view]) &&
-                       has_bytes(d, &d->model.views[sparse->values_view]);
+    layout->readable = layout->readable && ffd_gltf_view_bytes(d, (size_t)sparse->indices_view) &&
+                       ffd_gltf_view_bytes(d, (size_t)sparse->values_view);
     return check_sparse_indices(d, accessor, value, error);
 }
 
@@ -171,17 +162,17 @@ static ffd_status check_accessor(gltf_document *d, size_t i, ffd_error *error)
         if (status)
             return status;
         const gltf_view *view = &d->model.views[accessor->view];
-        const uint32_t value = d->view_values.values[accessor->view];
+        const unsigned char *bytes = ffd_gltf_view_bytes(d, (size_t)accessor->view);
         if (view->stride)
             layout->stride = (size_t)view->stride;
         status = check_range(d, i, view, error);
         if (status)
             return status;
-        layout->meshopt = ffd_gltf_has_extension(d, value, "EXT_meshopt_compression") ||
-                          ffd_gltf_has_extension(d, value, "KHR_meshopt_compression");
-        layout->readable = has_bytes(d, view);
+        if (ffd_gltf_meshopt_value(d, (size_t)accessor->view) != JSON_NONE)
+            layout->packing = GLTF_MESHOPT;
+        layout->readable = bytes != NULL;
         layout->begin = (size_t)(view->offset + accessor->offset);
-        layout->data = bytes_of(d, view, accessor->offset);
+        layout->data = bytes ? bytes + accessor->offset : NULL;
     }
     return accessor->sparse.present ? check_sparse(d, i, error) : FFD_OK;
 }
@@ -332,6 +323,8 @@ ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < d->model.view_count && status == FFD_OK; i++)
         status = check_view(d, i, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_decode_views(d, error);
     for (size_t i = 0; i < d->model.accessor_count && status == FFD_OK; i++)
         status = check_accessor(d, i, error);
     for (size_t i = 0; i < d->model.mesh_count && status == FFD_OK; i++)

@@ -55,14 +55,13 @@ static void survey_primitive(const gltf_document *d, size_t m, size_t p, bool *s
             continue;
         sparse = sparse || d->model.accessors[a].sparse.present;
         quantized = quantized || d->model.accessors[a].component != GLTF_FLOAT;
-        meshopt = meshopt || d->layouts[a].meshopt;
+        meshopt = meshopt || d->layouts[a].packing == GLTF_MESHOPT;
     }
     facts->morphed += primitive->target_count > 0;
     facts->sparse += sparse;
     facts->quantized += quantized;
     facts->meshopt += meshopt;
-    facts->draco +=
-        ffd_gltf_has_extension(d, ffd_gltf_primitive_value(d, m, p), "KHR_draco_mesh_compression");
+    facts->draco += ffd_gltf_draco_value(d, m, p) != JSON_NONE;
     if (positions >= 0 && !seen[positions]) {
         seen[positions] = true;
         facts->vertices += (size_t)d->model.accessors[positions].count;

@@ -21,10 +21,14 @@ uint32_t ffd_gltf_attribute_value(const gltf_document *d, size_t mesh, size_t pr
                                 ffd_gltf_semantic_names[semantic]);
 }
 
+uint32_t ffd_gltf_extension(const gltf_document *d, uint32_t value, const char *extension)
+{
+    return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "extensions"), extension);
+}
+
 bool ffd_gltf_has_extension(const gltf_document *d, uint32_t value, const char *extension)
 {
-    return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "extensions"), extension) !=
-           JSON_NONE;
+    return ffd_gltf_extension(d, value, extension) != JSON_NONE;
 }
 
 static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
@@ -194,6 +198,19 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
     return status;
 }
 
+static void free_decoded(gltf_document *d)
+{
+    for (size_t i = 0; d->decoded_views && i < d->model.view_count; i++)
+        ffd_free(d->decoded_views[i]);
+    for (size_t i = 0; d->unpacked && i < d->model.accessor_count; i++)
+        ffd_free(d->unpacked[i].bytes);
+    for (size_t i = 0; d->draco_problems && i < d->primitive_values.count; i++)
+        ffd_free(d->draco_problems[i]);
+    ffd_free(d->decoded_views);
+    ffd_free(d->unpacked);
+    ffd_free(d->draco_problems);
+}
+
 static void free_document(gltf_document *d)
 {
     gltf_values *const lists[] = {&d->buffer_values, &d->view_values,     &d->accessor_values,
@@ -209,6 +226,7 @@ static void free_document(gltf_document *d)
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
         ffd_free(lists[i]->values);
     ffd_gltf_free_skins(d);
+    free_decoded(d);
     ffd_gltf_free_model(&d->model);
     ffd_json_span_free(&d->tree);
     ffd_free(d->first_primitive);
@@ -242,6 +260,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (!d->layouts)
         return ffd_fail_memory(error);
     status = ffd_gltf_check(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_decode_draco(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_list_skins(d, error);
     if (status == FFD_OK)

@@ -16,13 +16,25 @@ typedef struct gltf_values {
     size_t count;
 } gltf_values;
 
-/* How an accessor's elements lie; made by ffd_gltf_check. */
+/* Compression that the elements of an accessor come out of. */
+typedef enum gltf_packing { GLTF_PLAIN, GLTF_MESHOPT, GLTF_DRACO } gltf_packing;
+
+/* Elements of an accessor out of KHR_draco_mesh_compression. */
+typedef struct gltf_unpacked {
+    unsigned char *bytes; /* owned; NULL: the accessor does not come out of it */
+    size_t size, view;    /* view: the compressed data */
+    uint64_t source;      /* the attribute's id, UINT64_MAX: the indices */
+    bool clash;           /* primitives take different values for the accessor */
+} gltf_unpacked;
+
+/* How an accessor's elements lie; made by ffd_gltf_check, and by ffd_gltf_decode_draco where they are
+   compressed. */
 typedef struct gltf_layout {
-    const unsigned char *data; /* its first element; NULL: no bytes (compressed), or all zeros */
+    const unsigned char *data; /* its first element, decoded; NULL: no bytes, or all zeros */
     size_t element_size, stride;
-    size_t begin;  /* of the first element in the buffer */
-    bool readable; /* false: compressed, or its buffer has no bytes */
-    bool meshopt;  /* its bufferView is compressed */
+    size_t begin;  /* of the first element in the buffer (before its compression) */
+    bool readable; /* false: its buffer has no bytes, or its compression is not supported */
+    gltf_packing packing;
 } gltf_layout;
 
 /* One attribute that is deformed, under one node: a result of 3 components an element, as float whatever the
@@ -83,6 +95,12 @@ typedef struct gltf_document {
     gltf_buffer *buffers; /* buffer_values.count */
     gltf_layout *layouts; /* model.accessor_count */
 
+    /* What compressed data becomes. */
+    unsigned char **decoded_views; /* model.view_count; NULL: not compressed, or not supported */
+    gltf_unpacked *unpacked;       /* model.accessor_count */
+    char **draco_problems;         /* primitive_values.count; NULL: none */
+    uint64_t decoded_bytes;        /* of all of it */
+
     double *world;  /* 12 a node: linear row by row, offset */
     bool *is_shown; /* a node */
     size_t *shown_nodes;
@@ -105,12 +123,31 @@ uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, si
 /* The number that stands in it for an attribute, e.g. "NORMAL". */
 uint32_t ffd_gltf_attribute_value(const gltf_document *document, size_t mesh, size_t primitive,
                                   gltf_semantic semantic);
+/* value's extension of this name; JSON_NONE: it has none. */
+uint32_t ffd_gltf_extension(const gltf_document *document, uint32_t value, const char *extension);
 /* Whether value's "extensions" has one of this name. */
 bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const char *extension);
 extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
 
 /* gltf_check.c: validates every index, offset, count and stride of the model, and fills layouts. */
 ffd_status ffd_gltf_check(gltf_document *document, ffd_error *error);
+/* gltf_views.c: decodes the bufferViews that are compressed; comes within ffd_gltf_check. What is not
+   supported is left out. */
+ffd_status ffd_gltf_decode_views(gltf_document *document, ffd_error *error);
+/* The meshopt extension of a view; JSON_NONE: it is not compressed. */
+uint32_t ffd_gltf_meshopt_value(const gltf_document *document, size_t view);
+/* The bytes of a view, decoded; NULL: there are none. */
+const unsigned char *ffd_gltf_view_bytes(const gltf_document *document, size_t view);
+/* Says why a compressed view was left out. */
+ffd_status ffd_gltf_refuse_view(const gltf_document *document, size_t view, ffd_error *error);
+/* Counts bytes of memory that compressed data takes; FFD_E_LIMIT at value where they are out of proportion to
+   the file. */
+ffd_status ffd_gltf_reserve(gltf_document *document, uint32_t value, uint64_t bytes, ffd_error *error);
+/* gltf_draco.c: likewise for the primitives that are compressed. */
+ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
+uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);
+ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, size_t primitive,
+                                 ffd_error *error);
 /* gltf_scene.c: which nodes are shown, and their matrices. Refuses cycles and second parents. */
 ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
 /* gltf_skin.c. list: reads the skins. place: gives the skins of shown nodes their matrices, and checks what

@@ -88,20 +88,14 @@ static uint64_t find_sparse(const gltf_sparse *sparse, const unsigned char *indi
     return low;
 }
 
-static const unsigned char *view_bytes(const gltf_document *d, int number, uint64_t offset)
-{
-    const gltf_view *view = &d->model.views[number];
-    return d->buffers[view->buffer].data + view->offset + offset;
-}
-
 static const unsigned char *sparse_indices(const gltf_document *d, const gltf_sparse *sparse)
 {
-    return view_bytes(d, sparse->indices_view, sparse->indices_offset);
+    return ffd_gltf_view_bytes(d, (size_t)sparse->indices_view) + sparse->indices_offset;
 }
 
 static const unsigned char *sparse_elements(const gltf_document *d, const gltf_sparse *sparse)
 {
-    return view_bytes(d, sparse->values_view, sparse->values_offset);
+    return ffd_gltf_view_bytes(d, (size_t)sparse->values_view) + sparse->values_offset;
 }
 
 const unsigned char *ffd_gltf_element(const gltf_document *d, size_t a, size_t i)

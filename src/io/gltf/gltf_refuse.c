@@ -65,16 +65,17 @@ static ffd_status refuse_node(const gltf_document *d, size_t n, ffd_error *error
 ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_t primitive, int accessor,
                                       ffd_error *error)
 {
-    const uint32_t value = ffd_gltf_primitive_value(d, mesh, primitive);
-    if (d->layouts[accessor].readable)
-        return FFD_OK;
-    if (ffd_gltf_has_extension(d, value, "KHR_draco_mesh_compression"))
-        return refuse(d, value, error, "KHR_draco_mesh_compression is not supported");
-    if (d->layouts[accessor].meshopt)
-        return refuse(d, d->view_values.values[d->model.accessors[accessor].view], error,
-                      "EXT_meshopt_compression is not supported");
-    return refuse(d, d->accessor_values.values[accessor], error,
-                  "an accessor without bytes is not supported");
+    ffd_status status = ffd_gltf_refuse_draco(d, mesh, primitive, error);
+    if (status || d->layouts[accessor].readable)
+        return status;
+    const uint32_t value = d->accessor_values.values[accessor];
+    if (d->unpacked[accessor].clash)
+        return refuse(d, value, error,
+                      "primitives take different values for the accessor, out of Draco data and elsewhere: "
+                      "that is not supported");
+    if (d->model.accessors[accessor].view >= 0)
+        status = ffd_gltf_refuse_view(d, (size_t)d->model.accessors[accessor].view, error);
+    return status ? status : refuse(d, value, error, "an accessor without bytes is not supported");
 }
 
 static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, ffd_error *error)
@@ -163,14 +164,14 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 /* What keeps results from being written in the accessor's place, or beside it. */
 static ffd_status refuse_accessor(const gltf_document *d, size_t mesh, size_t p, int a, ffd_error *error)
 {
-    const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
     const gltf_accessor *accessor = &d->model.accessors[a];
-    if (ffd_gltf_has_extension(d, primitive, "KHR_draco_mesh_compression"))
-        return refuse(d, primitive, error, "KHR_draco_mesh_compression is not supported");
     const ffd_status status = ffd_gltf_refuse_unreadable(d, mesh, p, a, error);
     if (status)
         return status;
-    if (d->layouts[a].meshopt)
+    if (d->layouts[a].packing == GLTF_DRACO)
+        return refuse(d, ffd_gltf_primitive_value(d, mesh, p), error,
+                      "KHR_draco_mesh_compression is not supported");
+    if (d->layouts[a].packing == GLTF_MESHOPT)
         return refuse(d, d->view_values.values[accessor->view], error,
                       "EXT_meshopt_compression is not supported");
     return FFD_OK;

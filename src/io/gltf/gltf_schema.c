@@ -42,12 +42,20 @@ static const rule asset_rules[] = {{"version", RULE_STRING, true, 0, NULL},
                                    {0}};
 static const rule buffer_rules[] = {
     {"byteLength", RULE_SIZE, true, 0, NULL}, {"uri", RULE_STRING, false, 0, NULL}, {0}};
+static const rule meshopt_rules[] = {
+    {"buffer", RULE_INDEX, true, 0, NULL},    {"byteOffset", RULE_SIZE, false, 0, NULL},
+    {"byteLength", RULE_SIZE, true, 0, NULL}, {"byteStride", RULE_SIZE, true, 0, NULL},
+    {"count", RULE_SIZE, true, 0, NULL},      {"mode", RULE_STRING, true, 0, NULL},
+    {"filter", RULE_STRING, false, 0, NULL},  {0}};
+static const rule view_extension_rules[] = {{"EXT_meshopt_compression", RULE_OBJECT, false, 0, meshopt_rules},
+                                            {"KHR_meshopt_compression", RULE_OBJECT, false, 0, meshopt_rules},
+                                            {0}};
 static const rule view_rules[] = {{"buffer", RULE_INDEX, true, 0, NULL},
                                   {"byteOffset", RULE_SIZE, false, 0, NULL},
                                   {"byteLength", RULE_SIZE, true, 0, NULL},
                                   {"byteStride", RULE_STRIDE, false, 0, NULL},
                                   {"target", RULE_INDEX, false, 0, NULL},
-                                  {"extensions", RULE_OBJECT, false, 0, NULL},
+                                  {"extensions", RULE_OBJECT, false, 0, view_extension_rules},
                                   {0}};
 /* tinygltf holds these offsets in an int. */
 static const rule sparse_indices_rules[] = {{"bufferView", RULE_INDEX, true, 0, NULL},
@@ -70,12 +78,16 @@ static const rule accessor_rules[] = {{"bufferView", RULE_INDEX, false, 0, NULL}
                                       {"max", RULE_NUMBERS, false, 0, NULL},
                                       {"sparse", RULE_OBJECT, false, 0, sparse_rules},
                                       {0}};
+static const rule draco_rules[] = {
+    {"bufferView", RULE_INDEX, true, 0, NULL}, {"attributes", RULE_INDEX_MAP, true, 0, NULL}, {0}};
+static const rule primitive_extension_rules[] = {
+    {"KHR_draco_mesh_compression", RULE_OBJECT, false, 0, draco_rules}, {0}};
 static const rule primitive_rules[] = {{"attributes", RULE_INDEX_MAP, true, 0, NULL},
                                        {"indices", RULE_INDEX, false, 0, NULL},
                                        {"material", RULE_INDEX, false, 0, NULL},
                                        {"mode", RULE_MODE, false, 0, NULL},
                                        {"targets", RULE_INDEX_MAPS, false, 0, NULL},
-                                       {"extensions", RULE_OBJECT, false, 0, NULL},
+                                       {"extensions", RULE_OBJECT, false, 0, primitive_extension_rules},
                                        {0}};
 static const rule mesh_rules[] = {
     {"primitives", RULE_OBJECTS, true, 0, primitive_rules}, {"name", RULE_STRING, false, 0, NULL}, {0}};
