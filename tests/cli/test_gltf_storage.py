@@ -183,10 +183,20 @@ def a_new_buffer_beside_others(run):
             equal(len(after.asset["buffers"]), number + 1, "buffers")
             equal("uri" in after.asset["buffers"][number], not (is_bin and container == "glb"), "a URI")
             near(after.decoded(after.primitives()[0]["attributes"]["POSITION"]), [SHIFT, SHIFT], 1e-6)
-    # To standard output too.
+    # Into the other container, to standard output, and beside a BIN chunk that no buffer names.
     run.write("l.json", ALL)
-    done = run.ffd("deform", "in.gltf", "-", "--output-format", "gltf", "-l", "l.json")
-    run.write("out.gltf", done.out)
+    maker = Maker()
+    maker.mesh({"POSITION": maker.accessor(2, **bounds([(0, 0, 0)]))})
+    for source, target in (("glb", "gltf"), ("data", "glb")):
+        run.ffd("deform", maker.write(run, "in", source), "turned." + target, "-l", "l.json")
+        after = Gltf(run.path("turned." + target))
+        near(after.decoded(after.primitives()[0]["attributes"]["POSITION"]), [SHIFT, SHIFT], 1e-6)
+        equal((len(after.buffers), after.bin is not None), (1, target == "glb"), "the new buffer")
+    run.write("unused.glb", glb(maker.asset, b"nobody's"))
+    _, after, _ = deform(run, "unused.glb")
+    equal((after.bin, after.asset["buffers"][0]["uri"][:5]), (b"nobody's", "data:"), "the chunk")
+    near(after.decoded(after.primitives()[0]["attributes"]["POSITION"]), [SHIFT, SHIFT], 1e-6)
+    run.write("out.gltf", run.ffd("deform", "in.gltf", "-", "--output-format", "gltf", "-l", "l.json").out)
     after = Gltf(run.path("out.gltf"))
     near(after.decoded(after.primitives()[0]["attributes"]["POSITION"]), [SHIFT, SHIFT], 1e-6)
 
