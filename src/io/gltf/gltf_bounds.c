@@ -9,17 +9,22 @@ typedef struct stored_bounds {
     double least[4], largest[4];
 } stored_bounds;
 
-static stored_bounds find_bounds(const gltf_document *d, const gltf_version *version)
+/* version NULL: those of the original content. */
+static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_version *version)
 {
-    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
-    const size_t size = ffd_gltf_component_size(version->component);
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    const int component = version ? version->component : accessor->component;
+    const size_t size = ffd_gltf_component_size(component);
     stored_bounds bounds = {{0}, {0}};
     for (size_t i = 0; i < accessor->count; i++) {
-        unsigned char element[GLTF_LARGEST_VECTOR];
-        ffd_gltf_encode(accessor, version->component, ffd_gltf_element(d, version->accessor, i),
-                        version->values + 3 * i, element);
+        unsigned char encoded[GLTF_LARGEST_VECTOR];
+        const unsigned char *element = ffd_gltf_element(d, a, i);
+        if (version) {
+            ffd_gltf_encode(accessor, component, element, version->values + 3 * i, encoded);
+            element = encoded;
+        }
         for (size_t c = 0; c < (size_t)accessor->rows; c++) {
-            const double value = ffd_gltf_read_number(element + c * size, version->component, false);
+            const double value = ffd_gltf_read_number(element + c * size, component, false);
             if (i == 0 || value < bounds.least[c])
                 bounds.least[c] = value;
             if (i == 0 || value > bounds.largest[c])
@@ -56,15 +61,26 @@ static void edit_bound(const gltf_saver *saver, uint32_t array, const double bou
     }
 }
 
-void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits)
+static void edit_bounds(const gltf_saver *saver, size_t a, const gltf_version *version, json_edits *edits)
 {
     const gltf_document *d = saver->document;
-    const uint32_t accessor = d->accessor_values.values[version->accessor];
+    const uint32_t accessor = d->accessor_values.values[a];
+    const int component = version ? version->component : d->model.accessors[a].component;
     const uint32_t min = ffd_json_span_member(&d->tree, accessor, "min");
     const uint32_t max = ffd_json_span_member(&d->tree, accessor, "max");
     if (min == JSON_NONE && max == JSON_NONE)
         return;
-    const stored_bounds bounds = find_bounds(d, version);
-    edit_bound(saver, min, bounds.least, version->component, edits);
-    edit_bound(saver, max, bounds.largest, version->component, edits);
+    const stored_bounds bounds = find_bounds(d, a, version);
+    edit_bound(saver, min, bounds.least, component, edits);
+    edit_bound(saver, max, bounds.largest, component, edits);
+}
+
+void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits)
+{
+    edit_bounds(saver, version->accessor, version, edits);
+}
+
+void ffd_gltf_edit_original_bounds(const gltf_saver *saver, size_t accessor, json_edits *edits)
+{
+    edit_bounds(saver, accessor, NULL, edits);
 }

@@ -21,6 +21,29 @@ size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
     return b;
 }
 
+/* Where the elements of an accessor stand that changes in its place. */
+typedef struct new_place {
+    size_t buffer, begin;
+} new_place;
+
+static new_place place_of(const gltf_saver *saver, size_t a)
+{
+    const gltf_document *d = saver->document;
+    const gltf_layout *layout = &d->layouts[a];
+    const int view = d->model.accessors[a].view;
+    const gltf_unpacking *u;
+    switch (layout->packing) {
+    case GLTF_MESHOPT:
+        u = &saver->unpackings[saver->view_unpackings[view]];
+        return (new_place){u->buffer, u->offset + (layout->begin - (size_t)d->model.views[view].offset)};
+    case GLTF_DRACO:
+        u = &saver->unpackings[saver->accessor_unpackings[a]];
+        return (new_place){u->buffer, u->offset};
+    default:
+        return (new_place){buffer_of(d, a), layout->begin};
+    }
+}
+
 static bool needs_buffer(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
@@ -50,10 +73,12 @@ static ffd_status make_room(gltf_saver *saver, ffd_error *error)
         saver->buffers[b].old = b < d->buffer_values.count ? &d->buffers[b] : &nothing;
     for (size_t a = 0; a < d->model.accessor_count; a++)
         if (saver->plan.in_place[a] != GLTF_NONE)
-            saver->buffers[buffer_of(d, a)].overwrite_count++;
+            saver->buffers[place_of(saver, a).buffer].overwrite_count++;
     for (size_t i = 0; i < saver->plan.appended_count; i++)
         saver->buffers[ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor)]
             .append_count++;
+    for (size_t i = 0; i < saver->unpacking_count; i++)
+        saver->buffers[saver->unpackings[i].buffer].append_count++;
     for (size_t b = 0; b < saver->buffer_count; b++) {
         gltf_new_buffer *buffer = &saver->buffers[b];
         buffer->length = buffer->old->length;
@@ -83,11 +108,12 @@ static void list_overwrites(gltf_saver *saver)
             continue;
         const gltf_layout *layout = &d->layouts[a];
         const size_t count = (size_t)d->model.accessors[a].count;
-        gltf_new_buffer *buffer = &saver->buffers[buffer_of(d, a)];
+        const new_place place = place_of(saver, a);
+        gltf_new_buffer *buffer = &saver->buffers[place.buffer];
         buffer->overwrites[buffer->overwrite_count++] =
             (gltf_overwrite){.accessor = a,
-                             .begin = layout->begin,
-                             .end = layout->begin + (count - 1) * layout->stride + layout->element_size,
+                             .begin = place.begin,
+                             .end = place.begin + (count - 1) * layout->stride + layout->element_size,
                              .stride = layout->stride,
                              .values = saver->plan.versions[version].values};
     }
@@ -114,32 +140,58 @@ static size_t element_size(const gltf_document *d, const gltf_version *version)
     return (size_t)d->model.accessors[version->accessor].rows * ffd_gltf_component_size(version->component);
 }
 
+static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append append, ffd_error *error)
+{
+    gltf_new_buffer *buffer = &saver->buffers[b];
+    append.offset = padded(buffer->length);
+    if (append.size > LARGEST_BUFFER || append.offset > LARGEST_BUFFER - append.size)
+        return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
+                             "a buffer would have more than 2^53 bytes");
+    buffer->appends[buffer->append_count++] = append;
+    buffer->length = append.offset + append.size;
+    return FFD_OK;
+}
+
+static ffd_status list_unpacked(gltf_saver *saver, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < saver->unpacking_count && status == FFD_OK; i++) {
+        gltf_unpacking *u = &saver->unpackings[i];
+        const gltf_append append = {.size = u->size, .version = GLTF_NONE, .unpacking = i};
+        status = add_append(saver, u->buffer, append, error);
+        if (status == FFD_OK)
+            u->offset = saver->buffers[u->buffer].length - u->size;
+    }
+    return status;
+}
+
 static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    for (size_t i = 0; i < saver->plan.appended_count; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < saver->plan.appended_count && status == FFD_OK; i++) {
         const size_t number = saver->plan.appended[i];
         const gltf_version *version = &saver->plan.versions[number];
-        gltf_new_buffer *buffer = &saver->buffers[ffd_gltf_append_buffer(d, version->accessor)];
-        const size_t offset = padded(buffer->length);
         const size_t stride = padded(element_size(d, version));
         const size_t size = (size_t)d->model.accessors[version->accessor].count * stride;
-        if (size > LARGEST_BUFFER || offset > LARGEST_BUFFER - size)
-            return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
-                                 "a buffer would have more than 2^53 bytes");
-        buffer->appends[buffer->append_count++] = (gltf_append){offset, size, stride, number};
-        buffer->length = offset + size;
+        const gltf_append append = {.size = size, .stride = stride, .version = number};
+        status = add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error);
     }
-    return FFD_OK;
+    return status;
 }
 
 ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
 {
-    const ffd_status status = make_room(saver, error);
-    if (status)
-        return status;
-    list_overwrites(saver);
-    return list_appends(saver, error);
+    ffd_status status = ffd_gltf_list_unpackings(saver, error);
+    if (status == FFD_OK)
+        status = make_room(saver, error);
+    if (status == FFD_OK)
+        status = list_appends(saver, error);
+    if (status == FFD_OK)
+        status = list_unpacked(saver, error);
+    if (status == FFD_OK)
+        list_overwrites(saver);
+    return status;
 }
 
 void ffd_gltf_free_content(gltf_saver *saver)
@@ -203,6 +255,11 @@ static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buff
 static void apply_append(const gltf_saver *saver, const gltf_append *append, size_t offset, size_t size,
                          unsigned char *bytes)
 {
+    if (append->version == GLTF_NONE) {
+        copy_common(saver->unpackings[append->unpacking].bytes, append->offset, append->size, offset, size,
+                    bytes);
+        return;
+    }
     const gltf_version *version = &saver->plan.versions[append->version];
     const gltf_accessor *accessor = &saver->document->model.accessors[version->accessor];
     const size_t element = element_size(saver->document, version), stride = append->stride;
@@ -239,6 +296,7 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, siz
     const size_t kept = made->append_count > 0 ? old->length : old->size;
     memset(bytes, 0, size);
     copy_common(old->data, 0, kept, offset, size, bytes);
-    apply_overwrites(saver->document, made, offset, size, bytes);
     apply_appends(saver, made, offset, size, bytes);
+    /* Last: what was compressed is appended as it was and changed there. */
+    apply_overwrites(saver->document, made, offset, size, bytes);
 }

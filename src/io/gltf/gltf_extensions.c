@@ -119,7 +119,10 @@ void ffd_gltf_drop_extensions(gltf_saver *saver)
     static const struct {
         const char *name;
         bool (*is_lost)(gltf_saver *saver);
-    } known[] = {{"KHR_mesh_quantization", lost_quantization}};
+    } known[] = {{"KHR_mesh_quantization", lost_quantization},
+                 {"KHR_draco_mesh_compression", ffd_gltf_lost_draco},
+                 {"EXT_meshopt_compression", ffd_gltf_lost_ext_meshopt},
+                 {"KHR_meshopt_compression", ffd_gltf_lost_khr_meshopt}};
     const char *names[sizeof known / sizeof *known];
     size_t name_count = 0, empty_count = 0;
     uint32_t empty[2];

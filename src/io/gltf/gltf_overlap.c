@@ -29,12 +29,23 @@ static void add_user(user_list *list, byte_user user)
     list->users[list->count++] = user;
 }
 
+/* The uncompressed elements that stand in for Draco data, for readers that do not know it. */
+static void add_fallback(const gltf_view *view, user_list *list)
+{
+    const size_t begin = (size_t)view->offset, length = (size_t)view->length;
+    add_user(list, (byte_user){(size_t)view->buffer, begin, begin + length, 0, length, GLTF_NONE});
+}
+
 static void add_accessor(const gltf_document *d, size_t a, user_list *list)
 {
     const gltf_accessor *accessor = &d->model.accessors[a];
     const gltf_layout *layout = &d->layouts[a];
     if (accessor->view < 0 || accessor->count == 0)
         return;
+    if (layout->packing == GLTF_DRACO) {
+        add_fallback(&d->model.views[accessor->view], list);
+        return;
+    }
     const size_t end = layout->begin + ((size_t)accessor->count - 1) * layout->stride + layout->element_size;
     add_user(list, (byte_user){(size_t)d->model.views[accessor->view].buffer, layout->begin, end,
                                layout->stride, layout->element_size, a});

@@ -85,6 +85,7 @@ static void add_views(gltf_saver *saver)
         const size_t buffer = ffd_gltf_append_buffer(d, accessor);
         write_view(saver, &saver->buffers[buffer].appends[next[buffer]++], buffer, &text);
     }
+    ffd_gltf_write_unpacked_views(saver, &text);
     ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &text);
     ffd_buffer_free(&text);
     ffd_free(next);
@@ -145,6 +146,7 @@ static void add_meshes(gltf_saver *saver)
         const gltf_mesh_copy *copy = &saver->plan.copies[i];
         json_edits edits = {0};
         edit_attributes(saver, copy->mesh, copy->place, &edits);
+        ffd_gltf_edit_compression(saver, copy->mesh, copy->place, &edits);
         add_copy(saver, &d->mesh_values, "meshes", copy->mesh, &edits);
     }
     for (size_t i = 0; i < saver->plan.change_count; i++) {
@@ -194,8 +196,11 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     for (size_t a = 0; a < d->model.accessor_count; a++)
         if (saver->plan.in_place[a] != GLTF_NONE)
             ffd_gltf_edit_bounds(saver, &saver->plan.versions[saver->plan.in_place[a]], &saver->edits);
-    for (size_t m = 0; m < d->model.mesh_count; m++)
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
         edit_attributes(saver, m, saver->plan.base_places[m], &saver->edits);
+        ffd_gltf_edit_compression(saver, m, saver->plan.base_places[m], &saver->edits);
+    }
+    ffd_gltf_edit_unpackings(saver);
     add_views(saver);
     add_accessors(saver);
     add_meshes(saver);

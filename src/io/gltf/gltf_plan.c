@@ -264,11 +264,13 @@ static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size
         }
 }
 
-/* Whether the accessor's own bytes can hold the version. Sparse ones are only the exceptions. */
+/* Whether the accessor's own bytes, decoded where they are compressed, can hold the version. Sparse ones are
+   only the exceptions. */
 static bool has_place(const gltf_document *d, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];
-    return accessor->view >= 0 && !accessor->sparse.present && version->component == accessor->component;
+    const bool has_bytes = accessor->view >= 0 || d->layouts[version->accessor].packing == GLTF_DRACO;
+    return has_bytes && !accessor->sparse.present && version->component == accessor->component;
 }
 
 static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_error *error)

@@ -162,21 +162,6 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 }
 
 /* What keeps results from being written in the accessor's place, or beside it. */
-static ffd_status refuse_accessor(const gltf_document *d, size_t mesh, size_t p, int a, ffd_error *error)
-{
-    const gltf_accessor *accessor = &d->model.accessors[a];
-    const ffd_status status = ffd_gltf_refuse_unreadable(d, mesh, p, a, error);
-    if (status)
-        return status;
-    if (d->layouts[a].packing == GLTF_DRACO)
-        return refuse(d, ffd_gltf_primitive_value(d, mesh, p), error,
-                      "KHR_draco_mesh_compression is not supported");
-    if (d->layouts[a].packing == GLTF_MESHOPT)
-        return refuse(d, d->view_values.values[accessor->view], error,
-                      "EXT_meshopt_compression is not supported");
-    return FFD_OK;
-}
-
 ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tangents, ffd_error *error)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++) {
@@ -187,7 +172,7 @@ ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tang
             for (int s = 0; s < GLTF_DEFORMED && primitive->accessor[GLTF_POSITION] >= 0; s++) {
                 if (!wanted[s] || primitive->accessor[s] < 0)
                     continue;
-                const ffd_status status = refuse_accessor(d, m, p, primitive->accessor[s], error);
+                const ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[s], error);
                 if (status)
                     return status;
             }

@@ -257,6 +257,7 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
     if (status == FFD_OK)
         status = put_files(&saver, error);
     ffd_gltf_free_content(&saver);
+    ffd_gltf_free_unpackings(&saver);
     ffd_gltf_free_plan(&saver.plan);
     ffd_edits_free(&saver.edits);
     return status;

@@ -13,10 +13,20 @@ typedef struct gltf_overwrite {
     const float *values;
 } gltf_overwrite;
 
-/* A new accessor's content behind the old end of its buffer. */
+/* Compressed data that the output holds decoded: a whole bufferView, or the elements of one accessor. */
+typedef struct gltf_unpacking {
+    size_t view, accessor;      /* the other one is GLTF_NONE */
+    bool indices;               /* the accessor's elements are indices */
+    const unsigned char *bytes; /* before any change; lent by the document */
+    size_t size;
+    size_t buffer, offset; /* where it goes */
+} gltf_unpacking;
+
+/* A new accessor's content, or what was compressed, behind the old end of its buffer. */
 typedef struct gltf_append {
     size_t offset, size, stride; /* size: all of it; stride: a multiple of 4, as attributes need */
-    size_t version;
+    size_t version;              /* GLTF_NONE: unpacked data */
+    size_t unpacking;
 } gltf_append;
 
 typedef struct gltf_new_buffer {
@@ -37,8 +47,11 @@ typedef struct gltf_saver {
     file_output *output;
     const mesh_log *log;
     gltf_plan plan;
-    gltf_new_buffer *buffers; /* those of the document, then an added one */
-    size_t buffer_count;      /* one more than the document has where none of those takes bytes */
+    gltf_unpacking *unpackings; /* those of accessors come first */
+    size_t unpacking_count, unpacked_accessor_count;
+    size_t *view_unpackings, *accessor_unpackings; /* numbers in them, GLTF_NONE */
+    gltf_new_buffer *buffers;                      /* those of the document, then an added one */
+    size_t buffer_count; /* one more than the document has where none of those takes bytes */
     json_edits edits;
     bool binary;   /* the output is a GLB */
     bool in_place; /* the output is the input */
@@ -46,6 +59,22 @@ typedef struct gltf_saver {
 } gltf_saver;
 
 void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
+
+/* gltf_unpack.c: what is to be decoded, from the plan. */
+ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error);
+void ffd_gltf_free_unpackings(gltf_saver *saver);
+/* Whether primitive p of a mesh, as it is shown at a place (of its showing), leaves its compression. */
+bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t place);
+/* Takes the compression out of the primitives of a mesh, as it is shown at a place, and tells of it. */
+void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t place, json_edits *edits);
+/* Lets the views and accessors name the decoded data. */
+void ffd_gltf_edit_unpackings(gltf_saver *saver);
+/* Appends the bufferViews of unpacked accessors to those of appended ones. */
+void ffd_gltf_write_unpacked_views(const gltf_saver *saver, byte_buffer *text);
+/* Whether something left this compression and nothing in the output has it. */
+bool ffd_gltf_lost_draco(gltf_saver *saver);
+bool ffd_gltf_lost_ext_meshopt(gltf_saver *saver);
+bool ffd_gltf_lost_khr_meshopt(gltf_saver *saver);
 
 /* gltf_content.c: fills overwrites, appends and lengths of saver->buffers from the plan. */
 ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error);
@@ -70,6 +99,8 @@ void ffd_gltf_add_uri(gltf_saver *saver, size_t buffer, const char *uri);
 ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error);
 /* gltf_bounds.c: "min" and "max" of an accessor that gets a version, where it has them. */
 void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits);
+/* Likewise of one that keeps its content. */
+void ffd_gltf_edit_original_bounds(const gltf_saver *saver, size_t accessor, json_edits *edits);
 /* gltf_lists.c: adds elements (their text, with commas between them) to a list at the top of the JSON, which
    is made where it is missing; more than once only if it is not empty before. */
 void ffd_gltf_add_elements(gltf_saver *saver, const gltf_values *list, const char *key,
