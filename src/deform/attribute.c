@@ -1,6 +1,6 @@
 /* attribute.c - normals and tangents under the deformation gradient F = I + gradient (maths.md 8). */
+#include "deform/attribute.h"
 #include "base/vec.h"
-#include <ffd/deform.h>
 #include <float.h>
 #include <string.h>
 
@@ -62,12 +62,11 @@ int ffd_deform_normal(const double gradient[9], const double normal[3], double r
     return normalise(carried, largest * largest * vec_length(normal), normal, result, collapsed);
 }
 
-int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
-                       double result[3], int *collapsed)
+/* F t made perpendicular to the normal, if there is one. */
+static int carry_tangent(const double gradient[9], const double tangent[3], const double *normal,
+                         double result[3], int *collapsed)
 {
     double f[9], carried[3];
-    if (is_zero(gradient))
-        return keep(tangent, result, collapsed, 0);
     add_identity(gradient, f);
     mat_apply(f, tangent, carried);
     if (normal) {
@@ -76,4 +75,18 @@ int ffd_deform_tangent(const double gradient[9], const double tangent[3], const 
             carried[a] -= along * normal[a];
     }
     return normalise(carried, largest_entry(f) * vec_length(tangent), tangent, result, collapsed);
+}
+
+int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
+                       double result[3], int *collapsed)
+{
+    if (is_zero(gradient))
+        return keep(tangent, result, collapsed, 0);
+    return carry_tangent(gradient, tangent, normal, result, collapsed);
+}
+
+int ffd_tangent_of_normal(const double gradient[9], const double tangent[3], const double normal[3],
+                          double result[3])
+{
+    return carry_tangent(gradient, tangent, normal, result, NULL);
 }

@@ -28,6 +28,7 @@ typedef struct mesh_part {
     /* The vertices are those of an earlier part (same positions, same place), listed again for other normals
        or tangents: they are not counted, embedded or written a second time. */
     bool repeats_positions;
+    size_t repeats; /* that part's number */
 
     bool identity; /* the part stands in the lattice's space itself; the matrices are then not used */
     double linear[9], offset[3]; /* x = linear p + offset */
@@ -62,6 +63,9 @@ typedef struct mesh_faces {
 
 void ffd_mesh_faces_free(mesh_faces *faces);
 
+/* A corner that has no normal. */
+#define MESH_NO_NORMAL UINT32_MAX
+
 typedef struct mesh_save_options {
     const char *path; /* "-": standard output */
     ffd_format format;
@@ -95,6 +99,7 @@ typedef struct mesh_format {
        pass. */
     ffd_status (*check)(const mesh_document *document, ffd_error *error);
     double largest_coordinate; /* that the format's numbers can hold */
+    bool normals_of_faces;     /* faces have normals, which saving renews, and vertices none */
 
     /* From now on only what one of the selectors names is moved, counted and written: sets selected and
        skipped of the parts, whose numbers and vertices stay. At most once, before results. selector_kinds is
@@ -133,6 +138,11 @@ typedef struct mesh_format {
 
     /* Topology and description. describe appends members to an open JSON object. */
     ffd_status (*faces)(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+    /* The normal of each corner that faces has given, or MESH_NO_NORMAL: numbers count the normals of the
+       parts in order. Of documents with normals only. NULL: the normal of the corner's vertex, in the one
+       part. */
+    ffd_status (*corner_normals)(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
+                                 ffd_error *error);
     ffd_status (*describe)(const mesh_document *document, json_text *json, ffd_error *error);
 
     /* Compares two documents of this format (see ffd_compare_run). */
@@ -147,5 +157,9 @@ struct mesh_document {
     size_t part_count;
     double largest_coordinate; /* that the file's numbers can hold; 0: that of the format */
 };
+
+/* The number of each part's first vertex in the document; of a part that repeats positions it is that of the
+   part which it repeats. *first is the caller's to free, NULL after a failure. Errors: FFD_E_MEMORY. */
+ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error);
 
 #endif

@@ -1,3 +1,4 @@
+#include "base/memory.h"
 #include "base/vec.h"
 #include "mesh/mesh.h"
 
@@ -34,4 +35,18 @@ void ffd_part_place(const mesh_document *document, size_t part, size_t first, si
         place_skinned(document, part, first, count, points);
     for (size_t i = 0; i < count && !p->skinned && !p->identity; i++)
         place(p->linear, p->offset, points + 3 * i);
+}
+
+ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error)
+{
+    size_t number = 0;
+    *first = ffd_alloc(document->part_count, sizeof **first);
+    if (!*first)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *part = &document->parts[i];
+        (*first)[i] = part->repeats_positions ? (*first)[part->repeats] : number;
+        number += part->repeats_positions ? 0 : part->vertex_count;
+    }
+    return FFD_OK;
 }

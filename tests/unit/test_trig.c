@@ -110,6 +110,41 @@ static void test_small(void **state)
     }
 }
 
+static void test_arc_tangent_exact(void **state)
+{
+    (void)state;
+    const double pi = acos(-1);
+    static const double sizes[] = {1, 3, 1e-300, 1e300, 5e-324, DBL_MAX};
+    assert_true(ffd_arc_tangent(0, 0) == 0 && ffd_arc_tangent(-0.0, -0.0) == 0);
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const double s = sizes[i];
+        assert_true(ffd_arc_tangent(0, s) == 0);
+        assert_true(ffd_arc_tangent(0, -s) == pi);
+        assert_true(ffd_arc_tangent(s, 0) == pi / 2);
+        assert_true(ffd_arc_tangent(s, s) == pi / 4);
+        assert_true(ffd_arc_tangent(s, -s) == pi - pi / 4);
+    }
+}
+
+static void test_arc_tangent(void **state)
+{
+    (void)state;
+    uint64_t seed = 54321;
+    double worst = 0;
+    for (int i = 0; i < 300000; i++) {
+        /* All directions, and ratios of all sizes. */
+        const double angle = random_unit(&seed), size = ldexp(1, (int)(600 * random_unit(&seed)) - 300);
+        const double ratio = i % 2 ? 1 : ldexp(1, (int)(100 * random_unit(&seed)) - 50);
+        const double y = angle * size, x = (2 * random_unit(&seed) - 1) * size * ratio;
+        const double exact = atan2(y, x);
+        worst = fmax(worst, fabs(ffd_arc_tangent(y, x) - exact));
+        /* Small angles to their own size. */
+        if (exact > 0 && fabs(ffd_arc_tangent(y, x) - exact) > 4 * DBL_EPSILON * exact)
+            fail_msg("atan2(%a, %a): %.17g, expected %.17g", y, x, ffd_arc_tangent(y, x), exact);
+    }
+    assert_true(worst < 1e-15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -117,6 +152,8 @@ int main(void)
         cmocka_unit_test(test_random),
         cmocka_unit_test(test_symmetry),
         cmocka_unit_test(test_small),
+        cmocka_unit_test(test_arc_tangent_exact),
+        cmocka_unit_test(test_arc_tangent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

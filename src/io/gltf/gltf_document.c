@@ -352,6 +352,7 @@ const mesh_format ffd_gltf_format = {
     .write_tangents = ffd_gltf_write_tangents,
     .save = ffd_gltf_save,
     .faces = ffd_gltf_faces,
+    .corner_normals = ffd_gltf_corner_normals,
     .describe = ffd_gltf_describe,
     .compare = ffd_gltf_compare,
 };

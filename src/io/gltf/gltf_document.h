@@ -210,6 +210,8 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
                          const mesh_log *log, ffd_error *error);
 ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd_error *error);
 ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
+                                   ffd_error *error);
 ffd_status ffd_gltf_compare(const mesh_document *a, const mesh_document *b, double tolerance,
                             ffd_comparison *comparison, ffd_error *error);
 

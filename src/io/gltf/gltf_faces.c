@@ -208,3 +208,45 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
         ffd_mesh_faces_free(faces);
     return status;
 }
+
+/* The normals of one instance's corners: vertex i of its positions has normal i of its normals. */
+static void number_corners(const gltf_instance *instance, const size_t *first_vertices,
+                           const size_t *first_normals, const uint32_t *corners, size_t count,
+                           uint32_t *normals)
+{
+    const size_t part = instance->part[GLTF_NORMAL];
+    if (part == GLTF_NONE) {
+        for (size_t c = 0; c < count; c++)
+            normals[c] = MESH_NO_NORMAL;
+        return;
+    }
+    const size_t first = first_vertices[instance->part[GLTF_POSITION]];
+    for (size_t c = 0; c < count; c++)
+        normals[c] = (uint32_t)(first_normals[part] + (corners[c] - first));
+}
+
+ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
+                                   ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    size_t *first_normals = ffd_alloc(d->base.part_count, sizeof *first_normals), *first_vertices = NULL;
+    ffd_status status =
+        first_normals ? ffd_parts_number(document, &first_vertices, error) : ffd_fail_memory(error);
+    size_t number = 0, corner = 0;
+    for (size_t i = 0; i < d->base.part_count && status == FFD_OK; i++) {
+        first_normals[i] = number;
+        number += d->mesh_parts[i].normal_count;
+    }
+    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
+            const size_t count = 3 * count_drawing(d, &d->model.meshes[m].primitives[p]).triangles;
+            const gltf_showing *showing = &d->showings[m];
+            const gltf_instance *instances = d->instances + showing->first_instance + p * showing->node_count;
+            for (size_t n = 0; n < showing->node_count && count > 0; n++, corner += count)
+                number_corners(&instances[n], first_vertices, first_normals, faces->corners + corner, count,
+                               normals + corner);
+        }
+    ffd_free(first_normals);
+    ffd_free(first_vertices);
+    return status;
+}

@@ -85,7 +85,7 @@ static void place_part(const gltf_document *d, const gltf_part *from, mesh_part 
     part->singular = !mat_invert(part->linear, part->inverse);
 }
 
-static size_t add_part(gltf_document *d, const gltf_part *part, bool repeats)
+static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
 {
     const size_t index = d->base.part_count++;
     mesh_part *shown = &d->mesh_parts[index];
@@ -93,7 +93,8 @@ static size_t add_part(gltf_document *d, const gltf_part *part, bool repeats)
     shown->vertex_count = (size_t)d->model.accessors[part->streams[GLTF_POSITION].accessor].count;
     shown->normal_count = part->streams[GLTF_NORMAL].accessor == GLTF_NONE ? 0 : shown->vertex_count;
     shown->has_tangents = part->streams[GLTF_TANGENT].accessor != GLTF_NONE;
-    shown->repeats_positions = repeats;
+    shown->repeats_positions = repeated != GLTF_NONE;
+    shown->repeats = repeated;
     place_part(d, part, shown);
     return index;
 }
@@ -132,7 +133,7 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
         part = table->next[part];
     }
     if (part == GLTF_NONE) {
-        part = add_part(d, &wanted, *head != GLTF_NONE);
+        part = add_part(d, &wanted, *head);
         table->next[part] = GLTF_NONE;
         if (last == GLTF_NONE)
             *head = part;

@@ -238,3 +238,18 @@ ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     fill_faces(d, faces);
     return FFD_OK;
 }
+
+ffd_status ffd_obj_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
+                                  ffd_error *error)
+{
+    const obj_document *d = ffd_obj_of(document);
+    obj_walk walk;
+    obj_face_corner corner;
+    (void)faces; /* they are read again, in the same order */
+    (void)error;
+    ffd_obj_document_walk(d, &walk);
+    while (ffd_obj_walk_next(&walk))
+        while (walk.scan.keyword == OBJ_FACE && ffd_obj_walk_corner(&walk, &corner))
+            *normals++ = corner.has_normal ? (uint32_t)ffd_obj_find_pair(d, &corner) : MESH_NO_NORMAL;
+    return FFD_OK;
+}

@@ -27,6 +27,7 @@ const mesh_format ffd_obj_format = {
     .write_normals = ffd_obj_write_normals,
     .save = ffd_obj_save,
     .faces = ffd_obj_faces,
+    .corner_normals = ffd_obj_corner_normals,
     .describe = ffd_obj_describe,
     .compare = ffd_obj_compare,
 };

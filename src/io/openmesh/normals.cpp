@@ -105,14 +105,16 @@ void sum_all(const mesh_faces &faces, const uint32_t *groups, const uint8_t *mir
 
 } // namespace
 
-ffd_status ffd_normals_sum(const mesh_faces *faces, const uint32_t *groups, const uint8_t *mirrored,
-                           double *sums, double *sizes, ffd_error *error)
+ffd_status ffd_normals_sum(const mesh_faces *faces, const double *positions, const uint32_t *groups,
+                           const uint8_t *mirrored, double *sums, double *sizes, ffd_error *error)
 {
     return guarded(
         [&] {
-            const ffd_status status = check(*faces, error);
+            mesh_faces placed = *faces;
+            placed.positions = const_cast<double *>(positions); /* read only */
+            const ffd_status status = check(placed, error);
             if (status == FFD_OK)
-                sum_all(*faces, groups, mirrored, sums, sizes);
+                sum_all(placed, groups, mirrored, sums, sizes);
             return status;
         },
         "the normals", error);

@@ -1,5 +1,4 @@
-/* normals.h - normals from the faces of a polygon mesh by OpenMesh's half-edges (C++ behind this C
- * interface). */
+/* normals.h - normals from the faces of a polygon mesh by OpenMesh's half-edges (C++ behind C). */
 #ifndef FFD_IO_OPENMESH_NORMALS_H
 #define FFD_IO_OPENMESH_NORMALS_H
 
@@ -14,15 +13,20 @@ extern "C" {
 
 /* For each group of corners the sum over its corners of (area of the face) (interior angle there) (unit
    normal of the face, by the order of its corners). Areas are relative to the square of a power of two that
-   brings the mesh's largest coordinate to 1 or less. Faces are added in their order, each corner after the
-   one before. Corners of faces without an area add nothing; nor does a corner that repeats the vertex before
-   it. groups     one a corner of faces: a number below group_count, or NORMALS_NONE mirrored   one a vertex,
-   not 0: what stands there is shown from its other side, so that its corners count with the opposite sign;
-   NULL: none sums       3*group_count, cleared by the caller sizes      group_count, cleared by the caller:
-   the sums of the terms' lengths faces is not changed. No exception leaves, nothing is printed. Errors:
-   FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_ARGUMENT (a corner is no vertex). */
-ffd_status ffd_normals_sum(const mesh_faces *faces, const uint32_t *groups, const uint8_t *mirrored,
-                           double *sums, double *sizes, ffd_error *error);
+   brings the mesh's largest coordinate to 1 or less. Faces are added in their order. Corners of faces without
+   an area add nothing, nor does a corner that repeats the vertex before it.
+
+     positions  3 doubles a vertex, in place of those of faces
+     groups     one a corner of faces: the number of a group, or NORMALS_NONE
+     mirrored   one a vertex, not 0: what stands there is shown from its other side, so that its corners count
+                with the opposite sign; NULL: none
+     sums       3 a group, cleared by the caller
+     sizes      1 a group, cleared by the caller: the sums of the terms' lengths
+
+   No exception leaves, nothing is printed. Errors: FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_ARGUMENT (a corner is no
+   vertex). */
+ffd_status ffd_normals_sum(const mesh_faces *faces, const double *positions, const uint32_t *groups,
+                           const uint8_t *mirrored, double *sums, double *sizes, ffd_error *error);
 
 #ifdef __cplusplus
 }

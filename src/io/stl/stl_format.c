@@ -16,6 +16,7 @@ const mesh_format ffd_stl_format = {
     .open = ffd_stl_open,
     .close = ffd_stl_close,
     .check = check,
+    .normals_of_faces = true,
     .largest_coordinate = DBL_MAX,
     .read_positions = ffd_stl_read_positions,
     .begin_results = ffd_stl_begin_results,

@@ -1,0 +1,12 @@
+/* attribute.h - tangents for normals that come from elsewhere (public: ffd/deform.h). */
+#ifndef FFD_DEFORM_ATTRIBUTE_H
+#define FFD_DEFORM_ATTRIBUTE_H
+
+#include <ffd/deform.h>
+
+/* ffd_deform_tangent for a normal that changed, perhaps though the gradient is 0. Returns 1 and writes
+   result; 0 and copies t where nothing is left of it. */
+int ffd_tangent_of_normal(const double gradient[9], const double tangent[3], const double normal[3],
+                          double result[3]);
+
+#endif

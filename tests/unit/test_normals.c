@@ -1,0 +1,195 @@
+/* test_normals.c - angles of polygons, and sums of face normals over groups of corners. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/memory.h"
+#include "base/vec.h"
+#include "io/openmesh/normals.h"
+#include "mesh/polygon.h"
+#include <math.h>
+#include <string.h>
+
+#define MOST 64
+
+static void check_angles(const double *xyz, size_t count, const double *degrees)
+{
+    uint32_t corners[MOST];
+    size_t scratch[MOST];
+    double normal[3], angles[MOST];
+    for (uint32_t i = 0; i < count; i++)
+        corners[i] = i;
+    assert_true(ffd_polygon_normal(xyz, corners, count, normal, NULL));
+    ffd_polygon_angles(xyz, corners, count, normal, scratch, angles);
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs(angles[i] - degrees[i] * acos(-1) / 180) < 1e-14))
+            fail_msg("corner %zu: %.17g, expected %g degrees", i, angles[i], degrees[i]);
+}
+
+static void test_angles(void **state)
+{
+    (void)state;
+    const double triangle[] = {0, 0, 5, 1, 0, 5, 0, 1, 5};
+    check_angles(triangle, 3, (const double[]){90, 45, 45});
+    const double concave[] = {0, 0, 0, 2, 0, 0, 1, 1, 0, 1, 3, 0};
+    const double sharp = atan2(1, 1) * 180 / acos(-1), top = atan2(1, 3) * 180 / acos(-1);
+    check_angles(concave, 4, (const double[]){atan2(3, 1) * 180 / acos(-1), sharp, 225, top});
+    const double straight[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 2, 0};
+    check_angles(straight, 4, (const double[]){90, 180, 45, 45});
+    /* Corners at one place share an angle, also round the end; 0 and -0 are one place. */
+    const double doubled[] = {0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, -0.0, 0, 0, 0, 0, -0.0};
+    check_angles(doubled, 6, (const double[]){30, 22.5, 22.5, 45, 30, 30});
+    const double huge[] = {0, 0, 0, 1e200, 0, 0, 0, 1e200, 0};
+    check_angles(huge, 3, (const double[]){90, 45, 45});
+}
+
+static void test_no_area(void **state)
+{
+    (void)state;
+    const uint32_t corners[] = {0, 1, 2};
+    double normal[3];
+    const double line[] = {0.1, 0.1, 0.1, 0.2, 0.2, 0.2, 0.7, 0.7, 0.7};
+    assert_false(ffd_polygon_normal(line, corners, 3, normal, NULL));
+    const double broken[] = {0, 0, 0, 1, 0, 0, 0, NAN, 0};
+    assert_false(ffd_polygon_normal(broken, corners, 3, normal, NULL));
+    const double place[] = {3, 3, 3, 3, 3, 3, 3, 3, 3};
+    assert_false(ffd_polygon_normal(place, corners, 3, normal, NULL));
+}
+
+/* The cube of -1 and 1; its quads look outward. */
+static double cube[24];
+static uint32_t cube_corners[] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+static size_t cube_start[] = {0, 4, 8, 12, 16, 20, 24};
+
+static mesh_faces make_cube(void)
+{
+    for (int i = 0; i < 24; i++)
+        cube[i] = (i / 3) >> (i % 3) & 1 ? 1 : -1;
+    return (mesh_faces){
+        .vertex_count = 8, .face_count = 6, .positions = cube, .start = cube_start, .corners = cube_corners};
+}
+
+static void sum(const mesh_faces *faces, const uint32_t *groups, const uint8_t *mirrored, size_t count,
+                double *sums, double *sizes)
+{
+    ffd_error error = {0};
+    memset(sums, 0, 3 * count * sizeof *sums);
+    memset(sizes, 0, count * sizeof *sizes);
+    if (ffd_normals_sum(faces, faces->positions, groups, mirrored, sums, sizes, &error))
+        fail_msg("%s", error.message);
+}
+
+static void check_direction(const double v[3], double x, double y, double z)
+{
+    const double length = vec_length(v);
+    if (!(fabs(v[0] / length - x) < 1e-15 && fabs(v[1] / length - y) < 1e-15 &&
+          fabs(v[2] / length - z) < 1e-15))
+        fail_msg("%.17g %.17g %.17g, expected %.17g %.17g %.17g", v[0] / length, v[1] / length, v[2] / length,
+                 x, y, z);
+}
+
+static void test_cube(void **state)
+{
+    (void)state;
+    const mesh_faces faces = make_cube();
+    static const double outward[][3] = {{0, 0, -1}, {0, 0, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}};
+    uint32_t groups[24];
+    double sums[72], sizes[24];
+    /* Hard edges: a group a corner. */
+    for (uint32_t c = 0; c < 24; c++)
+        groups[c] = c;
+    sum(&faces, groups, NULL, 24, sums, sizes);
+    for (size_t c = 0; c < 24; c++) {
+        check_direction(sums + 3 * c, outward[c / 4][0], outward[c / 4][1], outward[c / 4][2]);
+        /* Area 4, relative to 2^2 (the least power of two above 1), times pi/2. */
+        assert_true(fabs(sizes[c] - acos(-1) / 2) < 1e-15);
+    }
+    /* Smooth: a group a vertex; the diagonals. One corner takes no part. */
+    for (size_t c = 0; c < 24; c++)
+        groups[c] = cube_corners[c];
+    sum(&faces, groups, NULL, 8, sums, sizes);
+    for (size_t v = 0; v < 8; v++)
+        check_direction(sums + 3 * v, cube[3 * v] / sqrt(3), cube[3 * v + 1] / sqrt(3),
+                        cube[3 * v + 2] / sqrt(3));
+    groups[0] = NORMALS_NONE;
+    sum(&faces, groups, NULL, 8, sums, sizes);
+    check_direction(sums, -sqrt(0.5), -sqrt(0.5), 0);
+    /* Mirrored: from the other side. */
+    const uint8_t mirrored[8] = {1};
+    sum(&faces, groups, mirrored, 8, sums, sizes);
+    check_direction(sums, sqrt(0.5), sqrt(0.5), 0);
+}
+
+/* Positions are those that are given, whatever faces has; sizes far from 1 do no harm. */
+static void test_positions(void **state)
+{
+    (void)state;
+    const mesh_faces faces = make_cube();
+    uint32_t groups[24];
+    for (size_t c = 0; c < 24; c++)
+        groups[c] = cube_corners[c];
+    static const double scales[] = {1e-200, 1e-5, 1e5, 1e250};
+    for (size_t s = 0; s < 4; s++) {
+        double placed[24], sums[24] = {0}, sizes[8] = {0};
+        for (int i = 0; i < 24; i++)
+            placed[i] = cube[i] * scales[s];
+        assert_int_equal(ffd_normals_sum(&faces, placed, groups, NULL, sums, sizes, NULL), FFD_OK);
+        check_direction(sums, -sqrt(1.0 / 3), -sqrt(1.0 / 3), -sqrt(1.0 / 3));
+    }
+}
+
+/* What half-edges cannot join counts all the same: three faces at an edge, one twice, one back to front. */
+static void test_non_manifold(void **state)
+{
+    (void)state;
+    double xyz[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1};
+    uint32_t corners[] = {0, 1, 2, 0, 1, 3, 0, 1, 4, 0, 1, 2, 1, 1, 0, 2, 2};
+    size_t start[] = {0, 3, 6, 9, 12, 17};
+    const mesh_faces faces = {
+        .vertex_count = 5, .face_count = 5, .positions = xyz, .start = start, .corners = corners};
+    uint32_t groups[17];
+    double sums[3], sizes[1];
+    for (size_t c = 0; c < 17; c++)
+        groups[c] = corners[c] == 0 ? 0 : NORMALS_NONE;
+    sum(&faces, groups, NULL, 1, sums, sizes);
+    /* Normals z, -z, -y, z, -z, each of area 1/2 and a right angle. */
+    check_direction(sums, 0, -1, 0);
+    assert_true(fabs(sizes[0] - 5 * acos(-1) / 4 / 4) < 1e-15);
+}
+
+static void test_failures(void **state)
+{
+    (void)state;
+    const mesh_faces faces = make_cube();
+    uint32_t wrong[24], groups[24];
+    double sums[24], sizes[8];
+    ffd_error error;
+    memcpy(wrong, cube_corners, sizeof wrong);
+    memcpy(groups, cube_corners, sizeof groups);
+    wrong[7] = 8;
+    mesh_faces broken = faces;
+    broken.corners = wrong;
+    assert_int_equal(ffd_normals_sum(&broken, cube, groups, NULL, sums, sizes, &error), FFD_E_ARGUMENT);
+    for (long n = 0;; n++) {
+        assert_true(n < 1000);
+        ffd_alloc_fail_after(n);
+        const ffd_status status = ffd_normals_sum(&faces, cube, groups, NULL, sums, sizes, &error);
+        ffd_alloc_fail_after(-1);
+        if (status == FFD_OK)
+            break;
+        assert_int_equal(status, FFD_E_MEMORY);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_angles),       cmocka_unit_test(test_no_area),
+        cmocka_unit_test(test_cube),         cmocka_unit_test(test_positions),
+        cmocka_unit_test(test_non_manifold), cmocka_unit_test(test_failures),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
