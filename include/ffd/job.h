@@ -32,7 +32,9 @@ FFD_API ffd_format ffd_format_from_name(const char *name);
 /* A vertex outside of a lattice stays; moves as the continuation of the nearest border point's displacement
    says; is a failure. */
 typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
-typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP } ffd_normals;
+/* Normals and tangents follow the deformation; stay; are those of the deformed faces: corners that stood at
+   one place with one normal get one again, from all faces around them, by area and angle. */
+typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
 
@@ -117,6 +119,8 @@ typedef struct ffd_job_result {
     ffd_bounds before, after;
     double displacement_max, displacement_rms;
     uint64_t normals_collapsed;
+    uint64_t normals_carried;     /* RECOMPUTE: those without a face to be computed from, which follow the
+                                     deformation */
     uint64_t transforms_singular; /* vertices kept because their node's or skin's matrix has no inverse */
     bool has_folds;               /* the proof ran: for check, quality and FFD_GATE_FOLDS */
     ffd_folds folds;      /* of all lattices: the worst verdict (some, unknown, none), sums of cells, the

@@ -62,7 +62,7 @@ static bool add_gates(void *context, const cli_option *option, const char *value
 
 /* In the order of the enums. */
 static const char *const outside_names[] = {"keep", "extend", "error", NULL};
-static const char *const normals_names[] = {"transform", "keep", NULL};
+static const char *const normals_names[] = {"transform", "keep", "recompute", NULL};
 static const char *const space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(cli_job, field)
@@ -73,9 +73,9 @@ const cli_option cli_job_options[] = {
      AT(outside), outside_names},
     {"falloff", 0, "R", "with --outside extend: what follows fades to nothing over this distance",
      cli_set_positive, AT(falloff), NULL},
-    {"normals", 0, "transform|keep",
-     "normals and tangents: follow the deformation, or stay; default transform", cli_set_choice, AT(normals),
-     normals_names},
+    {"normals", 0, "transform|recompute|keep",
+     "normals, tangents: carried along, from the deformed faces, or kept; default transform", cli_set_choice,
+     AT(normals), normals_names},
     {"space", 0, "scene|mesh",
      "glTF: the lattice stands in the scene, or in each mesh's own space; default scene", cli_set_choice,
      AT(space), space_names},

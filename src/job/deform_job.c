@@ -4,6 +4,7 @@
 #include "job/figures.h"
 #include "job/gates.h"
 #include "job/placement.h"
+#include "job/recompute.h"
 #include "job/selection.h"
 #include "job/source.h"
 #include "job/written.h"
@@ -80,6 +81,19 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     return status;
 }
 
+static bool has_normals(const mesh_document *document)
+{
+    for (size_t i = 0; i < document->part_count; i++)
+        if (document->parts[i].normal_count)
+            return true;
+    return false;
+}
+
+static bool wants_figures(const deform_job *job)
+{
+    return job->check || job->desc->quality;
+}
+
 /* What can be refused before a vertex is touched, and room for the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
@@ -88,7 +102,10 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     ffd_status status = format->check(job->document, error);
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
-    if (!status && (job->check || job->desc->quality))
+    job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
+    if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "has no normals: there are none to recompute");
+    if (!status && (wants_figures(job) || job->recomputes))
         status = ffd_figures_make_room(job, arrays, error);
     return status;
 }
@@ -111,23 +128,29 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .threads = job->threads,
                             .embedding = job->desc->embedding ? &job->embedding : NULL,
                             .write = true,
-                            .attributes = job->desc->normals != FFD_NORMALS_KEEP,
+                            .attributes = job->desc->normals == FFD_NORMALS_TRANSFORM,
                             .deformed = arrays->deformed,
                             .gradients = arrays->gradients};
-    return ffd_pass_run(&pass, &job->totals, error);
+    recompute_counts counts = {0};
+    ffd_status status = ffd_pass_run(&pass, &job->totals, error);
+    if (!status && job->recomputes && job->totals.moved)
+        status = ffd_recompute_normals(job->document, &arrays->faces, arrays->deformed, arrays->gradients,
+                                       &counts, error);
+    job->totals.normals_collapsed += counts.collapsed;
+    job->totals.normals_carried = counts.carried;
+    return status;
 }
 
 /* The figures that cost time of their own, and what the gates say of them all. */
-static ffd_status judge(deform_job *job, const figure_arrays *arrays, ffd_job_result *result,
-                        ffd_error *error)
+static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     const char *name = ffd_source_name(&desc->input);
     const double start = ffd_clock_seconds();
     ffd_status status = ffd_policies_judge(desc, name, job->check, &job->chain, &job->totals, error);
-    if (!status && (job->check || desc->quality || desc->fail_on & FFD_GATE_FOLDS))
+    if (!status && (wants_figures(job) || desc->fail_on & FFD_GATE_FOLDS))
         status = ffd_figures_folds(&job->chain, job->threads, result, error);
-    if (!status && arrays->deformed)
+    if (!status && wants_figures(job))
         status = ffd_figures_faces(job, arrays, result, error);
     if (!status)
         status = ffd_gates_judge(desc, name, &job->totals, result, error);

@@ -8,7 +8,8 @@
 /* What a job holds while it runs. */
 typedef struct deform_job {
     const ffd_deform_desc *desc;
-    bool check; /* nothing will be written; all figures are wanted */
+    bool check;      /* nothing will be written; all figures are wanted */
+    bool recomputes; /* there are normals, and they are to be those of the deformed faces */
     int threads;
     mesh_log log;
     lattice_chain chain;

@@ -13,8 +13,8 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
     const ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
     arrays->has_faces = status == FFD_OK;
     if (!status)
-        return job->desc->only_count ? ffd_selection_reduce(job->document, &arrays->faces, error) : FFD_OK;
-    if (job->check || status == FFD_E_MEMORY) {
+        return FFD_OK;
+    if (job->check || job->recomputes || status == FFD_E_MEMORY) {
         if (error)
             *error = own;
         return status;
@@ -79,21 +79,25 @@ ffd_status ffd_figures_folds(const lattice_chain *chain, int threads, ffd_job_re
     return FFD_OK;
 }
 
-ffd_status ffd_figures_faces(const deform_job *job, const figure_arrays *arrays, ffd_job_result *result,
+ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                              ffd_error *error)
 {
     edge_quality edges;
+    ffd_status status = FFD_OK;
     result->det_min = job->totals.det_min;
     result->det_max = job->totals.det_max;
     if (!arrays->has_faces)
         return FFD_OK;
+    if (job->desc->only_count)
+        status = ffd_selection_reduce(job->document, &arrays->faces, error);
+    if (status)
+        return status;
     result->has_flipped = true;
     result->faces = arrays->faces.face_count;
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
     if (!job->check)
         return FFD_OK;
-    const ffd_status status =
-        ffd_quality_edges(&arrays->faces, arrays->deformed, &job->chain, job->threads, &edges, error);
+    status = ffd_quality_edges(&arrays->faces, arrays->deformed, &job->chain, job->threads, &edges, error);
     if (status)
         return status;
     result->has_edges = true;

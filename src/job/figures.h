@@ -14,7 +14,8 @@ typedef struct figure_arrays {
 } figure_arrays;
 
 /* Reads the mesh's faces (at rest: before the pass) and makes room for the pass. Faces that are not valid
-   refuse a check; a deformation, which has no use for them, goes on without their figures after a warning. */
+   refuse a check and normals that are to be computed from them; else a deformation goes on without their
+   figures after a warning. */
 ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, ffd_error *error);
 void ffd_figures_free(figure_arrays *arrays);
 
@@ -22,8 +23,9 @@ void ffd_figures_free(figure_arrays *arrays);
 ffd_status ffd_figures_folds(const lattice_chain *chain, int threads, ffd_job_result *result,
                              ffd_error *error);
 
-/* After the pass: det F, flipped faces, for a check the edges. */
-ffd_status ffd_figures_faces(const deform_job *job, const figure_arrays *arrays, ffd_job_result *result,
+/* After the pass: det F, flipped faces, for a check the edges; of selected faces, which are all that it
+   leaves in arrays. */
+ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                              ffd_error *error);
 
 /* Says what a deformation's user should know though no gate asked. */

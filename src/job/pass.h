@@ -22,6 +22,7 @@ typedef struct pass_totals {
     uint64_t first_outside, first_invalid, first_overflow; /* vertex numbers; UINT64_MAX: none */
     uint64_t extended; /* of those with status outside: displaced as the border is */
     uint64_t normals_collapsed, transforms_singular;
+    uint64_t normals_carried; /* not by a pass: see ffd_job_result */
     double det_min,
         det_max; /* of F, where gradients are asked for, a link acts and none is singular; else min > max */
     double embed_seconds, deform_seconds; /* summed over threads */

@@ -53,6 +53,7 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->displacement_rms =
         totals->vertices ? sqrt(totals->displacement_square_sum / (double)totals->vertices) : 0;
     result->normals_collapsed = totals->normals_collapsed;
+    result->normals_carried = totals->normals_carried;
     result->transforms_singular = totals->transforms_singular;
     const double own = totals->embed_seconds + totals->deform_seconds;
     result->seconds_embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
@@ -106,6 +107,11 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
         ffd_log_line(log, FFD_LOG_WARNING,
                      "%" PRIu64 " vertices stay: their node's or skin's matrix has no inverse",
                      totals->transforms_singular);
+    if (totals->normals_carried)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " normals have no face with an area to be computed from: they follow the "
+                     "deformation",
+                     totals->normals_carried);
     if (totals->normals_collapsed)
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " normals stay: the deformation collapses them",
                      totals->normals_collapsed);
