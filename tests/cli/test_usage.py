@@ -108,7 +108,6 @@ def options_of_later_versions_are_absent(run):
     work = files(run)
     for option in ("--refine=0.1", "--as-morph=x", "--seam=C1", "--isa=auto", "--depfile=d"):
         refused(run, *work, option, says="unknown option")
-    refused(run, *work, "--normals", "recompute", says="recompute")
 
 
 @case

@@ -166,6 +166,36 @@ static void test_memory(void **state)
     fail_everywhere(ffd_deform_run, &desc);
     desc.outside = FFD_OUTSIDE_EXTEND;
     fail_everywhere(ffd_check_run, &desc);
+    static const char *const only[] = {"group:default"};
+    desc.only = only;
+    desc.only_count = 1;
+    desc.normals = FFD_NORMALS_RECOMPUTE;
+    fail_everywhere(ffd_deform_run, &desc);
+    (void)state;
+}
+
+/* Only what a selector names is counted; a kind or name that is not there is the caller's mistake. */
+static void test_selection(void **state)
+{
+    ffd_job_result result;
+    ffd_deform_desc desc = describe();
+    static const char *const known[] = {"group:default"}, *const unknown[] = {"group:default", "material:x"},
+                             *const wrong[] = {"groups:x"};
+    assert_int_equal(ffd_selector_check(known[0], NULL), FFD_OK);
+    assert_int_equal(ffd_selector_check(wrong[0], NULL), FFD_E_ARGUMENT);
+    desc.only = known;
+    desc.only_count = 1;
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.vertices, 4);
+    desc.only = unknown;
+    desc.only_count = 2;
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_E_ARGUMENT);
+    assert_string_equal(result.error.file, mesh);
+    desc.only = wrong;
+    desc.only_count = 1;
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_E_ARGUMENT);
+    desc.only = NULL;
+    refuse(&desc);
     (void)state;
 }
 
@@ -175,6 +205,7 @@ int main(void)
         cmocka_unit_test(test_descriptions),
         cmocka_unit_test(test_figures),
         cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_selection),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
