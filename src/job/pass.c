@@ -1,41 +1,10 @@
-#include "job/pass.h"
 #include "base/memory.h"
 #include "base/thread.h"
 #include "base/vec.h"
-#include "job/vertex_place.h"
+#include "job/tile.h"
 #include <ffd/deform.h>
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
-
-#define TILE VERTEX_PLACES
-
-/* What one worker needs for a tile. */
-typedef struct tile_scratch {
-    double raw[3 * TILE];   /* positions as the file has them */
-    double place[3 * TILE]; /* in the lattice's space, from rest to deformed */
-    double before[3 * TILE];
-    size_t chosen[TILE]; /* vertices of the tile that are selected */
-    size_t chosen_count;
-    ffd_location locations[TILE]; /* of the chosen ones */
-    chain_point points[TILE];
-    uint8_t changed[TILE];
-    vertex_places places;
-    double normals[3 * TILE], tangents[4 * TILE];
-    uint8_t normals_changed[TILE], tangents_changed[TILE];
-    ffd_status status; /* of the first tile of this worker that failed, and what it said */
-    ffd_error error;
-} tile_scratch;
-
-typedef struct part_work {
-    const mesh_pass *pass;
-    const mesh_part *part;
-    size_t part_number;
-    uint64_t first_vertex; /* the part's first vertex in the document */
-    tile_scratch *scratch; /* one a worker */
-    pass_totals *tiles;    /* what each tile adds */
-    atomic_bool stopped;   /* a tile failed: the others need not be looked at */
-} part_work;
 
 /* Takes the points (positions as the file has them) of a tile to the lattice's space. */
 static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
@@ -57,6 +26,7 @@ static void clear_totals(pass_totals *totals)
         totals->before.max[a] = totals->after.max[a] = -HUGE_VAL;
     }
     totals->first_outside = totals->first_invalid = totals->first_overflow = UINT64_MAX;
+    totals->first_shape_outside = totals->first_shape_invalid = UINT64_MAX;
     totals->det_min = HUGE_VAL;
     totals->det_max = -HUGE_VAL;
 }
@@ -101,6 +71,9 @@ static void join_totals(pass_totals *all, const pass_totals *tile)
     all->first_outside = least(all->first_outside, tile->first_outside);
     all->first_invalid = least(all->first_invalid, tile->first_invalid);
     all->first_overflow = least(all->first_overflow, tile->first_overflow);
+    all->shapes_outside += tile->shapes_outside;
+    all->first_shape_outside = least(all->first_shape_outside, tile->first_shape_outside);
+    all->first_shape_invalid = least(all->first_shape_invalid, tile->first_shape_invalid);
     all->normals_collapsed += tile->normals_collapsed;
     all->transforms_singular += tile->transforms_singular;
     all->det_min = fmin(all->det_min, tile->det_min);
@@ -113,12 +86,10 @@ static void join_totals(pass_totals *all, const pass_totals *tile)
    displacement is 0 keeps its bits. Returns whether one changed. */
 static bool move_back(const vertex_place *place, const chain_point *point, double p[3])
 {
-    double delta[3] = {point->delta[0], point->delta[1], point->delta[2]};
-    if (delta[0] == 0 && delta[1] == 0 && delta[2] == 0)
-        return false;
-    if (!place->identity)
-        mat_apply(place->inverse, delta, delta);
+    double delta[3];
     bool changed = false;
+    if (!ffd_displacement_bring_back(place, point->delta, delta))
+        return false;
     for (int a = 0; a < 3; a++)
         if (delta[a] != 0) {
             const double moved = p[a] + delta[a];
@@ -201,7 +172,7 @@ static void fill_arrays(const mesh_pass *pass, bool singular, const chain_point 
         note_determinant(point, totals);
 }
 
-static bool fits_file(const mesh_document *document, const double p[3])
+bool ffd_tile_fits_file(const mesh_document *document, const double p[3])
 {
     const double own = document->largest_coordinate;
     const double largest = own > 0 ? own : document->format->largest_coordinate;
@@ -227,10 +198,10 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
         if (!ffd_part_selects(work->part, first + i))
             continue;
         count_point(place.singular, point, scratch->before + 3 * i, scratch->place + 3 * i, number, totals);
-        scratch->changed[i] = !place.singular && move_back(&place, point, p);
+        scratch->changed[i] = move_back(&place, point, p);
         if (scratch->changed[i]) {
             totals->moved++;
-            if (!fits_file(pass->document, p))
+            if (!ffd_tile_fits_file(pass->document, p))
                 totals->first_overflow = least(totals->first_overflow, number);
         }
     }
@@ -290,7 +261,7 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
         size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;
         const size_t end = part->normal_start ? part->normal_start[first + count] : first + count;
         for (size_t to; from < end; from = to) {
-            to = end - from > TILE ? from + TILE : end;
+            to = end - from > PASS_TILE ? from + PASS_TILE : end;
             deform_normals(work, scratch, first, from, to, &vertex, totals);
         }
     }
@@ -376,15 +347,17 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         finish_positions(work, scratch, first, count, totals);
     if (attributes)
         finish_attributes(work, scratch, first, count, totals);
+    if (pass->write && part->shape_count > 0)
+        ffd_tile_shapes(work, scratch, first, count, totals);
 }
 
 static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
 {
-    const size_t count = work->part->vertex_count, tiles = count / TILE + (count % TILE != 0);
+    const size_t count = work->part->vertex_count, tiles = count / PASS_TILE + (count % PASS_TILE != 0);
     work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
     if (!work->tiles)
         return ffd_fail_memory(error);
-    ffd_parallel_tiles(count, TILE, work->pass->threads, run_tile, work);
+    ffd_parallel_tiles(count, PASS_TILE, work->pass->threads, run_tile, work);
     for (size_t i = 0; i < tiles; i++)
         join_totals(totals, &work->tiles[i]);
     ffd_free(work->tiles);
@@ -406,13 +379,37 @@ uint64_t ffd_pass_vertex_count(const mesh_document *document)
     return count;
 }
 
+static void free_scratch(tile_scratch *scratch, int workers)
+{
+    for (int i = 0; scratch && i < workers; i++)
+        ffd_free(scratch[i].shape);
+    ffd_free(scratch);
+}
+
+/* NULL when there is no memory. */
+static tile_scratch *make_scratch(const mesh_pass *pass)
+{
+    bool shapes = false;
+    for (size_t i = 0; i < pass->document->part_count; i++)
+        shapes = shapes || (pass->write && pass->document->parts[i].shape_count > 0);
+    tile_scratch *scratch = ffd_alloc_zero((size_t)pass->threads, sizeof *scratch);
+    for (int i = 0; shapes && scratch && i < pass->threads; i++) {
+        scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
+        if (!scratch[i].shape) {
+            free_scratch(scratch, pass->threads);
+            return NULL;
+        }
+    }
+    return scratch;
+}
+
 ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
 {
     part_work work = {.pass = pass};
     ffd_status status = FFD_OK;
     clear_totals(totals);
     atomic_init(&work.stopped, false);
-    work.scratch = ffd_alloc_zero((size_t)pass->threads, sizeof *work.scratch);
+    work.scratch = make_scratch(pass);
     if (!work.scratch)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < pass->document->part_count && !status; i++) {
@@ -422,6 +419,6 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
         if (!work.part->repeats_positions)
             work.first_vertex += work.part->vertex_count;
     }
-    ffd_free(work.scratch);
+    free_scratch(work.scratch, pass->threads);
     return status;
 }

@@ -98,6 +98,10 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " vertices are not inside: %s%s%s",
                      others, totals->vertices, list, *coverage ? "; " : "", coverage);
     }
+    if (totals->shapes_outside)
+        ffd_log_line(log, FFD_LOG_WARNING, "morph targets bring %" PRIu64 " vertices outside (%s)",
+                     totals->shapes_outside,
+                     chain->outside.extend ? "moved with the nearest boundary point" : "left where they are");
     if (totals->unresolved)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "for %" PRIu64

@@ -16,10 +16,20 @@ void ffd_vertex_places_read(const mesh_document *document, size_t part, size_t f
 vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i)
 {
     const mesh_part *part = places->part;
+    const double *own = places->transforms + 12 * i;
     if (part->skinned)
-        return (vertex_place){places->transforms + 12 * i, places->inverses + 9 * i, false,
-                              places->singular[i]};
-    return (vertex_place){part->linear, part->inverse, part->identity, part->singular};
+        return (vertex_place){own, own + 9, places->inverses + 9 * i, false, places->singular[i]};
+    return (vertex_place){part->linear, part->offset, part->inverse, part->identity, part->singular};
+}
+
+bool ffd_displacement_bring_back(const vertex_place *place, const double delta[3], double own[3])
+{
+    const bool moves = !place->singular && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
+    for (int a = 0; a < 3; a++)
+        own[a] = moves ? delta[a] : 0;
+    if (moves && !place->identity)
+        mat_apply(place->inverse, own, own);
+    return moves;
 }
 
 void ffd_gradient_bring_back(const vertex_place *place, double gradient[9])

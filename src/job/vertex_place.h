@@ -7,9 +7,9 @@
 /* So many vertices at once. */
 #define VERTEX_PLACES ((size_t)1024)
 
-/* x = linear p + an offset. */
+/* x = linear p + offset. */
 typedef struct vertex_place {
-    const double *linear, *inverse;
+    const double *linear, *offset, *inverse;
     bool identity, singular; /* singular: there is no inverse */
 } vertex_place;
 
@@ -25,6 +25,10 @@ void ffd_vertex_places_read(const mesh_document *document, size_t part, size_t f
                             vertex_places *places);
 /* That of vertex first + i. Lent by places and the part. */
 vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i);
+
+/* Takes a displacement from the lattice's space to the file's own: linear^{-1} delta; zeros where there is no
+   inverse. False where nothing is displaced. */
+bool ffd_displacement_bring_back(const vertex_place *place, const double delta[3], double own[3]);
 
 /* Takes a gradient E from the lattice's space to the file's own: linear^{-1} E linear. 0 where there is no
    inverse. */

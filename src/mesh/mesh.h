@@ -15,6 +15,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* What a vertex has. */
+typedef enum mesh_stream { MESH_POSITIONS, MESH_NORMALS, MESH_TANGENTS, MESH_STREAMS } mesh_stream;
+
+/* A morph target: offsets to some of a part's streams. A vertex in it stands at its position with the offset.
+ */
+typedef struct mesh_shape {
+    bool has[MESH_STREAMS];
+} mesh_shape;
+
 /* Vertices that share one transform into the lattice's space. */
 typedef struct mesh_part {
     size_t vertex_count;
@@ -24,6 +33,9 @@ typedef struct mesh_part {
        by the document. */
     const uint32_t *normal_start;
     bool has_tangents; /* tangent i belongs to vertex i and to normal i; only with normal_start NULL */
+
+    const mesh_shape *shapes; /* only with normal_start NULL. Lent by the document. */
+    size_t shape_count;
 
     /* The vertices are those of an earlier part (same positions, same place), listed again for other normals
        or tangents: they are not counted, embedded or written a second time. */
@@ -121,6 +133,11 @@ typedef struct mesh_format {
     void (*read_transforms)(const mesh_document *document, size_t part, size_t first, size_t count,
                             double *transforms);
 
+    /* Offsets of a part's morph target to one of the streams that it has: 3 a vertex, of tangents too. NULL
+       where no part has shapes. */
+    void (*read_offsets)(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                         size_t first, size_t count, double *xyz);
+
     /* Results. ffd_mesh_begin_results must come first (it makes room); the writers may run in several threads
        on disjoint ranges. changed: one byte a value, 0: kept as it was (xyz is then not looked at). */
     ffd_status (*begin_results)(mesh_document *document, bool normals, bool tangents, ffd_error *error);
@@ -130,6 +147,9 @@ typedef struct mesh_format {
                           const uint8_t *changed);
     void (*write_tangents)(mesh_document *document, size_t part, size_t first, size_t count,
                            const double *xyzw, const uint8_t *changed);
+
+    void (*write_offsets)(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                          size_t first, size_t count, const double *xyz, const uint8_t *changed);
 
     /* Writes the file (and what belongs to it) into output; byte-identical to the input where nothing
      * changed. */

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What a glTF scene shows is what is deformed: skins."""
+"""What a glTF scene shows is what is deformed: skins, morph targets."""
 
 import json
 import re
 import struct
 
-from harness import (INVALID, OK, case, check, equal, glb, glb_split, gltf_vectors, lattice, main, near)
+from harness import (EMBEDDING, INVALID, NO, OK, case, check, equal, glb, glb_split, gltf_vectors, lattice, main, near)
 
 CODES = {5121: "B", 5123: "H", 5126: "f"}
 WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
@@ -260,6 +260,217 @@ def broken_skins_are_refused(run):
     scene.asset["nodes"][2]["scale"] = [1e300, 1, 1]
     scene.asset["scenes"] = [{"nodes": [0]}]
     refused(scene, "/nodes/2: the joint's place is not finite")
+
+
+def morphed(targets, points=None, **attributes):
+    """A mesh of points with morph targets: each a dict of a semantic's rows or of the number of an accessor."""
+    scene = Scene(nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}])
+    points = points or [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0]]
+    numbers = {"POSITION": scene.add(points, bounds=True)}
+    for name, rows in attributes.items():
+        numbers[name] = scene.add(rows, shape="VEC4" if name == "TANGENT" else "VEC3")
+    scene.targets = [{name: rows if isinstance(rows, int) else scene.add(rows, bounds=name == "POSITION")
+                      for name, rows in target.items()} for target in targets]
+    scene.asset["meshes"] = [{"primitives": [{"attributes": numbers, "targets": scene.targets, "mode": 0}],
+                              "weights": [0.5] * len(targets)}]
+    return scene
+
+
+def sheared(p):
+    return [p[0] + 0.05 * p[0] * p[1], p[1], p[2]]
+
+
+def offset(p, m):
+    return [b - a for a, b in zip(sheared(p), sheared([a + b for a, b in zip(p, m)]))]
+
+
+@case
+def base_and_target_are_deformed_each_on_its_own(run):
+    points, offsets = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0]], [[0.0, 3.0, 1.0], [-1.0, 0.5, 0.0]]
+    scene = morphed([{"POSITION": offsets}], points)
+    out = deformed(run, scene, SHEAR)
+    asset, data = glb_split(out)
+    near(gltf_vectors(asset, data, 0), [sheared(p) for p in points], 1e-6)
+    expected = [offset(p, m) for p, m in zip(points, offsets)]
+    found = gltf_vectors(asset, data, 1)
+    near(found, expected, 1e-6)
+    equal(asset["accessors"][1]["min"], [min(m[a] for m in found) for a in range(3)])
+    equal(asset["accessors"][1]["max"], [max(m[a] for m in found) for a in range(3)])
+    # Nothing else is another, whatever the weights.
+    scene.asset["meshes"][0]["weights"] = [1.0]
+    equal(glb_split(deformed(run, scene, SHEAR))[1], data)
+
+
+@case
+def offsets_that_stay_keep_their_bits(run):
+    # -0 in all of them, 1e-30 beside a coordinate that changes, and a vertex that no control point moves.
+    points = [[1.0, 2.0, 0.0], [1.0, 2.0, 0.5], [50.0, 0.0, 0.0]]
+    offsets = [[-0.0, -0.0, -0.0], [-0.0, 3.0, 1e-30], [1.0, -0.0, 3e-40]]
+    scene = morphed([{"POSITION": offsets, "NORMAL": [[-0.0] * 3] * 3}], points, NORMAL=[[0.0, 0.0, 1.0]] * 3)
+    before = glb_split(scene.glb())
+    after = glb_split(deformed(run, scene, SHEAR, lines=2))
+    old, new = gltf_vectors(*before, 2), gltf_vectors(*after, 2)
+    equal(repr(new[0]), repr(old[0]))
+    equal(repr(new[2]), repr(old[2]))
+    equal(repr(new[1][1:]), repr(old[1][1:]))
+    near([new[1]], [[0.15, 3, 0]], 1e-6)
+    # Normals along z are those of the shear everywhere.
+    equal(repr(gltf_vectors(*after, 3)), repr(gltf_vectors(*before, 3)))
+
+
+@case
+def normals_and_tangents_of_targets(run):
+    points, offsets = [[1.0, 2.0, 0.0]], [[0.0, 3.0, 0.0]]
+    normal, turned = [0.6, 0.8, 0.0], [-0.6, -0.8, 1.0]
+
+    def normal_at(p, n):
+        # F = [[1 + y/20, x/20, 0], [0, 1, 0], [0, 0, 1]]; cof F.
+        c = [n[0], (1 + 0.05 * p[1]) * n[1] - 0.05 * p[0] * n[0], (1 + 0.05 * p[1]) * n[2]]
+        length = sum(x * x for x in c) ** 0.5
+        return [x / length for x in c]
+
+    def tangent_at(p, t, n):
+        c = [(1 + 0.05 * p[1]) * t[0] + 0.05 * p[0] * t[1], t[1], t[2]]
+        along = sum(a * b for a, b in zip(c, n))
+        c = [a - along * b for a, b in zip(c, n)]
+        length = sum(x * x for x in c) ** 0.5
+        return [x / length for x in c]
+
+    with_target = [1.0, 5.0, 0.0]
+    base, after = normal_at(points[0], normal), normal_at(with_target, [0.0, 0.0, 1.0])
+    plain = normal_at(points[0], [0.0, 0.0, 1.0])
+    tangent = [0.8, -0.6, 0.0]
+    t_base = tangent_at(points[0], tangent, base)
+    t_after = tangent_at(with_target, tangent, after)
+    t_still = tangent_at(points[0], [0.0, 0.0, 1.0], base)
+    targets = [{"POSITION": offsets, "NORMAL": [turned], "TANGENT": [[0.0, 0.0, 0.0]]}, {"NORMAL": [turned]},
+               {"TANGENT": [[-0.8, 0.6, 1.0]]}, {"POSITION": offsets}]
+    scene = morphed(targets, points, NORMAL=[normal], TANGENT=[[*tangent, -1.0]])
+    asset, data = glb_split(deformed(run, scene, SHEAR))
+
+    def found(target, name):
+        return gltf_vectors(asset, data, scene.targets[target][name])
+
+    near(found(0, "POSITION"), [offset(points[0], offsets[0])], 1e-6)
+    near(found(0, "NORMAL"), [[b - a for a, b in zip(base, after)]], 1e-6)
+    near(found(0, "TANGENT"), [[b - a for a, b in zip(t_base, t_after)]], 1e-6)
+    near(found(1, "NORMAL"), [[b - a for a, b in zip(base, plain)]], 1e-6)
+    near(found(2, "TANGENT"), [[b - a for a, b in zip(t_base, t_still)]], 1e-6)
+    near(found(3, "POSITION"), [offset(points[0], offsets[0])], 1e-6)
+    keep = glb_split(deformed(run, scene, SHEAR, "--normals", "keep"))
+    for target, name in ((0, "NORMAL"), (0, "TANGENT"), (1, "NORMAL")):
+        number = scene.targets[target][name]
+        equal(gltf_vectors(*keep, number), gltf_vectors(*glb_split(scene.glb()), number))
+
+
+@case
+def offsets_that_are_shared(run):
+    # One accessor of offsets for two targets of the same points (one result), and for other points (another).
+    scene = morphed([{"POSITION": [[0.0, 3.0, 0.0]] * 2}, {}])
+    scene.targets[1]["POSITION"] = shared = scene.targets[0]["POSITION"]
+    other = scene.add([[4.0, 4.0, 4.0], [5.0, 5.0, 5.0]], bounds=True)
+    scene.asset["meshes"][0]["primitives"].append({"attributes": {"POSITION": other}, "mode": 0,
+                                                   "targets": [{"POSITION": shared}, {"POSITION": shared}]})
+    out = deformed(run, scene, SHEAR)
+    asset, data = glb_split(out)
+    equal(len(asset["accessors"]), 4)
+    first, second = [[t["POSITION"] for t in p["targets"]] for p in asset["meshes"][0]["primitives"]]
+    equal((first, second), ([shared, shared], [3, 3]))
+    near(gltf_vectors(asset, data, shared), [offset([1, 2, 0], [0, 3, 0]), offset([2, -4, 1], [0, 3, 0])], 1e-6)
+    near(gltf_vectors(asset, data, 3), [offset([4, 4, 4], [0, 3, 0]), offset([5, 5, 5], [0, 3, 0])], 1e-6)
+    # What is positions here and offsets there.
+    scene = morphed([{"POSITION": 0}])
+    asset, data = glb_split(deformed(run, scene, SHEAR))
+    primitive = asset["meshes"][0]["primitives"][0]
+    equal(sorted([primitive["attributes"]["POSITION"], primitive["targets"][0]["POSITION"]]), [0, 1])
+    near(gltf_vectors(asset, data, primitive["targets"][0]["POSITION"]),
+         [offset(p, p) for p in ([1, 2, 0], [2, -4, 1])], 1e-6)
+
+
+@case
+def a_mesh_under_two_nodes_and_its_targets(run):
+    scene = morphed([{"POSITION": [[0.0, 3.0, 0.0]] * 2}])
+    scene.asset["nodes"].append({"mesh": 0, "translation": [4, 0, 0]})
+    scene.asset["scenes"][0]["nodes"].append(1)
+    asset, data = glb_split(deformed(run, scene, SHEAR))
+    for node, x in ((0, 0), (1, 4)):
+        primitive = asset["meshes"][asset["nodes"][node]["mesh"]]["primitives"][0]
+        near(gltf_vectors(asset, data, primitive["targets"][0]["POSITION"]),
+             [offset([1 + x, 2, 0], [0, 3, 0]), offset([2 + x, -4, 1], [0, 3, 0])], 1e-6)
+
+
+@case
+def targets_under_a_skin(run):
+    scene = skinned([[0, 0, 0, 0], [1, 0, 0, 0]], [[1, 0, 0, 0]] * 2)
+    scene.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": scene.add([[0.0, 1.0, 2.0]] * 2)}]
+    number = scene.asset["meshes"][0]["primitives"][0]["targets"][0]["POSITION"]
+    out = glb_split(deformed(run, scene, SHEAR))
+    # (1,0,0) and (1,1,2) stand at (0,1,0) and (-1,1,2); at (1,2,0) and (1,3,2).
+    near(gltf_vectors(*out, number), [[0, 1 + 0.05, 2], [0.05, 1, 2]], 1e-6)
+
+
+@case
+def offsets_without_bytes_and_sparse_ones(run):
+    points = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0]]
+    scene = morphed([{"NORMAL": [[0.0] * 3] * 2, "POSITION": [[0.0, 3.0, 0.0], [0.0] * 3]}], points,
+                    NORMAL=[[0.6, 0.8, 0.0]] * 2)
+    normals, positions = scene.targets[0]["NORMAL"], scene.targets[0]["POSITION"]
+    whole = glb_split(deformed(run, scene, SHEAR))
+    accessors = scene.asset["accessors"]
+    del accessors[normals]["bufferView"]
+    values = accessors[positions].pop("bufferView")
+    scene.data += struct.pack("<I", 0)
+    scene.asset["bufferViews"].append({"buffer": 0, "byteOffset": len(scene.data) - 4, "byteLength": 1})
+    accessors[positions]["sparse"] = {"count": 1, "values": {"bufferView": values}, "indices": {
+        "bufferView": len(scene.asset["bufferViews"]) - 1, "componentType": 5121}}
+    asset, data = glb_split(deformed(run, scene, SHEAR))
+    target = asset["meshes"][0]["primitives"][0]["targets"][0]
+    equal(gltf_vectors(asset, data, target["POSITION"]), gltf_vectors(*whole, positions))
+    equal(gltf_vectors(asset, data, target["NORMAL"]), gltf_vectors(*whole, normals))
+    check(gltf_vectors(*whole, normals)[0] != [0.0] * 3, "the first normal's offset stays")
+    check("bufferView" not in asset["accessors"][normals], "the old accessor has changed")
+
+
+@case
+def inside_and_outside(run):
+    # The target takes the first vertex out of the box, and the second into it.
+    points, offsets = [[1.0, 1.0, 0.0], [20.0, 1.0, 0.0]], [[20.0, 0.0, 0.0], [-19.0, 0.0, 0.0]]
+    scene = morphed([{"POSITION": offsets}], points)
+    run.write("in.glb", scene.glb())
+    run.write("l.json", SHIFT)
+    done = run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", lines=2)
+    check(done.err[1] == "in.glb: morph targets bring 1 vertices outside (left where they are)", done.err)
+    near(vectors(run.read("out.glb"), 1), [[19, 0, 0], [-18, 0, 0]], 1e-6)
+    run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--outside", "extend", lines=2)
+    near(vectors(run.read("out.glb"), 1), [[20, 0, 0], [-19, 0, 0]], 1e-6)
+    scene = morphed([{"POSITION": offsets[:1] * 2}], points[:1] * 2)
+    run.write("in.glb", scene.glb())
+    run.ffd("deform", "in.glb", "no.glb", "-l", "l.json", "--outside", "error", code=EMBEDDING,
+            err=re.compile("morph targets bring vertices outside the lattice, the first is vertex 0"))
+    run.ffd("check", "in.glb", "-l", "l.json", "--fail-on", "outside", code=NO, lines=1)
+
+
+@case
+def broken_targets_are_refused(run):
+    run.write("l.json", SHIFT)
+
+    def refused(scene, message):
+        run.write("in.glb", scene.glb())
+        run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", code=INVALID, err=re.compile(message))
+        check(not run.exists("out.glb"), "an output")
+
+    refused(morphed([{"POSITION": [[0.0] * 3] * 3}]), "/meshes/0/primitives/0/targets.*has 3 elements, .* has 2")
+    refused(morphed([{}, {"POSITION": 9}]), "there is no accessor 9")
+    scene = morphed([{}, {"POSITION": [[1.0, 1.0, 1.0], [float("inf"), 0.0, 0.0]]}])
+    for bound in ("min", "max"):
+        del scene.asset["accessors"][1][bound]
+    refused(scene, "a morph target brings vertex 1 .counted from 0. to a coordinate that is not finite")
+    scene = morphed([{"TANGENT": 2}], NORMAL=[[0.0, 0.0, 1.0]] * 2, TANGENT=[[1.0, 0.0, 0.0, 1.0]] * 2)
+    refused(scene, "/meshes/0/primitives/0/targets/0/TANGENT: its accessor is no VEC3")
+    huge = 3e38
+    scene = morphed([{"POSITION": [[-huge, 0.0, 0.0]] * 2}], [[huge, 0.0, 0.0]] * 2)
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"by": [-1e38, 0, 0]}]))
+    refused(scene, "too large for the file's numbers")
 
 
 main()

@@ -94,7 +94,8 @@ class Asset:
         return values
 
     def quantum(self, number):
-        """What a stored value can be off by: half a step of an integer accessor, 0 for floats."""
+        """What a result can be off by: half a step of an integer accessor (also where the output has floats instead),
+        0 for floats."""
         a = self.json["accessors"][number]
         scale = COMPONENTS[a["componentType"]][1]
         return 0.0 if a["componentType"] == 5126 else 0.5 / (scale if a.get("normalized") else 1)
@@ -292,7 +293,7 @@ class Comparison:
         for name, found, expected, size in zip(("POSITION", "NORMAL", "TANGENT"), q,
                                                (base.position, base.normal, base.tangent), (reach, 1, 1)):
             if expected:
-                self.near(found, expected, size, self.after.quantum(new["attributes"][name]), f"{what} {name} {i}")
+                self.near(found, expected, size, self.before.quantum(old["attributes"][name]), f"{what} {name} {i}")
         self.vertices += 1
         self.moved += not base.still
         for k, (was, now) in enumerate(zip(old.get("targets", []), new.get("targets", []))):
@@ -312,7 +313,7 @@ class Comparison:
             expected = [x - y for x, y in zip(a, b)] if not (base.still and shape.still) else o
             # Offsets may be small differences of large numbers: the reference is no better than these.
             size = max(*(abs(v) for v in expected), *(1e-7 * abs(v) for v in a)) if name == "POSITION" else 1
-            self.near(f, expected, size, self.after.quantum(now[name]), f"{what} {name} {i}")
+            self.near(f, expected, size, self.before.quantum(was[name]), f"{what} {name} {i}")
             self.offsets += 1
 
     def run(self):
@@ -363,7 +364,7 @@ def volumes(low, high):
 
 
 def models():
-    roots = [os.path.join(DATA, "models")] + [os.environ["FFD_MODELS"]] * ("FFD_MODELS" in os.environ)
+    roots = [os.path.join(DATA, "models")] + [r for r in [os.environ.get("FFD_MODELS")] if r]
     for root in roots:
         for folder, folders, names in os.walk(root):
             folders.sort()

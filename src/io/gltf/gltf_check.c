@@ -178,15 +178,26 @@ static ffd_status check_accessor(gltf_document *d, size_t i, ffd_error *error)
 }
 
 /* The shape that glTF 2.0 (3.7.2) and KHR_mesh_quantization give an attribute. */
-static ffd_status check_shape(const gltf_document *d, uint32_t value, const char *key, gltf_semantic semantic,
+static ffd_status check_shape(const gltf_document *d, uint32_t value, const char *key, int rows,
                               const gltf_accessor *accessor, ffd_error *error)
 {
-    const int rows = semantic == GLTF_TANGENT ? 4 : 3;
     if (accessor->columns != 1 || accessor->rows != rows)
         return refuse(d, value, key, error, "its accessor is no VEC%d", rows);
     if (accessor->component == GLTF_U32)
         return refuse(d, value, key, error, "its accessor has component type %d", accessor->component);
     return FFD_OK;
+}
+
+/* Those of a primitive, whose tangents have 4 components, or of a morph target, whose offsets have 3. */
+static ffd_status check_shapes(const gltf_document *d, uint32_t value, int tangent_rows, const int *accessors,
+                               ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
+        if (accessors[s] >= 0)
+            status = check_shape(d, value, ffd_gltf_semantic_names[s], s == GLTF_TANGENT ? tangent_rows : 3,
+                                 &d->model.accessors[accessors[s]], error);
+    return status;
 }
 
 static ffd_status check_attributes(const gltf_document *d, uint32_t object, const gltf_attribute *attributes,
@@ -221,10 +232,12 @@ static ffd_status check_primitive(const gltf_document *d, size_t mesh, size_t p,
     if (status == FFD_OK)
         status = check_attributes(d, targets, primitive->targets, primitive->target_attribute_count,
                                   &vertices, error);
-    for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
-        if (primitive->accessor[s] >= 0)
-            status = check_shape(d, attributes, ffd_gltf_semantic_names[s], (gltf_semantic)s,
-                                 &d->model.accessors[primitive->accessor[s]], error);
+    if (status == FFD_OK)
+        status = check_shapes(d, attributes, 4, primitive->accessor, error);
+    const int *accessors = primitive->target_accessors;
+    for (uint32_t v = ffd_json_span_first(&d->tree, targets); v != JSON_NONE && status == FFD_OK;
+         v = ffd_json_span_after(&d->tree, v), accessors += GLTF_DEFORMED)
+        status = check_shapes(d, v, 3, accessors, error);
     if (status || ffd_json_span_member(&d->tree, value, "indices") == JSON_NONE)
         return status;
     status = check_index(d, value, "indices", primitive->indices, d->model.accessor_count, "accessor", error);

@@ -13,14 +13,6 @@ uint32_t ffd_gltf_primitive_value(const gltf_document *d, size_t mesh, size_t pr
     return d->primitive_values.values[d->first_primitive[mesh] + primitive];
 }
 
-uint32_t ffd_gltf_attribute_value(const gltf_document *d, size_t mesh, size_t primitive,
-                                  gltf_semantic semantic)
-{
-    const uint32_t value = ffd_gltf_primitive_value(d, mesh, primitive);
-    return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "attributes"),
-                                ffd_gltf_semantic_names[semantic]);
-}
-
 uint32_t ffd_gltf_extension(const gltf_document *d, uint32_t value, const char *extension)
 {
     return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "extensions"), extension);
@@ -216,7 +208,7 @@ static void free_document(gltf_document *d)
     gltf_values *const lists[] = {&d->buffer_values, &d->view_values,     &d->accessor_values,
                                   &d->mesh_values,   &d->node_values,     &d->skin_values,
                                   &d->image_values,  &d->primitive_values};
-    for (size_t i = 0; d->parts && i < d->base.part_count; i++) {
+    for (size_t i = 0; d->parts && i < ffd_gltf_part_count(d); i++) {
         for (int s = 0; s < GLTF_DEFORMED; s++)
             ffd_free(d->parts[i].streams[s].result);
         ffd_free(d->parts[i].selected);
@@ -239,6 +231,8 @@ static void free_document(gltf_document *d)
     ffd_free(d->instances);
     ffd_free(d->parts);
     ffd_free(d->mesh_parts);
+    ffd_free(d->shapes);
+    ffd_free(d->targets);
     ffd_free(d->path);
     ffd_free(d);
 }
@@ -268,6 +262,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         status = ffd_gltf_make_scene(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_parts(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_make_shapes(d, error);
     if (status == FFD_OK)
         d->skins_status = ffd_gltf_place_skins(d, &d->skins_error);
     return status == FFD_OK && d->skins_status == FFD_E_MEMORY ? ffd_fail_memory(error) : status;
@@ -333,6 +329,14 @@ static void read_tangents(const mesh_document *document, size_t part, size_t fir
     read_stream(document, part, GLTF_TANGENT, first, count, 4, xyzw);
 }
 
+static void read_offsets(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                         size_t first, size_t count, double *xyz)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const size_t target = d->base.part_count + d->parts[part].first_shape + shape;
+    ffd_gltf_read(d, d->parts[target].streams[stream].accessor, first, count, 3, xyz);
+}
+
 const mesh_format ffd_gltf_format = {
     .format = FFD_FORMAT_GLTF,
     .name = "glTF",
@@ -346,10 +350,12 @@ const mesh_format ffd_gltf_format = {
     .read_normals = read_normals,
     .read_tangents = read_tangents,
     .read_transforms = ffd_gltf_read_transforms,
+    .read_offsets = read_offsets,
     .begin_results = ffd_gltf_begin_results,
     .write_positions = ffd_gltf_write_positions,
     .write_normals = ffd_gltf_write_normals,
     .write_tangents = ffd_gltf_write_tangents,
+    .write_offsets = ffd_gltf_write_offsets,
     .save = ffd_gltf_save,
     .faces = ffd_gltf_faces,
     .corner_normals = ffd_gltf_corner_normals,

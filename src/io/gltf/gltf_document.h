@@ -57,12 +57,14 @@ typedef struct gltf_part {
     const gltf_influence *influences; /* lent by the model; with a skin */
     size_t influence_count;
     gltf_stream streams[GLTF_DEFORMED];
-    uint8_t *selected; /* the mesh_part's; NULL: see there */
+    uint8_t *selected;  /* the mesh_part's; NULL: see there */
+    size_t first_shape; /* document->shapes holds the part's morph targets from here */
 } gltf_part;
 
 /* A primitive under a node that shows it (or by itself, in mesh space). */
 typedef struct gltf_instance {
     size_t part[GLTF_DEFORMED]; /* where its attribute is deformed; GLTF_NONE: has none, or cannot be read */
+    size_t first_target;        /* its morph targets in document->targets */
     bool selected;              /* false: it shows what it showed before */
 } gltf_instance;
 
@@ -109,8 +111,14 @@ typedef struct gltf_document {
     size_t shared_child, shared_by[2];
     gltf_showing *showings; /* model.mesh_count */
     gltf_instance *instances;
-    gltf_part *parts; /* base.part_count */
+    /* base.part_count, and behind them one for each shape, whose streams are its offsets: results of both go
+       the same way. */
+    gltf_part *parts;
     mesh_part *mesh_parts;
+    mesh_shape *shapes; /* morph targets of all parts, those of a part one behind the other */
+    size_t shape_count;
+    size_t *targets; /* of the instances' morph targets: the part that holds the offsets; GLTF_NONE: nothing
+                        that is deformed */
 } gltf_document;
 
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
@@ -120,9 +128,6 @@ static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 
 /* Number of the value of primitive p of mesh m in the JSON. */
 uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
-/* The number that stands in it for an attribute, e.g. "NORMAL". */
-uint32_t ffd_gltf_attribute_value(const gltf_document *document, size_t mesh, size_t primitive,
-                                  gltf_semantic semantic);
 /* value's extension of this name; JSON_NONE: it has none. */
 uint32_t ffd_gltf_extension(const gltf_document *document, uint32_t value, const char *extension);
 /* Whether value's "extensions" has one of this name. */
@@ -160,6 +165,13 @@ void ffd_gltf_read_transforms(const mesh_document *document, size_t part, size_t
                               double *transforms);
 /* gltf_parts.c */
 ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
+/* gltf_shapes.c: the morph targets of the parts. Comes after ffd_gltf_make_parts. */
+ffd_status ffd_gltf_make_shapes(gltf_document *document, ffd_error *error);
+/* Parts and shapes. */
+static inline size_t ffd_gltf_part_count(const gltf_document *document)
+{
+    return document->base.part_count + document->shape_count;
+}
 /* gltf_refuse.c: valid, but more than can be done. read: what would make the positions wrong or unreadable;
    store: what cannot be written back. */
 ffd_status ffd_gltf_refuse_read(const gltf_document *document, ffd_error *error);
@@ -201,6 +213,8 @@ void ffd_gltf_write_normals(mesh_document *document, size_t part, size_t first, 
                             const double *xyz, const uint8_t *changed);
 void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first, size_t count,
                              const double *xyzw, const uint8_t *changed);
+void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                            size_t first, size_t count, const double *xyz, const uint8_t *changed);
 
 /* gltf_select.c, gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_compare.c: entries of the table (mesh.h).
  */

@@ -6,6 +6,7 @@ static void free_mesh(gltf_mesh *mesh)
     for (size_t i = 0; mesh->primitives && i < mesh->primitive_count; i++) {
         ffd_free(mesh->primitives[i].attributes);
         ffd_free(mesh->primitives[i].targets);
+        ffd_free(mesh->primitives[i].target_accessors);
         ffd_free(mesh->primitives[i].influences);
     }
     ffd_free(mesh->primitives);

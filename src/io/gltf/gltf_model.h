@@ -60,10 +60,24 @@ typedef struct gltf_primitive {
     size_t attribute_count;
     gltf_attribute *targets; /* the attributes of all morph targets */
     size_t target_attribute_count, target_count;
+    int *target_accessors;      /* GLTF_DEFORMED a target */
     gltf_influence *influences; /* n from 0 until neither is there */
     size_t influence_count;
     int indices, mode;
 } gltf_primitive;
+
+/* The deformed attributes of a primitive are numbered: slot s is its own one of semantic s, slot
+   GLTF_DEFORMED * (t + 1) + s that of its morph target t. */
+static inline size_t gltf_slot_count(const gltf_primitive *primitive)
+{
+    return GLTF_DEFORMED * (1 + primitive->target_count);
+}
+
+static inline int gltf_slot_accessor(const gltf_primitive *primitive, size_t slot)
+{
+    return slot < GLTF_DEFORMED ? primitive->accessor[slot]
+                                : primitive->target_accessors[slot - GLTF_DEFORMED];
+}
 
 typedef struct gltf_mesh {
     gltf_primitive *primitives;

@@ -6,19 +6,39 @@ static const json_value *value_of(const gltf_saver *saver, uint32_t value)
     return &saver->document->tree.values[value];
 }
 
-/* Lets a mesh's attributes name the accessors that hold what it shows at a place. */
+/* Lets the members of an object, "attributes" or a morph target, name the accessors of the slots from `first`
+   on that hold what the primitive shows at a place. */
+static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t object, size_t first,
+                       size_t place, json_edits *edits)
+{
+    const gltf_document *d = saver->document;
+    for (size_t s = 0; s < GLTF_DEFORMED; s++) {
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, first + s, place);
+        if (version == GLTF_NONE ||
+            saver->plan.versions[version].output == saver->plan.versions[version].accessor)
+            continue;
+        const json_value *value =
+            value_of(saver, ffd_json_span_member(&d->tree, object, ffd_gltf_semantic_names[s]));
+        ffd_edits_format(edits, value->begin, value->end, "%zu", saver->plan.versions[version].output);
+    }
+}
+
+/* Lets a mesh name the accessors that hold what it shows at a place. */
 static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t place, json_edits *edits)
 {
     const gltf_document *d = saver->document;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (int s = 0; s < GLTF_DEFORMED; s++) {
-            const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, (gltf_semantic)s, place);
-            if (version == GLTF_NONE ||
-                saver->plan.versions[version].output == saver->plan.versions[version].accessor)
-                continue;
-            const json_value *value = value_of(saver, ffd_gltf_attribute_value(d, mesh, p, (gltf_semantic)s));
-            ffd_edits_format(edits, value->begin, value->end, "%zu", saver->plan.versions[version].output);
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
+        const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
+        const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
+        size_t first = 0;
+        edit_slots(saver, mesh, p, ffd_json_span_member(&d->tree, primitive, "attributes"), first, place,
+                   edits);
+        for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
+             t = ffd_json_span_after(&d->tree, t)) {
+            first += GLTF_DEFORMED;
+            edit_slots(saver, mesh, p, t, first, place, edits);
         }
+    }
 }
 
 static void replace_number(const gltf_saver *saver, uint32_t object, const char *key, size_t number,

@@ -59,7 +59,7 @@ static int compare_versions(const void *a, const void *b)
 static size_t list_candidates(const gltf_document *d, candidate *candidates)
 {
     size_t count = 0;
-    for (size_t i = 0; i < d->base.part_count; i++)
+    for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
         for (size_t s = 0; s < GLTF_DEFORMED; s++) {
             const gltf_stream *stream = &d->parts[i].streams[s];
             const size_t values = 3 * d->mesh_parts[i].vertex_count;
@@ -102,7 +102,7 @@ static void choose_component(const gltf_document *d, gltf_version *version)
 
 static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
-    const size_t most = d->base.part_count * GLTF_DEFORMED;
+    const size_t most = ffd_gltf_part_count(d) * GLTF_DEFORMED;
     candidate *candidates = ffd_alloc(most, sizeof *candidates);
     size_t *numbers = ffd_alloc(most, sizeof *numbers);
     plan->versions = ffd_alloc(most, sizeof *plan->versions);
@@ -130,23 +130,25 @@ done:
     return status;
 }
 
-size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p,
-                           gltf_semantic semantic, size_t place)
+size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p, size_t slot,
+                           size_t place)
 {
     if (place == GLTF_NONE)
         return GLTF_NONE;
     const gltf_showing *showing = &d->showings[mesh];
     const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + place];
-    const size_t part = instance->selected ? instance->part[semantic] : GLTF_NONE;
-    return part == GLTF_NONE ? GLTF_NONE : plan->part_versions[part * GLTF_DEFORMED + semantic];
+    if (!instance->selected)
+        return GLTF_NONE;
+    const size_t part = slot < GLTF_DEFORMED ? instance->part[slot]
+                                             : d->targets[instance->first_target + slot / GLTF_DEFORMED - 1];
+    return part == GLTF_NONE ? GLTF_NONE : plan->part_versions[part * GLTF_DEFORMED + slot % GLTF_DEFORMED];
 }
 
 static bool same_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t a, size_t b)
 {
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (int s = 0; s < GLTF_DEFORMED; s++)
-            if (ffd_gltf_version_at(d, plan, mesh, p, (gltf_semantic)s, a) !=
-                ffd_gltf_version_at(d, plan, mesh, p, (gltf_semantic)s, b))
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++)
+            if (ffd_gltf_version_at(d, plan, mesh, p, s, a) != ffd_gltf_version_at(d, plan, mesh, p, s, b))
                 return false;
     return true;
 }
@@ -160,8 +162,8 @@ static uint64_t hash_mesh(const gltf_document *d, const gltf_plan *plan, size_t 
 {
     uint64_t hash = 0xcbf29ce484222325u;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (int s = 0; s < GLTF_DEFORMED; s++) {
-            hash = (hash ^ ffd_gltf_version_at(d, plan, mesh, p, (gltf_semantic)s, place)) * 0x100000001b3u;
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
+            hash = (hash ^ ffd_gltf_version_at(d, plan, mesh, p, s, place)) * 0x100000001b3u;
             hash ^= hash >> 29;
         }
     return hash;
@@ -254,9 +256,9 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
 static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size_t place, bool *original)
 {
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (int s = 0; s < GLTF_DEFORMED; s++) {
-            const int accessor = d->model.meshes[mesh].primitives[p].accessor[s];
-            const size_t version = ffd_gltf_version_at(d, plan, mesh, p, (gltf_semantic)s, place);
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
+            const int accessor = gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], s);
+            const size_t version = ffd_gltf_version_at(d, plan, mesh, p, s, place);
             if (version != GLTF_NONE)
                 plan->versions[version].needed = true;
             else if (accessor >= 0)

@@ -28,7 +28,7 @@ typedef struct gltf_node_change {
 typedef struct gltf_plan {
     gltf_version *versions;
     size_t version_count;
-    size_t *part_versions; /* GLTF_DEFORMED a part */
+    size_t *part_versions; /* GLTF_DEFORMED a part, shapes too */
     size_t *base_places;   /* of a mesh: the node (in its showing) after which the original mesh goes;
                               GLTF_NONE: it   keeps its accessors' content */
     gltf_mesh_copy *copies;
@@ -46,7 +46,7 @@ void ffd_gltf_free_plan(gltf_plan *plan);
 
 /* The version that primitive p of a mesh shows at a place (of its showing; GLTF_NONE: the original). */
 size_t ffd_gltf_version_at(const gltf_document *document, const gltf_plan *plan, size_t mesh, size_t p,
-                           gltf_semantic semantic, size_t place);
+                           size_t slot, size_t place);
 
 /* gltf_overlap.c: takes back the in-place versions that would change bytes which something else wants
  * otherwise. */

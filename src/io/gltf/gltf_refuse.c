@@ -81,13 +81,13 @@ ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_
 static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, ffd_error *error)
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
-    const uint32_t value = ffd_gltf_primitive_value(d, m, p);
     if (primitive->accessor[GLTF_POSITION] < 0)
         return FFD_OK;
-    if (primitive->target_count > 0)
-        return refuse(d, ffd_json_span_member(&d->tree, value, "targets"), error,
-                      "morph targets are not supported");
-    return ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
+    ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[GLTF_POSITION], error);
+    for (size_t s = GLTF_DEFORMED; s < gltf_slot_count(primitive) && status == FFD_OK; s++)
+        if (gltf_slot_accessor(primitive, s) >= 0)
+            status = ffd_gltf_refuse_unreadable(d, m, p, gltf_slot_accessor(primitive, s), error);
+    return status;
 }
 
 /* What moves the vertices of a node with a skin must be readable. */
@@ -169,10 +169,12 @@ ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tang
             const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
             const bool wanted[GLTF_DEFORMED] = {true, normals,
                                                 tangents && primitive->accessor[GLTF_NORMAL] >= 0};
-            for (int s = 0; s < GLTF_DEFORMED && primitive->accessor[GLTF_POSITION] >= 0; s++) {
-                if (!wanted[s] || primitive->accessor[s] < 0)
+            for (size_t s = 0; s < gltf_slot_count(primitive) && primitive->accessor[GLTF_POSITION] >= 0;
+                 s++) {
+                const int accessor = gltf_slot_accessor(primitive, s);
+                if (!wanted[s % GLTF_DEFORMED] || accessor < 0)
                     continue;
-                const ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, primitive->accessor[s], error);
+                const ffd_status status = ffd_gltf_refuse_unreadable(d, m, p, accessor, error);
                 if (status)
                     return status;
             }

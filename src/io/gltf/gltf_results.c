@@ -23,7 +23,7 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     ffd_status status = ffd_gltf_refuse_read(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_refuse_store(d, normals, tangents, error);
-    for (size_t i = 0; i < d->base.part_count; i++)
+    for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
         for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
             if (wanted[s] && !d->mesh_parts[i].skipped &&
                 !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
@@ -71,4 +71,12 @@ void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first,
                              const double *xyzw, const uint8_t *changed)
 {
     write_result(document, part, GLTF_TANGENT, first, count, xyzw, 4, changed);
+}
+
+void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                            size_t first, size_t count, const double *xyz, const uint8_t *changed)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const size_t target = d->base.part_count + d->parts[part].first_shape + shape;
+    write_result(document, target, (gltf_semantic)stream, first, count, xyz, 3, changed);
 }

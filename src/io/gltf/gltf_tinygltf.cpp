@@ -107,9 +107,19 @@ void to_c(const tinygltf::Primitive &from, gltf_primitive &to)
         target_attributes += target.size();
     to.targets = make_array<gltf_attribute>(target_attributes);
     to.target_count = from.targets.size();
-    for (const auto &target : from.targets)
-        for (const auto &attribute : target)
-            to.targets[to.target_attribute_count++] = {semantic_of(attribute.first), attribute.second};
+    to.target_accessors = make_array<int>(GLTF_DEFORMED * from.targets.size());
+    size_t slot = 0;
+    for (const auto &target : from.targets) {
+        for (size_t s = 0; s < GLTF_DEFORMED; s++)
+            to.target_accessors[slot + s] = -1;
+        for (const auto &attribute : target) {
+            const gltf_semantic semantic = semantic_of(attribute.first);
+            to.targets[to.target_attribute_count++] = {semantic, attribute.second};
+            if (semantic != GLTF_OTHER)
+                to.target_accessors[slot + semantic] = attribute.second;
+        }
+        slot += GLTF_DEFORMED;
+    }
 }
 
 void to_c(const tinygltf::Mesh &from, gltf_mesh &to)

@@ -50,7 +50,8 @@ static void mark_primitive(const gltf_primitive *primitive, bool *used)
         if (primitive->attributes[i].semantic == GLTF_OTHER)
             used[primitive->attributes[i].accessor] = true;
     for (size_t i = 0; i < primitive->target_attribute_count; i++)
-        used[primitive->targets[i].accessor] = true;
+        if (primitive->targets[i].semantic == GLTF_OTHER)
+            used[primitive->targets[i].accessor] = true;
     if (primitive->indices >= 0)
         used[primitive->indices] = true;
 }

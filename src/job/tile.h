@@ -1,0 +1,62 @@
+/* tile.h - a tile of a pass: the vertices that one worker has in hand at a time (inside pass). */
+#ifndef FFD_JOB_TILE_H
+#define FFD_JOB_TILE_H
+
+#include "job/pass.h"
+#include "job/vertex_place.h"
+#include <stdatomic.h>
+
+#define PASS_TILE VERTEX_PLACES
+
+/* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place,
+   locations and points stand one behind the other. */
+typedef struct shape_scratch {
+    double offsets[3 * PASS_TILE]; /* as the file has them, then what becomes of them */
+    double place[3 * PASS_TILE];
+    size_t moved[PASS_TILE];
+    size_t moved_count;
+    ffd_location locations[PASS_TILE];
+    chain_point moved_points[PASS_TILE];
+    const chain_point *points[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
+    double base[3 * PASS_TILE];           /* positions or directions without the target */
+    double normals[3 * PASS_TILE];        /* deformed, with the target */
+    double tangents[4 * PASS_TILE];
+    uint8_t changed[PASS_TILE];
+} shape_scratch;
+
+/* What one worker needs for a tile. */
+typedef struct tile_scratch {
+    double raw[3 * PASS_TILE];   /* positions as the file has them */
+    double place[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
+    double before[3 * PASS_TILE];
+    size_t chosen[PASS_TILE]; /* vertices of the tile that are selected */
+    size_t chosen_count;
+    ffd_location locations[PASS_TILE]; /* of the chosen ones */
+    chain_point points[PASS_TILE];
+    uint8_t changed[PASS_TILE];
+    vertex_places places;
+    double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
+    uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
+    shape_scratch *shape; /* NULL where the document has no morph targets */
+    ffd_status status;    /* of the first tile of this worker that failed, and what it said */
+    ffd_error error;
+} tile_scratch;
+
+typedef struct part_work {
+    const mesh_pass *pass;
+    const mesh_part *part;
+    size_t part_number;
+    uint64_t first_vertex; /* the part's first vertex in the document */
+    tile_scratch *scratch; /* one a worker */
+    pass_totals *tiles;    /* what each tile adds */
+    atomic_bool stopped;   /* a tile failed: the others need not be looked at */
+} part_work;
+
+/* Whether the file's numbers can hold the position. */
+bool ffd_tile_fits_file(const mesh_document *document, const double p[3]);
+
+/* pass_shapes.c: deforms the part's morph targets, after all else of the tile: the base's points, and its
+   normals and tangents as they are deformed, stand in scratch. */
+void ffd_tile_shapes(part_work *work, tile_scratch *scratch, size_t first, size_t count, pass_totals *totals);
+
+#endif
