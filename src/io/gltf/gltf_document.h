@@ -24,7 +24,10 @@ typedef struct gltf_unpacked {
     unsigned char *bytes; /* owned; NULL: the accessor does not come out of it */
     size_t size, view;    /* view: the compressed data */
     uint64_t source;      /* the attribute's id, UINT64_MAX: the indices */
-    bool clash;           /* primitives take different values for the accessor */
+    /* The accessor's own elements, for readers that do not know Draco; NULL: none. */
+    const unsigned char *fallback;
+    size_t fallback_stride;
+    bool clash; /* primitives take different values for the accessor */
 } gltf_unpacked;
 
 /* How an accessor's elements lie; made by ffd_gltf_check, and by ffd_gltf_decode_draco where they are

@@ -62,7 +62,12 @@ static void give_elements(gltf_document *d, size_t accessor, size_t stride, uint
         ffd_free(bytes);
         return;
     }
-    *unpacked = (gltf_unpacked){.bytes = bytes, .size = size, .source = source, .view = view};
+    *unpacked = (gltf_unpacked){.bytes = bytes,
+                                .size = size,
+                                .source = source,
+                                .view = view,
+                                .fallback = layout->data,
+                                .fallback_stride = layout->stride};
     layout->data = bytes;
     layout->stride = stride;
     layout->begin = 0;
@@ -285,8 +290,20 @@ static bool takes_from_draco(const gltf_document *d, uint32_t draco, uint32_t at
            find_accessor(d, ffd_json_span_member(&d->tree, draco, "attributes"), attribute) != GLTF_NONE;
 }
 
-/* Notes accessors that one primitive takes from compressed data and another one does not. */
-static void find_clashes(gltf_document *d, size_t m, size_t p)
+/* Whether the elements out of the compressed data are those that the accessor has itself. */
+static bool equals_fallback(const gltf_document *d, size_t a)
+{
+    const gltf_unpacked *unpacked = &d->unpacked[a];
+    const gltf_layout *layout = &d->layouts[a];
+    for (size_t i = 0; unpacked->fallback && i < d->model.accessors[a].count; i++)
+        if (memcmp(unpacked->bytes + i * layout->stride, unpacked->fallback + i * unpacked->fallback_stride,
+                   layout->element_size) != 0)
+            return false;
+    return unpacked->fallback;
+}
+
+/* Notes accessors that a primitive does not take from compressed data. */
+static void mark_plain_uses(gltf_document *d, size_t m, size_t p, bool *plain)
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const uint32_t value = ffd_gltf_primitive_value(d, m, p), draco = ffd_gltf_draco_value(d, m, p);
@@ -294,23 +311,30 @@ static void find_clashes(gltf_document *d, size_t m, size_t p)
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
          v = ffd_json_span_after(&d->tree, v))
         if (!takes_from_draco(d, draco, v))
-            d->unpacked[integer(d, v)].clash = true;
+            plain[integer(d, v)] = true;
     for (size_t i = 0; i < primitive->target_attribute_count; i++)
-        d->unpacked[primitive->targets[i].accessor].clash = true;
+        plain[primitive->targets[i].accessor] = true;
     if (primitive->indices >= 0 && draco == JSON_NONE)
-        d->unpacked[primitive->indices].clash = true;
+        plain[primitive->indices] = true;
 }
 
-static void mark_clashes(gltf_document *d)
+/* Finds accessors for which one primitive takes other values than another. */
+static ffd_status mark_clashes(gltf_document *d, ffd_error *error)
 {
+    bool *plain = ffd_alloc_zero(d->model.accessor_count, sizeof *plain);
+    if (!plain)
+        return ffd_fail_memory(error);
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            find_clashes(d, m, p);
+            mark_plain_uses(d, m, p, plain);
     for (size_t a = 0; a < d->model.accessor_count; a++) {
-        d->unpacked[a].clash = d->unpacked[a].clash && d->unpacked[a].bytes;
-        if (d->unpacked[a].clash)
+        gltf_unpacked *unpacked = &d->unpacked[a];
+        unpacked->clash = unpacked->clash || (plain[a] && unpacked->bytes && !equals_fallback(d, a));
+        if (unpacked->clash)
             d->layouts[a].readable = false;
     }
+    ffd_free(plain);
+    return FFD_OK;
 }
 
 ffd_status ffd_gltf_decode_draco(gltf_document *d, ffd_error *error)
@@ -323,7 +347,7 @@ ffd_status ffd_gltf_decode_draco(gltf_document *d, ffd_error *error)
         const size_t count = list_packed(d, list);
         status = decode_all(d, list, count, error);
         if (status == FFD_OK && count > 0)
-            mark_clashes(d);
+            status = mark_clashes(d, error);
     }
     ffd_free(list);
     return status;

@@ -113,6 +113,9 @@ ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error)
         unpack_mesh(saver, m, saver->plan.base_places[m]);
     for (size_t i = 0; i < saver->plan.copy_count; i++)
         unpack_mesh(saver, saver->plan.copies[i].mesh, saver->plan.copies[i].place);
+    for (size_t a = 0; a < accessors; a++)
+        if (saver->plan.in_place[a] != GLTF_NONE && d->layouts[a].packing == GLTF_DRACO)
+            unpack_accessor(saver, a, false);
     saver->unpacked_accessor_count = saver->unpacking_count;
     for (size_t a = 0; a < accessors; a++)
         if (saver->plan.in_place[a] != GLTF_NONE && d->layouts[a].packing == GLTF_MESHOPT)
@@ -181,9 +184,8 @@ static void edit_view(gltf_saver *saver, const gltf_unpacking *unpacking)
     set_number(&d->tree, view, "byteOffset", unpacking->offset, &saver->edits);
     remove_extensions(&d->tree, view, names, 2, &saver->edits);
     ffd_gltf_log(saver, FFD_LOG_INFO,
-                 "bufferView %zu is written uncompressed (it was EXT_meshopt_compression): what it holds is "
-                 "deformed",
-                 unpacking->view);
+                 "bufferView %zu is written uncompressed (it was %s): what it holds is deformed",
+                 unpacking->view, ffd_gltf_has_extension(d, view, names[0]) ? names[0] : names[1]);
 }
 
 /* number: that of its own bufferView. */
