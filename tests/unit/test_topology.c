@@ -339,6 +339,25 @@ static void test_empty(void **state)
     expect(&s, (mesh_topology){.vertices = 4, .isolated_vertices = 4});
 }
 
+/* Vertices for which others stand are no vertices at all; one that nobody needs still is. */
+static void test_repeated_vertices(void **state)
+{
+    (void)state;
+    sample s;
+    sample_begin(&s, 7);
+    s.positions[3 * 1] = s.positions[3 * 2 + 1] = 1;
+    ADD(&s, 0, 1, 2);
+    ADD(&s, 0, 2, 1); /* 3, 4 and 5 in the file */
+    s.faces.repeated = 3;
+    expect(&s, (mesh_topology){.vertices = 4,
+                               .isolated_vertices = 1,
+                               .faces = 2,
+                               .edges = 3,
+                               .components = 1,
+                               .euler = 2,
+                               .area = 1});
+}
+
 static void test_polygon(void **state)
 {
     (void)state;
@@ -677,6 +696,7 @@ int main(void)
         cmocka_unit_test(test_degenerate_faces),
         cmocka_unit_test(test_repeated_corners),
         cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_repeated_vertices),
         cmocka_unit_test(test_polygon),
         cmocka_unit_test(test_two_components),
         cmocka_unit_test(test_large_fan),

@@ -7,11 +7,11 @@
 /* An edge is a pair of different vertices that are neighbours in a face; a face that passes it twice uses it
    twice. */
 typedef struct mesh_topology {
-    size_t vertices, faces, edges;
-    size_t isolated_vertices;  /* in no face that counts */
-    size_t degenerate_faces;   /* fewer than 3 distinct corners: in no other figure */
-    size_t components;         /* of vertices connected by edges; isolated vertices are none */
-    size_t boundary_edges;     /* used once */
+    size_t vertices, faces, edges; /* vertices: without those that repeat another's position */
+    size_t isolated_vertices;      /* in no face that counts */
+    size_t degenerate_faces;       /* fewer than 3 distinct corners: in no other figure */
+    size_t components;             /* of vertices connected by edges; isolated vertices are none */
+    size_t boundary_edges;         /* used once */
     size_t boundary_loops;     /* sets of boundary edges connected by vertices (holes that touch are one) */
     size_t non_manifold_edges; /* used more than twice, or twice in the same direction */
     size_t non_manifold_vertices; /* with several fans of faces, or at an edge used more than twice */
