@@ -204,7 +204,7 @@ def a_new_buffer_beside_others(run):
 @case
 def too_many_zeros(run):
     run.write("l.json", ALL)
-    for count in (1 << 24, 1 << 31, 1 << 52):
+    for count in (1 << 20, 1 << 31, 1 << 52):
         maker = Maker()
         maker.mesh({"POSITION": maker.accessor(count)})
         source = maker.write(run, "in", "data")
@@ -558,7 +558,7 @@ def positions_that_an_animation_reads(run):
 
 @case
 def models_like_their_float_twins(run):
-    """Every sample model with integers, sparse data or none at all; those that need more are left out."""
+    """Every sample model with integers, sparse data or none at all; compressed ones are left out."""
     if not MODELS:
         return
     done = 0
@@ -568,6 +568,8 @@ def models_like_their_float_twins(run):
                 continue
             path = os.path.join(folder, name)
             before = Gltf(path)
+            if any("compression" in extension for extension in before.asset.get("extensionsUsed", [])):
+                continue
             accessors = [before.accessor(i) for i in deformed_accessors(before.asset)]
             if not any(a["componentType"] != FLOAT or "sparse" in a or "bufferView" not in a for a in accessors):
                 continue

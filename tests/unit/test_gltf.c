@@ -162,7 +162,7 @@ static void broken_values_are_refused(void **state)
          ",\"accessors\":[{\"componentType\":5126,\"count\":9007199254740992,\"type\":\"VEC3\",\"sparse\":{"
          "\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}]"
          "}",
-         "t.gltf:/accessors/0: 9007199254740992 elements without bytes are more than the 8388752 allowed "
+         "t.gltf:/accessors/0: 9007199254740992 elements without bytes are more than the 524432 allowed "
          "here",
          FFD_E_LIMIT},
         {"{" DATA

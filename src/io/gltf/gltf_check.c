@@ -4,7 +4,7 @@
 
 /* Zeros need no bytes in the file: without a limit a few characters could ask for any amount of memory.
    Elements without bytes, of all accessors: so many, and so many more for a byte of a buffer. */
-#define MOST_ZEROS ((uint64_t)1 << 23)
+#define MOST_ZEROS ((uint64_t)1 << 19)
 #define MOST_ZEROS_A_BYTE 4
 
 /* A failure at a member of a value, or at the value where the member is absent. */
