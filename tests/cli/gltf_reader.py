@@ -112,9 +112,16 @@ class Gltf:
         return [primitive for mesh in self.asset.get("meshes", []) for primitive in mesh["primitives"]]
 
 
+def attribute_sets(asset):
+    """The attributes of every primitive and of its morph targets."""
+    for mesh in asset.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            yield primitive["attributes"]
+            yield from primitive.get("targets", [])
+
+
 def deformed_accessors(asset):
-    return {primitive["attributes"][name] for mesh in asset.get("meshes", []) for primitive in mesh["primitives"]
-            for name in DEFORMED if name in primitive["attributes"]}
+    return {attributes[name] for attributes in attribute_sets(asset) for name in DEFORMED if name in attributes}
 
 
 def without(members, *names):
@@ -148,11 +155,13 @@ def check_rest(before, after):
     for mesh, other in zip(old.get("meshes", []), new.get("meshes", [])):
         equal(without(other, "primitives"), without(mesh, "primitives"), "a mesh")
         for a, b in zip(mesh["primitives"], other["primitives"], strict=True):
-            equal(without(b, "attributes"), without(a, "attributes"), "a primitive")
-            equal(list(b["attributes"]), list(a["attributes"]), "attributes")
-            for name in a["attributes"]:
-                check(b["attributes"][name] == a["attributes"][name]
-                      or (name in DEFORMED and b["attributes"][name] >= len(old["accessors"])), f"{name} has changed")
+            equal(without(b, "attributes", "targets"), without(a, "attributes", "targets"), "a primitive")
+            for before_it, after_it in zip([a["attributes"], *a.get("targets", [])],
+                                           [b["attributes"], *b.get("targets", [])], strict=True):
+                equal(list(after_it), list(before_it), "attributes")
+                for name in before_it:
+                    check(after_it[name] == before_it[name]
+                          or (name in DEFORMED and after_it[name] >= len(old["accessors"])), f"{name} has changed")
     check_bytes(before, after, deformed)
 
 

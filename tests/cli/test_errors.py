@@ -359,16 +359,6 @@ def gltf_data_uris(run):
 
 
 @case
-def what_is_not_there_yet_says_so(run):
-    """Valid files that need more than this version has: exit 6, or done right; never something wrong."""
-    start(run)
-    asset, data = gltf_json(CUBE_CORNERS)
-    run.write("m.glb", glb(changed(asset, "meshes/0/primitives/0/targets", [{"POSITION": 0}]), data))
-    done = run.ffd("deform", "m.glb", "out.glb", "-l", "l.json", code=UNSUPPORTED)
-    check(done.err[0].startswith("m.glb:/"), done.err[0])
-
-
-@case
 def files_that_are_not_there(run):
     start(run)
     run.folder_of("d.obj")

@@ -8,7 +8,8 @@ import json
 import os
 import struct
 
-from gltf_reader import (DEFORMED, FLOAT, SCALES, TYPES, Gltf, check_bounds, check_rest, deformed_accessors)
+from gltf_reader import (DEFORMED, FLOAT, SCALES, TYPES, Gltf, attribute_sets, check_bounds, check_rest,
+                         deformed_accessors)
 from harness import FFD, LIMIT, MODELS, OK, UNSUPPORTED, case, check, equal, glb, lattice, main, near, pad
 
 POINTS = [(-1.0, -1.0, -0.5), (1.0, -1.0, 0.25), (-1.0, 1.0, 0.5), (1.0, 1.0, 0.0), (0.0, 0.5, 1.0), (0.0, 0.0, 0.0)]
@@ -254,11 +255,10 @@ def float_twin(run, source, name):
         twins[index] = len(asset["accessors"])
         asset["accessors"].append({"bufferView": len(views) - 1, "componentType": FLOAT,
                                    "count": file.accessor(index)["count"], "type": file.accessor(index)["type"]})
-    for mesh in asset["meshes"]:
-        for primitive in mesh["primitives"]:
-            for attribute in DEFORMED:
-                if attribute in primitive["attributes"]:
-                    primitive["attributes"][attribute] = twins[primitive["attributes"][attribute]]
+    for attributes in attribute_sets(asset):
+        for semantic in DEFORMED:
+            if semantic in attributes:
+                attributes[semantic] = twins[attributes[semantic]]
     buffers.append({"byteLength": len(data),
                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()})
     return run.write(name, asset)
@@ -266,12 +266,12 @@ def float_twin(run, source, name):
 
 def check_like_twin(file, twin, old):
     """Every deformed attribute is that of the twin, to half a step of the type that it had."""
-    for a, b, was in zip(file.primitives(), twin.primitives(), old.primitives()):
+    for a, b, was in zip(*(attribute_sets(f.asset) for f in (file, twin, old))):
         for name in DEFORMED:
-            if name not in was["attributes"]:
+            if name not in was:
                 continue
-            half = old.step(was["attributes"][name]) / 2
-            found, wanted = file.decoded(a["attributes"][name]), twin.decoded(b["attributes"][name])
+            half = old.step(was[name]) / 2
+            found, wanted = file.decoded(a[name]), twin.decoded(b[name])
             for p, q in zip(found, wanted, strict=True):
                 for x, y in zip(p, q, strict=True):
                     check(abs(x - y) <= half * 1.001 + 4 * SINGLE * max(abs(x), abs(y), 1),
@@ -352,6 +352,16 @@ def the_extension_goes_when_nothing_needs_it(run):
         maker.mesh(attributes)
         _, after, _ = deform(run, maker.write(run, "in", "data"))
         equal(after.asset.get("extensionsUsed"), left, what)
+    # The offsets of a morph target may stay where the base does not.
+    for reach, left in ((0.01, ["KHR_mesh_quantization"]), (1, None)):
+        points, offsets = integers(5122, 1), integers(5122, reach)
+        maker = Maker(extensionsUsed=["KHR_mesh_quantization"], nodes=[in_scene(5122, True)])
+        maker.mesh({"POSITION": maker.dense(points, 5122, normalized=True, **bounds(points))})
+        maker.asset["meshes"][0]["primitives"][0]["targets"] = [
+            {"POSITION": maker.dense(offsets, 5122, normalized=True, **bounds(offsets))}]
+        grow = lattice(low=(-2.5,) * 3, high=(2.5,) * 3, moves=[{"scale": {"factor": 1.5}}])
+        _, after, _ = deform_with_twin(run, maker.write(run, "in", "data"), grow)
+        equal(after.asset.get("extensionsUsed"), left, f"offsets of {reach}")
     # A second mesh that stays in its range keeps it; so does one that no node shows.
     for shown in (True, False):
         points, small = integers(5122, 1), integers(5122, 0.25)
@@ -504,6 +514,11 @@ def other_users():
     made.mesh({"POSITION": 0}, {"POSITION": made.dense(points, 5122, **bounds(points)), "NORMAL": 0})
     yield "normals", made, False
     made = maker()
+    made.mesh({"POSITION": 0}, {"POSITION": made.dense(points, 5122, **bounds(points))})
+    made.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}]
+    made.asset["meshes"][0]["primitives"][1]["targets"] = [{}]
+    yield "offsets of a morph target", made, False
+    made = maker()
     made.asset["extensions"] = {"EXT_structural_metadata": {"propertyTables": [{"count": 1, "properties": {"a": {"values": 0}}}]}}
     made.mesh({"POSITION": 0})
     yield "a property table", made, False
@@ -534,7 +549,7 @@ def bytes_that_others_use(run):
                 equal(added, 0, f"{what}: new accessors")
                 continue
             check(added > 0, f"{what}: no new accessor")
-            stayed = {0}.union(*(p["attributes"].values() for p in after.primitives()), [
+            stayed = {0}.union(*(a.values() for a in attribute_sets(after.asset)), [
                 p["indices"] for p in after.primitives() if "indices" in p])
             for index in (i for i in stayed if i < len(before.asset["accessors"])):
                 if index == 0 or index not in deformed_accessors(before.asset):

@@ -17,24 +17,30 @@ static bool needs_quantization(const char *attribute, int component, bool normal
            !(normalized && (component == GLTF_U8 || component == GLTF_U16));
 }
 
-/* The type in which the output holds an attribute of a primitive that names the accessor. */
-static int output_component(const gltf_saver *saver, size_t mesh, size_t p, size_t place,
-                            const char *attribute, const gltf_accessor *accessor)
+/* The attributes of a primitive at a place of its mesh's showing, or those of one of its morph targets. */
+typedef struct attribute_set {
+    size_t mesh, p, place;
+    size_t first_slot;
+    uint32_t attributes; /* in the JSON */
+} attribute_set;
+
+/* The type in which the output holds an attribute whose accessor is the given one. */
+static int output_component(const gltf_saver *saver, const attribute_set *set, const char *attribute,
+                            const gltf_accessor *accessor)
 {
-    for (int s = 0; s < GLTF_DEFORMED; s++) {
-        const size_t version =
-            ffd_gltf_version_at(saver->document, &saver->plan, mesh, p, (gltf_semantic)s, place);
+    for (size_t s = 0; s < GLTF_DEFORMED; s++) {
+        const size_t version = ffd_gltf_version_at(saver->document, &saver->plan, set->mesh, set->p,
+                                                   set->first_slot + s, set->place);
         if (strcmp(attribute, ffd_gltf_semantic_names[s]) == 0 && version != GLTF_NONE)
             return saver->plan.versions[version].component;
     }
     return accessor->component;
 }
 
-/* attributes: the JSON of a primitive's attributes, or of a morph target's, which place does not change. */
-static bool are_quantized(gltf_saver *saver, uint32_t attributes, size_t mesh, size_t p, size_t place)
+static bool are_quantized(gltf_saver *saver, const attribute_set *set)
 {
     const gltf_document *d = saver->document;
-    for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
+    for (uint32_t v = ffd_json_span_first(&d->tree, set->attributes); v != JSON_NONE;
          v = ffd_json_span_after(&d->tree, v)) {
         double number;
         char *name = ffd_json_span_key(&d->tree, v);
@@ -44,8 +50,8 @@ static bool are_quantized(gltf_saver *saver, uint32_t attributes, size_t mesh, s
             return true;
         }
         const gltf_accessor *accessor = &d->model.accessors[(size_t)number];
-        const bool needed = needs_quantization(name, output_component(saver, mesh, p, place, name, accessor),
-                                               accessor->normalized);
+        const bool needed =
+            needs_quantization(name, output_component(saver, set, name, accessor), accessor->normalized);
         ffd_free(name);
         if (needed)
             return true;
@@ -58,13 +64,17 @@ static bool is_quantized_mesh(gltf_saver *saver, size_t mesh, size_t place)
     const gltf_document *d = saver->document;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
         const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
-        if (are_quantized(saver, ffd_json_span_member(&d->tree, primitive, "attributes"), mesh, p, place))
-            return true;
         const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
+        attribute_set set = {mesh, p, place, 0, ffd_json_span_member(&d->tree, primitive, "attributes")};
+        if (are_quantized(saver, &set))
+            return true;
         for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
-             t = ffd_json_span_after(&d->tree, t))
-            if (are_quantized(saver, t, mesh, p, GLTF_NONE))
+             t = ffd_json_span_after(&d->tree, t)) {
+            set.first_slot += GLTF_DEFORMED;
+            set.attributes = t;
+            if (are_quantized(saver, &set))
                 return true;
+        }
     }
     return false;
 }
