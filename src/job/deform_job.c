@@ -128,7 +128,8 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .threads = job->threads,
                             .embedding = job->desc->embedding ? &job->embedding : NULL,
                             .write = true,
-                            .attributes = job->desc->normals == FFD_NORMALS_TRANSFORM,
+                            .attributes = job->desc->normals != FFD_NORMALS_KEEP,
+                            .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE,
                             .deformed = arrays->deformed,
                             .gradients = arrays->gradients};
     recompute_counts counts = {0};

@@ -228,8 +228,10 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
             continue;
         scratch->normals_changed[i] =
             (uint8_t)ffd_deform_normal(scratch->points[*vertex - first].gradient, n, n, &collapsed);
-        totals->normals_collapsed += (uint64_t)collapsed;
+        totals->normals_collapsed += work->pass->only_offsets ? 0 : (uint64_t)collapsed;
     }
+    if (work->pass->only_offsets)
+        return;
     document->format->write_normals(document, work->part_number, from, count, scratch->normals,
                                     scratch->normals_changed);
 }
@@ -245,6 +247,8 @@ static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t
         scratch->tangents_changed[i] =
             (uint8_t)ffd_deform_tangent(scratch->points[i].gradient, t, n, t, NULL);
     }
+    if (work->pass->only_offsets)
+        return;
     document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,
                                      scratch->tangents_changed);
 }
@@ -318,7 +322,8 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     tile_scratch *scratch = &work->scratch[worker];
     pass_totals *totals = &work->tiles[tile];
     const size_t count = last - first;
-    const bool attributes = pass->attributes && !part->singular && (part->normal_count || part->has_tangents);
+    const bool wanted = pass->attributes && (!pass->only_offsets || part->shape_count);
+    const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
     const bool gradients = attributes || (pass->gradients && !part->repeats_positions);
 
     clear_totals(totals);

@@ -38,6 +38,7 @@ typedef struct mesh_pass {
     const embedding_file *embedding; /* of the document in the first link, or NULL: u,v,w is searched for */
     bool write;                      /* hand positions back to the document (after begin_results) */
     bool attributes;                 /* and normals and tangents */
+    bool only_offsets; /* with attributes: only those of morph targets; the base's are not handed back */
     double *uvw;       /* 3 a vertex, or NULL: u,v,w in the last link, NaN where there is none */
     uint8_t *statuses; /* one a vertex, or NULL */
     double *deformed;  /* 3 a vertex, or NULL: where the chain brings it, in the lattice's space, unrounded;

@@ -14,7 +14,8 @@ typedef struct recompute_counts {
 /* Hands the document, whose results have begun, the normals of its deformed faces (normal_groups.h) and
    tangents perpendicular to them. Where no face around a normal has a vertex that moved, it keeps its bits,
    as its tangent does. A normal without faces, or whose faces have no area or cancel out, is carried by the
-   deformation. Only what is selected changes.
+   deformation. Only what is selected changes. Morph targets are not looked at: what they add to a normal is
+   carried by the deformation (mesh_pass: only_offsets).
      faces      of the whole document, at rest
      deformed   3 doubles a vertex, and
      gradients  9 doubles a vertex: as a pass over all of the chain has left them (mesh_pass)

@@ -2,6 +2,7 @@
 """--normals recompute: normals of the deformed faces, against a slow implementation of its own."""
 import math
 import os
+import struct
 import subprocess
 
 from gltf_reader import Gltf
@@ -351,6 +352,37 @@ def gltf_is_computed_in_its_scene(run):
         for i, n in enumerate(gltf_vectors(after, changed, attributes["NORMAL"])):
             near([dot(n, n)], [1], 1e-6)
             near(show(n), [-x for x in expected[i]] if mirrored else expected[i], 1e-5, f"{node} {i}")
+
+
+@case
+def morph_targets_add_what_the_deformation_makes_of_it(run):
+    """The base's normals are those of its faces; the offsets are as with transform."""
+    points, quads = sphere(6, 8)
+    faces = [[f[0], f[i], f[i + 1]] for f in quads for i in range(1, len(f) - 1)]
+    corners = [points[v] for f in faces for v in f]
+    asset, data = gltf_json(corners, normals=corners)
+    for factor in (0.25, -0.125):
+        offsets = [[factor * p[1] * p[1], 0, factor * p[0]] if p[2] > 0 else [0, 0, 0] for p in corners]
+        asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 12 * len(corners)})
+        asset["accessors"].append({**asset["accessors"][0], "bufferView": len(asset["bufferViews"]) - 1,
+                                   "min": [-1, 0, -1], "max": [1, 1, 1]})
+        data += b"".join(struct.pack("<3f", *p) for p in offsets)
+    asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 2, "NORMAL": 3}]
+    asset["buffers"][0]["byteLength"] = len(data)
+    run.write("a.glb", glb(asset, data))
+    run.write("l.json", lattice(moves=TWIST))
+    run.ffd("deform", "a.glb", "t.glb", "-l", "l.json")
+    transform, carried = glb_split(run.read("t.glb"))
+    after, changed = glb_split(recompute(run, "a.glb", "b.glb"))
+    for i in (0, 2, 3):
+        equal(gltf_vectors(after, changed, i), gltf_vectors(transform, carried, i), f"accessor {i}")
+        check(gltf_vectors(after, changed, i) != gltf_vectors(asset, data, i), i, "changes")
+    triangles = [[(i + k, i + k) for k in range(3)] for i in range(0, len(corners), 3)]
+    expected = recomputed(triangles, gltf_vectors(asset, data, 0), gltf_vectors(after, changed, 0),
+                          gltf_vectors(asset, data, 1))
+    near(gltf_vectors(after, changed, 1), [expected[i] for i in range(len(corners))], 1e-5)
+    run.ffd("deform", "a.glb", "k.glb", "-l", "l.json", "--normals", "keep")
+    equal(gltf_vectors(*glb_split(run.read("k.glb")), 3), gltf_vectors(asset, data, 3), "kept")
 
 
 @case
