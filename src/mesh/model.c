@@ -1,0 +1,111 @@
+#include "mesh/model.h"
+#include "base/memory.h"
+#include <inttypes.h>
+#include <string.h>
+
+void ffd_model_free(mesh_model *model)
+{
+    ffd_free(model->positions);
+    ffd_free(model->texcoords);
+    ffd_free(model->normals);
+    ffd_free(model->colours);
+    for (int k = 0; k < MODEL_KINDS; k++) {
+        ffd_free(model->lists[k].starts);
+        ffd_free(model->lists[k].corners);
+    }
+    ffd_free(model->runs);
+    ffd_intern_free(&model->names);
+    *model = (mesh_model){0};
+}
+
+static ffd_status make(double **values, size_t count, size_t numbers, ffd_error *error)
+{
+    if (count > MODEL_VALUES_MAX)
+        return ffd_fail(error, FFD_E_LIMIT, "a conversion takes at most %" PRIu32 " vertices or normals",
+                        MODEL_VALUES_MAX);
+    if (count == 0)
+        return FFD_OK;
+    *values = ffd_alloc(count, numbers * sizeof **values);
+    return *values ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_model_make_values(mesh_model *model, size_t positions, size_t texcoords, size_t normals,
+                                 ffd_error *error)
+{
+    ffd_status status = make(&model->positions, positions, 3, error);
+    if (status == FFD_OK)
+        status = make(&model->texcoords, texcoords, 2, error);
+    if (status == FFD_OK)
+        status = make(&model->normals, normals, 3, error);
+    if (status)
+        return status;
+    model->position_count = positions;
+    model->texcoord_count = texcoords;
+    model->normal_count = normals;
+    return FFD_OK;
+}
+
+ffd_status ffd_model_make_colours(mesh_model *model, ffd_error *error)
+{
+    if (model->colours)
+        return FFD_OK;
+    model->colours = ffd_alloc(model->position_count, 4 * sizeof *model->colours);
+    if (!model->colours)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < 4 * model->position_count; i++)
+        model->colours[i] = 1;
+    return FFD_OK;
+}
+
+static bool find_name(mesh_model *model, const char *text, uint32_t *name)
+{
+    *name = MODEL_NONE;
+    return !text || !*text || ffd_intern(&model->names, text, strlen(text), name);
+}
+
+ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char *group, const char *material,
+                               ffd_error *error)
+{
+    model_run run;
+    if (!find_name(model, object, &run.object) || !find_name(model, group, &run.group) ||
+        !find_name(model, material, &run.material))
+        return ffd_fail_memory(error);
+    const model_run *last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
+    if (last && last->object == run.object && last->group == run.group && last->material == run.material)
+        return FFD_OK;
+    for (int k = 0; k < MODEL_KINDS; k++)
+        run.first[k] = model->lists[k].count;
+    if (last && memcmp(last->first, run.first, sizeof run.first) == 0)
+        model->run_count--; /* nothing was added to it */
+    if (!ffd_grow((void **)&model->runs, &model->run_capacity, model->run_count + 1, sizeof *model->runs))
+        return ffd_fail_memory(error);
+    model->runs[model->run_count++] = run;
+    return FFD_OK;
+}
+
+static ffd_status append(model_list *list, const model_corner *corners, size_t count, ffd_error *error)
+{
+    if (!ffd_grow((void **)&list->starts, &list->start_capacity, list->count + 2, sizeof *list->starts) ||
+        !ffd_grow((void **)&list->corners, &list->corner_capacity, list->corner_count + count,
+                  sizeof *list->corners))
+        return ffd_fail_memory(error);
+    memcpy(list->corners + list->corner_count, corners, count * sizeof *corners);
+    list->starts[list->count++] = list->corner_count;
+    list->corner_count += count;
+    list->starts[list->count] = list->corner_count;
+    return FFD_OK;
+}
+
+ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner *corners, size_t count,
+                         ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    if (kind == MODEL_POINTS || count == 1) {
+        for (size_t i = 0; i < count && status == FFD_OK; i++)
+            status = append(&model->lists[MODEL_POINTS], corners + i, 1, error);
+        return status;
+    }
+    if (count == 0)
+        return FFD_OK;
+    return append(&model->lists[count == 2 ? MODEL_LINES : kind], corners, count, error);
+}

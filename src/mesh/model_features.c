@@ -1,0 +1,228 @@
+#include "base/memory.h"
+#include "mesh/model.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* How far 255 times a colour may be from a whole number: half of the sixth digit that texts have, and some.
+ */
+#define BYTE_TOLERANCE 2e-4
+
+static bool same(const double *values, size_t numbers, uint32_t a, uint32_t b)
+{
+    for (size_t i = 0; i < numbers && a != b; i++)
+        if (values[numbers * a + i] < values[numbers * b + i] ||
+            values[numbers * a + i] > values[numbers * b + i])
+            return false;
+    return true;
+}
+
+/* Notes the value of a corner for its position. Returns whether it differs from one noted before. */
+static bool note(uint32_t *number, uint32_t value, const double *values, size_t numbers)
+{
+    if (value == MODEL_NONE)
+        return false;
+    if (*number == MODEL_NONE)
+        *number = value;
+    return !same(values, numbers, *number, value);
+}
+
+static void clear(const mesh_model *model, uint32_t *numbers)
+{
+    for (size_t i = 0; i < model->position_count; i++)
+        numbers[i] = MODEL_NONE;
+}
+
+bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *numbers)
+{
+    bool several = false;
+    clear(model, numbers);
+    for (int k = 0; k < MODEL_KINDS; k++)
+        for (size_t i = 0; i < model->lists[k].corner_count; i++) {
+            const model_corner *corner = &model->lists[k].corners[i];
+            several = note(&numbers[corner->position], corner->texcoord, model->texcoords, 2) || several;
+        }
+    return several;
+}
+
+bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers)
+{
+    bool several = false;
+    clear(model, numbers);
+    for (int k = 0; k < MODEL_KINDS; k++)
+        for (size_t i = 0; i < model->lists[k].corner_count; i++) {
+            const model_corner *corner = &model->lists[k].corners[i];
+            several = note(&numbers[corner->position], corner->normal, model->normals, 3) || several;
+        }
+    return several;
+}
+
+bool ffd_model_colours_fit_bytes(const mesh_model *model)
+{
+    for (size_t i = 0; model->colours && i < 4 * model->position_count; i++) {
+        const double scaled = 255 * model->colours[i];
+        if (!(scaled >= 0 && scaled <= 255 && fabs(scaled - floor(scaled + 0.5)) <= BYTE_TOLERANCE))
+            return false;
+    }
+    return true;
+}
+
+/* Some files have colours from 0 to 255, without a word about it. */
+static void scale_colours(mesh_model *model)
+{
+    bool large = false;
+    for (size_t i = 0; model->colours && i < model->position_count; i++)
+        for (size_t c = 0; c < 3; c++)
+            large = large || model->colours[4 * i + c] > 1;
+    for (size_t i = 0; large && i < model->position_count; i++)
+        for (size_t c = 0; c < 4; c++)
+            model->colours[4 * i + c] /= c < 3 || model->colours[4 * i + 3] > 1 ? 255 : 1;
+}
+
+/* Vertices without anything that uses them are a cloud of points, unless they are control points; normals, if
+   any, stand in their order. */
+static ffd_status make_cloud(mesh_model *model, ffd_error *error)
+{
+    const bool normals = model->normal_count == model->position_count,
+               texcoords = model->texcoord_count == model->position_count;
+    ffd_status status = FFD_OK;
+    for (int k = 0; k < MODEL_KINDS; k++)
+        if (model->lists[k].count > 0)
+            return FFD_OK;
+    if (model->features & MODEL_HAS_FREE_FORM)
+        return FFD_OK;
+    if (model->position_count > 0 && model->run_count == 0)
+        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
+    for (size_t i = 0; i < model->position_count && status == FFD_OK; i++) {
+        const uint32_t number = (uint32_t)i;
+        const model_corner corner = {number, texcoords ? number : MODEL_NONE, normals ? number : MODEL_NONE};
+        status = ffd_model_add(model, MODEL_POINTS, &corner, 1, error);
+    }
+    return status;
+}
+
+static uint32_t features_of_corners(const mesh_model *model)
+{
+    uint32_t found = 0;
+    for (int k = 0; k < MODEL_KINDS; k++)
+        for (size_t i = 0; i < model->lists[k].corner_count; i++) {
+            const model_corner *corner = &model->lists[k].corners[i];
+            found |= corner->texcoord != MODEL_NONE ? MODEL_HAS_TEXCOORDS : 0;
+            if (corner->normal != MODEL_NONE)
+                found |= k == MODEL_FACES ? MODEL_HAS_NORMALS : MODEL_HAS_NORMALS | MODEL_HAS_POINT_NORMALS;
+        }
+    const model_list *faces = &model->lists[MODEL_FACES];
+    if (faces->corner_count > 3 * faces->count)
+        found |= MODEL_HAS_POLYGONS;
+    found |= model->lists[MODEL_LINES].count > 0 ? MODEL_HAS_LINES : 0;
+    found |= model->lists[MODEL_POINTS].count > 0 ? MODEL_HAS_POINTS : 0;
+    return found;
+}
+
+static uint32_t features_of_names(const mesh_model *model)
+{
+    uint32_t found = 0;
+    for (size_t i = 0; i < model->run_count; i++) {
+        found |= model->runs[i].object != MODEL_NONE ? MODEL_HAS_OBJECTS : 0;
+        found |= model->runs[i].group != MODEL_NONE ? MODEL_HAS_GROUPS : 0;
+        found |= model->runs[i].material != MODEL_NONE ? MODEL_HAS_MATERIAL_NAMES : 0;
+    }
+    return found;
+}
+
+static bool has_loose(const mesh_model *model, uint32_t *used)
+{
+    clear(model, used);
+    for (int k = 0; k < MODEL_KINDS; k++)
+        for (size_t i = 0; i < model->lists[k].corner_count; i++)
+            used[model->lists[k].corners[i].position] = 0;
+    for (size_t i = 0; i < model->position_count; i++)
+        if (used[i] == MODEL_NONE)
+            return true;
+    return false;
+}
+
+static uint32_t features_of_colours(const mesh_model *model)
+{
+    if (!model->colours)
+        return 0;
+    for (size_t i = 0; i < model->position_count; i++)
+        if (model->colours[4 * i + 3] < 1)
+            return MODEL_HAS_COLOURS | MODEL_HAS_ALPHA;
+    return MODEL_HAS_COLOURS;
+}
+
+ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
+{
+    const ffd_status status = make_cloud(model, error);
+    if (status)
+        return status;
+    uint32_t *numbers = ffd_alloc(model->position_count, sizeof *numbers);
+    if (!numbers)
+        return ffd_fail_memory(error);
+    scale_colours(model);
+    model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model);
+    if (ffd_model_normals_by_position(model, numbers))
+        model->features |= MODEL_HAS_CORNER_NORMALS;
+    if (ffd_model_texcoords_by_position(model, numbers))
+        model->features |= MODEL_HAS_CORNER_TEXCOORDS;
+    if (has_loose(model, numbers))
+        model->features |= MODEL_HAS_LOOSE;
+    ffd_free(numbers);
+    return FFD_OK;
+}
+
+/* A feature that makes no sense without another is not named beside it. */
+static const struct {
+    uint32_t feature, implied_by;
+    const char *words;
+} descriptions[] = {
+    {MODEL_HAS_POLYGONS, 0, "polygons (written as triangles)"},
+    {MODEL_HAS_LINES, 0, "lines"},
+    {MODEL_HAS_POINTS, 0, "points"},
+    {MODEL_HAS_LOOSE, 0, "vertices that nothing uses"},
+    {MODEL_HAS_NORMALS, 0, "vertex normals"},
+    {MODEL_HAS_CORNER_NORMALS, MODEL_HAS_NORMALS, "vertex normals (a vertex has several)"},
+    {MODEL_HAS_POINT_NORMALS, MODEL_HAS_NORMALS, "normals of lines and points"},
+    {MODEL_HAS_TANGENTS, 0, "tangents"},
+    {MODEL_HAS_TEXCOORDS, 0, "texture coordinates"},
+    {MODEL_HAS_CORNER_TEXCOORDS, MODEL_HAS_TEXCOORDS, "texture coordinates (a vertex has several)"},
+    {MODEL_HAS_MORE_TEXCOORDS, MODEL_HAS_TEXCOORDS, "further texture coordinates"},
+    {MODEL_HAS_COLOURS, 0, "vertex colours"},
+    {MODEL_HAS_ALPHA, MODEL_HAS_COLOURS, "the alpha of vertex colours"},
+    {MODEL_HAS_FACE_COLOURS, 0, "face colours"},
+    {MODEL_HAS_SMOOTHING, 0, "smoothing groups"},
+    {MODEL_HAS_OBJECTS, 0, "object names"},
+    {MODEL_HAS_GROUPS, 0, "group names"},
+    {MODEL_HAS_MATERIAL_NAMES, MODEL_HAS_MATERIALS, "material names"},
+    {MODEL_HAS_MATERIALS, 0, "materials"},
+    {MODEL_HAS_TEXTURES, 0, "textures"},
+    {MODEL_HAS_FREE_FORM, 0, "free-form curves and surfaces"},
+    {MODEL_HAS_HIERARCHY, 0, "the node hierarchy"},
+    {MODEL_HAS_PLACES, 0, "the places of nodes (--space mesh)"},
+    {MODEL_HAS_SKINS, 0, "skins"},
+    {MODEL_HAS_MORPHS, 0, "morph targets"},
+    {MODEL_HAS_ANIMATIONS, 0, "animations"},
+    {MODEL_HAS_CAMERAS, 0, "cameras and lights"},
+    {MODEL_HAS_HIDDEN, 0, "what the scene does not show"},
+    {MODEL_HAS_MORE, 0, "further data of vertices and faces"},
+};
+
+void ffd_model_describe_loss(const mesh_model *model, uint32_t holds, char *text, size_t capacity)
+{
+    const uint32_t lost = model->features & ~holds;
+    size_t length = 0;
+    text[0] = 0;
+    for (size_t i = 0; i < sizeof descriptions / sizeof *descriptions; i++) {
+        const char *words = descriptions[i].words;
+        if (!(lost & descriptions[i].feature) || lost & descriptions[i].implied_by)
+            continue;
+        if (descriptions[i].feature == MODEL_HAS_MATERIALS && holds & MODEL_HAS_MATERIAL_NAMES &&
+            model->features & MODEL_HAS_MATERIAL_NAMES)
+            words = "materials (their names are kept)";
+        const int more = snprintf(text + length, capacity - length, "%s%s", length ? ", " : "", words);
+        if (more < 0 || (size_t)more >= capacity - length)
+            return;
+        length += (size_t)more;
+    }
+}
