@@ -9,6 +9,7 @@
 #include "base/buffer.h"
 #include "base/file.h"
 #include "base/json_text.h"
+#include "mesh/model.h"
 #include "mesh/selector.h"
 #include <ffd/job.h>
 #include <stdbool.h>
@@ -83,6 +84,7 @@ typedef struct mesh_save_options {
     ffd_format format;
     bool force;
     ffd_resources resources;
+    const char *input; /* the document's file, which a conversion must not replace; NULL or "-": none */
 } mesh_save_options;
 
 typedef struct mesh_log {
@@ -163,6 +165,9 @@ typedef struct mesh_format {
        part. */
     ffd_status (*corner_normals)(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
                                  ffd_error *error);
+    /* Fills an empty model (which the caller frees in every case) with the mesh as the parts place it, with
+       the results where there are some. */
+    ffd_status (*model)(const mesh_document *document, mesh_model *model, ffd_error *error);
     ffd_status (*describe)(const mesh_document *document, json_text *json, ffd_error *error);
 
     /* Compares two documents of this format (see ffd_compare_run). */

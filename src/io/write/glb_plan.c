@@ -1,0 +1,382 @@
+#include "io/write/glb_plan.h"
+#include "base/memory.h"
+#include "base/vec.h"
+#include "io/write/triangles.h"
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What is needed to make a plan. */
+typedef struct planner {
+    glb_plan *plan;
+    const mesh_model *model;
+    uint32_t *texcoords,
+        *normals;            /* of each, the first one with the same value; MODEL_NONE: cannot be used */
+    intern_table primitives; /* keys: primitive_key */
+    size_t primitive_capacity;
+    uint32_t *primitive_of[MODEL_KINDS]; /* of each element */
+    size_t *elements[MODEL_KINDS];       /* in the order of their primitives */
+    face_triangles scratch;
+    model_corner *sorted; /* the corners of a primitive */
+    ffd_error *error;
+} planner;
+
+typedef struct primitive_key {
+    uint32_t mesh, material, kind, normals, texcoords;
+} primitive_key;
+
+static float finite_float(double value)
+{
+    return fabs(value) <= (double)FLT_MAX ? (float)value + 0.0f : 0.0f; /* -0 becomes 0 */
+}
+
+void ffd_glb_texcoord(const mesh_model *model, uint32_t number, float values[2])
+{
+    values[0] = finite_float(model->texcoords[2 * (size_t)number]);
+    values[1] = finite_float(1 - model->texcoords[2 * (size_t)number + 1]); /* glTF's v goes down */
+}
+
+bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3])
+{
+    const double *normal = model->normals + 3 * (size_t)number;
+    const double length = vec_length(normal);
+    if (!(length > 0) || !isfinite(length))
+        return false;
+    for (int a = 0; a < 3; a++)
+        values[a] = finite_float(normal[a] / length);
+    return true;
+}
+
+/* Finds equal values, so that corners that name them by different numbers share a vertex. */
+static ffd_status join_texcoords(planner *p)
+{
+    intern_table values = {0};
+    ffd_status status = FFD_OK;
+    uint32_t *first = ffd_alloc(p->model->texcoord_count, sizeof *first);
+    p->texcoords = ffd_alloc(p->model->texcoord_count, sizeof *p->texcoords);
+    if (!p->texcoords || !first)
+        status = ffd_fail_memory(p->error);
+    for (size_t i = 0; i < p->model->texcoord_count && status == FFD_OK; i++) {
+        float value[2];
+        uint32_t number;
+        ffd_glb_texcoord(p->model, (uint32_t)i, value);
+        const size_t known = values.count;
+        if (!ffd_intern(&values, value, sizeof value, &number))
+            status = ffd_fail_memory(p->error);
+        else {
+            if (values.count > known)
+                first[number] = (uint32_t)i;
+            p->texcoords[i] = first[number];
+        }
+    }
+    ffd_intern_free(&values);
+    ffd_free(first);
+    return status;
+}
+
+static ffd_status join_normals(planner *p)
+{
+    intern_table values = {0};
+    ffd_status status = FFD_OK;
+    uint32_t *first = ffd_alloc(p->model->normal_count, sizeof *first);
+    p->normals = ffd_alloc(p->model->normal_count, sizeof *p->normals);
+    if (!p->normals || !first)
+        status = ffd_fail_memory(p->error);
+    for (size_t i = 0; i < p->model->normal_count && status == FFD_OK; i++) {
+        float value[3];
+        uint32_t number;
+        const size_t known = values.count;
+        p->normals[i] = MODEL_NONE;
+        if (!ffd_glb_normal(p->model, (uint32_t)i, value))
+            continue;
+        if (!ffd_intern(&values, value, sizeof value, &number))
+            status = ffd_fail_memory(p->error);
+        else {
+            if (values.count > known)
+                first[number] = (uint32_t)i;
+            p->normals[i] = first[number];
+        }
+    }
+    ffd_intern_free(&values);
+    ffd_free(first);
+    return status;
+}
+
+static model_corner joined(const planner *p, const model_corner *corner)
+{
+    return (model_corner){corner->position,
+                          corner->texcoord == MODEL_NONE ? MODEL_NONE : p->texcoords[corner->texcoord],
+                          corner->normal == MODEL_NONE ? MODEL_NONE : p->normals[corner->normal]};
+}
+
+static ffd_status find_primitive(planner *p, const primitive_key *key, uint32_t *number)
+{
+    glb_plan *plan = p->plan;
+    if (!ffd_intern(&p->primitives, key, sizeof *key, number))
+        return ffd_fail_memory(p->error);
+    if (*number < plan->primitive_count)
+        return FFD_OK;
+    if (!ffd_grow((void **)&plan->primitives, &p->primitive_capacity, plan->primitive_count + 1,
+                  sizeof *plan->primitives))
+        return ffd_fail_memory(p->error);
+    plan->primitives[plan->primitive_count++] = (glb_primitive){.mesh = key->mesh,
+                                                                .material = key->material,
+                                                                .kind = (model_kind)key->kind,
+                                                                .normals = key->normals != 0,
+                                                                .texcoords = key->texcoords != 0};
+    return FFD_OK;
+}
+
+/* An attribute is there only where all corners of an element have it. */
+static ffd_status assign_element(planner *p, primitive_key *key, size_t i)
+{
+    size_t count;
+    const model_corner *corners = model_element(&p->model->lists[key->kind], i, &count);
+    key->normals = key->texcoords = 1;
+    for (size_t c = 0; c < count; c++) {
+        const model_corner corner = joined(p, corners + c);
+        key->normals = key->normals && corner.normal != MODEL_NONE;
+        key->texcoords = key->texcoords && corner.texcoord != MODEL_NONE;
+    }
+    const ffd_status status = find_primitive(p, key, &p->primitive_of[key->kind][i]);
+    if (status)
+        return status;
+    glb_primitive *primitive = &p->plan->primitives[p->primitive_of[key->kind][i]];
+    primitive->elements++;
+    primitive->index_count += key->kind == MODEL_FACES   ? 3 * (count - 2)
+                              : key->kind == MODEL_LINES ? 2 * (count - 1)
+                                                         : 0;
+    return FFD_OK;
+}
+
+static ffd_status assign_run(planner *p, size_t r)
+{
+    const model_run *run = &p->model->runs[r];
+    const uint32_t names[2] = {run->object, run->group};
+    primitive_key key = {.material = MODEL_NONE};
+    bool empty = true;
+    for (int k = 0; k < MODEL_KINDS; k++)
+        empty = empty && run->first[k] == model_run_end(p->model, r, (model_kind)k);
+    if (empty)
+        return FFD_OK;
+    if (!ffd_intern(&p->plan->meshes, names, sizeof names, &key.mesh) ||
+        (run->material != MODEL_NONE &&
+         !ffd_intern(&p->plan->materials, &run->material, sizeof run->material, &key.material)))
+        return ffd_fail_memory(p->error);
+    ffd_status status = FFD_OK;
+    for (key.kind = 0; key.kind < MODEL_KINDS; key.kind++) {
+        const size_t last = model_run_end(p->model, r, (model_kind)key.kind);
+        for (size_t i = run->first[key.kind]; i < last && status == FFD_OK; i++)
+            status = assign_element(p, &key, i);
+    }
+    return status;
+}
+
+static ffd_status assign_all(planner *p)
+{
+    for (int k = 0; k < MODEL_KINDS; k++) {
+        p->primitive_of[k] = ffd_alloc(p->model->lists[k].count, sizeof *p->primitive_of[k]);
+        p->elements[k] = ffd_alloc(p->model->lists[k].count, sizeof *p->elements[k]);
+        if (!p->primitive_of[k] || !p->elements[k])
+            return ffd_fail_memory(p->error);
+    }
+    ffd_status status = FFD_OK;
+    for (size_t r = 0; r < p->model->run_count && status == FFD_OK; r++)
+        status = assign_run(p, r);
+    return status;
+}
+
+/* Lists the elements of each kind by their primitives, in the model's order within each. */
+static ffd_status sort_elements(planner *p)
+{
+    const glb_plan *plan = p->plan;
+    size_t *next = ffd_alloc(plan->primitive_count, sizeof *next), at[MODEL_KINDS] = {0};
+    if (!next)
+        return ffd_fail_memory(p->error);
+    for (size_t i = 0; i < plan->primitive_count; i++) {
+        next[i] = at[plan->primitives[i].kind];
+        at[plan->primitives[i].kind] += plan->primitives[i].elements;
+    }
+    for (int k = 0; k < MODEL_KINDS; k++)
+        for (size_t i = 0; i < p->model->lists[k].count; i++)
+            p->elements[k][next[p->primitive_of[k][i]]++] = i;
+    ffd_free(next);
+    return FFD_OK;
+}
+
+static ffd_status sort_primitives(planner *p)
+{
+    glb_plan *plan = p->plan;
+    size_t *next = ffd_alloc_zero(plan->meshes.count + 1, sizeof *next);
+    plan->by_mesh = ffd_alloc(plan->primitive_count, sizeof *plan->by_mesh);
+    if (!next || !plan->by_mesh) {
+        ffd_free(next);
+        return ffd_fail_memory(p->error);
+    }
+    for (size_t i = 0; i < plan->primitive_count; i++)
+        next[plan->primitives[i].mesh + 1]++;
+    for (size_t m = 0; m < plan->meshes.count; m++)
+        next[m + 1] += next[m];
+    for (size_t i = 0; i < plan->primitive_count; i++)
+        plan->by_mesh[next[plan->primitives[i].mesh]++] = (uint32_t)i;
+    ffd_free(next);
+    return FFD_OK;
+}
+
+static int compare_corners(const void *a, const void *b)
+{
+    const model_corner *x = a, *y = b;
+    if (x->position != y->position)
+        return x->position < y->position ? -1 : 1;
+    if (x->texcoord != y->texcoord)
+        return x->texcoord < y->texcoord ? -1 : 1;
+    return (x->normal > y->normal) - (x->normal < y->normal);
+}
+
+/* The corner of a primitive, without what the primitive has not. */
+static model_corner corner_of(const planner *p, const glb_primitive *primitive, const model_corner *corner)
+{
+    model_corner own = joined(p, corner);
+    own.texcoord = primitive->texcoords ? own.texcoord : MODEL_NONE;
+    own.normal = primitive->normals ? own.normal : MODEL_NONE;
+    return own;
+}
+
+/* Appends the corners that an element draws to those being sorted. */
+static ffd_status draw(planner *p, const glb_primitive *primitive, size_t element, size_t *drawn)
+{
+    size_t count, triangles = 0;
+    const model_corner *corners = model_element(&p->model->lists[primitive->kind], element, &count);
+    if (primitive->kind == MODEL_FACES) {
+        const ffd_status status = ffd_face_triangles(&p->scratch, p->model, element, &triangles, p->error);
+        if (status)
+            return status;
+        for (size_t i = 0; i < 3 * triangles; i++)
+            p->sorted[(*drawn)++] = corner_of(p, primitive, corners + p->scratch.triangles[i]);
+        return FFD_OK;
+    }
+    if (primitive->kind == MODEL_POINTS)
+        p->sorted[(*drawn)++] = corner_of(p, primitive, corners);
+    for (size_t c = 0; c + 1 < count; c++) {
+        p->sorted[(*drawn)++] = corner_of(p, primitive, corners + c);
+        p->sorted[(*drawn)++] = corner_of(p, primitive, corners + c + 1);
+    }
+    return FFD_OK;
+}
+
+static uint32_t find_vertex(const model_corner *vertices, size_t count, const model_corner *corner)
+{
+    size_t low = 0, high = count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (compare_corners(vertices + middle, corner) <= 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    return (uint32_t)low;
+}
+
+/* Vertices stand in the order of the model's positions, each combination once. Points keep their own order.
+ */
+static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t drawn)
+{
+    glb_plan *plan = p->plan;
+    model_corner *vertices = plan->vertices + plan->vertex_count;
+    primitive->first_vertex = plan->vertex_count;
+    memcpy(vertices, p->sorted, drawn * sizeof *vertices);
+    if (primitive->kind == MODEL_POINTS) {
+        primitive->vertex_count = drawn;
+        plan->vertex_count += drawn;
+        return FFD_OK;
+    }
+    qsort(vertices, drawn, sizeof *vertices, compare_corners);
+    size_t kept = 0;
+    for (size_t i = 0; i < drawn; i++)
+        if (i == 0 || compare_corners(vertices + i, vertices + kept - 1) != 0)
+            vertices[kept++] = vertices[i];
+    primitive->vertex_count = kept;
+    plan->vertex_count += kept;
+    if (kept > UINT32_MAX - 1)
+        return ffd_fail(p->error, FFD_E_LIMIT, "a mesh would have %zu vertices", kept);
+    for (size_t i = 0; i < drawn; i++)
+        plan->indices[plan->index_count++] = find_vertex(vertices, kept, p->sorted + i);
+    return FFD_OK;
+}
+
+/* At most as many vertices as corners are drawn; what is left over is given back. */
+static ffd_status make_room(planner *p)
+{
+    glb_plan *plan = p->plan;
+    size_t corners = 0, indices = 0, largest = 0;
+    for (size_t i = 0; i < plan->primitive_count; i++) {
+        const glb_primitive *primitive = &plan->primitives[i];
+        const size_t own = primitive->kind == MODEL_POINTS ? primitive->elements : primitive->index_count;
+        corners += own;
+        indices += primitive->index_count;
+        largest = own > largest ? own : largest;
+    }
+    plan->vertices = ffd_alloc(corners, sizeof *plan->vertices);
+    plan->indices = ffd_alloc(indices, sizeof *plan->indices);
+    p->sorted = ffd_alloc(largest, sizeof *p->sorted);
+    return plan->vertices && plan->indices && p->sorted ? FFD_OK : ffd_fail_memory(p->error);
+}
+
+static ffd_status make_vertices(planner *p)
+{
+    glb_plan *plan = p->plan;
+    size_t at[MODEL_KINDS] = {0};
+    ffd_status status = make_room(p);
+    for (size_t i = 0; i < plan->primitive_count && status == FFD_OK; i++) {
+        glb_primitive *primitive = &plan->primitives[i];
+        size_t drawn = 0;
+        primitive->first_index = plan->index_count;
+        for (size_t e = 0; e < primitive->elements && status == FFD_OK; e++)
+            status = draw(p, primitive, p->elements[primitive->kind][at[primitive->kind]++], &drawn);
+        if (status == FFD_OK)
+            status = number_vertices(p, primitive, drawn);
+    }
+    if (status)
+        return status;
+    model_corner *block = ffd_realloc(plan->vertices, plan->vertex_count, sizeof *block);
+    plan->vertices = block ? block : plan->vertices;
+    return FFD_OK;
+}
+
+ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error *error)
+{
+    planner p = {.plan = plan, .model = model, .error = error};
+    *plan = (glb_plan){.model = model};
+    ffd_status status = join_texcoords(&p);
+    if (status == FFD_OK)
+        status = join_normals(&p);
+    if (status == FFD_OK)
+        status = assign_all(&p);
+    if (status == FFD_OK)
+        status = sort_elements(&p);
+    if (status == FFD_OK)
+        status = sort_primitives(&p);
+    if (status == FFD_OK)
+        status = make_vertices(&p);
+    for (int k = 0; k < MODEL_KINDS; k++) {
+        ffd_free(p.primitive_of[k]);
+        ffd_free(p.elements[k]);
+    }
+    ffd_free(p.texcoords);
+    ffd_free(p.normals);
+    ffd_free(p.sorted);
+    ffd_intern_free(&p.primitives);
+    ffd_face_triangles_free(&p.scratch);
+    return status;
+}
+
+void ffd_glb_free_plan(glb_plan *plan)
+{
+    ffd_intern_free(&plan->meshes);
+    ffd_intern_free(&plan->materials);
+    ffd_free(plan->primitives);
+    ffd_free(plan->by_mesh);
+    ffd_free(plan->vertices);
+    ffd_free(plan->indices);
+    *plan = (glb_plan){0};
+}

@@ -1,0 +1,146 @@
+#include "base/memory.h"
+#include "base/number.h"
+#include "io/write/sink.h"
+#include "io/write/write.h"
+#include <float.h>
+#include <math.h>
+
+/* Numbers of normals and texture coordinates by vertex, NULL where the file has none. */
+typedef struct off_plan {
+    const mesh_model *model;
+    uint32_t *normals, *texcoords;
+    bool byte_colours;
+    bool points; /* they stand as faces of one corner; a cloud's are its vertices */
+} off_plan;
+
+static ffd_status make_plan(const mesh_model *model, off_plan *plan, ffd_error *error)
+{
+    const uint32_t has = model->features;
+    *plan = (off_plan){.model = model,
+                       .byte_colours = ffd_model_colours_fit_bytes(model),
+                       .points = model->lists[MODEL_FACES].count + model->lists[MODEL_LINES].count > 0};
+    if (has & MODEL_HAS_NORMALS && !(has & MODEL_HAS_CORNER_NORMALS)) {
+        plan->normals = ffd_alloc(model->position_count, sizeof *plan->normals);
+        if (!plan->normals)
+            return ffd_fail_memory(error);
+        ffd_model_normals_by_position(model, plan->normals);
+    }
+    if (has & MODEL_HAS_TEXCOORDS && !(has & MODEL_HAS_CORNER_TEXCOORDS)) {
+        plan->texcoords = ffd_alloc(model->position_count, sizeof *plan->texcoords);
+        if (!plan->texcoords)
+            return ffd_fail_memory(error);
+        ffd_model_texcoords_by_position(model, plan->texcoords);
+    }
+    return FFD_OK;
+}
+
+static void write_header(model_sink *sink, const off_plan *plan)
+{
+    const model_list *lists = plan->model->lists;
+    ffd_sink_text(sink, plan->texcoords ? "ST" : "");
+    ffd_sink_text(sink, plan->model->colours ? "C" : "");
+    ffd_sink_text(sink, plan->normals ? "N" : "");
+    ffd_sink_text(sink, "OFF\n");
+    ffd_sink_count(sink, plan->model->position_count);
+    ffd_sink_text(sink, " ");
+    ffd_sink_count(sink, lists[MODEL_FACES].count +
+                             (lists[MODEL_LINES].corner_count - lists[MODEL_LINES].count) +
+                             (plan->points ? lists[MODEL_POINTS].count : 0));
+    ffd_sink_text(sink, " 0\n"); /* the number of edges is not used */
+}
+
+static void write_named(model_sink *sink, const double *values, size_t numbers, uint32_t number)
+{
+    static const double zeros[3] = {0, 0, 0};
+    ffd_sink_numbers(sink, number == MODEL_NONE ? zeros : values + numbers * number, numbers);
+}
+
+/* Whole numbers to 255, as most files have them; else such that have a point, which tells them apart. */
+static void write_colour(model_sink *sink, const off_plan *plan, size_t vertex)
+{
+    for (size_t c = 0; c < 4; c++) {
+        const double value = plan->model->colours[4 * vertex + c];
+        if (plan->byte_colours) {
+            ffd_sink_text(sink, " ");
+            ffd_sink_count(sink, (uint64_t)floor(255 * value + 0.5));
+        } else {
+            ffd_sink_numbers(sink, &value, 1);
+            ffd_sink_text(sink, value < floor(value) || value > floor(value) ? "" : ".0");
+        }
+    }
+}
+
+static void write_vertices(model_sink *sink, const off_plan *plan)
+{
+    const mesh_model *model = plan->model;
+    for (size_t i = 0; i < model->position_count && sink->status == FFD_OK; i++) {
+        const double *p = model->positions + 3 * i;
+        for (int a = 0; a < 3; a++) {
+            char text[FFD_NUMBER_CAPACITY];
+            ffd_sink_text(sink, a ? " " : "");
+            ffd_sink_bytes(sink, text, ffd_number_format(p[a], text));
+        }
+        if (plan->normals)
+            write_named(sink, model->normals, 3, plan->normals[i]);
+        if (model->colours)
+            write_colour(sink, plan, i);
+        if (plan->texcoords)
+            write_named(sink, model->texcoords, 2, plan->texcoords[i]);
+        ffd_sink_text(sink, "\n");
+    }
+}
+
+static void write_face(model_sink *sink, const model_corner *corners, size_t count)
+{
+    ffd_sink_count(sink, count);
+    for (size_t c = 0; c < count; c++) {
+        ffd_sink_text(sink, " ");
+        ffd_sink_count(sink, corners[c].position);
+    }
+    ffd_sink_text(sink, "\n");
+}
+
+static void write_list(model_sink *sink, const model_list *list)
+{
+    for (size_t i = 0; i < list->count && sink->status == FFD_OK; i++) {
+        size_t count;
+        const model_corner *corners = model_element(list, i, &count);
+        write_face(sink, corners, count);
+    }
+}
+
+static void write_lines(model_sink *sink, const model_list *list)
+{
+    for (size_t i = 0; i < list->count; i++) {
+        size_t count;
+        const model_corner *corners = model_element(list, i, &count);
+        for (size_t c = 0; c + 1 < count; c++)
+            write_face(sink, corners + c, 2);
+    }
+}
+
+static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
+                        ffd_error *error)
+{
+    off_plan plan;
+    model_sink sink = {output, error, make_plan(model, &plan, error)};
+    if (sink.status == FFD_OK)
+        sink.status = ffd_output_begin(output, options->path, options->force, error);
+    write_header(&sink, &plan);
+    write_vertices(&sink, &plan);
+    write_list(&sink, &model->lists[MODEL_FACES]);
+    write_lines(&sink, &model->lists[MODEL_LINES]);
+    if (plan.points)
+        write_list(&sink, &model->lists[MODEL_POINTS]);
+    ffd_free(plan.normals);
+    ffd_free(plan.texcoords);
+    return sink.status;
+}
+
+const model_target ffd_off_target = {
+    .name = "OFF",
+    .holds = MODEL_HAS_NORMALS | MODEL_HAS_POINT_NORMALS | MODEL_HAS_TEXCOORDS | MODEL_HAS_COLOURS |
+             MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS | MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_LOOSE,
+    .largest_coordinate = DBL_MAX,
+    .write = write,
+};

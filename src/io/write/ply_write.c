@@ -1,0 +1,192 @@
+#include "base/memory.h"
+#include "io/write/sink.h"
+#include "io/write/write.h"
+#include <float.h>
+#include <math.h>
+
+#define LARGEST_UCHAR 255
+
+/* What the file holds: numbers of normals and texture coordinates by vertex, NULL where it has none. */
+typedef struct ply_plan {
+    const mesh_model *model;
+    uint32_t *normals, *texcoords;
+    bool corner_texcoords; /* a vertex has several: they stand with the faces */
+    bool byte_colours, alpha;
+    size_t longest; /* corners of a face at most */
+    size_t edges;
+} ply_plan;
+
+static ffd_status make_plan(const mesh_model *model, ply_plan *plan, ffd_error *error)
+{
+    const uint32_t has = model->features;
+    *plan = (ply_plan){.model = model,
+                       .corner_texcoords = has & MODEL_HAS_CORNER_TEXCOORDS,
+                       .byte_colours = ffd_model_colours_fit_bytes(model),
+                       .alpha = has & MODEL_HAS_ALPHA};
+    if (has & MODEL_HAS_NORMALS && !(has & MODEL_HAS_CORNER_NORMALS)) {
+        plan->normals = ffd_alloc(model->position_count, sizeof *plan->normals);
+        if (!plan->normals)
+            return ffd_fail_memory(error);
+        ffd_model_normals_by_position(model, plan->normals);
+    }
+    if (has & MODEL_HAS_TEXCOORDS && !plan->corner_texcoords) {
+        plan->texcoords = ffd_alloc(model->position_count, sizeof *plan->texcoords);
+        if (!plan->texcoords)
+            return ffd_fail_memory(error);
+        ffd_model_texcoords_by_position(model, plan->texcoords);
+    }
+    const model_list *faces = &model->lists[MODEL_FACES], *lines = &model->lists[MODEL_LINES];
+    for (size_t i = 0; i < faces->count; i++) {
+        const size_t corners = faces->starts[i + 1] - faces->starts[i];
+        plan->longest = corners > plan->longest ? corners : plan->longest;
+    }
+    plan->edges = lines->corner_count - lines->count;
+    return FFD_OK;
+}
+
+static void write_element(model_sink *sink, const char *name, size_t count)
+{
+    ffd_sink_text(sink, "element ");
+    ffd_sink_text(sink, name);
+    ffd_sink_text(sink, " ");
+    ffd_sink_count(sink, count);
+    ffd_sink_text(sink, "\n");
+}
+
+static void write_header(model_sink *sink, const ply_plan *plan)
+{
+    const mesh_model *model = plan->model;
+    const char *index = model->position_count > INT32_MAX ? "uint" : "int";
+    ffd_sink_text(sink, "ply\nformat binary_little_endian 1.0\n");
+    write_element(sink, "vertex", model->position_count);
+    ffd_sink_text(sink, "property double x\nproperty double y\nproperty double z\n");
+    if (plan->normals)
+        ffd_sink_text(sink, "property double nx\nproperty double ny\nproperty double nz\n");
+    if (plan->texcoords)
+        ffd_sink_text(sink, "property double s\nproperty double t\n");
+    if (model->colours)
+        ffd_sink_text(sink, plan->byte_colours
+                                ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                : "property float red\nproperty float green\nproperty float blue\n");
+    if (plan->alpha)
+        ffd_sink_text(sink, plan->byte_colours ? "property uchar alpha\n" : "property float alpha\n");
+    if (model->lists[MODEL_FACES].count > 0) {
+        write_element(sink, "face", model->lists[MODEL_FACES].count);
+        ffd_sink_text(sink, plan->longest > LARGEST_UCHAR ? "property list int " : "property list uchar ");
+        ffd_sink_text(sink, index);
+        ffd_sink_text(sink, " vertex_indices\n");
+        if (plan->corner_texcoords)
+            ffd_sink_text(sink, 2 * plan->longest > LARGEST_UCHAR ? "property list int double texcoord\n"
+                                                                  : "property list uchar double texcoord\n");
+    }
+    if (plan->edges > 0) {
+        write_element(sink, "edge", plan->edges);
+        ffd_sink_text(sink, "property ");
+        ffd_sink_text(sink, index);
+        ffd_sink_text(sink, " vertex1\nproperty ");
+        ffd_sink_text(sink, index);
+        ffd_sink_text(sink, " vertex2\n");
+    }
+    ffd_sink_text(sink, "end_header\n");
+}
+
+/* The values that a number names, zeros where it names none. */
+static void write_values(model_sink *sink, const double *values, size_t numbers, uint32_t number)
+{
+    for (size_t i = 0; i < numbers; i++)
+        ffd_sink_double(sink, number == MODEL_NONE ? 0 : values[numbers * number + i]);
+}
+
+static void write_colour(model_sink *sink, const ply_plan *plan, size_t vertex)
+{
+    for (size_t c = 0; c < (plan->alpha ? 4 : 3); c++) {
+        const double value = plan->model->colours[4 * vertex + c];
+        if (plan->byte_colours) {
+            const unsigned char byte = (unsigned char)floor(255 * value + 0.5);
+            ffd_sink_bytes(sink, &byte, 1);
+        } else
+            ffd_sink_float(sink, value);
+    }
+}
+
+static void write_vertices(model_sink *sink, const ply_plan *plan)
+{
+    const mesh_model *model = plan->model;
+    for (size_t i = 0; i < model->position_count && sink->status == FFD_OK; i++) {
+        write_values(sink, model->positions, 3, (uint32_t)i);
+        if (plan->normals)
+            write_values(sink, model->normals, 3, plan->normals[i]);
+        if (plan->texcoords)
+            write_values(sink, model->texcoords, 2, plan->texcoords[i]);
+        if (model->colours)
+            write_colour(sink, plan, i);
+    }
+}
+
+static void write_list_count(model_sink *sink, size_t longest, size_t count)
+{
+    const unsigned char byte = (unsigned char)count;
+    if (longest > LARGEST_UCHAR)
+        ffd_sink_u32(sink, (uint32_t)count);
+    else
+        ffd_sink_bytes(sink, &byte, 1);
+}
+
+static void write_faces(model_sink *sink, const ply_plan *plan)
+{
+    const model_list *faces = &plan->model->lists[MODEL_FACES];
+    for (size_t i = 0; i < faces->count && sink->status == FFD_OK; i++) {
+        size_t count;
+        const model_corner *corners = model_element(faces, i, &count);
+        write_list_count(sink, plan->longest, count);
+        for (size_t c = 0; c < count; c++)
+            ffd_sink_u32(sink, corners[c].position);
+        if (!plan->corner_texcoords)
+            continue;
+        write_list_count(sink, 2 * plan->longest, 2 * count);
+        for (size_t c = 0; c < count; c++)
+            write_values(sink, plan->model->texcoords, 2, corners[c].texcoord);
+    }
+}
+
+static void write_edges(model_sink *sink, const ply_plan *plan)
+{
+    const model_list *lines = &plan->model->lists[MODEL_LINES];
+    for (size_t i = 0; i < lines->count; i++) {
+        size_t count;
+        const model_corner *corners = model_element(lines, i, &count);
+        for (size_t c = 0; c + 1 < count; c++) {
+            ffd_sink_u32(sink, corners[c].position);
+            ffd_sink_u32(sink, corners[c + 1].position);
+        }
+    }
+}
+
+static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
+                        ffd_error *error)
+{
+    ply_plan plan;
+    model_sink sink = {output, error, make_plan(model, &plan, error)};
+    if (sink.status == FFD_OK && plan.longest > INT32_MAX / 2)
+        sink.status =
+            ffd_fail_file(error, FFD_E_LIMIT, options->path, "a face has %zu corners", plan.longest);
+    if (sink.status == FFD_OK)
+        sink.status = ffd_output_begin(output, options->path, options->force, error);
+    write_header(&sink, &plan);
+    write_vertices(&sink, &plan);
+    write_faces(&sink, &plan);
+    write_edges(&sink, &plan);
+    ffd_free(plan.normals);
+    ffd_free(plan.texcoords);
+    return sink.status;
+}
+
+const model_target ffd_ply_target = {
+    .name = "PLY",
+    /* Points are the vertices themselves. */
+    .holds = MODEL_HAS_NORMALS | MODEL_HAS_POINT_NORMALS | MODEL_HAS_TEXCOORDS | MODEL_HAS_CORNER_TEXCOORDS |
+             MODEL_HAS_COLOURS | MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS | MODEL_HAS_LINES | MODEL_HAS_POINTS |
+             MODEL_HAS_LOOSE,
+    .largest_coordinate = DBL_MAX,
+    .write = write,
+};

@@ -1,0 +1,25 @@
+/* sink.h - what a writer puts out: text, numbers and bytes, to the file begun last. The first failure is kept
+   and nothing is written after it. */
+#ifndef FFD_IO_WRITE_SINK_H
+#define FFD_IO_WRITE_SINK_H
+
+#include "base/file.h"
+#include <stdint.h>
+
+typedef struct model_sink {
+    file_output *output;
+    ffd_error *error;
+    ffd_status status;
+} model_sink;
+
+void ffd_sink_bytes(model_sink *sink, const void *bytes, size_t size);
+void ffd_sink_text(model_sink *sink, const char *text);
+void ffd_sink_count(model_sink *sink, uint64_t count);
+/* The shortest text of each number, with a blank before it. */
+void ffd_sink_numbers(model_sink *sink, const double *numbers, size_t count);
+/* Little endian. */
+void ffd_sink_u32(model_sink *sink, uint32_t value);
+void ffd_sink_float(model_sink *sink, double value);
+void ffd_sink_double(model_sink *sink, double value);
+
+#endif

@@ -1,0 +1,81 @@
+#include "base/vec.h"
+#include "io/write/sink.h"
+#include "io/write/triangles.h"
+#include "io/write/write.h"
+#include <float.h>
+#include <inttypes.h>
+
+#define HEADER_SIZE 80
+
+/* The unit normal of three corners as the file has them; zeros where they are in a line. */
+static void find_normal(const double *const corners[3], double normal[3])
+{
+    double stored[3][3], u[3], v[3];
+    for (int c = 0; c < 3; c++)
+        for (int a = 0; a < 3; a++)
+            stored[c][a] = (float)corners[c][a];
+    for (int a = 0; a < 3; a++) {
+        u[a] = stored[1][a] - stored[0][a];
+        v[a] = stored[2][a] - stored[0][a];
+    }
+    vec_cross(u, v, normal);
+    const double length = vec_length(normal);
+    for (int a = 0; a < 3; a++)
+        normal[a] = length > 0 ? normal[a] / length : 0;
+}
+
+static void write_triangle(model_sink *sink, const double *const corners[3])
+{
+    static const unsigned char no_attributes[2] = {0, 0};
+    double normal[3];
+    find_normal(corners, normal);
+    for (int a = 0; a < 3; a++)
+        ffd_sink_float(sink, normal[a]);
+    for (int c = 0; c < 3; c++)
+        for (int a = 0; a < 3; a++)
+            ffd_sink_float(sink, corners[c][a]);
+    ffd_sink_bytes(sink, no_attributes, sizeof no_attributes);
+}
+
+static ffd_status write_face(model_sink *sink, const mesh_model *model, face_triangles *scratch, size_t face)
+{
+    size_t count = 0;
+    const ffd_status status = ffd_face_triangles(scratch, model, face, &count, sink->error);
+    for (size_t t = 0; t < count && status == FFD_OK; t++) {
+        const uint32_t *triangle = scratch->triangles + 3 * t;
+        const double *const places[3] = {scratch->points + 3 * (size_t)triangle[0],
+                                         scratch->points + 3 * (size_t)triangle[1],
+                                         scratch->points + 3 * (size_t)triangle[2]};
+        write_triangle(sink, places);
+    }
+    return status;
+}
+
+static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
+                        ffd_error *error)
+{
+    /* Readers take a file that begins with "solid" for text. */
+    static const char header[HEADER_SIZE] = "binary STL";
+    const model_list *faces = &model->lists[MODEL_FACES];
+    const size_t triangles = model_triangle_count(model);
+    face_triangles scratch = {0};
+    if (triangles > UINT32_MAX)
+        return ffd_fail_file(error, FFD_E_LIMIT, options->path,
+                             "would have %zu triangles, more than an STL's %" PRIu32, triangles, UINT32_MAX);
+    model_sink sink = {output, error, ffd_output_begin(output, options->path, options->force, error)};
+    ffd_sink_bytes(&sink, header, sizeof header);
+    ffd_sink_u32(&sink, (uint32_t)triangles);
+    for (size_t i = 0; i < faces->count && sink.status == FFD_OK; i++) {
+        const ffd_status status = write_face(&sink, model, &scratch, i);
+        sink.status = sink.status ? sink.status : status;
+    }
+    ffd_face_triangles_free(&scratch);
+    return sink.status;
+}
+
+const model_target ffd_stl_target = {
+    .name = "STL",
+    .holds = 0,
+    .largest_coordinate = FLT_MAX,
+    .write = write,
+};

@@ -1,0 +1,20 @@
+#include "io/write/write.h"
+
+const model_target *ffd_model_target(ffd_format format)
+{
+    switch (format) {
+    case FFD_FORMAT_OBJ:
+        return &ffd_obj_target;
+    case FFD_FORMAT_GLTF:
+        return &ffd_gltf_target;
+    case FFD_FORMAT_GLB:
+        return &ffd_glb_target;
+    case FFD_FORMAT_PLY:
+        return &ffd_ply_target;
+    case FFD_FORMAT_OFF:
+        return &ffd_off_target;
+    case FFD_FORMAT_AUTO:
+        break;
+    }
+    return NULL;
+}
