@@ -24,23 +24,6 @@ void ffd_gltf_place_buffers(gltf_saver *saver)
             saver->binary ? kind_in_glb(&d->buffers[b], b) : kind_in_text(&d->buffers[b], stream);
 }
 
-/* Removes a member of an object together with one comma, and the blanks between them. */
-static void remove_member(gltf_saver *saver, uint32_t value)
-{
-    const json_span *tree = &saver->document->tree;
-    uint32_t begin = tree->values[value].key_begin, end = tree->values[value].end;
-    uint32_t before = begin, after = end;
-    while (strchr(" \t\r\n", tree->text[before - 1]))
-        before--;
-    while (strchr(" \t\r\n", tree->text[after]))
-        after++;
-    if (tree->text[before - 1] == ',')
-        begin = before - 1;
-    else if (tree->text[after] == ',')
-        end = after + 1;
-    ffd_edits_replace(&saver->edits, begin, end, "", 0);
-}
-
 void ffd_gltf_add_uri(gltf_saver *saver, size_t buffer, const char *uri)
 {
     const gltf_document *d = saver->document;
@@ -77,7 +60,7 @@ void ffd_gltf_move_buffers(gltf_saver *saver)
         if (from == to)
             continue;
         if (to == BUFFER_BIN)
-            remove_member(saver, uri);
+            ffd_edits_remove(&saver->edits, &d->tree, d->buffer_values.values[b], &uri, 1);
         else if (to == BUFFER_DATA && uri == JSON_NONE)
             add_data_uri(saver, b);
         else if (to == BUFFER_DATA)

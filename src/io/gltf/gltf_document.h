@@ -89,7 +89,7 @@ typedef struct gltf_document {
     glb_layout glb;
     json_span tree;
     gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
-        image_values;
+        material_values, image_values;
     gltf_values primitive_values; /* of all meshes */
     size_t *first_primitive;      /* of a mesh, in them */
     gltf_model model;
@@ -194,6 +194,10 @@ void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *
 ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,
                                  uint32_t **corners, size_t *count, ffd_error *error);
 
+/* gltf_faces.c: the vertices of triangle t among a primitive's corners. Every second triangle of a strip is
+   turned round (glTF 2.0, 3.7.2.1). */
+void ffd_gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3]);
+
 /* gltf_read.c: elements [first, first + count) of an accessor as double, `components` values of each (the
  * first ones). */
 void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first, size_t count,
@@ -219,12 +223,13 @@ void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first,
 void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
                             size_t first, size_t count, const double *xyz, const uint8_t *changed);
 
-/* gltf_select.c, gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_compare.c: entries of the table (mesh.h).
- */
+/* gltf_select.c, gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_extract.c, gltf_compare.c: entries of the
+   table (mesh.h). */
 ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selectors, size_t count,
                            ffd_error *error);
 ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                          const mesh_log *log, ffd_error *error);
+ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error);
 ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd_error *error);
 ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
 ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,

@@ -3,8 +3,6 @@
 
 #define MOST_FACES ((uint64_t)INT32_MAX)
 
-enum { MODE_POINTS, MODE_LINES, MODE_LINE_LOOP, MODE_LINE_STRIP, MODE_TRIANGLES, MODE_STRIP, MODE_FAN };
-
 /* What a primitive of a mesh draws, whatever shows it. */
 typedef struct drawing {
     size_t corners; /* indices, or vertices where it has none */
@@ -144,8 +142,7 @@ ffd_status ffd_gltf_read_corners(const gltf_document *d, size_t m, size_t p, uin
     return status;
 }
 
-/* Every second triangle of a strip is turned round (glTF 2.0, 3.7.2.1). */
-static void triangle_corners(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3])
+void ffd_gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3])
 {
     const size_t first = mode == MODE_TRIANGLES ? 3 * t : mode == MODE_FAN ? 0 : t;
     const size_t second = mode == MODE_TRIANGLES ? first + 1 : mode == MODE_FAN ? t + 1 : t + 1 + t % 2;
@@ -170,7 +167,7 @@ static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, cons
         const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + n];
         for (size_t t = 0; t < counted.triangles; t++) {
             uint32_t *triangle = to + 3 * (*added)++;
-            triangle_corners(primitive->mode, t, corners, triangle);
+            ffd_gltf_triangle(primitive->mode, t, corners, triangle);
             for (int c = 0; c < 3; c++)
                 triangle[c] += (uint32_t)base[instance->part[GLTF_POSITION]];
         }

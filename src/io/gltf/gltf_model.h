@@ -21,6 +21,9 @@ typedef enum gltf_component {
 typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER } gltf_semantic;
 #define GLTF_DEFORMED 3 /* of them */
 
+/* What a primitive draws. */
+enum { MODE_POINTS, MODE_LINES, MODE_LINE_LOOP, MODE_LINE_STRIP, MODE_TRIANGLES, MODE_STRIP, MODE_FAN };
+
 typedef struct gltf_view {
     int buffer;
     uint64_t offset, length;

@@ -67,6 +67,7 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
 ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
 ffd_status ffd_obj_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
                                   ffd_error *error);
+ffd_status ffd_obj_model(const mesh_document *document, mesh_model *model, ffd_error *error);
 ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_error *error);
 ffd_status ffd_obj_compare(const mesh_document *a, const mesh_document *b, double tolerance,
                            ffd_comparison *comparison, ffd_error *error);

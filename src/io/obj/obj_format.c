@@ -28,6 +28,7 @@ const mesh_format ffd_obj_format = {
     .save = ffd_obj_save,
     .faces = ffd_obj_faces,
     .corner_normals = ffd_obj_corner_normals,
+    .model = ffd_obj_model,
     .describe = ffd_obj_describe,
     .compare = ffd_obj_compare,
 };

@@ -1,0 +1,372 @@
+#include "base/memory.h"
+#include "base/vec.h"
+#include "io/gltf/gltf_document.h"
+#include <string.h>
+
+typedef struct extractor {
+    const gltf_document *document;
+    mesh_model *model;
+    /* The first value of each part, and of each accessor of texture coordinates; GLTF_NONE: it has none. */
+    size_t *first_position, *first_normal, *first_texcoord;
+    ffd_error *error;
+} extractor;
+
+/* What a primitive shows under one node. */
+typedef struct drawn {
+    const gltf_primitive *primitive;
+    uint32_t *corners;
+    size_t count;
+    size_t position, normal, texcoord; /* the first of each; GLTF_NONE: none */
+    bool mirrored;                     /* its triangles would look inward */
+} drawn;
+
+static const gltf_showing *showing_of(const extractor *e, size_t mesh)
+{
+    return &e->document->showings[mesh];
+}
+
+/* The accessor of an attribute with `rows` numbers an element (or least to most of them) for all of a
+   primitive's vertices; GLTF_NONE where there is none that can be used. */
+static size_t find_attribute(const gltf_document *d, size_t m, size_t p, const char *name, int least,
+                             int most)
+{
+    const uint32_t primitive = ffd_gltf_primitive_value(d, m, p);
+    const uint32_t value =
+        ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, primitive, "attributes"), name);
+    const int positions = d->model.meshes[m].primitives[p].accessor[GLTF_POSITION];
+    double number;
+    if (positions < 0 || !ffd_json_span_number(&d->tree, value, &number) || !(number >= 0) ||
+        number >= (double)d->model.accessor_count)
+        return GLTF_NONE;
+    const size_t a = (size_t)number;
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    const bool fits = accessor->columns == 1 && accessor->rows >= least && accessor->rows <= most &&
+                      accessor->count >= d->model.accessors[positions].count && d->layouts[a].readable;
+    return fits ? a : GLTF_NONE;
+}
+
+static size_t find_texcoords(const gltf_document *d, size_t m, size_t p)
+{
+    return find_attribute(d, m, p, "TEXCOORD_0", 2, 2);
+}
+
+/* Counts the values and gives each part and accessor its place. */
+static ffd_status count_values(extractor *e)
+{
+    const gltf_document *d = e->document;
+    size_t positions = 0, texcoords = 0, normals = 0;
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        e->first_position[i] = positions;
+        e->first_normal[i] = normals;
+        positions += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
+        normals += d->mesh_parts[i].normal_count;
+    }
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        e->first_texcoord[a] = GLTF_NONE;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && showing_of(e, m)->node_count > 0; p++) {
+            const size_t a = find_texcoords(d, m, p);
+            if (a == GLTF_NONE || e->first_texcoord[a] != GLTF_NONE)
+                continue;
+            e->first_texcoord[a] = texcoords;
+            texcoords += (size_t)d->model.accessors[a].count;
+        }
+    return ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
+}
+
+/* The result of a stream where there is one, else what the file has. */
+static void read_stream(const gltf_document *d, size_t part, gltf_semantic semantic, double *values)
+{
+    const gltf_stream *stream = &d->parts[part].streams[semantic];
+    const size_t count = d->mesh_parts[part].vertex_count;
+    if (!stream->result)
+        ffd_gltf_read(d, stream->accessor, 0, count, 3, values);
+    for (size_t i = 0; i < 3 * count && stream->result; i++)
+        values[i] = stream->result[i];
+}
+
+static void read_transform(const gltf_document *d, size_t part, size_t vertex, double transform[12])
+{
+    const mesh_part *p = &d->mesh_parts[part];
+    if (p->skinned)
+        ffd_gltf_read_transforms(&d->base, part, vertex, 1, transform);
+    else
+        memcpy(transform, p->linear, sizeof p->linear);
+}
+
+/* Normals go by the inverse transposed matrix, which is the cofactor matrix but for a factor whose sign
+   counts: where the matrix mirrors, it is negative. */
+static void turn_normal(const double linear[9], double normal[3])
+{
+    double cofactor[9];
+    mat_cofactor(linear, cofactor);
+    mat_apply(cofactor, normal, normal);
+    const double length = vec_length(normal) * (mat_determinant(linear) < 0 ? -1 : 1);
+    for (int a = 0; a < 3 && (length < 0 || length > 0); a++)
+        normal[a] /= length;
+}
+
+static void turn_normals(const gltf_document *d, size_t part, double *normals)
+{
+    double transform[12];
+    for (size_t i = 0; i < d->mesh_parts[part].normal_count && !d->mesh_parts[part].identity; i++) {
+        read_transform(d, part, i, transform);
+        turn_normal(transform, normals + 3 * i);
+    }
+}
+
+static void fill_values(const extractor *e)
+{
+    const gltf_document *d = e->document;
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        const mesh_part *part = &d->mesh_parts[i];
+        if (!part->repeats_positions) {
+            double *positions = e->model->positions + 3 * e->first_position[i];
+            read_stream(d, i, GLTF_POSITION, positions);
+            ffd_part_place(&d->base, i, 0, part->vertex_count, positions);
+        }
+        if (part->normal_count > 0) {
+            double *normals = e->model->normals + 3 * e->first_normal[i];
+            read_stream(d, i, GLTF_NORMAL, normals);
+            turn_normals(d, i, normals);
+        }
+    }
+    for (size_t a = 0; a < d->model.accessor_count; a++) {
+        if (e->first_texcoord[a] == GLTF_NONE)
+            continue;
+        const size_t count = (size_t)d->model.accessors[a].count;
+        double *texcoords = e->model->texcoords + 2 * e->first_texcoord[a];
+        ffd_gltf_read(d, a, 0, count, 2, texcoords);
+        for (size_t i = 0; i < count; i++)
+            texcoords[2 * i + 1] = 1 - texcoords[2 * i + 1]; /* glTF's v goes down */
+    }
+}
+
+static ffd_status take_colours(extractor *e, size_t m, size_t p, const drawn *drawing)
+{
+    const gltf_document *d = e->document;
+    const size_t a = find_attribute(d, m, p, "COLOR_0", 3, 4);
+    if (a == GLTF_NONE || drawing->position == GLTF_NONE)
+        return FFD_OK;
+    const ffd_status status = ffd_model_make_colours(e->model, e->error);
+    const size_t count = (size_t)d->model.accessors[drawing->primitive->accessor[GLTF_POSITION]].count;
+    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+        double *colour = e->model->colours + 4 * (drawing->position + i);
+        ffd_gltf_read(d, a, i, 1, (size_t)d->model.accessors[a].rows, colour);
+    }
+    return status;
+}
+
+static model_corner corner_at(const drawn *drawing, uint32_t vertex)
+{
+    return (model_corner){(uint32_t)(drawing->position + vertex),
+                          drawing->texcoord == GLTF_NONE ? MODEL_NONE
+                                                         : (uint32_t)(drawing->texcoord + vertex),
+                          drawing->normal == GLTF_NONE ? MODEL_NONE : (uint32_t)(drawing->normal + vertex)};
+}
+
+static ffd_status add_triangles(extractor *e, const drawn *drawing)
+{
+    const int mode = drawing->primitive->mode;
+    const size_t count = mode == MODE_TRIANGLES ? drawing->count / 3
+                         : drawing->count > 2   ? drawing->count - 2
+                                                : 0;
+    ffd_status status = FFD_OK;
+    for (size_t t = 0; t < count && status == FFD_OK; t++) {
+        uint32_t triangle[3];
+        ffd_gltf_triangle(mode, t, drawing->corners, triangle);
+        const int second = drawing->mirrored ? 2 : 1;
+        const model_corner corners[3] = {corner_at(drawing, triangle[0]),
+                                         corner_at(drawing, triangle[second]),
+                                         corner_at(drawing, triangle[3 - second])};
+        status = ffd_model_add(e->model, MODEL_FACES, corners, 3, e->error);
+    }
+    return status;
+}
+
+static ffd_status add_lines(extractor *e, const drawn *drawing)
+{
+    const bool pairs = drawing->primitive->mode == MODE_LINES;
+    const size_t n = drawing->count;
+    const size_t count = pairs ? n / 2 : n < 2 ? 0 : drawing->primitive->mode == MODE_LINE_LOOP ? n : n - 1;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+        const size_t first = pairs ? 2 * i : i, second = first + 1 < n ? first + 1 : 0;
+        const model_corner corners[2] = {corner_at(drawing, drawing->corners[first]),
+                                         corner_at(drawing, drawing->corners[second])};
+        status = ffd_model_add(e->model, MODEL_LINES, corners, 2, e->error);
+    }
+    return status;
+}
+
+static ffd_status add_points(extractor *e, const drawn *drawing)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < drawing->count && status == FFD_OK; i++) {
+        const model_corner corner = corner_at(drawing, drawing->corners[i]);
+        status = ffd_model_add(e->model, MODEL_POINTS, &corner, 1, e->error);
+    }
+    return status;
+}
+
+/* The member "name" of element i of a list; JSON_NONE where it has none, or an empty one. */
+static uint32_t find_name(const gltf_document *d, const gltf_values *list, size_t i)
+{
+    const uint32_t name =
+        i < list->count ? ffd_json_span_member(&d->tree, list->values[i], "name") : JSON_NONE;
+    return name != JSON_NONE && d->tree.values[name].end - d->tree.values[name].begin > 2 ? name : JSON_NONE;
+}
+
+/* The name of element i of a list; "KIND i" where it has none. To be freed. */
+static char *name_of(const gltf_document *d, const gltf_values *list, size_t i, const char *kind)
+{
+    const uint32_t name = find_name(d, list, i);
+    byte_buffer text = {0};
+    if (name != JSON_NONE)
+        return ffd_json_span_string(&d->tree, name, NULL);
+    ffd_buffer_format(&text, "%s %zu", kind, i);
+    return ffd_buffer_finish(&text);
+}
+
+static char *object_name(const gltf_document *d, size_t mesh, size_t node)
+{
+    const bool by_mesh = node == GLTF_NONE || (find_name(d, &d->node_values, node) == JSON_NONE &&
+                                               find_name(d, &d->mesh_values, mesh) != JSON_NONE);
+    return by_mesh ? name_of(d, &d->mesh_values, mesh, "mesh") : name_of(d, &d->node_values, node, "node");
+}
+
+static ffd_status begin_run(extractor *e, size_t m, size_t p, size_t node)
+{
+    const gltf_document *d = e->document;
+    double number;
+    const bool has_material = ffd_json_span_number(
+        &d->tree, ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "material"), &number);
+    char *object = object_name(d, m, node);
+    char *material = has_material ? name_of(d, &d->material_values, (size_t)number, "material") : NULL;
+    const ffd_status status = object && (material || !has_material)
+                                  ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
+                                  : ffd_fail_memory(e->error);
+    ffd_free(object);
+    ffd_free(material);
+    return status;
+}
+
+static bool is_mirrored(const gltf_document *d, size_t part)
+{
+    double transform[12];
+    if (d->mesh_parts[part].identity || d->mesh_parts[part].vertex_count == 0)
+        return false;
+    read_transform(d, part, 0, transform);
+    return mat_determinant(transform) < 0;
+}
+
+static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
+{
+    const gltf_document *d = e->document;
+    const gltf_showing *showing = showing_of(e, m);
+    const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + n];
+    const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
+    const size_t texcoords = find_texcoords(d, m, p);
+    if (part == GLTF_NONE)
+        return FFD_OK;
+    drawn drawing = {.primitive = &d->model.meshes[m].primitives[p],
+                     .position = e->first_position[part],
+                     .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
+                     .texcoord = texcoords == GLTF_NONE ? GLTF_NONE : e->first_texcoord[texcoords],
+                     .mirrored = is_mirrored(d, part)};
+    ffd_status status = ffd_gltf_read_corners(d, m, p, &drawing.corners, &drawing.count, e->error);
+    if (status == FFD_OK)
+        status = begin_run(e, m, p, showing->nodes ? showing->nodes[n] : GLTF_NONE);
+    if (status == FFD_OK)
+        status = take_colours(e, m, p, &drawing);
+    if (status == FFD_OK)
+        status = drawing.primitive->mode == MODE_POINTS     ? add_points(e, &drawing)
+                 : drawing.primitive->mode < MODE_TRIANGLES ? add_lines(e, &drawing)
+                                                            : add_triangles(e, &drawing);
+    ffd_free(drawing.corners);
+    return status;
+}
+
+static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
+{
+    static const char *const known[] = {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"};
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (ffd_json_span_key_is(tree, value, known[i]))
+            return 0;
+    if (ffd_json_span_key_is(tree, value, "TANGENT"))
+        return MODEL_HAS_TANGENTS;
+    const char *key = tree->text + tree->values[value].key_begin + 1;
+    if (strncmp(key, "TEXCOORD_", 9) == 0)
+        return MODEL_HAS_MORE_TEXCOORDS;
+    return strncmp(key, "JOINTS_", 7) == 0 || strncmp(key, "WEIGHTS_", 8) == 0 ? MODEL_HAS_SKINS
+                                                                               : MODEL_HAS_MORE;
+}
+
+static uint32_t features_of_primitive(const gltf_document *d, size_t m, size_t p)
+{
+    const uint32_t attributes =
+        ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
+    uint32_t found = d->model.meshes[m].primitives[p].target_count > 0 ? MODEL_HAS_MORPHS : 0;
+    for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v))
+        found |= feature_of_attribute(&d->tree, v);
+    return found;
+}
+
+static bool has_any(const gltf_document *d, const char *array)
+{
+    return ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, 0, array)) != JSON_NONE;
+}
+
+/* What stays behind in the source. */
+static uint32_t features_of(const extractor *e)
+{
+    const gltf_document *d = e->document;
+    uint32_t found = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && showing_of(e, m)->node_count > 0; p++)
+            found |= features_of_primitive(d, m, p);
+    for (size_t n = 0; n < d->model.node_count; n++)
+        found |= d->model.nodes[n].child_count > 0 ? MODEL_HAS_HIERARCHY : 0;
+    found |= has_any(d, "materials") ? MODEL_HAS_MATERIALS : 0;
+    found |= has_any(d, "images") ? MODEL_HAS_TEXTURES : 0;
+    found |= has_any(d, "skins") ? MODEL_HAS_SKINS : 0;
+    found |= has_any(d, "animations") ? MODEL_HAS_ANIMATIONS : 0;
+    found |=
+        has_any(d, "cameras") || ffd_gltf_has_extension(d, 0, "KHR_lights_punctual") ? MODEL_HAS_CAMERAS : 0;
+    found |= d->hidden_nodes > 0 ? MODEL_HAS_HIDDEN : 0;
+    found |= d->space == FFD_SPACE_MESH && d->model.node_count > 0 ? MODEL_HAS_PLACES : 0;
+    return found;
+}
+
+static ffd_status extract(extractor *e)
+{
+    const gltf_document *d = e->document;
+    e->first_position = ffd_alloc(d->base.part_count, sizeof *e->first_position);
+    e->first_normal = ffd_alloc(d->base.part_count, sizeof *e->first_normal);
+    e->first_texcoord = ffd_alloc(d->model.accessor_count, sizeof *e->first_texcoord);
+    if (!e->first_position || !e->first_normal || !e->first_texcoord)
+        return ffd_fail_memory(e->error);
+    ffd_status status = count_values(e);
+    if (status)
+        return status;
+    fill_values(e);
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t n = 0; n < showing_of(e, m)->node_count; n++)
+            for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
+                status = add_instance(e, m, p, n);
+    e->model->features = features_of(e);
+    return status;
+}
+
+ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error)
+{
+    extractor e = {.document = ffd_gltf_of(document), .model = model, .error = error};
+    ffd_status status = extract(&e);
+    if (status == FFD_OK)
+        status = ffd_model_finish(model, error);
+    ffd_free(e.first_position);
+    ffd_free(e.first_normal);
+    ffd_free(e.first_texcoord);
+    return status;
+}

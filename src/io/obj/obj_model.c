@@ -1,0 +1,191 @@
+#include "base/buffer.h"
+#include "base/memory.h"
+#include "io/obj/obj_document.h"
+#include <string.h>
+
+typedef struct extractor {
+    const obj_document *document;
+    mesh_model *model;
+    obj_walk walk;
+    char *object, *group, *material; /* the current names, owned; NULL: none */
+    model_corner *corners;           /* of the current element */
+    size_t capacity;
+    bool has_library;
+    ffd_error *error;
+} extractor;
+
+static void copy_values(const extractor *e)
+{
+    const obj_document *d = e->document;
+    const double *positions = d->new_positions ? d->new_positions : d->positions;
+    if (d->vertices > 0)
+        memcpy(e->model->positions, positions, 3 * d->vertices * sizeof *positions);
+    const double *normals = d->new_directions ? d->new_directions : d->directions;
+    if (e->model->normal_count > 0)
+        memcpy(e->model->normals, normals, 3 * e->model->normal_count * sizeof *normals);
+}
+
+static ffd_status take_texcoord(extractor *e)
+{
+    const obj_document *d = e->document;
+    double *values = e->model->texcoords + 2 * (e->walk.texcoords.seen - 1);
+    double uvw[3] = {0, 0, 0};
+    obj_word word;
+    for (int i = 0; i < 3 && ffd_obj_scan_word(&e->walk.scan, &word); i++)
+        if (!ffd_obj_number(word, &uvw[i]))
+            return ffd_fail_line(e->error, FFD_E_INVALID, d->name, e->walk.scan.line,
+                                 "texture coordinate %c is not a number: \"%.*s\"", "uvw"[i],
+                                 ffd_obj_word_shown(word), word.first);
+    memcpy(values, uvw, 2 * sizeof *values);
+    if (uvw[2] < 0 || uvw[2] > 0)
+        e->model->features |= MODEL_HAS_MORE_TEXCOORDS;
+    return FFD_OK;
+}
+
+/* x y z [w] r g b. */
+static ffd_status take_colour(extractor *e)
+{
+    double numbers[7];
+    int count = 0;
+    obj_word word;
+    while (count < 7 && ffd_obj_scan_word(&e->walk.scan, &word) && ffd_obj_number(word, &numbers[count]))
+        count++;
+    if (count < 6)
+        return FFD_OK;
+    const ffd_status status = ffd_model_make_colours(e->model, e->error);
+    if (status == FFD_OK)
+        memcpy(e->model->colours + 4 * (e->walk.vertices.seen - 1), numbers + count - 3, 3 * sizeof *numbers);
+    return status;
+}
+
+/* What is behind the keyword, from the first word to the last. */
+static ffd_status take_name(extractor *e, char **name)
+{
+    obj_word whole = {0}, word;
+    while (ffd_obj_scan_word(&e->walk.scan, &word))
+        whole = (obj_word){whole.first ? whole.first : word.first, word.last};
+    ffd_free(*name);
+    *name = NULL;
+    if (whole.first) {
+        byte_buffer text = {0};
+        ffd_buffer_append(&text, whole.first, (size_t)(whole.last - whole.first));
+        *name = ffd_buffer_finish(&text);
+        if (!*name)
+            return ffd_fail_memory(e->error);
+    }
+    return ffd_model_begin_run(e->model, e->object, e->group, e->material, e->error);
+}
+
+static ffd_status find_texcoord(const extractor *e, obj_index index, uint32_t *number)
+{
+    const obj_document *d = e->document;
+    size_t element;
+    *number = MODEL_NONE;
+    if (d->texcoords == 0 || index.text.first == index.text.last)
+        return FFD_OK;
+    if (!ffd_obj_find(index.value, e->walk.texcoords, &element))
+        return ffd_fail_line(e->error, FFD_E_INVALID, d->name, e->walk.scan.line,
+                             "texture coordinate index %.*s is out of range: the file has %zu",
+                             ffd_obj_word_shown(index.text), index.text.first, d->texcoords);
+    *number = (uint32_t)element;
+    return FFD_OK;
+}
+
+static uint32_t find_normal(const extractor *e, obj_index index, size_t vertex)
+{
+    const obj_document *d = e->document;
+    obj_face_corner corner = {.vertex = vertex};
+    if (!d->pair_start || index.text.first == index.text.last ||
+        !ffd_obj_find(index.value, e->walk.normals, &corner.normal))
+        return MODEL_NONE;
+    return (uint32_t)(d->new_directions ? ffd_obj_find_pair(d, &corner) : corner.normal);
+}
+
+static ffd_status take_element(extractor *e, model_kind kind)
+{
+    size_t count = 0, vertex;
+    obj_word word;
+    obj_corner text;
+    while (ffd_obj_scan_word(&e->walk.scan, &word)) {
+        if (!ffd_grow((void **)&e->corners, &e->capacity, count + 1, sizeof *e->corners))
+            return ffd_fail_memory(e->error);
+        model_corner *corner = &e->corners[count++];
+        if (!ffd_obj_corner(word, &text) || !ffd_obj_find(text.vertex.value, e->walk.vertices, &vertex))
+            return FFD_OK; /* not in a file that was opened */
+        corner->position = (uint32_t)vertex;
+        corner->normal = kind == MODEL_FACES ? find_normal(e, text.normal, vertex) : MODEL_NONE;
+        const ffd_status status = find_texcoord(e, text.texcoord, &corner->texcoord);
+        if (status)
+            return status;
+    }
+    return ffd_model_add(e->model, kind, e->corners, count, e->error);
+}
+
+/* Keywords that only leave a word in the features. */
+static void note_other(extractor *e)
+{
+    static const char *const free_form[] = {"curv", "curv2", "surf", "vp"};
+    const obj_word name = e->walk.scan.name;
+    const size_t size = (size_t)(name.last - name.first);
+    obj_word value;
+    for (size_t i = 0; i < sizeof free_form / sizeof *free_form; i++)
+        if (strlen(free_form[i]) == size && memcmp(free_form[i], name.first, size) == 0)
+            e->model->features |= MODEL_HAS_FREE_FORM;
+    if (size != 1 || *name.first != 's' || !ffd_obj_scan_word(&e->walk.scan, &value))
+        return;
+    const bool off = (value.last - value.first == 1 && *value.first == '0') ||
+                     (value.last - value.first == 3 && memcmp(value.first, "off", 3) == 0);
+    e->model->features |= off ? 0 : MODEL_HAS_SMOOTHING;
+}
+
+static ffd_status take_statement(extractor *e)
+{
+    switch (e->walk.scan.keyword) {
+    case OBJ_VERTEX:
+        return take_colour(e);
+    case OBJ_TEXCOORD:
+        return take_texcoord(e);
+    case OBJ_FACE:
+        return take_element(e, MODEL_FACES);
+    case OBJ_LINE:
+        return take_element(e, MODEL_LINES);
+    case OBJ_POINT:
+        return take_element(e, MODEL_POINTS);
+    case OBJ_GROUP:
+        return take_name(e, &e->group);
+    case OBJ_OBJECT:
+        return take_name(e, &e->object);
+    case OBJ_MATERIAL:
+        return take_name(e, &e->material);
+    case OBJ_LIBRARY:
+        e->has_library = true;
+        return FFD_OK;
+    default:
+        note_other(e);
+        return FFD_OK;
+    }
+}
+
+ffd_status ffd_obj_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+{
+    const obj_document *d = ffd_obj_of(document);
+    const size_t normals = !d->pair_start ? 0 : d->new_directions ? d->part.normal_count : d->normals;
+    extractor e = {.document = d, .model = model, .error = error};
+    ffd_status status = ffd_model_make_values(model, d->vertices, d->texcoords, normals, error);
+    if (status == FFD_OK) {
+        copy_values(&e);
+        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
+    }
+    ffd_obj_document_walk(d, &e.walk);
+    while (status == FFD_OK && ffd_obj_walk_next(&e.walk))
+        status = take_statement(&e);
+    ffd_free(e.object);
+    ffd_free(e.group);
+    ffd_free(e.material);
+    ffd_free(e.corners);
+    if (status == FFD_OK)
+        status = ffd_model_finish(model, error);
+    if (model->features & MODEL_HAS_MATERIAL_NAMES && e.has_library)
+        model->features |= MODEL_HAS_MATERIALS;
+    return status;
+}
