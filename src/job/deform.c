@@ -1,6 +1,7 @@
 #include "base/clock.h"
 #include "base/path.h"
 #include "io/formats.h"
+#include "job/conversion.h"
 #include "job/deform_job.h"
 #include "job/source.h"
 #include "job/written.h"
@@ -16,7 +17,7 @@ void ffd_deform_desc_init(ffd_deform_desc *desc)
 static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options *options, ffd_error *error)
 {
     const char *input = desc->input.path;
-    *options = (mesh_save_options){desc->output, desc->output_format, desc->force, desc->resources};
+    *options = (mesh_save_options){desc->output, desc->output_format, desc->force, desc->resources, input};
     if (desc->in_place) {
         if (desc->output)
             return ffd_fail(error, FFD_E_ARGUMENT, "--in-place has no output \"%s\"", desc->output);
@@ -46,16 +47,6 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     return ffd_output_check(desc->output, desc->force, error);
 }
 
-static ffd_status refuse_other_format(const deform_job *job, ffd_format output, ffd_error *error)
-{
-    const mesh_format *format = job->document->format;
-    if (ffd_format_table(output) == format)
-        return FFD_OK;
-    return ffd_fail_file(error, FFD_E_UNSUPPORTED, ffd_source_name(&job->desc->input),
-                         "cannot become another format: this build writes %s as %s", format->name,
-                         format->name);
-}
-
 static ffd_status save(const deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
     file_output *output;
@@ -63,7 +54,9 @@ static ffd_status save(const deform_job *job, const mesh_save_options *options, 
     if (status)
         return status;
     ffd_output_record(output, ffd_written_list(job->desc->written));
-    status = job->document->format->save(job->document, options, output, &job->log, error);
+    status = ffd_conversion_needed(job->document, options->format)
+                 ? ffd_conversion_save(job->document, options, output, &job->log, error)
+                 : job->document->format->save(job->document, options, output, &job->log, error);
     if (!status)
         status = ffd_output_commit(output, error);
     ffd_output_destroy(&output);
@@ -77,7 +70,7 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status = ffd_deform_job_open(job, result, error);
     if (!status)
-        status = refuse_other_format(job, options.format, error);
+        status = ffd_conversion_check(job->document, options.format, error);
     if (!status)
         status = ffd_deform_job_run(job, result, error);
     if (status)

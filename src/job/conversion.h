@@ -1,0 +1,18 @@
+/* conversion.h - saves a document in another format than its own. */
+#ifndef FFD_JOB_CONVERSION_H
+#define FFD_JOB_CONVERSION_H
+
+#include "mesh/mesh.h"
+
+/* Whether the document's own format writes another one. .gltf and .glb are one format. */
+bool ffd_conversion_needed(const mesh_document *document, ffd_format format);
+
+/* Refuses (FFD_E_UNSUPPORTED) a conversion that this build does not have. */
+ffd_status ffd_conversion_check(const mesh_document *document, ffd_format format, ffd_error *error);
+
+/* Writes the document with its results into output, and warns of what the target cannot hold. Errors:
+   FFD_E_INVALID, with the file, for a coordinate that is too large for the target's numbers; FFD_E_LIMIT. */
+ffd_status ffd_conversion_save(const mesh_document *document, const mesh_save_options *options,
+                               file_output *output, const mesh_log *log, ffd_error *error);
+
+#endif
