@@ -4,7 +4,7 @@ import json
 import math
 import os
 
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, UNSUPPORTED, USAGE, case, check, equal, glb,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, USAGE, case, check, equal, glb,
                      glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_vertices)
 
 MOVE = [{"by": [1, 0, 0]}]
@@ -321,15 +321,6 @@ def verbose_and_quiet(run):
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "-v", err="a.obj: 8 of 8 vertices moved, by 1 at most")
     run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "-v", "-q", err=[])
     run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "-q", code=IO)
-
-
-@case
-def other_formats(run):
-    start(run)
-    run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
-    run.ffd("deform", "a.obj", "b.glb", "-l", "l.json", code=UNSUPPORTED)
-    run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", code=UNSUPPORTED)
-    equal(run.names(), ["a.glb", "a.obj", "l.json"])
 
 
 @case

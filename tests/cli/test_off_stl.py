@@ -5,7 +5,7 @@ import math
 import re
 import struct
 
-from harness import (CUBE, INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main, models,
+from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main, models,
                      near)
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
@@ -206,10 +206,6 @@ def off_refused(run):
         check(not run.exists("q.off"), "an output of a failure")
     run.folder_of("d.off")
     run.ffd("deform", "d.off", "r.off", "-l", "l.json", code=IO)
-    run.write("a.obj", CUBE)
-    run.write("p.off", off())
-    run.ffd("deform", "a.obj", "a.off", "-l", "l.json", code=UNSUPPORTED)
-    run.ffd("deform", "p.off", "a.ply", "-l", "l.json", code=UNSUPPORTED)
 
 
 def write_model_lattices(run):
@@ -450,7 +446,6 @@ def stl_refused(run):
     run.ffd("deform", "p.stl", "q.stl", "-l", "far.json", code=INVALID)
     run.write("p.stl", text_stl([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[0, 0, 1]]))
     run.ffd("deform", "p.stl", "q.stl", "-l", "far.json")
-    run.ffd("deform", "p.stl", "a.off", "-l", "l.json", code=UNSUPPORTED)
 
 
 @case

@@ -223,9 +223,6 @@ def streams_and_places(run):
     run.write("p.PLY", data)
     run.ffd("deform", "p.PLY", "--in-place", "-l", "l.json", **OUTSIDE)
     equal(run.read("p.PLY"), run.read("q.ply"), "in place")
-    run.write("a.obj", CUBE)
-    run.ffd("deform", "p.ply", "p.obj", "-l", "l.json", code=UNSUPPORTED)
-    run.ffd("deform", "a.obj", "a.ply", "-l", "l.json", code=UNSUPPORTED)
 
 
 @case

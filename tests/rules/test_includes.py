@@ -23,7 +23,7 @@ LAYERS = {
     "io/ply": {"io", "mesh", "base"},
     "io/stl": {"io", "mesh", "base"},
     "io/npy": {"base"},
-    "io/write": {"io/gltf", "mesh", "base"},
+    "io/write": {"io/gltf", "io/stl", "mesh", "base"},
     "io/openmesh": {"mesh", "base"},
     "job": {"base", "spline", "lattice", "embed", "deform", "fold", "mesh", "io", "io/obj", "io/gltf", "io/npy",
             "io/off", "io/openmesh", "io/ply", "io/stl", "io/write"},

@@ -24,6 +24,7 @@ const mesh_format ffd_off_format = {
     .write_normals = ffd_off_write_normals,
     .save = ffd_off_save,
     .faces = ffd_off_faces,
+    .model = ffd_off_model,
     .describe = ffd_off_describe,
     .compare = ffd_off_compare,
 };

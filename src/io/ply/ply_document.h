@@ -57,6 +57,7 @@ void ffd_ply_write_normals(mesh_document *document, size_t part, size_t first, s
 ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error);
 ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+ffd_status ffd_ply_model(const mesh_document *document, mesh_model *model, ffd_error *error);
 ffd_status ffd_ply_describe(const mesh_document *document, json_text *json, ffd_error *error);
 ffd_status ffd_ply_compare(const mesh_document *a, const mesh_document *b, double tolerance,
                            ffd_comparison *comparison, ffd_error *error);

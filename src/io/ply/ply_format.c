@@ -27,6 +27,7 @@ const mesh_format ffd_ply_format = {
     .write_normals = ffd_ply_write_normals,
     .save = ffd_ply_save,
     .faces = ffd_ply_faces,
+    .model = ffd_ply_model,
     .describe = ffd_ply_describe,
     .compare = ffd_ply_compare,
 };

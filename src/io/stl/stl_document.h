@@ -62,6 +62,7 @@ void ffd_stl_write_positions(mesh_document *document, size_t part, size_t first,
 ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error);
 ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_error *error);
 ffd_status ffd_stl_describe(const mesh_document *document, json_text *json, ffd_error *error);
 ffd_status ffd_stl_compare(const mesh_document *a, const mesh_document *b, double tolerance,
                            ffd_comparison *comparison, ffd_error *error);

@@ -1,39 +1,22 @@
-#include "base/vec.h"
+#include "io/stl/stl_document.h"
 #include "io/write/sink.h"
 #include "io/write/triangles.h"
 #include "io/write/write.h"
 #include <float.h>
 #include <inttypes.h>
 
-#define HEADER_SIZE 80
-
-/* The unit normal of three corners as the file has them; zeros where they are in a line. */
-static void find_normal(const double *const corners[3], double normal[3])
-{
-    double stored[3][3], u[3], v[3];
-    for (int c = 0; c < 3; c++)
-        for (int a = 0; a < 3; a++)
-            stored[c][a] = (float)corners[c][a];
-    for (int a = 0; a < 3; a++) {
-        u[a] = stored[1][a] - stored[0][a];
-        v[a] = stored[2][a] - stored[0][a];
-    }
-    vec_cross(u, v, normal);
-    const double length = vec_length(normal);
-    for (int a = 0; a < 3; a++)
-        normal[a] = length > 0 ? normal[a] / length : 0;
-}
-
+/* The normal is that of the corners as the file has them; zeros where they have no area. */
 static void write_triangle(model_sink *sink, const double *const corners[3])
 {
     static const unsigned char no_attributes[2] = {0, 0};
-    double normal[3];
-    find_normal(corners, normal);
-    for (int a = 0; a < 3; a++)
-        ffd_sink_float(sink, normal[a]);
-    for (int c = 0; c < 3; c++)
-        for (int a = 0; a < 3; a++)
-            ffd_sink_float(sink, corners[c][a]);
+    double stored[9], normal[3];
+    for (size_t i = 0; i < 9; i++)
+        stored[i] = (float)corners[i / 3][i % 3];
+    const bool has_area = ffd_stl_normal(stored, normal);
+    for (size_t a = 0; a < 3; a++)
+        ffd_sink_float(sink, has_area ? normal[a] : 0);
+    for (size_t i = 0; i < 9; i++)
+        ffd_sink_float(sink, stored[i]);
     ffd_sink_bytes(sink, no_attributes, sizeof no_attributes);
 }
 
@@ -55,7 +38,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
                         ffd_error *error)
 {
     /* Readers take a file that begins with "solid" for text. */
-    static const char header[HEADER_SIZE] = "binary STL";
+    static const char header[STL_HEADER] = "binary STL";
     const model_list *faces = &model->lists[MODEL_FACES];
     const size_t triangles = model_triangle_count(model);
     face_triangles scratch = {0};

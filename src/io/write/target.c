@@ -11,6 +11,8 @@ const model_target *ffd_model_target(ffd_format format)
         return &ffd_glb_target;
     case FFD_FORMAT_PLY:
         return &ffd_ply_target;
+    case FFD_FORMAT_STL:
+        return &ffd_stl_target;
     case FFD_FORMAT_OFF:
         return &ffd_off_target;
     case FFD_FORMAT_AUTO:

@@ -1,0 +1,100 @@
+#include "base/memory.h"
+#include "io/off/off_document.h"
+#include <string.h>
+
+/* A colour, a texture coordinate, and one word more, which is too many. */
+#define REST_MAX 7
+
+typedef struct extractor {
+    const off_document *document;
+    mesh_model *model;
+    off_walk walk;
+    model_corner *corners; /* of the current face */
+    size_t capacity;
+    ffd_error *error;
+} extractor;
+
+/* The numbers behind a vertex, up to most of them. */
+static size_t take_rest(extractor *e, double *numbers)
+{
+    size_t count = 0;
+    text_word word;
+    while (ffd_off_walk_rest(&e->walk, &word))
+        if (count < REST_MAX && ffd_text_number(word, &numbers[count]))
+            count++;
+    return count;
+}
+
+/* A colour (a single number would name one of a table, which no file has with it) and then u v. */
+static ffd_status take_vertex(extractor *e, size_t i)
+{
+    const bool texcoords = e->document->header.has_texcoords;
+    off_vertex vertex;
+    double rest[REST_MAX];
+    ffd_off_walk_vertex(&e->walk, &vertex);
+    size_t count = take_rest(e, rest);
+    if (texcoords && count >= 2) {
+        count -= 2;
+        memcpy(e->model->texcoords + 2 * i, rest + count, 2 * sizeof *rest);
+    }
+    if (count != 3 && count != 4) {
+        e->model->features |= count > 0 ? MODEL_HAS_MORE : 0;
+        return FFD_OK;
+    }
+    const ffd_status status = ffd_model_make_colours(e->model, e->error);
+    if (status == FFD_OK)
+        memcpy(e->model->colours + 4 * i, rest, count * sizeof *rest);
+    return status;
+}
+
+static ffd_status take_face(extractor *e)
+{
+    const size_t count = ffd_off_walk_face_size(&e->walk);
+    const bool texcoords = e->model->texcoord_count > 0, normals = e->model->normal_count > 0;
+    text_word word;
+    if (!ffd_grow((void **)&e->corners, &e->capacity, count, sizeof *e->corners))
+        return ffd_fail_memory(e->error);
+    for (size_t c = 0; c < count; c++) {
+        const uint32_t vertex = ffd_off_walk_corner_index(&e->walk);
+        e->corners[c] =
+            (model_corner){vertex, texcoords ? vertex : MODEL_NONE, normals ? vertex : MODEL_NONE};
+    }
+    if (ffd_off_walk_rest(&e->walk, &word))
+        e->model->features |= MODEL_HAS_FACE_COLOURS;
+    return ffd_model_add(e->model, MODEL_FACES, e->corners, count, e->error);
+}
+
+static ffd_status make_values(const extractor *e)
+{
+    const off_document *d = e->document;
+    mesh_model *model = e->model;
+    const size_t count = d->header.vertices;
+    const double *positions = d->new_positions ? d->new_positions : d->positions;
+    const double *normals = d->new_directions ? d->new_directions : d->directions;
+    const ffd_status status = ffd_model_make_values(model, count, d->header.has_texcoords ? count : 0,
+                                                    normals ? count : 0, e->error);
+    if (status || count == 0)
+        return status;
+    memcpy(model->positions, positions, 3 * count * sizeof *positions);
+    if (normals)
+        memcpy(model->normals, normals, 3 * count * sizeof *normals);
+    for (size_t i = 0; i < 2 * model->texcoord_count; i++)
+        model->texcoords[i] = 0;
+    return FFD_OK;
+}
+
+ffd_status ffd_off_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+{
+    const off_document *d = ffd_off_of(document);
+    extractor e = {.document = d, .model = model, .error = error};
+    ffd_status status = make_values(&e);
+    if (status == FFD_OK)
+        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
+    ffd_off_walk_begin(&d->header, &e.walk);
+    for (size_t i = 0; i < d->header.vertices && status == FFD_OK; i++)
+        status = take_vertex(&e, i);
+    for (size_t i = 0; i < d->header.faces && status == FFD_OK; i++)
+        status = take_face(&e);
+    ffd_free(e.corners);
+    return status ? status : ffd_model_finish(model, error);
+}

@@ -1,0 +1,290 @@
+#include "base/memory.h"
+#include "io/ply/ply_document.h"
+#include <string.h>
+
+/* What the model takes of a vertex beside its position and normal. */
+enum { ROLE_U, ROLE_V, ROLE_RED, ROLE_GREEN, ROLE_BLUE, ROLE_ALPHA, ROLE_COUNT };
+
+typedef struct extractor {
+    const ply_document *document;
+    mesh_model *model;
+    const ply_property *roles[ROLE_COUNT]; /* NULL: not there */
+    const ply_property *face_texcoords;    /* the list texcoord of the faces; NULL: none */
+    mesh_faces faces;
+    ffd_error *error;
+} extractor;
+
+static const ply_property *find_scalar(const ply_element *element, const char *name)
+{
+    const ply_property *found = ffd_ply_find_property(element, name);
+    return found && !found->is_list ? found : NULL;
+}
+
+/* Names that programs have for texture coordinates and colours; both or all three must be there. */
+static void find_roles(extractor *e)
+{
+    static const char *const texcoords[][2] = {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
+    static const char *const colours[][4] = {
+        {"red", "green", "blue", "alpha"}, {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}};
+    const ply_element *vertex = e->document->vertex;
+    for (size_t i = 0; i < sizeof texcoords / sizeof *texcoords && !e->roles[ROLE_U]; i++) {
+        const ply_property *u = find_scalar(vertex, texcoords[i][0]),
+                           *v = find_scalar(vertex, texcoords[i][1]);
+        e->roles[ROLE_U] = v ? u : NULL;
+        e->roles[ROLE_V] = u ? v : NULL;
+    }
+    for (size_t i = 0; i < sizeof colours / sizeof *colours && !e->roles[ROLE_RED]; i++) {
+        const ply_property *found[4];
+        for (size_t c = 0; c < 4; c++)
+            found[c] = find_scalar(vertex, colours[i][c]);
+        for (int c = 0; c < 4 && found[0] && found[1] && found[2]; c++)
+            e->roles[ROLE_RED + c] = found[c];
+    }
+    const ply_element *face = e->document->face;
+    const ply_property *list = face ? ffd_ply_find_property(face, "texcoord") : NULL;
+    e->face_texcoords = list && list->is_list ? list : NULL;
+}
+
+static ffd_status make_values(const extractor *e)
+{
+    const ply_document *d = e->document;
+    mesh_model *model = e->model;
+    const size_t count = d->part.vertex_count;
+    const double *positions = d->new_positions ? d->new_positions : d->positions;
+    const double *normals = d->new_directions ? d->new_directions : d->directions;
+    const size_t corners = e->faces.start[e->faces.face_count];
+    const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? count : 0;
+    ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, e->error);
+    if (status == FFD_OK && e->roles[ROLE_RED])
+        status = ffd_model_make_colours(model, e->error);
+    if (status || count == 0)
+        return status;
+    memcpy(model->positions, positions, 3 * count * sizeof *positions);
+    if (normals)
+        memcpy(model->normals, normals, 3 * count * sizeof *normals);
+    for (size_t i = 0; i < 2 * texcoords; i++)
+        model->texcoords[i] = 0;
+    return FFD_OK;
+}
+
+/* Whole numbers of a type are parts of the largest one. */
+static double scale_of(ply_type type)
+{
+    return type == PLY_UCHAR ? 255 : type == PLY_USHORT ? 65535 : 1;
+}
+
+static ffd_status set_value(extractor *e, const ply_walk *walk, size_t vertex, int role, text_word word)
+{
+    const ply_document *d = e->document;
+    const ply_type type = e->roles[role]->type;
+    double value;
+    if (!ffd_ply_load(d->header.encoding, type, word, &value))
+        return ffd_fail_line(e->error, FFD_E_INVALID, d->name, walk->line,
+                             "%.*s of vertex %zu (counted from 0) is not a number: \"%.*s\"",
+                             ffd_text_shown(e->roles[role]->name), e->roles[role]->name.first, vertex,
+                             ffd_text_shown(word), word.first);
+    if (role >= ROLE_RED)
+        e->model->colours[4 * vertex + (size_t)(role - ROLE_RED)] = value / scale_of(type);
+    else if (!e->face_texcoords)
+        e->model->texcoords[2 * vertex + (size_t)role] = value;
+    return FFD_OK;
+}
+
+static int role_of(const extractor *e, const ply_property *property)
+{
+    int role = 0;
+    while (role < ROLE_COUNT && e->roles[role] != property)
+        role++;
+    return role;
+}
+
+static ffd_status take_vertices(extractor *e)
+{
+    const ply_document *d = e->document;
+    ply_walk walk;
+    ffd_status status = FFD_OK;
+    ffd_ply_document_walk(d, d->vertex, &walk);
+    for (size_t row = 0; row < d->part.vertex_count; row++) {
+        ffd_ply_walk_row(&walk);
+        for (size_t i = 0; i < d->vertex->property_count && status == FFD_OK; i++) {
+            const ply_property *property = &d->vertex->properties[i];
+            const int role = role_of(e, property);
+            text_word word;
+            if (role == ROLE_COUNT)
+                ffd_ply_walk_skip(&walk, property);
+            else if (ffd_ply_walk_value(&walk, property->type, &word))
+                status = set_value(e, &walk, row, role, word);
+        }
+    }
+    return status;
+}
+
+/* The texture coordinates of a face's corners stand in a list of twice as many numbers; one of another length
+   is left aside. Returns whether they are there. */
+static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
+{
+    const ply_document *d = e->document;
+    const size_t first = e->faces.start[face], corners = e->faces.start[face + 1] - first;
+    const ply_property *list = e->face_texcoords;
+    text_word word;
+    size_t count = 0;
+    double value;
+    ffd_ply_walk_value(walk, list->count_type, &word);
+    ffd_ply_load_count(d->header.encoding, list->count_type, word, &count);
+    bool there = count == 2 * corners;
+    for (size_t i = 0; i < count; i++) {
+        const bool read = ffd_ply_walk_value(walk, list->type, &word) &&
+                          ffd_ply_load(d->header.encoding, list->type, word, &value);
+        there = there && read;
+        if (there)
+            e->model->texcoords[2 * first + i] = value;
+    }
+    return there;
+}
+
+static bool walk_face(const extractor *e, ply_walk *walk, size_t face)
+{
+    const ply_element *element = e->document->face;
+    bool there = false;
+    ffd_ply_walk_row(walk);
+    for (size_t i = 0; i < element->property_count; i++) {
+        if (&element->properties[i] == e->face_texcoords)
+            there = take_face_texcoords(e, walk, face);
+        else
+            ffd_ply_walk_skip(walk, &element->properties[i]);
+    }
+    return there;
+}
+
+static ffd_status take_faces(extractor *e)
+{
+    const bool normals = e->model->normal_count > 0;
+    model_corner *corners = NULL;
+    size_t capacity = 0;
+    ply_walk walk;
+    ffd_status status = FFD_OK;
+    if (e->face_texcoords)
+        ffd_ply_document_walk(e->document, e->document->face, &walk);
+    for (size_t face = 0; face < e->faces.face_count && status == FFD_OK; face++) {
+        const size_t first = e->faces.start[face], count = e->faces.start[face + 1] - first;
+        const bool own = e->face_texcoords && walk_face(e, &walk, face);
+        const bool texcoords = own || (!e->face_texcoords && e->model->texcoord_count > 0);
+        if (!ffd_grow((void **)&corners, &capacity, count, sizeof *corners))
+            status = ffd_fail_memory(e->error);
+        for (size_t c = 0; c < count && status == FFD_OK; c++) {
+            const uint32_t vertex = e->faces.corners[first + c];
+            const uint32_t texcoord = own ? (uint32_t)(first + c) : vertex;
+            corners[c] =
+                (model_corner){vertex, texcoords ? texcoord : MODEL_NONE, normals ? vertex : MODEL_NONE};
+        }
+        if (status == FFD_OK)
+            status = ffd_model_add(e->model, MODEL_FACES, corners, count, e->error);
+    }
+    ffd_free(corners);
+    return status;
+}
+
+/* Takes a row's vertex1 and vertex2. False where one is no vertex. */
+static bool take_ends(const extractor *e, ply_walk *walk, const ply_element *edges, model_corner ends[2])
+{
+    const ply_property *named[2] = {find_scalar(edges, "vertex1"), find_scalar(edges, "vertex2")};
+    bool valid = true;
+    ffd_ply_walk_row(walk);
+    for (size_t i = 0; i < edges->property_count; i++) {
+        const ply_property *property = &edges->properties[i];
+        const int end = property == named[0] ? 0 : property == named[1] ? 1 : -1;
+        text_word word;
+        size_t vertex = 0;
+        if (end < 0) {
+            ffd_ply_walk_skip(walk, property);
+            continue;
+        }
+        ffd_ply_walk_value(walk, property->type, &word);
+        valid = ffd_ply_load_count(e->document->header.encoding, property->type, word, &vertex) &&
+                vertex < e->model->position_count && valid;
+        const uint32_t number = (uint32_t)vertex;
+        ends[end] =
+            (model_corner){number, e->model->texcoord_count > 0 && !e->face_texcoords ? number : MODEL_NONE,
+                           e->model->normal_count > 0 ? number : MODEL_NONE};
+    }
+    return valid && named[0] && named[1];
+}
+
+static ffd_status take_edges(extractor *e)
+{
+    const ply_document *d = e->document;
+    const ply_element *edges = ffd_ply_find_edges(d);
+    ply_walk walk;
+    ffd_status status = FFD_OK;
+    if (!edges)
+        return FFD_OK;
+    ffd_ply_document_walk(d, edges, &walk);
+    for (uint64_t row = 0; row < edges->count && status == FFD_OK; row++) {
+        model_corner ends[2] = {{0, 0, 0}, {0, 0, 0}};
+        if (!take_ends(e, &walk, edges, ends))
+            return ffd_fail_line(
+                e->error, FFD_E_INVALID, d->name, d->header.encoding == PLY_ASCII ? walk.line : 0,
+                "edge %llu (counted from 0) names a vertex that is not there", (unsigned long long)row);
+        status = ffd_model_add(e->model, MODEL_LINES, ends, 2, e->error);
+    }
+    return status;
+}
+
+static bool is_texture_note(text_word note)
+{
+    static const char key[] = "TextureFile";
+    const size_t size = (size_t)(note.last - note.first);
+    for (size_t i = 0; i + sizeof key - 1 <= size; i++)
+        if (memcmp(note.first + i, key, sizeof key - 1) == 0)
+            return true;
+    return false;
+}
+
+/* Properties and elements that the model does not take. */
+static uint32_t features_of(const extractor *e)
+{
+    const ply_document *d = e->document;
+    const ply_element *edges = ffd_ply_find_edges(d);
+    uint32_t found = 0;
+    for (size_t i = 0; i < d->vertex->property_count; i++)
+        if (d->vertex->properties[i].slot == PLY_NO_SLOT &&
+            role_of(e, &d->vertex->properties[i]) == ROLE_COUNT)
+            found |= MODEL_HAS_MORE;
+    for (size_t i = 0; d->face && i < d->face->property_count; i++) {
+        const ply_property *property = &d->face->properties[i];
+        if (property != d->face_corners && property != e->face_texcoords)
+            found |= ffd_text_is(property->name, "red") || ffd_text_is(property->name, "green") ||
+                             ffd_text_is(property->name, "blue") || ffd_text_is(property->name, "alpha")
+                         ? MODEL_HAS_FACE_COLOURS
+                         : MODEL_HAS_MORE;
+    }
+    for (size_t i = 0; i < d->header.element_count; i++) {
+        const ply_element *element = &d->header.elements[i];
+        if (element != d->vertex && element != d->face && element != edges && element->count > 0)
+            found |= MODEL_HAS_MORE;
+    }
+    for (size_t i = 0; i < d->header.note_count; i++)
+        found |= is_texture_note(d->header.notes[i]) ? MODEL_HAS_TEXTURES : 0;
+    return found;
+}
+
+ffd_status ffd_ply_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+{
+    extractor e = {.document = ffd_ply_of(document), .model = model, .error = error};
+    ffd_status status = ffd_ply_faces(document, &e.faces, error);
+    if (status)
+        return status;
+    find_roles(&e);
+    status = make_values(&e);
+    if (status == FFD_OK)
+        status = take_vertices(&e);
+    if (status == FFD_OK)
+        status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
+    if (status == FFD_OK)
+        status = take_faces(&e);
+    if (status == FFD_OK)
+        status = take_edges(&e);
+    model->features |= features_of(&e);
+    ffd_mesh_faces_free(&e.faces);
+    return status ? status : ffd_model_finish(model, error);
+}

@@ -1,0 +1,96 @@
+#include "base/memory.h"
+#include "io/stl/stl_document.h"
+#include <string.h>
+
+/* Facets share no vertices in the file: corners at one place become one vertex. */
+typedef struct extractor {
+    const stl_document *document;
+    mesh_model *model;
+    intern_table places; /* keys: 3 doubles */
+    char *name;          /* of the current solid */
+    ffd_error *error;
+} extractor;
+
+static ffd_status find_vertex(extractor *e, const double place[3], uint32_t *number)
+{
+    double key[3];
+    for (int a = 0; a < 3; a++)
+        key[a] = place[a] + 0.0; /* -0 becomes 0 */
+    return ffd_intern(&e->places, key, sizeof key, number) ? FFD_OK : ffd_fail_memory(e->error);
+}
+
+static ffd_status add_facet(extractor *e, size_t facet)
+{
+    double places[9];
+    model_corner corners[3];
+    ffd_status status = FFD_OK;
+    if (e->document->new_positions)
+        memcpy(places, e->document->new_positions + 9 * facet, sizeof places);
+    else
+        ffd_stl_read_positions(&e->document->base, 0, 3 * facet, 3, places);
+    for (size_t c = 0; c < 3 && status == FFD_OK; c++) {
+        corners[c] = (model_corner){0, MODEL_NONE, MODEL_NONE};
+        status = find_vertex(e, places + 3 * c, &corners[c].position);
+    }
+    return status ? status : ffd_model_add(e->model, MODEL_FACES, corners, 3, e->error);
+}
+
+static ffd_status begin_solid(extractor *e, text_word name)
+{
+    byte_buffer text = {0};
+    ffd_buffer_append(&text, name.first, (size_t)(name.last - name.first));
+    ffd_free(e->name);
+    e->name = ffd_buffer_finish(&text);
+    return e->name ? ffd_model_begin_run(e->model, e->name, NULL, NULL, e->error) : ffd_fail_memory(e->error);
+}
+
+static ffd_status take_text(extractor *e)
+{
+    const stl_document *d = e->document;
+    stl_text text;
+    stl_facet facet;
+    stl_event event = STL_AT_SOLID;
+    size_t seen = 0;
+    ffd_status status = FFD_OK;
+    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    while (status == FFD_OK && event != STL_AT_END) {
+        status = ffd_stl_text_step(&text, d->name, &facet, &event, e->error);
+        if (status == FFD_OK && event == STL_AT_SOLID)
+            status = begin_solid(e, text.name);
+        else if (status == FFD_OK && event == STL_AT_FACET)
+            status = add_facet(e, seen++);
+    }
+    return status;
+}
+
+static ffd_status take_binary(extractor *e)
+{
+    ffd_status status = ffd_model_begin_run(e->model, NULL, NULL, NULL, e->error);
+    for (size_t i = 0; i < e->document->facets && status == FFD_OK; i++) {
+        const unsigned char *attribute = ffd_stl_facet(e->document, i) + STL_ATTRIBUTE;
+        if (attribute[0] || attribute[1])
+            e->model->features |= MODEL_HAS_MORE;
+        status = add_facet(e, i);
+    }
+    return status;
+}
+
+static ffd_status copy_places(extractor *e)
+{
+    const size_t count = e->places.count;
+    const ffd_status status = ffd_model_make_values(e->model, count, 0, 0, e->error);
+    for (size_t i = 0; i < count && status == FFD_OK; i++)
+        memcpy(e->model->positions + 3 * i, ffd_intern_key(&e->places, (uint32_t)i), 3 * sizeof(double));
+    return status;
+}
+
+ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_error *error)
+{
+    extractor e = {.document = ffd_stl_of(document), .model = model, .error = error};
+    ffd_status status = e.document->binary ? take_binary(&e) : take_text(&e);
+    if (status == FFD_OK)
+        status = copy_places(&e);
+    ffd_intern_free(&e.places);
+    ffd_free(e.name);
+    return status ? status : ffd_model_finish(model, error);
+}
