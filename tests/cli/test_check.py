@@ -347,14 +347,13 @@ def failures(run):
     run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
     run.write("bad.obj", "v 0 0\n")
     run.write("bad.json", "{}")
-    asset, data = gltf_json(CUBE_CORNERS)
-    asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": 0}]
-    run.write("morph.glb", glb(asset, data))
+    run.write("strips.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+              "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n0\n")
     run.ffd("check", "missing.obj", "-l", "l.json", code=IO)
     run.ffd("check", "a.obj", "-l", "missing.json", code=IO)
     run.ffd("check", "bad.obj", "-l", "l.json", code=INVALID)
     run.ffd("check", "a.obj", "-l", "bad.json", code=INVALID)
-    run.ffd("check", "morph.glb", "-l", "l.json", code=UNSUPPORTED)
+    run.ffd("check", "strips.ply", "-l", "l.json", code=UNSUPPORTED)
     run.ffd("check", "a.glb", "-l", "far.json", code=INVALID)
     run.ffd("check", "a.obj", "-l", "l.json", "--report", "none/r.json", code=IO)
     run.write("l.json", lattice(high=(2, 2, 0), moves=SHIFT))
