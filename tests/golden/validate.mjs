@@ -1,10 +1,10 @@
 // Runs the Khronos glTF validator over files.
 //     node validate.mjs FOLDER-WITH-NODE_MODULES < list-of-paths
-// Prints for each path one line of JSON: {"path", "errors": [[code, pointer], ...]} or {"path", "failed": why}.
+// Prints for each path, as it comes, one line of JSON: {"path", "errors": [[code, pointer], ...]} or {"path", "failed": why}.
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import path from 'node:path';
-import { text } from 'node:stream/consumers';
+import { createInterface } from 'node:readline';
 
 const validator = createRequire(path.resolve(process.argv[2], 'package.json'))('gltf-validator');
 const ERROR = 0;
@@ -22,7 +22,8 @@ async function validate(file) {
         .map((message) => [message.code, message.pointer ?? `@${message.offset ?? ''}`]);
 }
 
-for (const file of (await text(process.stdin)).split('\n').filter(Boolean)) {
+for await (const file of createInterface({ input: process.stdin })) {
+    if (!file) continue;
     let line;
     try {
         line = { path: file, errors: await validate(file) };

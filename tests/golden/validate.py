@@ -43,8 +43,13 @@ def validate(node_folder, paths):
                           capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"the validator did not run: {done.stderr.strip()}")
-    lines = [json.loads(line) for line in done.stdout.splitlines()]
-    return {line["path"]: line.get("failed") or [tuple(error) for error in line["errors"]] for line in lines}
+    return dict(answer(line) for line in done.stdout.splitlines())
+
+
+def answer(line):
+    """What validate.mjs says of one file: its path, and its errors."""
+    said = json.loads(line)
+    return said["path"], said.get("failed") or [tuple(error) for error in said["errors"]]
 
 
 def deform(ffd, lattice, source, target):
@@ -119,4 +124,5 @@ def main():
     sys.exit(1 if failed or not counts["valid"] else 0)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,151 @@
+// Reads the geometry of a glTF file by glTF-Transform, any compression, and says how the default pose places it.
+//     FFD_NODE names the folder whose node_modules holds the packages.
+import { readFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import path from 'node:path';
+import { pathToFileURL } from 'node:url';
+import * as matrix from './matrix.mjs';
+
+const require = createRequire(path.resolve(process.env.FFD_NODE ?? '.', 'package.json'));
+const { NodeIO, Logger } = require('@gltf-transform/core');
+const { ALL_EXTENSIONS } = require('@gltf-transform/extensions');
+const { MeshoptDecoder } = await import(pathToFileURL(require.resolve('meshoptimizer/decoder')));
+const draco = await require('draco3dgltf').createDecoderModule();
+
+const io = new NodeIO().setLogger(new Logger(Logger.Verbosity.SILENT)).registerExtensions(ALL_EXTENSIONS)
+    .registerDependencies({ 'draco3d.decoder': draco, 'meshopt.decoder': MeshoptDecoder });
+
+const GEOMETRY = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression',
+    'KHR_mesh_quantization'];
+
+// Everything that is not geometry leaves the JSON: pictures may be missing, extensions unknown.
+function onlyGeometry(json) {
+    const kept = structuredClone(json);
+    kept.asset = { version: '2.0' };
+    for (const key of ['images', 'textures', 'samplers', 'materials', 'animations', 'cameras', 'extensions'])
+        delete kept[key];
+    for (const key of ['extensionsUsed', 'extensionsRequired'])
+        if (kept[key]) kept[key] = kept[key].filter((name) => GEOMETRY.includes(name));
+    for (const node of kept.nodes ?? []) {
+        delete node.extensions;
+        delete node.camera;
+    }
+    for (const mesh of kept.meshes ?? [])
+        for (const primitive of mesh.primitives) {
+            delete primitive.material;
+            for (const name of Object.keys(primitive.extensions ?? {}))
+                if (!GEOMETRY.includes(name)) delete primitive.extensions[name];
+        }
+    return kept;
+}
+
+const parsed = (bytes) => JSON.parse(new TextDecoder().decode(bytes));
+
+// The chunks of a GLB: JSON, and BIN where there is one.
+function chunksOf(bytes) {
+    const size = bytes.readUInt32LE(12);
+    const next = 20 + size;
+    const json = parsed(bytes.subarray(20, next));
+    if (next + 8 > bytes.length || bytes.readUInt32LE(next + 4) !== 0x004e4942) return { json, resources: {} };
+    const bin = new Uint8Array(bytes.subarray(next + 8, next + 8 + bytes.readUInt32LE(next)));
+    return { json, resources: { '@glb.bin': bin } };
+}
+
+async function load(file) {
+    const bytes = await readFile(file);
+    const binary = bytes[0] === 0x67; // "glTF"; JSON begins with a brace, a space or a byte order mark
+    const { json, resources } = binary ? chunksOf(bytes) : { json: parsed(bytes), resources: {} };
+    for (const { uri } of json.buffers ?? []) {
+        if (!uri) continue;
+        resources[uri] = uri.startsWith('data:')
+            ? new Uint8Array(Buffer.from(uri.slice(uri.indexOf(',') + 1), 'base64'))
+            : new Uint8Array(await readFile(path.join(path.dirname(file), decodeURIComponent(uri))));
+    }
+    return { json, resources };
+}
+
+const STEPS = { 5120: 127, 5121: 255, 5122: 32767, 5123: 65535 };
+
+// Values as doubles, one array an element; step: the distance of two values where they are quantized, else 0.
+function decoded(accessor) {
+    if (!accessor) return null;
+    const values = [];
+    for (let i = 0; i < accessor.getCount(); i++) values.push(accessor.getElement(i, []));
+    const type = accessor.getComponentType();
+    return { values, step: type === 5126 ? 0 : accessor.getNormalized() ? 1 / STEPS[type] : 1 };
+}
+
+const DEFORMED = ['POSITION', 'NORMAL', 'TANGENT'];
+
+function streams(owner) {
+    const found = {};
+    for (const name of DEFORMED) found[name] = decoded(owner.getAttribute(name));
+    return found;
+}
+
+// What must come through unchanged: other attributes and indices, as bytes.
+function rest(primitive) {
+    const bytes = (accessor) => {
+        const array = accessor?.getArray();
+        return array ? Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString('latin1') : '';
+    };
+    const names = primitive.listSemantics().filter((name) => !DEFORMED.includes(name)).sort();
+    return [`mode ${primitive.getMode()}`, `indices ${bytes(primitive.getIndices())}`,
+        ...names.map((name) => `${name} ${bytes(primitive.getAttribute(name))}`)];
+}
+
+// Elements of JOINTS_0, JOINTS_1 ... one after the other.
+function influences(primitive, name) {
+    const sets = [];
+    for (let i = 0; primitive.getAttribute(`${name}_${i}`); i++)
+        sets.push(decoded(primitive.getAttribute(`${name}_${i}`)).values);
+    return sets.length ? sets[0].map((_, v) => sets.flatMap((set) => set[v])) : null;
+}
+
+const primitiveOf = (primitive) => ({
+    ...streams(primitive),
+    targets: primitive.listTargets().map(streams),
+    joints: influences(primitive, 'JOINTS'),
+    weights: influences(primitive, 'WEIGHTS'),
+    rest: rest(primitive),
+});
+
+const localOf = (node) => (node.matrix ? matrix.fromColumns(node.matrix)
+    : matrix.fromParts(node.translation, node.rotation, node.scale));
+
+// World matrix of every node, and which nodes the default scene shows: the scene that is named, else the first;
+// without scenes all root nodes.
+function placed(json) {
+    const nodes = json.nodes ?? [];
+    const parent = new Map(nodes.flatMap((node, i) => (node.children ?? []).map((child) => [child, i])));
+    const world = new Map();
+    const worldOf = (i) => {
+        if (!world.has(i))
+            world.set(i, parent.has(i) ? matrix.after(worldOf(parent.get(i)), localOf(nodes[i])) : localOf(nodes[i]));
+        return world.get(i);
+    };
+    const shown = new Set();
+    const show = (i) => {
+        shown.add(i);
+        for (const child of nodes[i].children ?? []) show(child);
+    };
+    const roots = nodes.map((_, i) => i).filter((i) => !parent.has(i));
+    for (const i of json.scenes ? json.scenes[json.scene ?? 0].nodes ?? [] : roots) show(i);
+    return { world: nodes.map((_, i) => worldOf(i)), shown };
+}
+
+// {meshes: [[primitive]], nodes: [{mesh, world, shown, joints}]}; joints: matrices W_j B_j of the node's skin.
+export async function readGltf(file) {
+    const { json, resources } = await load(file);
+    const document = await io.readJSON({ json: onlyGeometry(json), resources });
+    const meshes = document.getRoot().listMeshes().map((mesh) => mesh.listPrimitives().map(primitiveOf));
+    const skins = document.getRoot().listSkins().map((skin) => decoded(skin.getInverseBindMatrices())?.values);
+    const { world, shown } = placed(json);
+    const jointsOf = (skin) => json.skins[skin].joints.map((joint, i) =>
+        (skins[skin] ? matrix.after(world[joint], matrix.fromColumns(skins[skin][i])) : world[joint]));
+    const nodes = (json.nodes ?? []).map((node, i) => ({
+        mesh: node.mesh, world: world[i], shown: shown.has(i), instanced: Boolean(node.extensions?.EXT_mesh_gpu_instancing),
+        joints: node.skin === undefined ? null : jointsOf(node.skin),
+    }));
+    return { meshes, nodes };
+}
