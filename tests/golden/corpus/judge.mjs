@@ -27,7 +27,7 @@ function placementsOf(node, primitive, space) {
     return () => placement;
 }
 
-const shownParts = ({ meshes, nodes }) => nodes.flatMap((node, n) => (node.mesh === undefined ? []
+const partsOf = ({ meshes, nodes }) => nodes.flatMap((node, n) => (node.mesh === undefined ? []
     : meshes[node.mesh].map((primitive, p) => ({ node, primitive, name: `node ${n} primitive ${p}`, n, p }))));
 
 function boundsOf(points) {
@@ -40,9 +40,12 @@ function boundsOf(points) {
     return low[0] <= high[0] ? { low, high } : { low: [-1, -1, -1], high: [1, 1, 1] };
 }
 
+// In scene space what the default scene does not show is left alone.
+const deforms = (node, space) => space === 'mesh' || node.shown;
+
 function* placedPoints(model, space) {
-    for (const { node, primitive } of shownParts(model)) {
-        if (!node.shown || !primitive.POSITION) continue;
+    for (const { node, primitive } of partsOf(model)) {
+        if (!deforms(node, space) || !primitive.POSITION) continue;
         const at = placementsOf(node, primitive, space);
         for (let v = 0; v < primitive.POSITION.values.length; v++) {
             const p = primitive.POSITION.values[v];
@@ -132,14 +135,14 @@ const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 async function judgeGltf(context, file) {
     const after = await readGltf(file);
-    for (const part of shownParts(open.model)) {
+    for (const part of partsOf(open.model)) {
         const { node, primitive: before, name, n, p } = part;
         const now = after.meshes[after.nodes[n].mesh][p];
         before.rest.forEach((text, i) => text === now.rest[i] ||
             context.tally.fail(`${name}: ${text.split(' ')[0]} changed`));
         if (before.rest.length !== now.rest.length) context.tally.fail(`${name}: other attributes`);
         if (!before.POSITION) continue;
-        if (node.shown) judgePrimitive(context, part, now);
+        if (deforms(node, open.space)) judgePrimitive(context, part, now);
         else if (!same([before.POSITION, before.NORMAL, before.TANGENT], [now.POSITION, now.NORMAL, now.TANGENT]))
             context.tally.fail(`${name}: not in the scene, and changed`);
     }
@@ -184,8 +187,7 @@ async function openModel({ kind, file, space, folder, name }) {
     for (const [lattice, { volume, moves }] of Object.entries(lattices))
         await writeFile(path.join(folder, `${lattice}.json`), JSON.stringify(volume.file(moves)));
     open = { kind, file: name, space, model, lattices };
-    const instanced = kind === 'gltf' && model.nodes.some((node) => node.instanced && node.shown);
-    return { lattices: Object.keys(lattices), instanced };
+    return { lattices: Object.keys(lattices) };
 }
 
 async function judge({ lattice, file }) {

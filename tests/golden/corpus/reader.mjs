@@ -144,7 +144,7 @@ export async function readGltf(file) {
     const jointsOf = (skin) => json.skins[skin].joints.map((joint, i) =>
         (skins[skin] ? matrix.after(world[joint], matrix.fromColumns(skins[skin][i])) : world[joint]));
     const nodes = (json.nodes ?? []).map((node, i) => ({
-        mesh: node.mesh, world: world[i], shown: shown.has(i), instanced: Boolean(node.extensions?.EXT_mesh_gpu_instancing),
+        mesh: node.mesh, world: world[i], shown: shown.has(i),
         joints: node.skin === undefined ? null : jointsOf(node.skin),
     }));
     return { meshes, nodes };
