@@ -309,6 +309,18 @@ static ffd_status read_root(json_place *place, const json_t *root, lattice_spec 
     return status;
 }
 
+/* What jansson says of a failed allocation: mostly nothing, and where it was reading a text, that the syntax
+   is wrong. So memory is asked for once more. */
+static bool is_out_of_memory(const json_error_t *problem, size_t size)
+{
+    json_t *const value = json_object();
+    void *const block = ffd_alloc(size, sizeof *value);
+    const bool missing = !value || !block;
+    json_decref(value);
+    ffd_free(block);
+    return missing || !problem->text[0] || json_error_code(problem) == json_error_out_of_memory;
+}
+
 /* The parsed text, or NULL. All numbers are read as double: whole ones of any size are numbers too. A byte
    order mark is let pass (editors write it; RFC 8259, 8.1 allows that). The depth is limited by jansson
    itself (2048). */
@@ -325,7 +337,7 @@ static json_t *load_json(const char *text, size_t size, const char *name, ffd_er
     *status = FFD_OK;
     if (root)
         return root;
-    if (json_error_code(&problem) == json_error_out_of_memory)
+    if (is_out_of_memory(&problem, size))
         *status = ffd_fail_memory(error);
     else
         *status = ffd_fail_line(error, FFD_E_INVALID, name, problem.line > 0 ? (size_t)problem.line : 1,

@@ -3,6 +3,7 @@
 #include "base/vec.h"
 #include "io/formats.h"
 #include "job/deform_job.h"
+#include "job/info.h"
 #include "job/placement.h"
 #include "job/source.h"
 #include "promise.h"
@@ -92,6 +93,10 @@ static void check_description(const mesh_document *document)
     const ffd_status status = document->format->describe(document, &json, &error);
     ffd_json_end(&json, '}');
     PROMISE(status == FFD_OK && !out.failed, "cannot be described: %s", error.message);
+    char *text;
+    PROMISE(ffd_info_render(out.data, out.size, &text, &error) == FFD_OK, "cannot be told: %s",
+            error.message);
+    ffd_text_free(text);
     ffd_buffer_free(&out);
 }
 

@@ -11,7 +11,7 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_EXTERNAL_IMAGE
 #define TINYGLTF_NO_INCLUDE_JSON
-#include <nlohmann/json.hpp>
+#include "io/gltf/json_reserve.h"
 #include <tiny_gltf.h>
 
 namespace
@@ -201,8 +201,25 @@ bool never_written(std::string *, const std::string &, const std::vector<unsigne
     return false;
 }
 
+/* No less than the JSON has values. */
+size_t count_values(const char *text, size_t size)
+{
+    size_t count = 1;
+    for (size_t i = 0; i < size; i++)
+        count += text[i] == ',' || text[i] == '[' || text[i] == '{';
+    return count;
+}
+
+/* Vectors that double hold at most twice what they had to, and all their blocks together twice that: once for
+   the arrays that are read and once for their end. */
+size_t reserve_size(const char *text, size_t size)
+{
+    return 8 * sizeof(nlohmann::json) * count_values(text, size);
+}
+
 ffd_status parse(const char *text, size_t size, const char *name, gltf_model *model, ffd_error *error)
 {
+    const json_reserve reserve(reserve_size(text, size));
     tinygltf::FsCallbacks callbacks = {never_exists, never_expanded, never_read, never_written, nullptr};
     tinygltf::TinyGLTF reader;
     reader.SetFsCallbacks(callbacks);
@@ -211,6 +228,9 @@ ffd_status parse(const char *text, size_t size, const char *name, gltf_model *mo
     if (!reader.LoadASCIIFromString(&read, &problems, &warnings, text, static_cast<unsigned int>(size), "",
                                     tinygltf::REQUIRE_VERSION)) {
         const std::string first = problems.substr(0, problems.find('\n'));
+        /* Of an exception it keeps the words only. */
+        if (first == std::bad_alloc().what())
+            throw std::bad_alloc();
         return ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: %s",
                              first.empty() ? "tinygltf refuses it" : first.c_str());
     }

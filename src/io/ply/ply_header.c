@@ -282,11 +282,12 @@ ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_he
         return status;
     header->body = (size_t)(r.at - first);
     header->body_line = r.line + 1;
-    const ply_property *property = header->properties;
+    size_t first_property = 0;
     for (size_t i = 0; i < header->element_count; i++) {
-        header->elements[i].properties = property;
-        property += header->elements[i].property_count;
-        measure_row(header, &header->elements[i]);
+        ply_element *element = &header->elements[i];
+        element->properties = header->properties ? header->properties + first_property : NULL;
+        first_property += element->property_count;
+        measure_row(header, element);
     }
     return check_sizes(&r);
 }

@@ -1,0 +1,270 @@
+/* test_memory.c - memory that ends anywhere, in every job and every format: in ffd_alloc, in C++'s operator
+   new, in jansson. Each failure is told as such and leaves no file. That nothing leaks, the leak sanitizer
+   sees.
+
+       test_memory CORPUS      the folder tests/fuzz/corpus */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/failing_new.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include <dirent.h>
+#include <ffd/job.h>
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Up to here every failure is tried, then ever fewer. */
+#define FIRST_FAILURES 64
+
+enum { PATH = 128 };
+
+static const char *corpus;
+static char folder[] = "/tmp/ffd-test-memory-XXXXXX";
+static char lattice[PATH], input[PATH], output[PATH];
+
+typedef ffd_status job(ffd_error *error);
+
+static void path_of(const char *name, char path[PATH])
+{
+    assert_true(snprintf(path, PATH, "%s/%s", folder, name) < PATH);
+}
+
+static void put(const char *path, const void *bytes, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static size_t count_files(void)
+{
+    size_t count = 0;
+    DIR *open = opendir(folder);
+    assert_non_null(open);
+    while (readdir(open))
+        count++;
+    closedir(open);
+    return count;
+}
+
+static ffd_deform_desc describe(void)
+{
+    static const char *const lattices[] = {lattice};
+    ffd_deform_desc desc;
+    ffd_deform_desc_init(&desc);
+    desc.input.path = input;
+    desc.output = output;
+    desc.lattices = lattices;
+    desc.lattice_count = 1;
+    desc.threads = 1;
+    return desc;
+}
+
+static ffd_status run_deform(ffd_error *error)
+{
+    const ffd_deform_desc desc = describe();
+    ffd_job_result result;
+    return ffd_deform_run(&desc, &result, error);
+}
+
+static ffd_status run_check(ffd_error *error)
+{
+    ffd_deform_desc desc = describe();
+    ffd_job_result result;
+    desc.outside = FFD_OUTSIDE_EXTEND;
+    return ffd_check_run(&desc, &result, error);
+}
+
+static ffd_status run_embed(ffd_error *error)
+{
+    ffd_embed_desc desc;
+    ffd_job_result result;
+    ffd_embed_desc_init(&desc);
+    desc.input.path = input;
+    desc.lattice = lattice;
+    desc.output = output;
+    desc.threads = 1;
+    return ffd_embed_run(&desc, &result, error);
+}
+
+static ffd_status run_lattice_new(ffd_error *error)
+{
+    const ffd_source source = {.path = input};
+    ffd_lattice_desc desc;
+    ffd_lattice_desc_init(&desc);
+    desc.principal = true;
+    return ffd_lattice_new_run(&source, &desc, output, false, error);
+}
+
+static ffd_status run_info(ffd_error *error)
+{
+    const ffd_source source = {.path = input};
+    char *text = NULL;
+    const ffd_status status = ffd_info_run(&source, false, &text, error);
+    assert_true((status == FFD_OK) == (text != NULL));
+    ffd_text_free(text);
+    return status;
+}
+
+static ffd_status run_compare(ffd_error *error)
+{
+    const ffd_source source = {.path = input};
+    ffd_comparison comparison;
+    return ffd_compare_run(&source, &source, 0, &comparison, error);
+}
+
+/* As ffd_alloc_fail_after and new_fail_after. */
+static long remaining = -1;
+
+static void *json_allocate(size_t size)
+{
+    if (remaining == 0)
+        return NULL;
+    if (remaining > 0)
+        remaining--;
+    return malloc(size);
+}
+
+static void json_fail_after(long successes)
+{
+    remaining = successes;
+}
+
+static void cpp_fail_after(long successes)
+{
+    new_fail_after(successes);
+}
+
+/* Returns how many failures there were. */
+static size_t fail_everywhere(const char *name, job *run, void (*fail_after)(long))
+{
+    const size_t files = count_files();
+    size_t failures = 0;
+    for (long successes = 0;; successes += 1 + (successes > FIRST_FAILURES ? successes / 8 : 0)) {
+        ffd_error error = {0};
+        fail_after(successes);
+        const ffd_status status = run(&error);
+        fail_after(-1);
+        if (status == FFD_OK)
+            break;
+        failures++;
+        if (status != FFD_E_MEMORY || !strstr(error.message, "out of memory"))
+            fail_msg("%s, failure after %ld: status %d, %s", name, successes, status, error.message);
+        if (count_files() != files)
+            fail_msg("%s, failure after %ld: a file is left", name, successes);
+    }
+    unlink(output);
+    return failures;
+}
+
+/* Puts a file of the corpus into the folder; the bytes behind a .gltf's text are those of m.bin. */
+static void take_input(const char *format, const char *name)
+{
+    char path[512], own[32], bin[PATH];
+    file_input file;
+    ffd_error error;
+    snprintf(path, sizeof path, "%s/%s/%s", corpus, format, name);
+    if (ffd_file_load(path, &file, &error))
+        fail_msg("%s: %s", path, error.message);
+    const unsigned char *end = memchr(file.data, 0, file.size);
+    const size_t size = strcmp(format, "gltf") == 0 && end ? (size_t)(end - file.data) : file.size;
+    snprintf(own, sizeof own, "m.%s", format);
+    path_of(own, input);
+    put(input, file.data, size);
+    path_of("m.bin", bin);
+    if (size < file.size)
+        put(bin, end + 1, file.size - size - 1);
+    ffd_file_unload(&file);
+    snprintf(own, sizeof own, "o.%s", format);
+    path_of(own, output);
+}
+
+static const struct {
+    const char *format, *name;
+} inputs[] = {{"obj", "normals"}, {"obj", "many-normals"}, {"ply", "ascii"}, {"ply", "big"},
+              {"off", "normals"}, {"gltf", "data"},        {"glb", "plain"}, {"glb", "tangents"},
+              {"glb", "sparse"},  {"glb", "quantized"},    {"glb", "nodes"}};
+
+static void memory_of_ours(void **state)
+{
+    static job *const jobs[] = {run_deform, run_check, run_embed, run_lattice_new, run_info, run_compare};
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
+        take_input(inputs[i].format, inputs[i].name);
+        for (size_t j = 0; j < sizeof jobs / sizeof *jobs; j++)
+            assert_true(fail_everywhere(input, jobs[j], ffd_alloc_fail_after) > 5);
+        unlink(input);
+    }
+    (void)state;
+}
+
+/* Whatever C++ is called: for glTF and for topology. */
+static void memory_of_cpp(void **state)
+{
+    size_t failures = 0;
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
+        take_input(inputs[i].format, inputs[i].name);
+        failures += fail_everywhere(input, run_deform, cpp_fail_after);
+        failures += fail_everywhere(input, run_check, cpp_fail_after);
+        failures += fail_everywhere(input, run_info, cpp_fail_after);
+        unlink(input);
+    }
+    assert_true(failures > 100);
+    (void)state;
+}
+
+/* Lattice files, and the text of info. */
+static void memory_of_jansson(void **state)
+{
+    take_input("obj", "normals");
+    json_set_alloc_funcs(json_allocate, free);
+    assert_true(fail_everywhere(input, run_deform, json_fail_after) > 20);
+    assert_true(fail_everywhere(input, run_info, json_fail_after) > 20);
+    json_set_alloc_funcs(malloc, free);
+    unlink(input);
+    (void)state;
+}
+
+static int set_up(void **state)
+{
+    static const char text[] =
+        "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"}, "
+        "\"moves\": [{\"at\": [1, 1, 1], \"by\": [0, 0, 0.25]}]}";
+    (void)state;
+    if (!mkdtemp(folder))
+        return -1;
+    path_of("l.json", lattice);
+    put(lattice, text, sizeof text - 1);
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    char bin[PATH];
+    path_of("m.bin", bin);
+    unlink(bin);
+    unlink(lattice);
+    (void)state;
+    return rmdir(folder);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(memory_of_ours),
+        cmocka_unit_test(memory_of_cpp),
+        cmocka_unit_test(memory_of_jansson),
+    };
+    if (argc != 2)
+        return 2;
+    corpus = argv[1];
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
