@@ -13,7 +13,9 @@ typedef struct file_input {
     bool mapped;
 } file_input;
 
-/* Reads path ("-": standard input; pipes too). Regular files are mapped. A folder is refused (FFD_E_IO). */
+/* Reads path ("-": standard input, also where that is a pipe). Regular files are mapped. A folder, a pipe and
+   a device are refused (FFD_E_IO), but for /dev/stdin, /dev/fd/N and /dev/null; so is a stream that does not
+   end (FFD_E_LIMIT). */
 ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error);
 /* Reads a file that a model refers to: relative must lead to a regular file inside folder, links followed
    (canonical paths are compared). Else FFD_E_IO with `named_by` as the file of the message. */

@@ -10,6 +10,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* What a stream without end is cut off at. */
+#define LONGEST_STREAM ((size_t)1 << 32)
+
 static const unsigned char nothing[1] = {0};
 
 /* Reads what has no size to be mapped: pipes, terminals, /dev/stdin, files of /proc. */
@@ -18,6 +21,10 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
     unsigned char *block = NULL;
     size_t capacity = 0, size = 0;
     for (;;) {
+        if (size >= LONGEST_STREAM) {
+            ffd_free(block);
+            return ffd_fail_file(error, FFD_E_LIMIT, name, "goes on after %zu bytes", size);
+        }
         if (!ffd_grow((void **)&block, &capacity, size + 65536, 1)) {
             ffd_free(block);
             return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
@@ -47,6 +54,26 @@ static ffd_status map_file(int fd, const char *name, size_t size, file_input *in
     return FFD_OK;
 }
 
+/* Names of streams: this process's own descriptors, as shells name them, and the empty file. */
+static bool names_stream(const char *path)
+{
+    static const char *const names[] = {"/dev/stdin", "/dev/fd/", "/proc/self/fd/", "/dev/null"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strncmp(path, names[i], strlen(names[i])) == 0)
+            return true;
+    return false;
+}
+
+/* A pipe or device that lies among files may never give anything, or never end. */
+static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
+{
+    struct stat info;
+    if (names_stream(path) || fstat(fd, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_IO, path, "is a %s, not a file (- reads standard input)",
+                         S_ISFIFO(info.st_mode) ? "pipe" : "device");
+}
+
 static ffd_status load_descriptor(int fd, const char *name, file_input *input, ffd_error *error)
 {
     struct stat info;
@@ -67,10 +94,13 @@ ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error)
     *input = (file_input){.data = nothing};
     if (strcmp(path, "-") == 0)
         return load_descriptor(STDIN_FILENO, "standard input", input, error);
-    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+    /* A pipe is not waited for: it is refused. The flags of descriptors are left alone. */
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | (names_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
     if (fd < 0)
         return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(errno));
-    const ffd_status status = load_descriptor(fd, path, input, error);
+    ffd_status status = refuse_special(fd, path, error);
+    if (!status)
+        status = load_descriptor(fd, path, input, error);
     close(fd);
     return status;
 }
