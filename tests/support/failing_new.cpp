@@ -8,15 +8,19 @@ namespace
 
 std::atomic<long> remaining{-1}, calls{0};
 
+/* NULL: none. */
 void *allocate(std::size_t size)
 {
     calls++;
     const long left = remaining;
-    void *block = nullptr;
     if (left > 0)
         remaining = left - 1;
-    if (left != 0)
-        block = std::malloc(size ? size : 1);
+    return left != 0 ? std::malloc(size ? size : 1) : nullptr;
+}
+
+void *allocate_or_throw(std::size_t size)
+{
+    void *const block = allocate(size);
     if (!block)
         throw std::bad_alloc();
     return block;
@@ -30,13 +34,23 @@ extern "C" long new_fail_after(long successes)
     return calls.exchange(0);
 }
 
-/* The other forms of new and delete call these. */
+/* All forms but those with an alignment, for a sanitizer's own would not call these. */
 void *operator new(std::size_t size)
+{
+    return allocate_or_throw(size);
+}
+
+void *operator new[](std::size_t size)
+{
+    return allocate_or_throw(size);
+}
+
+void *operator new(std::size_t size, const std::nothrow_t &) noexcept
 {
     return allocate(size);
 }
 
-void *operator new[](std::size_t size)
+void *operator new[](std::size_t size, const std::nothrow_t &) noexcept
 {
     return allocate(size);
 }
@@ -57,6 +71,16 @@ void operator delete(void *block, std::size_t) noexcept
 }
 
 void operator delete[](void *block, std::size_t) noexcept
+{
+    std::free(block);
+}
+
+void operator delete(void *block, const std::nothrow_t &) noexcept
+{
+    std::free(block);
+}
+
+void operator delete[](void *block, const std::nothrow_t &) noexcept
 {
     std::free(block);
 }
