@@ -282,6 +282,44 @@ static void metadata_is_skipped(void **state)
     free(bytes);
 }
 
+static ffd_status try_number(unsigned char *bytes, size_t size, size_t at, uint32_t number)
+{
+    const draco_claim claim = {POINTS, 3 * TRIANGLES};
+    draco_mesh *mesh = NULL;
+    ffd_error error = {0};
+    unsigned char kept[4];
+    memcpy(kept, bytes + at, sizeof kept);
+    for (size_t i = 0; i < sizeof kept; i++)
+        bytes[at + i] = (unsigned char)(number >> 8 * i);
+    const ffd_status status = ffd_draco_decode(bytes, size, &claim, &mesh, &error);
+    memcpy(bytes + at, kept, sizeof kept);
+    ffd_draco_free(mesh);
+    return status;
+}
+
+/* Somewhere stands the number of orientations that texture coordinates are predicted with: as many as there
+   are corners are taken, one more is not. */
+static void orientations_are_limited(void **state)
+{
+    (void)state;
+    static grid g;
+    const sample_options options = {.edgebreaker = true, .bits = 10};
+    size_t size, found = 0;
+    make_grid(&g);
+    const sample_mesh mesh = {POINTS, TRIANGLES, g.positions, NULL, g.texcoords, NULL, NULL, g.triangles};
+    unsigned char *bytes = make_draco(&mesh, &options, &size);
+    assert_non_null(bytes);
+    for (size_t at = 11; at + 4 <= size; at++) {
+        bool limit = true;
+        for (uint32_t k = 0; k < 16 && limit; k++)
+            limit = try_number(bytes, size, at, 3 * TRIANGLES - k) == FFD_OK &&
+                    try_number(bytes, size, at, 3 * TRIANGLES + 1 + k) == FFD_E_INVALID;
+        found += limit;
+    }
+    assert_int_equal(found, 1);
+    free(bytes);
+}
+
 /* Cut and changed data ends in success or a refusal; sanitizers watch the memory. */
 static void broken_data_does_no_harm(void **state)
 {
@@ -336,6 +374,7 @@ int main(void)
         cmocka_unit_test(other_data_is_refused),
         cmocka_unit_test(memory_is_asked_for_in_proportion),
         cmocka_unit_test(metadata_is_skipped),
+        cmocka_unit_test(orientations_are_limited),
         cmocka_unit_test(broken_data_does_no_harm),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

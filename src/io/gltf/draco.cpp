@@ -1,6 +1,7 @@
 /* The only place that sees Draco. The library trusts what the data's headers say and makes room for it at
    once; its decoders are derived from here to look at these numbers first. */
 #include "io/gltf/draco.h"
+#include "io/gltf/draco_orientations.h"
 #include "io/gltf/gltf_model.h"
 #include <cstring>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
@@ -109,7 +110,8 @@ template <class Decoder> class careful : public Decoder
             point_size += POINT_MEMORY + attribute->num_components() *
                                              (NUMBER_MEMORY + draco::DataTypeLength(attribute->data_type()));
         }
-        return check_points() && fits(claim.points, point_size) && Decoder::DecodeAllAttributes();
+        return check_points() && fits(claim.points, point_size) && limit_draco_orientations(*this) &&
+               Decoder::DecodeAllAttributes();
     }
 
   private:
