@@ -615,6 +615,47 @@ static void meshopt_that_cannot_be_is_refused(void **state)
     }
 }
 
+static void check_comparison(const char *first, const char *second, double tolerance, bool equal,
+                             const char *difference)
+{
+    mesh_document *a = open_text(first), *b = open_text(second);
+    ffd_comparison comparison;
+    assert_int_equal(gltf->compare(a, b, tolerance, &comparison, NULL), FFD_OK);
+    assert_string_equal(comparison.difference, difference);
+    assert_int_equal(comparison.equal, equal);
+    gltf->close(a);
+    gltf->close(b);
+}
+
+/* Sheets of the same size in which one number differs. */
+static void compressed_data_is_compared_as_what_it_becomes(void **state)
+{
+    (void)state;
+    const char *rest = WITH(DRACO_PRIMITIVE);
+    char *texts[3], *views[3];
+    texts[0] = make_draco_text(false, DRACO_ACCESSORS, rest);
+    views[0] = make_meshopt_text(MESHOPT, FALLBACK, MESHOPT_REST);
+    positions[3 * 7] += 0.125f;
+    texts[1] = make_draco_text(false, DRACO_ACCESSORS, rest);
+    views[1] = make_meshopt_text(MESHOPT, FALLBACK, MESHOPT_REST);
+    positions[3 * 7] -= 0.125f;
+    normals[3 * 7 + 2] += 0.125f;
+    texts[2] = make_draco_text(false, DRACO_ACCESSORS, rest);
+    views[2] = make_meshopt_text(MESHOPT, FALLBACK, MESHOPT_REST);
+    normals[3 * 7 + 2] -= 0.125f;
+    for (int i = 0; i < 3; i++)
+        check_comparison(texts[i], texts[i], 0, true, "");
+    check_comparison(texts[0], texts[1], 0, false, "/accessors/1: vertex 7 has x 0.5 and 0.625");
+    check_comparison(texts[0], texts[1], 0.2, true, "");
+    check_comparison(texts[0], texts[2], 0.2, false, "/accessors/2: its elements differ");
+    for (int i = 0; i < 3; i++)
+        check_comparison(views[i], views[i], 0, true, "");
+    for (int i = 0; i < 3; i++) {
+        ffd_free(texts[i]);
+        ffd_free(views[i]);
+    }
+}
+
 /* Many views of the same few bytes: what they become together is limited. */
 static void many_views_of_the_same_bytes_are_too_much(void **state)
 {
@@ -697,6 +738,7 @@ int main(void)
         cmocka_unit_test(a_changed_meshopt_view_is_written_uncompressed),
         cmocka_unit_test(the_last_meshopt_view_takes_the_extension_along),
         cmocka_unit_test(meshopt_that_cannot_be_is_refused),
+        cmocka_unit_test(compressed_data_is_compared_as_what_it_becomes),
         cmocka_unit_test(many_views_of_the_same_bytes_are_too_much),
         cmocka_unit_test(memory_failures_are_reported),
     };

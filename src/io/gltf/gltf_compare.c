@@ -12,6 +12,7 @@ typedef struct comparer {
     double tolerance;
     ffd_comparison *result;
     bool *is_position; /* an accessor */
+    bool *is_unpacked; /* a view: of Draco data, whose elements are compared in its place */
     ffd_error *error;
 } comparer;
 
@@ -277,39 +278,83 @@ static ffd_status compare_all_positions(const comparer *c)
 /* Sets the positions in b's copy of a view to a's: they are compared by themselves. */
 static void equalize_positions(const comparer *c, size_t view, unsigned char *bytes)
 {
-    const gltf_view *v = &c->a->model.views[view];
+    const unsigned char *mine = ffd_gltf_view_bytes(c->a, view);
     for (size_t a = 0; a < c->a->model.accessor_count; a++) {
         const gltf_accessor *accessor = &c->a->model.accessors[a];
         const gltf_layout *layout = &c->a->layouts[a];
-        if (!c->is_position[a] || accessor->view != (int)view || !layout->data)
+        if (!c->is_position[a] || accessor->view != (int)view || !layout->data ||
+            layout->packing == GLTF_DRACO)
             continue;
         for (size_t i = 0; i < accessor->count; i++) {
             const size_t at = (size_t)(accessor->offset + i * layout->stride);
-            memcpy(bytes + at, c->a->buffers[v->buffer].data + v->offset + at, layout->element_size);
+            memcpy(bytes + at, mine + at, layout->element_size);
         }
     }
 }
 
+/* The bytes of a view, decoded if they can be; else as they are stored. NULL: there are none. */
+static const unsigned char *find_bytes(const gltf_document *d, size_t view, size_t *size)
+{
+    const unsigned char *bytes = ffd_gltf_view_bytes(d, view);
+    *size = (size_t)d->model.views[view].length;
+    return bytes ? bytes : ffd_gltf_compressed_bytes(d, view, size);
+}
+
+static void compare_bytes(const comparer *c, size_t view, const unsigned char *a, const unsigned char *b,
+                          size_t size)
+{
+    for (size_t k = 0; k < size && c->result->equal; k++)
+        if (a[k] != b[k])
+            differ(c, "/bufferViews/%zu: byte %zu is 0x%02x and 0x%02x", view, k, (unsigned)a[k],
+                   (unsigned)b[k]);
+}
+
 static ffd_status compare_view(const comparer *c, size_t i)
 {
-    const gltf_view *v = &c->a->model.views[i], *w = &c->b->model.views[i];
-    const gltf_buffer *a = &c->a->buffers[v->buffer], *b = &c->b->buffers[w->buffer];
-    if (!a->data != !b->data)
+    size_t size, other_size;
+    const unsigned char *a = find_bytes(c->a, i, &size), *b = find_bytes(c->b, i, &other_size);
+    if (!a != !b || (a && size != other_size))
         differ(c, "/bufferViews/%zu: only one file has its bytes", i);
-    if (!a->data || !b->data || memcmp(a->data + v->offset, b->data + w->offset, (size_t)v->length) == 0)
+    if (!a || !b || size != other_size || memcmp(a, b, size) == 0)
         return FFD_OK;
-    unsigned char *bytes = ffd_alloc((size_t)v->length, 1);
+    if (!ffd_gltf_view_bytes(c->a, i)) { /* nobody can tell what is in it */
+        compare_bytes(c, i, a, b, size);
+        return FFD_OK;
+    }
+    unsigned char *bytes = ffd_alloc(size, 1);
     if (!bytes)
         return ffd_fail_memory(c->error);
-    memcpy(bytes, b->data + w->offset, (size_t)v->length);
+    memcpy(bytes, b, size);
     equalize_positions(c, i, bytes);
-    const unsigned char *mine = a->data + v->offset;
-    for (size_t k = 0; k < v->length && c->result->equal; k++)
-        if (bytes[k] != mine[k])
-            differ(c, "/bufferViews/%zu: byte %zu is 0x%02x and 0x%02x", i, k, (unsigned)mine[k],
-                   (unsigned)bytes[k]);
+    compare_bytes(c, i, a, bytes, size);
     ffd_free(bytes);
     return FFD_OK;
+}
+
+/* Elements out of Draco data that are no positions. */
+static void compare_unpacked(const comparer *c, size_t accessor)
+{
+    const gltf_unpacked *a = &c->a->unpacked[accessor], *b = &c->b->unpacked[accessor];
+    if (!a->bytes || c->is_position[accessor])
+        return;
+    if (!b->bytes || a->size != b->size || memcmp(a->bytes, b->bytes, a->size) != 0)
+        differ(c, "/accessors/%zu: its elements differ", accessor);
+}
+
+static void find_unpacked(const gltf_document *d, bool *is_unpacked)
+{
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        if (d->unpacked[a].bytes)
+            is_unpacked[d->unpacked[a].view] = true;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
+            double view;
+            const uint32_t value =
+                ffd_json_span_member(&d->tree, ffd_gltf_draco_value(d, m, p), "bufferView");
+            if (d->draco_problems[d->first_primitive[m] + p] &&
+                ffd_json_span_number(&d->tree, value, &view) && view < (double)d->model.view_count)
+                is_unpacked[(size_t)view] = false;
+        }
 }
 
 ffd_status ffd_gltf_compare(const mesh_document *first, const mesh_document *second, double tolerance,
@@ -317,20 +362,30 @@ ffd_status ffd_gltf_compare(const mesh_document *first, const mesh_document *sec
 {
     const gltf_document *a = ffd_gltf_of(first), *b = ffd_gltf_of(second);
     *comparison = (ffd_comparison){.equal = true};
-    comparer c = {a, b, tolerance, comparison, NULL, error};
+    comparer c = {a, b, tolerance, comparison, NULL, NULL, error};
+    ffd_status status = FFD_OK;
     c.is_position = ffd_alloc_zero(a->model.accessor_count, sizeof *c.is_position);
-    if (!c.is_position)
-        return ffd_fail_memory(error);
+    c.is_unpacked = ffd_alloc_zero(a->model.view_count, sizeof *c.is_unpacked);
+    if (!c.is_position || !c.is_unpacked) {
+        status = ffd_fail_memory(error);
+        goto done;
+    }
     for (size_t m = 0; m < a->model.mesh_count; m++)
         for (size_t p = 0; p < a->model.meshes[m].primitive_count; p++)
             if (a->model.meshes[m].primitives[p].accessor[GLTF_POSITION] >= 0)
                 c.is_position[a->model.meshes[m].primitives[p].accessor[GLTF_POSITION]] = true;
-    ffd_status status = compare_values(&c, 0, 0);
+    find_unpacked(a, c.is_unpacked);
+    status = compare_values(&c, 0, 0);
     /* Equal JSON: accessors and views are the same in both. */
     if (status == FFD_OK && comparison->equal)
         status = compare_all_positions(&c);
     for (size_t i = 0; i < a->model.view_count && status == FFD_OK && comparison->equal; i++)
-        status = compare_view(&c, i);
+        if (!c.is_unpacked[i])
+            status = compare_view(&c, i);
+    for (size_t i = 0; i < a->model.accessor_count && status == FFD_OK && comparison->equal; i++)
+        compare_unpacked(&c, i);
+done:
     ffd_free(c.is_position);
+    ffd_free(c.is_unpacked);
     return status;
 }

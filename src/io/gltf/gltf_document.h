@@ -146,6 +146,8 @@ ffd_status ffd_gltf_decode_views(gltf_document *document, ffd_error *error);
 uint32_t ffd_gltf_meshopt_value(const gltf_document *document, size_t view);
 /* The bytes of a view, decoded; NULL: there are none. */
 const unsigned char *ffd_gltf_view_bytes(const gltf_document *document, size_t view);
+/* The bytes that a compressed view is stored in; NULL: it is not compressed, or they are not there. */
+const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *document, size_t view, size_t *size);
 /* Says why a compressed view was left out. */
 ffd_status ffd_gltf_refuse_view(const gltf_document *document, size_t view, ffd_error *error);
 /* Counts bytes of memory that compressed data takes; FFD_E_LIMIT at value where they are out of proportion to

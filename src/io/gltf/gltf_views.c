@@ -107,6 +107,16 @@ static ffd_status find_bytes(const gltf_document *d, uint32_t value, meshopt_vie
     return FFD_OK;
 }
 
+const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *d, size_t view, size_t *size)
+{
+    const uint32_t value = ffd_gltf_meshopt_value(d, view);
+    meshopt_view found = {0};
+    if (value == JSON_NONE || find_bytes(d, value, &found, NULL))
+        return NULL;
+    *size = found.size;
+    return found.bytes;
+}
+
 /* Reads the extension of view i and says what it cannot be. */
 static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_view *view, ffd_error *error)
 {
