@@ -52,6 +52,24 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
     return ffd_boundary_create(made->lattice, &made->border, error);
 }
 
+bounds ffd_chain_reach(const lattice_chain *chain, size_t link)
+{
+    const chain_outside *outside = &chain->outside;
+    const bool everywhere = outside->extend && !(outside->falloff > 0);
+    const double beyond = everywhere ? HUGE_VAL : outside->extend ? outside->falloff : 0;
+    const ffd_lattice *lattice = chain->links[link].lattice;
+    bounds box;
+    for (int a = 0; a < 3; a++)
+        box.lo[a] = box.hi[a] = lattice->rest[a];
+    for (size_t i = 1; i < lattice->count; i++)
+        bounds_add(&box, lattice->rest + 3 * i);
+    for (int a = 0; a < 3; a++) {
+        box.lo[a] -= beyond;
+        box.hi[a] += beyond;
+    }
+    return box;
+}
+
 static bool has_place(const ffd_location *location)
 {
     return location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID &&

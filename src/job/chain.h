@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "embed/boundary.h"
+#include "embed/box_tree.h"
 #include <ffd/embedding.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
@@ -34,6 +35,10 @@ void ffd_chain_free(lattice_chain *chain);
 
 /* Makes what a link whose lattice has its place searches with. */
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error);
+
+/* Beyond it a link, whose lattice has its place, moves nothing: the bounds of the control points hold the
+   volume, and what is extended goes on from there. */
+bounds ffd_chain_reach(const lattice_chain *chain, size_t link);
 
 /* What the links have done to one point. */
 typedef struct chain_point {

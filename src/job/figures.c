@@ -88,7 +88,7 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     result->det_max = job->totals.det_max;
     if (!arrays->has_faces)
         return FFD_OK;
-    if (job->desc->only_count)
+    if (!ffd_selection_is_all(job->document))
         status = ffd_selection_reduce(job->document, &arrays->faces, error);
     if (status)
         return status;

@@ -1,6 +1,7 @@
 #include "base/memory.h"
 #include "job/pass.h"
 #include "job/source.h"
+#include <math.h>
 #include <string.h>
 
 /* The positions of all vertices in the lattice's space (free with ffd_free); NULL when there is no memory. */
@@ -21,6 +22,7 @@ static double *all_positions(const mesh_document *document, uint64_t count)
 static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *desc, ffd_lattice **lattice,
                                ffd_error *error)
 {
+    static const ffd_bounds everywhere = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
     mesh_document *document;
     ffd_status status = ffd_source_open(mesh, &document, error);
     if (status != FFD_OK)
@@ -28,6 +30,8 @@ static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *d
     const uint64_t count = ffd_pass_vertex_count(document);
     double *xyz = NULL;
     status = document->format->check(document, error);
+    if (status == FFD_OK && document->format->check_reach)
+        status = document->format->check_reach(document, &everywhere, error);
     if (status == FFD_OK) {
         xyz = all_positions(document, count);
         status = xyz ? ffd_lattice_create(desc, xyz, (size_t)count, lattice, error) : ffd_fail_memory(error);

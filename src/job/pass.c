@@ -310,7 +310,7 @@ static void spread(tile_scratch *scratch, size_t count)
             scratch->points[i] = scratch->points[left];
         } else {
             memcpy(scratch->place + 3 * i, scratch->before + 3 * i, 3 * sizeof *scratch->place);
-            scratch->points[i] = (chain_point){0};
+            scratch->points[i] = (chain_point){.uvw = {NAN, NAN, NAN}, .status = FFD_OUTSIDE};
         }
 }
 

@@ -8,6 +8,22 @@
 #include <stdio.h>
 #include <string.h>
 
+/* What cannot be deformed must be out of reach. chain NULL: of a lattice round the mesh, which reaches all.
+ */
+static ffd_status check_reach(const lattice_chain *chain, size_t link, const mesh_document *document,
+                              ffd_error *error)
+{
+    ffd_bounds box = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    if (!document->format->check_reach)
+        return FFD_OK;
+    if (chain) {
+        const bounds reach = ffd_chain_reach(chain, link);
+        memcpy(box.min, reach.lo, sizeof box.min);
+        memcpy(box.max, reach.hi, sizeof box.max);
+    }
+    return document->format->check_reach(document, &box, error);
+}
+
 ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
 {
     for (size_t l = 0; l < chain->count; l++) {
@@ -16,7 +32,9 @@ ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int th
             continue;
         const mesh_pass pass = {.document = document, .chain = chain, .links = l, .threads = threads};
         pass_totals totals;
-        ffd_status status = ffd_pass_run(&pass, &totals, error);
+        ffd_status status = check_reach(NULL, l, document, error);
+        if (!status)
+            status = ffd_pass_run(&pass, &totals, error);
         if (status)
             return status;
         /* Of a mesh without vertices nothing will be asked. */
@@ -34,7 +52,10 @@ ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int th
             return status;
         }
     }
-    return FFD_OK;
+    ffd_status status = FFD_OK;
+    for (size_t l = 0; l < chain->count && !status; l++)
+        status = check_reach(chain, l, document, error);
+    return status;
 }
 
 void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds)

@@ -423,25 +423,11 @@ static ffd_status join_tiles(const edge_work *work, size_t tiles, edge_quality *
     return FFD_OK;
 }
 
-/* The bounds of the control points hold the volume. */
 static bool find_reach(edge_work *work)
 {
-    const chain_outside *outside = &work->chain->outside;
-    const bool everywhere = outside->extend && !(outside->falloff > 0);
-    const double beyond = everywhere ? HUGE_VAL : outside->extend ? outside->falloff : 0;
     work->reach = ffd_alloc(work->chain->count, sizeof *work->reach);
-    for (size_t k = 0; work->reach && k < work->chain->count; k++) {
-        const ffd_lattice *lattice = work->chain->links[k].lattice;
-        bounds *box = &work->reach[k];
-        for (int a = 0; a < 3; a++)
-            box->lo[a] = box->hi[a] = lattice->rest[a];
-        for (size_t i = 1; i < lattice->count; i++)
-            bounds_add(box, lattice->rest + 3 * i);
-        for (int a = 0; a < 3; a++) {
-            box->lo[a] -= beyond;
-            box->hi[a] += beyond;
-        }
-    }
+    for (size_t k = 0; work->reach && k < work->chain->count; k++)
+        work->reach[k] = ffd_chain_reach(work->chain, k);
     return work->reach;
 }
 

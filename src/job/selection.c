@@ -27,6 +27,14 @@ ffd_status ffd_selection_apply(const ffd_deform_desc *desc, const char *name, me
     return status;
 }
 
+bool ffd_selection_is_all(const mesh_document *document)
+{
+    for (size_t i = 0; i < document->part_count; i++)
+        if (document->parts[i].skipped || document->parts[i].selected)
+            return false;
+    return true;
+}
+
 /* One byte a vertex of the document. */
 static void mark_selected(const mesh_document *document, uint8_t *marks)
 {

@@ -12,4 +12,7 @@ ffd_status ffd_selection_apply(const ffd_deform_desc *desc, const char *name, me
 /* Drops the faces that have a vertex which is not selected. Errors: FFD_E_MEMORY. */
 ffd_status ffd_selection_reduce(const mesh_document *document, mesh_faces *faces, ffd_error *error);
 
+/* Whether all vertices of the document are selected. */
+bool ffd_selection_is_all(const mesh_document *document);
+
 #endif

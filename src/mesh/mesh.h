@@ -113,7 +113,10 @@ typedef struct mesh_format {
        pass. */
     ffd_status (*check)(const mesh_document *document, ffd_error *error);
     double largest_coordinate; /* that the format's numbers can hold */
-    bool normals_of_faces;     /* faces have normals, which saving renews, and vertices none */
+    /* Refuses (FFD_E_UNSUPPORTED) if, in a box of the lattice's space (edges may be infinite), the document
+       shows something that its parts cannot change and that is selected. NULL: the parts are all. */
+    ffd_status (*check_reach)(const mesh_document *document, const ffd_bounds *reach, ffd_error *error);
+    bool normals_of_faces; /* faces have normals, which saving renews, and vertices none */
 
     /* From now on only what one of the selectors names is moved, counted and written: sets selected and
        skipped of the parts, whose numbers and vertices stay. At most once, before results. selector_kinds is

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What a glTF scene shows is what is deformed: skins, morph targets."""
+"""What a glTF scene shows is what is deformed: skins, morph targets, instances, and which scene it is."""
 
 import json
 import re
 import struct
 
-from harness import (EMBEDDING, INVALID, NO, OK, case, check, equal, glb, glb_split, gltf_vectors, lattice, main, near)
+from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, case, check, equal, glb, glb_split, gltf_vectors, lattice, main, near, npy)
 
-CODES = {5121: "B", 5123: "H", 5126: "f"}
+CODES = {5120: "b", 5121: "B", 5123: "H", 5126: "f"}
 WIDTHS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 # Everything within 10 of the origin by 1 along x; the volume is an affine map.
 SHIFT = lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=[{"by": [1, 0, 0]}])
@@ -471,6 +471,152 @@ def broken_targets_are_refused(run):
     scene = morphed([{"POSITION": [[-huge, 0.0, 0.0]] * 2}], [[huge, 0.0, 0.0]] * 2)
     run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"by": [-1e38, 0, 0]}]))
     refused(scene, "too large for the file's numbers")
+
+
+def instanced(translations, nodes=(), **attributes):
+    """Node 0: one mesh of two points, at the places given and 2 beside them."""
+    scene = Scene(nodes=[{"mesh": 0, "name": "many"}, *nodes], scenes=[{"nodes": list(range(1 + len(nodes)))}],
+                  extensionsUsed=["EXT_mesh_gpu_instancing"])
+    points = scene.add([[0.0, 0.0, 0.0], [2.0, 1.0, 0.0]], bounds=True)
+    scene.asset["meshes"] = [{"name": "pair", "primitives": [{"attributes": {"POSITION": points}, "mode": 0}]}]
+    scene.attributes = {"TRANSLATION": scene.add(translations), **attributes}
+    scene.asset["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": scene.attributes}}
+    return scene
+
+
+def refused_instances(run, scene, *options, box=SHIFT):
+    run.write("in.glb", scene.glb())
+    run.ffd("deform", "in.glb", "no.glb", "-l", run.write("l.json", box), *options, code=UNSUPPORTED,
+            err=re.compile("/nodes/0/extensions/EXT_mesh_gpu_instancing: EXT_mesh_gpu_instancing is not supported "
+                           "where the lattice reaches the instances"))
+    check(not run.exists("no.glb"), "an output")
+
+
+LEFT = "in.glb: 1 node with EXT_mesh_gpu_instancing, out of the lattice's reach: left as it is"
+
+
+@case
+def instances_in_the_lattice_are_refused(run):
+    refused_instances(run, instanced([[0.0, 0.0, 0.0]]))
+    refused_instances(run, instanced([[50.0, 0.0, 0.0], [11.0, 0.0, 0.0], [-11.5, 0.0, 0.0]]))
+    refused_instances(run, instanced([[50.0, 0.0, 0.0]]), box=lattice(rest={"box": "mesh"}, moves=[{"by": [1, 0, 0]}]))
+    refused_instances(run, instanced([[50.0, 0.0, 0.0]]), "--outside", "extend")
+    refused_instances(run, instanced([[15.0, 0.0, 0.0]]), "--outside", "extend", "--falloff", "6")
+    far = instanced([[11.0, 0.0, 0.0]])
+    far.asset["nodes"][0]["scale"] = [0.5, 1, 1]
+    refused_instances(run, far)
+    far = instanced([[11.0, 0.0, 0.0]])
+    far.attributes["SCALE"] = far.add([[-1.0, 1.0, 1.0]])
+    refused_instances(run, far)
+    far = instanced([[11.0, 0.0, 0.0]])
+    far.attributes["ROTATION"] = far.add([[0, 0, 127, 0]], 5120, "VEC4", normalized=True)
+    refused_instances(run, far)
+    far = instanced([[50.0, 0.0, 0.0]])
+    far.asset["nodes"][0]["skin"] = 0
+    far.asset["skins"] = [{"joints": [0]}]
+    joints, weights = far.add([[0, 0, 0, 0]] * 2, 5121, "VEC4"), far.add([[1.0, 0, 0, 0]] * 2, shape="VEC4")
+    far.asset["meshes"][0]["primitives"][0]["attributes"] |= {"JOINTS_0": joints, "WEIGHTS_0": weights}
+    refused_instances(run, far)
+    far = instanced([[50.0, 0.0, 0.0]])
+    far.asset["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = {}
+    refused_instances(run, far)
+    run.ffd("lattice", "new", "in.glb", "-o", "new.json", code=UNSUPPORTED)
+    run.ffd("check", "in.glb", "-l", "l.json", code=UNSUPPORTED)
+    run.ffd("info", "in.glb", "--json")
+
+
+@case
+def instances_out_of_reach_are_left_alone(run):
+    scene = instanced([[11.0, 0.0, 0.0], [-13.0, 0.0, 0.0]])
+    run.write("in.glb", scene.glb())
+    run.write("l.json", SHIFT)
+    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", err=[LEFT])
+    equal(run.read("out.glb"), run.read("in.glb"))
+    # The same mesh under nodes without instances: a copy of it.
+    for nodes in ([{"mesh": 0}, {"mesh": 0, "translation": [100, 0, 0]}],):
+        scene = instanced([[11.0, 0.0, 0.0]], nodes)
+        run.write("in.glb", scene.glb())
+        done = run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--report", "r.json", lines=2)
+        check(LEFT in done.err, done.err)
+        asset, data = glb_split(run.read("out.glb"))
+        equal([node["mesh"] for node in asset["nodes"]], [0, 1, 0])
+        near(gltf_vectors(asset, data, asset["meshes"][1]["primitives"][0]["attributes"]["POSITION"]),
+             [[1, 0, 0], [3, 1, 0]], 1e-6)
+        equal(gltf_vectors(asset, data, 0), [[0, 0, 0], [2, 1, 0]])
+        job = json.loads(run.text("r.json"))["jobs"][0]
+        equal((job["vertices"], job["moved"], job["outside"]), (4, 2, 2))
+    # u,v,w of all that is shown.
+    run.ffd("embed", "in.glb", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", lines=1)
+    equal(npy(run.read("s.npy"))[2], [1, 1, 0, 0, 1, 1])
+    run.ffd("deform", "in.glb", "again.glb", "-l", "l.json", "--embedding", "e.npy", lines=2)
+    equal(run.read("again.glb"), run.read("out.glb"))
+
+
+@case
+def instances_and_selection(run):
+    scene = instanced([[0.0, 0.0, 0.0]], [{"mesh": 0, "name": "one"}, {"mesh": 1, "name": "other"}])
+    scene.asset["meshes"].append({"name": "single", "primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]})
+    run.write("in.glb", scene.glb())
+    run.write("l.json", SHIFT)
+    for only, meshes in (("node:one", [0, 2, 1]), ("mesh:single", [0, 0, 1])):
+        run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--only", only, lines=1)
+        asset, _ = glb_split(run.read("out.glb"))
+        equal([node["mesh"] for node in asset["nodes"]], meshes, only)
+        check(run.read("out.glb") != run.read("in.glb"), "nothing is moved by", only)
+    for only in ("node:many", "mesh:pair"):
+        refused_instances(run, scene, "--only", only)
+
+
+@case
+def instances_in_mesh_space_and_broken_ones(run):
+    scene = instanced([[0.0, 0.0, 0.0]])
+    near(vectors(deformed(run, scene, SHIFT, "--space", "mesh"), 0), [[1, 0, 0], [3, 1, 0]], 1e-6)
+    for attributes, message in (({"TRANSLATION": 9}, "is not the number of one of the 2 accessors"),
+                                ({"ROTATION": 1}, "accessor 1 is no VEC4"),
+                                ({"TRANSLATION": 0, "SCALE": 1}, "accessor 1 has 1 elements, another attribute has 2"),
+                                ({"SCALE": "1"}, "is not the number")):
+        scene.asset["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes
+        run.write("in.glb", scene.glb())
+        run.ffd("deform", "in.glb", "no.glb", "-l", "l.json", code=INVALID, err=re.compile(message))
+
+
+@case
+def the_scene_that_is_shown(run):
+    def places(scene, **expected):
+        run.write("in.glb", scene.glb())
+        run.write("l.json", SHIFT)
+        run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", **expected)
+        asset, data = glb_split(run.read("out.glb"))
+        return [gltf_vectors(asset, data, mesh["primitives"][0]["attributes"]["POSITION"])[0][0]
+                for mesh in asset["meshes"]]
+
+    def three_meshes(**members):
+        scene = Scene(nodes=[{"mesh": 0}, {"mesh": 1, "children": [2]}, {"mesh": 2}], **members)
+        scene.asset["meshes"] = [{"primitives": [{"attributes": {
+            "POSITION": scene.add([[float(i), 0.0, 0.0]], bounds=True)}, "mode": 0}]} for i in range(3)]
+        return scene
+
+    one = "in.glb: 1 node with a mesh is not in the scene that is shown: left as it is"
+    two = "in.glb: 2 nodes with a mesh are not in the scene that is shown: left as they are"
+    near(places(three_meshes()), [1, 2, 3], 1e-6)
+    near(places(three_meshes(scenes=[])), [1, 2, 3], 1e-6)
+    near(places(three_meshes(scenes=[{"nodes": [1]}, {"nodes": [0]}]), err=one), [0, 2, 3], 1e-6)
+    near(places(three_meshes(scenes=[{"nodes": [1]}, {"nodes": [0]}], scene=1), err=two), [1, 1, 2], 1e-6)
+    near(places(three_meshes(scenes=[{}, {"nodes": [0, 1]}], scene=1)), [1, 2, 3], 1e-6)
+    scene = three_meshes(scenes=[{"nodes": [0]}])
+    scene.asset["nodes"] = [{"mesh": 0}]
+    near(places(scene, err="in.glb: 2 meshes that no node has: left as they are"), [1, 1, 2], 1e-6)
+    # All of them in mesh space.
+    run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--space", "mesh")
+    equal([v[0][0] for v in (vectors(run.read("out.glb"), i) for i in range(3))], [1, 2, 3])
+    # A mesh that another scene shows too keeps its content there.
+    scene = three_meshes(scenes=[{"nodes": [0]}, {"nodes": [1]}])
+    scene.asset["nodes"][1]["mesh"] = 0
+    near(places(scene, lines=2), [0, 1, 2, 1], 1e-6)
+    # Nothing is shown: nothing changes.
+    scene = three_meshes(scenes=[{}])
+    places(scene, lines=1)
+    equal(run.read("out.glb"), run.read("in.glb"))
 
 
 main()

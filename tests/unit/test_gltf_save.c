@@ -136,7 +136,8 @@ static void check_conversion(const char *text, ffd_space space, mover move, cons
     if (log)
         assert_string_equal(lines.text, log);
     else
-        assert_non_null(strstr(lines.text, "1 node with a mesh, not in the scene shown: left alone"));
+        assert_non_null(
+            strstr(lines.text, "1 node with a mesh is not in the scene that is shown: left as it is"));
 }
 
 static void only_what_changes_is_replaced(void **state)

@@ -233,6 +233,7 @@ static void free_document(gltf_document *d)
     ffd_free(d->mesh_parts);
     ffd_free(d->shapes);
     ffd_free(d->targets);
+    ffd_free(d->crowds);
     ffd_free(d->path);
     ffd_free(d);
 }
@@ -265,8 +266,11 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (status == FFD_OK)
         status = ffd_gltf_make_shapes(d, error);
     if (status == FFD_OK)
+        d->crowds_status = ffd_gltf_make_crowds(d, &d->crowds_error);
+    if (status == FFD_OK)
         d->skins_status = ffd_gltf_place_skins(d, &d->skins_error);
-    return status == FFD_OK && d->skins_status == FFD_E_MEMORY ? ffd_fail_memory(error) : status;
+    const bool no_memory = d->skins_status == FFD_E_MEMORY || d->crowds_status == FFD_E_MEMORY;
+    return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
 }
 
 static ffd_status open_document(file_input *input, const ffd_source *source, mesh_document **document,
@@ -343,6 +347,7 @@ const mesh_format ffd_gltf_format = {
     .open = open_document,
     .close = close_document,
     .check = check,
+    .check_reach = ffd_gltf_check_reach,
     .largest_coordinate = FLT_MAX,
     .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
     .select = ffd_gltf_select,

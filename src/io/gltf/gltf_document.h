@@ -64,6 +64,16 @@ typedef struct gltf_part {
     size_t first_shape; /* document->shapes holds the part's morph targets from here */
 } gltf_part;
 
+/* The instances of a node with EXT_mesh_gpu_instancing. */
+typedef struct gltf_crowd {
+    size_t node;
+    size_t translation, rotation, scale; /* accessors; GLTF_NONE: absent */
+    uint64_t count;
+    ffd_bounds mesh; /* of the mesh in its own space; min > max: no vertices */
+    bool everywhere; /* nothing more is known of their places */
+    bool idle;       /* not selected */
+} gltf_crowd;
+
 /* A primitive under a node that shows it (or by itself, in mesh space). */
 typedef struct gltf_instance {
     size_t part[GLTF_DEFORMED]; /* where its attribute is deformed; GLTF_NONE: has none, or cannot be read */
@@ -76,6 +86,7 @@ typedef struct gltf_showing {
     size_t first_instance;
     size_t *nodes;     /* lent by document->shown_nodes; ascending */
     size_t node_count; /* in mesh space 1, nodes is NULL */
+    bool is_used;      /* by a node */
     bool hidden_too;   /* some node outside the shown scene uses it, or none at all */
 } gltf_showing;
 
@@ -120,6 +131,11 @@ typedef struct gltf_document {
     mesh_part *mesh_parts;
     mesh_shape *shapes; /* morph targets of all parts, those of a part one behind the other */
     size_t shape_count;
+    gltf_crowd *crowds; /* by node */
+    size_t crowd_count;
+    /* What keeps their places from being known: such a document can only be described. */
+    ffd_status crowds_status;
+    ffd_error crowds_error;
     size_t *targets; /* of the instances' morph targets: the part that holds the offsets; GLTF_NONE: nothing
                         that is deformed */
 } gltf_document;
@@ -160,6 +176,11 @@ ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, siz
                                  ffd_error *error);
 /* gltf_scene.c: which nodes are shown, and their matrices. Refuses cycles and second parents. */
 ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
+/* The node's own matrix, linear row by row and offset. */
+void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3]);
+/* joined (12 numbers) = parent (likewise) * (linear, offset). */
+void ffd_gltf_join_matrix(const double parent[12], const double linear[9], const double offset[3],
+                          double joined[12]);
 /* gltf_skin.c. list: reads the skins. place: gives the skins of shown nodes their matrices, and checks what
    weighs them. */
 ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
@@ -172,6 +193,12 @@ void ffd_gltf_read_transforms(const mesh_document *document, size_t part, size_t
 ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
 /* gltf_shapes.c: the morph targets of the parts. Comes after ffd_gltf_make_parts. */
 ffd_status ffd_gltf_make_shapes(gltf_document *document, ffd_error *error);
+/* gltf_instancing.c. make: finds the nodes with EXT_mesh_gpu_instancing; nothing of them is selected. Comes
+   after ffd_gltf_make_parts. */
+ffd_status ffd_gltf_make_crowds(gltf_document *document, ffd_error *error);
+/* That of a node; NULL: it shows its mesh once, or not at all. */
+gltf_crowd *ffd_gltf_crowd_of(const gltf_document *document, size_t node);
+ffd_status ffd_gltf_check_reach(const mesh_document *document, const ffd_bounds *reach, ffd_error *error);
 /* Parts and shapes. */
 static inline size_t ffd_gltf_part_count(const gltf_document *document)
 {

@@ -54,14 +54,6 @@ static ffd_status refuse_unknown_extensions(const gltf_document *d, ffd_error *e
     return status;
 }
 
-static ffd_status refuse_node(const gltf_document *d, size_t n, ffd_error *error)
-{
-    const uint32_t value = d->node_values.values[n];
-    if (ffd_gltf_has_extension(d, value, "EXT_mesh_gpu_instancing"))
-        return refuse(d, value, error, "EXT_mesh_gpu_instancing is not supported in scene space");
-    return FFD_OK;
-}
-
 ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_t primitive, int accessor,
                                       ffd_error *error)
 {
@@ -148,10 +140,13 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
             *error = d->skins_error;
         return d->skins_status;
     }
+    if (status == FFD_OK && d->crowds_status) {
+        if (error)
+            *error = d->crowds_error;
+        return d->crowds_status;
+    }
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         const gltf_showing *showing = &d->showings[m];
-        for (size_t n = 0; showing->nodes && n < showing->node_count && status == FFD_OK; n++)
-            status = refuse_node(d, showing->nodes[n], error);
         for (size_t p = 0;
              p < d->model.meshes[m].primitive_count && showing->node_count > 0 && status == FFD_OK; p++)
             status = refuse_primitive(d, m, p, error);

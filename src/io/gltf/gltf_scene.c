@@ -6,7 +6,7 @@
 
 /* The node's own matrix, linear row by row and offset; T R S with the quaternion x,y,z,w (glTF 2.0, 3.5.3).
  */
-static void local_matrix(const gltf_node *node, double linear[9], double offset[3])
+void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3])
 {
     if (node->has_matrix) {
         for (int r = 0; r < 3; r++) {
@@ -27,20 +27,26 @@ static void local_matrix(const gltf_node *node, double linear[9], double offset[
     }
 }
 
+void ffd_gltf_join_matrix(const double parent[12], const double linear[9], const double offset[3],
+                          double joined[12])
+{
+    mat_multiply(parent, linear, joined);
+    mat_apply(parent, offset, joined + 9);
+    for (int i = 0; i < 3; i++)
+        joined[9 + i] += parent[9 + i];
+}
+
 static void place(gltf_document *d, size_t n, const double *parent)
 {
     double *world = d->world + 12 * n;
     double linear[9], offset[3];
-    local_matrix(&d->model.nodes[n], linear, offset);
-    if (!parent) {
-        memcpy(world, linear, sizeof linear);
-        memcpy(world + 9, offset, sizeof offset);
+    ffd_gltf_local_matrix(&d->model.nodes[n], linear, offset);
+    if (parent) {
+        ffd_gltf_join_matrix(parent, linear, offset, world);
         return;
     }
-    mat_multiply(parent, linear, world);
-    mat_apply(parent, offset, world + 9);
-    for (int i = 0; i < 3; i++)
-        world[9 + i] += parent[9 + i];
+    memcpy(world, linear, sizeof linear);
+    memcpy(world + 9, offset, sizeof offset);
 }
 
 static void find_parents(gltf_document *d, size_t *parents)
@@ -158,6 +164,7 @@ static ffd_status list_nodes(gltf_document *d, ffd_error *error)
         if (model->nodes[n].mesh < 0)
             continue;
         gltf_showing *showing = &d->showings[model->nodes[n].mesh];
+        showing->is_used = true;
         showing->node_count += d->is_shown[n];
         showing->hidden_too = showing->hidden_too || !d->is_shown[n];
         d->hidden_nodes += !d->is_shown[n];

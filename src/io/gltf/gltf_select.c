@@ -145,7 +145,11 @@ static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_e
     const bool everywhere = s->meshes[m] || has_material(s, m, p);
     bool any = false;
     for (size_t n = 0; n < showing->node_count; n++) {
-        instances[n].selected = everywhere || (showing->nodes && s->nodes[showing->nodes[n]]);
+        const bool wanted = everywhere || (showing->nodes && s->nodes[showing->nodes[n]]);
+        gltf_crowd *crowd = showing->nodes ? ffd_gltf_crowd_of(d, showing->nodes[n]) : NULL;
+        instances[n].selected = wanted && !crowd;
+        if (wanted && crowd)
+            crowd->idle = false;
         any = any || (instances[n].selected && instances[n].part[GLTF_POSITION] != GLTF_NONE);
     }
     if (!any)
@@ -171,6 +175,8 @@ static ffd_status select_all(selecting *s, ffd_error *error)
     mark_meshes_of_nodes(s);
     for (size_t i = 0; i < d->base.part_count; i++)
         d->mesh_parts[i].skipped = true;
+    for (size_t i = 0; i < d->crowd_count; i++)
+        d->crowds[i].idle = true;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
             status = select_primitive(s, m, p, error);

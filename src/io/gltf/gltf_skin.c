@@ -106,15 +106,6 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
     return FFD_OK;
 }
 
-/* out = a b, of matrices of 12 numbers. */
-static void join(const double a[12], const double b[12], double out[12])
-{
-    mat_multiply(a, b, out);
-    mat_apply(a, b + 9, out + 9);
-    for (int r = 0; r < 3; r++)
-        out[9 + r] += a[9 + r];
-}
-
 static ffd_status place_joints(const gltf_document *d, gltf_skin *skin, ffd_error *error)
 {
     skin->matrices = ffd_alloc_zero(skin->joint_count, 12 * sizeof *skin->matrices);
@@ -132,7 +123,7 @@ static ffd_status place_joints(const gltf_document *d, gltf_skin *skin, ffd_erro
             const ffd_status failed = read_inverse_bind(d, skin, j, bind, error);
             if (failed)
                 return failed;
-            join(world, bind, matrix);
+            ffd_gltf_join_matrix(world, bind, bind + 9, matrix);
         }
         for (int i = 0; i < 12; i++)
             if (!isfinite(matrix[i]))
