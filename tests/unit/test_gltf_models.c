@@ -193,7 +193,7 @@ static void moved_models_show_what_was_asked_for(void **state)
             fail_msg("%s: %s", models[m], error.message);
         assert_int_equal(a->part_count, b->part_count);
         for (size_t part = 0; part < a->part_count; part++)
-            for (size_t i = 0; i < a->parts[part].vertex_count; i++) {
+            for (size_t i = 0; i < a->parts[part].vertex_count && !a->parts[part].skipped; i++) {
                 double xyz[3], place[3], moved[3];
                 gltf->read_positions(a, part, i, 1, xyz);
                 memcpy(place, xyz, sizeof place);
