@@ -4,6 +4,7 @@
 //   part    some of the model, only inner control points moved, so that some vertices must keep their bits
 //   shared  one box for all models, so that positions can be compared across files
 //   still   all of the model, nothing moved
+//   beside  none of the model, everything moved
 import { add, length, scale, subtract } from './matrix.mjs';
 import { Volume } from './volume.mjs';
 
@@ -75,6 +76,13 @@ function part(low, high) {
     return { volume, moves: [{ at: [[1, 2], 2, [1, 2]], by }] };
 }
 
+function beside({ low, high }) {
+    const far = subtract(high, low).map((x) => 1000 * x);
+    const volume = new Volume({ size: [2, 2, 2], degree: [1, 1, 1], knots: CLAMPED, low: add(low, far), high: add(high, far) },
+        (points) => points);
+    return { volume, moves: [{ by: [1, 1, 1] }] };
+}
+
 export function latticesOf({ low, high }) {
     // Room for flat models too.
     const room = 0.07 * (length(subtract(high, low)) || 1);
@@ -88,5 +96,6 @@ export function latticesOf({ low, high }) {
             volume: new Volume({ ...cubic, low: [-0.713, -0.617, -0.811], high: [0.931, 1.173, 0.877] }, twisted(1, 50)),
         },
         still: { volume: new Volume({ ...cubic, ...box }, (points) => points), moves: [] },
+        beside: beside(box),
     };
 }
