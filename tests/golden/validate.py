@@ -29,11 +29,11 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
-def models(root):
+def models(root, endings=(".gltf", ".glb")):
     for folder, folders, names in os.walk(root):
         folders.sort()
         for name in sorted(names):
-            if name.endswith((".gltf", ".glb")):
+            if name.endswith(endings):
                 yield os.path.relpath(os.path.join(folder, name), root)
 
 

@@ -1,0 +1,621 @@
+#!/usr/bin/env python3
+"""Conversions: every format into every other one, read back here by small readers of their own; what targets cannot
+hold; the containers of glTF."""
+import base64
+import json
+import math
+import struct
+
+from harness import (INVALID, IO, USAGE, case, check, equal, glb, glb_split, gltf_json, lattice, main,
+                     near)
+
+FORMATS = ("obj", "ply", "off", "stl", "glb", "gltf")
+FLOATS = ("stl", "glb", "gltf")
+STILL = lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[])
+MOVED = lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"at": ["all", "all", [2, 3]], "by": [0.5, 0.25, -0.125]}])
+
+# Two objects; a quad, an L of six corners, a bent quad with a corner turned in, a triangle; each corner with a texture
+# coordinate and a normal of its own face, except for the last face.
+SHAPE = """mtllib none.mtl
+o first one
+v 0.1 0.2 0.30000000000000004
+v 1 0 0
+v 1.1 1 0
+v 0 1 0.7
+v 3 0 0
+v 3 3 0
+v 2 3 0
+v 2 1 0
+vt 0 0
+vt 0.25 0
+vt 1 1
+vt 0 0.625
+vn 0 0 1
+vn 0 -1 0
+vn 0.6 0 0.8
+usemtl red
+f 1/1/1 2/2/1 3/3/1 4/4/1
+f 2/1/1 5/2/1 6/3/1 7/4/1 8/2/1 3/1/1
+o second
+g left
+v -1 -1 0
+v 1 -1 1
+v -0.5 -0.5 0.25
+v -1 1 1
+usemtl blue
+f 9/1/2 10/2/2 11/3/2 12/4/2
+usemtl red
+f 1/1/3 10/2/3 2/3/3
+"""
+CORNERS = 17
+
+
+def as_float(value):
+    return struct.unpack("<f", struct.pack("<f", value))[0]
+
+
+# Readers. Each gives the faces in order, a face as its corners: (position, texture coordinate, normal).
+
+def read_obj(data):
+    values, faces = {"v": [], "vt": [], "vn": []}, []
+
+    def pick(kind, text):
+        return tuple(values[kind][int(text) - 1]) if text else None
+
+    for line in data.decode().splitlines():
+        key, *words = line.split() or [""]
+        if key in values:
+            values[key].append([float(x) for x in words][:2 if key == "vt" else 3])
+        elif key == "f":
+            corners = [(word + "//").split("/")[:3] for word in words]
+            faces.append([(pick("v", v), pick("vt", t), pick("vn", n)) for v, t, n in corners])
+    return faces
+
+
+PLY_TYPES = {"uchar": "B", "int": "i", "uint": "I", "float": "f", "double": "d"}
+
+
+def ply_elements(data):
+    header, body = data.split(b"end_header\n", 1)
+    lines = header.decode().split("\n")
+    equal(lines[:2], ["ply", "format binary_little_endian 1.0"], "the header")
+    elements, at = {}, 0
+    for line in lines[2:-1]:
+        key, *words = line.split()
+        if key == "element":
+            elements[words[0]] = (int(words[1]), [])
+        else:
+            list(elements.values())[-1][1].append(words)
+    for name, (count, properties) in elements.items():
+        rows = []
+        for _ in range(count):
+            row = {}
+            for words in properties:
+                size = 1
+                if words[0] == "list":
+                    size, = struct.unpack_from("<" + PLY_TYPES[words[1]], body, at)
+                    at += struct.calcsize("<" + PLY_TYPES[words[1]])
+                code = f"<{size}{PLY_TYPES[words[-2]]}"
+                found = struct.unpack_from(code, body, at)
+                at += struct.calcsize(code)
+                row[words[-1]] = list(found) if words[0] == "list" else found[0]
+            rows.append(row)
+        elements[name] = rows
+    equal(at, len(body), "the PLY's size")
+    return elements
+
+
+def read_ply(data):
+    elements = ply_elements(data)
+    vertices, faces = elements["vertex"], []
+    for face in elements.get("face", []):
+        corners = []
+        for i, v in enumerate(face["vertex_indices"]):
+            row = vertices[v]
+            texcoord = tuple(face["texcoord"][2 * i:2 * i + 2]) if "texcoord" in face else \
+                (row["s"], row["t"]) if "s" in row else None
+            normal = (row["nx"], row["ny"], row["nz"]) if "nx" in row else None
+            corners.append(((row["x"], row["y"], row["z"]), texcoord, normal))
+        faces.append(corners)
+    return faces
+
+
+def read_off(data):
+    lines = data.decode().split("\n")
+    head, counts = lines[0], [int(x) for x in lines[1].split()]
+    vertices, faces = [], []
+    for line in lines[2:2 + counts[0]]:
+        numbers = [float(x) for x in line.split()]
+        position, normal, texcoord = tuple(numbers[:3]), None, None
+        if "N" in head:
+            normal = tuple(numbers[3:6])
+        if "ST" in head:
+            texcoord = tuple(numbers[-2:])
+        vertices.append((position, texcoord, normal))
+    for line in lines[2 + counts[0]:2 + counts[0] + counts[1]]:
+        count, *corners = [int(x) for x in line.split()]
+        equal(len(corners), count, line)
+        faces.append([vertices[c] for c in corners])
+    equal(lines[2 + sum(counts):], [""], "the end of the OFF")
+    return [face for face in faces if len(face) > 2]
+
+
+def read_stl(data):
+    count, = struct.unpack_from("<I", data, 80)
+    equal(len(data), 84 + 50 * count, "the STL's size")
+    check(not data.startswith(b"solid"), "the STL's header says text")
+    faces = []
+    for i in range(count):
+        numbers = struct.unpack_from("<12fH", data, 84 + 50 * i)
+        corners = [numbers[3:6], numbers[6:9], numbers[9:12]]
+        expected = normal_of(corners)
+        if expected:
+            near(numbers[:3], expected, 1e-6, "the facet's normal")
+        faces.append([(c, None, None) for c in corners])
+    return faces
+
+
+def read_accessor(asset, buffer, number):
+    accessor = asset["accessors"][number]
+    view = asset["bufferViews"][accessor["bufferView"]]
+    width = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[accessor["type"]]
+    code = {5121: "B", 5123: "H", 5125: "I", 5126: "f"}[accessor["componentType"]]
+    start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    stride = view.get("byteStride", struct.calcsize(f"<{width}{code}"))
+    return [struct.unpack_from(f"<{width}{code}", buffer, start + stride * i) for i in range(accessor["count"])]
+
+
+def read_asset(asset, buffer):
+    faces = []
+    for mesh in asset.get("meshes", []):
+        for primitive in mesh["primitives"]:
+            if primitive.get("mode", 4) != 4:
+                continue
+            attributes = {key: read_accessor(asset, buffer, a) for key, a in primitive["attributes"].items()}
+            vertices = list(zip(attributes["POSITION"],
+                                [(u, 1 - v) for u, v in attributes["TEXCOORD_0"]] if "TEXCOORD_0" in attributes
+                                else [None] * len(attributes["POSITION"]),
+                                attributes.get("NORMAL", [None] * len(attributes["POSITION"]))))
+            indices = [i for i, in read_accessor(asset, buffer, primitive["indices"])]
+            faces += [[vertices[i] for i in indices[t:t + 3]] for t in range(0, len(indices), 3)]
+    return faces
+
+
+def read_faces(run, name):
+    data = run.read(name)
+    if name.endswith(".gltf"):
+        asset = json.loads(data)
+        return read_asset(asset, run.read(asset["buffers"][0]["uri"].replace("%20", " ")))
+    if name.endswith(".glb"):
+        return read_asset(*glb_split(data))
+    return {"obj": read_obj, "ply": read_ply, "off": read_off, "stl": read_stl}[name[-3:]](data)
+
+
+def normal_of(corners):
+    sides = [[corners[i][a] - corners[0][a] for a in range(3)] for i in (1, 2)]
+    cross = [sides[0][(a + 1) % 3] * sides[1][(a + 2) % 3] - sides[0][(a + 2) % 3] * sides[1][(a + 1) % 3]
+             for a in range(3)]
+    length = math.sqrt(sum(c * c for c in cross))
+    return [c / length for c in cross] if length > 1e-9 else None
+
+
+def area_vector(corners):
+    """Newell's sum: the same for a polygon and the triangles it is cut into."""
+    total = [0.0, 0.0, 0.0]
+    for p, q in zip(corners, corners[1:] + corners[:1]):
+        for a in range(3):
+            b, c = (a + 1) % 3, (a + 2) % 3
+            total[a] += (p[b] * q[c] - p[c] * q[b]) / 2
+    return total
+
+
+def places(faces):
+    return [[corner[0] for corner in face] for face in faces]
+
+
+def rounded(faces, target):
+    if target not in FLOATS:
+        return [[tuple(p) for p in face] for face in faces]
+    return [[tuple(as_float(x) for x in p) for p in face] for face in faces]
+
+
+def check_places(found, expected, target, what):
+    """Polygons are the same, corner by corner; or they are cut into n - 2 triangles of their corners, in order of the
+    faces where one primitive holds them all."""
+    expected = rounded(expected, target)
+    if target not in FLOATS:
+        equal(found, expected, what)
+        return
+    equal(len(found), sum(len(face) - 2 for face in expected), f"{what}: triangles")
+    left = [[tuple(p) for p in face] for face in found]
+    for face in expected:
+        own = [t for t in left if all(p in face for p in t)]
+        own = own[:len(face) - 2]
+        equal(len(own), len(face) - 2, f"{what}: triangles of {face}")
+        for triangle in own:
+            left.remove(triangle)
+        near([sum(x) for x in zip(*(area_vector(t) for t in own))], area_vector(face), 1e-6, what)
+        # No triangle is turned over against the face.
+        for triangle in own:
+            dot = sum(a * b for a, b in zip(area_vector(triangle), area_vector(face)))
+            check(dot > 0, f"{what}: {triangle} of {face} is turned over")
+
+
+def start(run):
+    run.write("still.json", STILL)
+    run.write("moved.json", MOVED)
+    run.write("a.obj", SHAPE)
+
+
+def convert(run, source, target, *options, lattice="still.json", **more):
+    more.setdefault("lines", 1)
+    return run.ffd("deform", source, target, "-l", lattice, *options, **more)
+
+
+def some_line(run, source, target, *options, **more):
+    """Whether there is something to warn of depends on the pair."""
+    return run.ffd("deform", source, target, "-l", "still.json", *options, "-q", **more)
+
+
+@case
+def every_pair(run):
+    start(run)
+    run.ffd("deform", "a.obj", "m.obj", "-l", "moved.json")
+    moved = places(read_faces(run, "m.obj"))
+    check(moved != places(read_obj(SHAPE.encode())), "the lattice moves")
+    for first in FORMATS[1:]:
+        # Deformed and converted at once, and one after the other, are the same bytes.
+        convert(run, "a.obj", f"m.{first}", lattice="moved.json")
+        convert(run, "m.obj", f"s.{first}")
+        if first == "gltf":
+            equal(run.text("m.gltf").replace("m.bin", "s.bin"), run.text("s.gltf"))
+            equal(run.read("m.bin"), run.read("s.bin"))
+        else:
+            equal(run.read(f"m.{first}"), run.read(f"s.{first}"))
+        check_places(places(read_faces(run, f"m.{first}")), moved, first, f"obj to {first}")
+    for source in FORMATS:
+        before = places(read_faces(run, f"m.{source}"))
+        for target in FORMATS:
+            if {source, target} <= {"glb", "gltf"}:
+                continue
+            name = f"{source}-{target}.{target}"
+            some_line(run, f"m.{source}", name)
+            check_places(places(read_faces(run, name)), before, target, name)
+
+
+@case
+def doubles_go_round(run):
+    """Coordinates, faces and their order come back as they were, by whatever way without floats."""
+    start(run)
+    for way in (["ply"], ["off"], ["ply", "off"], ["off", "ply"]):
+        name = "a.obj"
+        for n, ending in enumerate(way + ["obj"]):
+            some_line(run, name, f"{n}.{ending}", "--force")
+            name = f"{n}.{ending}"
+        found, expected = run.text(name).splitlines(), SHAPE.splitlines()
+        equal([[float(x) for x in line.split()[1:]] for line in found if line.startswith("v ")],
+              [[float(x) for x in line.split()[1:]] for line in expected if line.startswith("v ")], name)
+        equal([[word.split("/")[0] for word in line.split()] for line in found if line.startswith("f ")],
+              [[word.split("/")[0] for word in line.split()] for line in expected if line.startswith("f ")], name)
+    equal(len(read_faces(run, "0.ply")), 4)
+
+
+@case
+def attributes_follow(run):
+    """Texture coordinates and normals of every corner, where the target holds them."""
+    start(run)
+    faces = read_obj(SHAPE.encode())
+    for target in ("glb", "gltf"):
+        convert(run, "a.obj", f"b.{target}")
+        expected = {(tuple(as_float(x) for x in p), t, n) for face in faces for p, t, n in face}
+        found = {(tuple(p), tuple(t), tuple(round(x, 6) for x in n))
+                 for face in read_faces(run, f"b.{target}") for p, t, n in face}
+        equal(found, expected, target)
+    convert(run, "a.obj", "b.ply", err="a.obj: PLY cannot hold: vertex normals (a vertex has several), object names, "
+                                       "group names, materials")
+    equal([[t for _, t, _ in face] for face in read_faces(run, "b.ply")], [[t for _, t, _ in face] for face in faces])
+    equal({n for face in read_faces(run, "b.ply") for _, _, n in face}, {None})
+    # Back in OBJ they are there as before.
+    for source in ("b.glb", "b.ply"):
+        some_line(run, source, "c.obj", "--force")
+        equal({t for face in read_faces(run, "c.obj") for _, t, _ in face}, {t for face in faces for _, t, _ in face})
+
+    one_each = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0.5\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\n"
+    run.write("one.obj", one_each)
+    for target in ("ply", "off", "glb"):
+        run.ffd("deform", "one.obj", f"one.{target}", "-l", "still.json")
+        equal(read_faces(run, f"one.{target}"), read_obj(one_each.encode()), target)
+        run.ffd("deform", f"one.{target}", f"{target}.obj", "-l", "still.json")
+        equal(read_faces(run, f"{target}.obj"), read_obj(one_each.encode()), f"{target} to obj")
+
+
+@case
+def normals_of_the_deformation(run):
+    start(run)
+    run.write("turn.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"rotate": {"axis": "x", "degrees": 90}}]))
+    run.write("one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\n")
+    for options, expected in (((), (0, -1, 0)), (("--normals", "keep"), (0, 0, 1))):
+        for target in ("ply", "off", "glb", "gltf"):
+            run.ffd("deform", "one.obj", f"one.{target}", "-l", "turn.json", "--force", *options)
+            for face in read_faces(run, f"one.{target}"):
+                for position, _, normal in face:
+                    near(normal, expected, 1e-7, target)
+                    near([position[1]], [0], 1e-7, target)
+
+
+@case
+def names_go_along(run):
+    start(run)
+    convert(run, "a.obj", "b.glb")
+    asset, _ = glb_split(run.read("b.glb"))
+    equal([mesh.get("name") for mesh in asset["meshes"]], ["first one", "second/left"])
+    equal([node.get("name") for node in asset["nodes"]], ["first one", "second/left"])
+    equal([material["name"] for material in asset["materials"]], ["red", "blue"])
+    equal([[p["material"] for p in mesh["primitives"]] for mesh in asset["meshes"]], [[0], [1, 0]])
+    convert(run, "b.glb", "c.obj", err="b.glb: OBJ cannot hold: materials (their names are kept)")
+    found = [line for line in run.text("c.obj").splitlines() if line.split()[0] in ("o", "g", "usemtl", "mtllib")]
+    equal(found, ["o first one", "usemtl red", "o second/left", "usemtl blue", "usemtl red"])
+
+
+def triangle_asset(nodes, **members):
+    asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], nodes=nodes, normals=[[0, 0, 1]] * 3)
+    asset.update(members)
+    return asset, data
+
+
+@case
+def scenes_are_placed(run):
+    """Positions stand where the nodes put them; under a mirror faces still look the way their normals do."""
+    run.write("still.json", STILL)
+    turned = [0.7071067811865476, 0, 0, 0.7071067811865476]
+    run.write("a.glb", glb(*triangle_asset([
+        {"mesh": 0, "name": "shifted", "translation": [1, 2, 3]},
+        {"mesh": 0, "scale": [-2, 1, 1]},
+        {"name": "parent", "rotation": turned, "children": [3]},
+        {"mesh": 0, "name": "low\\", "scale": [1, 2, 4]}], scenes=[{"nodes": [0, 1, 2]}])))
+    run.ffd("deform", "a.glb", "b.obj", "-l", "still.json", err="a.glb: OBJ cannot hold: the node hierarchy")
+    faces = read_faces(run, "b.obj")
+    near(places(faces), [[(1, 2, 3), (2, 2, 3), (1, 3, 3)], [(0, 0, 0), (0, 1, 0), (-2, 0, 0)],
+                         [(0, 0, 0), (1, 0, 0), (0, 0, 2)]], 1e-7)
+    for face in faces:
+        for _, _, normal in face:
+            near(normal, normal_of([corner[0] for corner in face]), 1e-7)
+    equal([line for line in run.text("b.obj").splitlines() if line.startswith("o")], ["o shifted", "o node 1", "o low_"])
+    # In its own space a mesh stands once, and that is said.
+    run.ffd("deform", "a.glb", "c.obj", "-l", "still.json", "--space", "mesh",
+            err="a.glb: OBJ cannot hold: the node hierarchy, the places of nodes (--space mesh)")
+    equal(places(read_faces(run, "c.obj")), [[(0, 0, 0), (1, 0, 0), (0, 1, 0)]])
+
+
+@case
+def modes_of_drawing(run):
+    run.write("still.json", STILL)
+    points = [[x, y, 0.0] for x in (0, 1, 2) for y in (0, 1)]
+    asset, data = gltf_json(points)
+    expected = {0: ("p", [[i] for i in range(6)]), 1: ("l", [[0, 1], [2, 3], [4, 5]]),
+                2: ("l", [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 0]]),
+                3: ("l", [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5]]), 4: ("f", [[0, 1, 2], [3, 4, 5]]),
+                5: ("f", [[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4]]),
+                6: ("f", [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 5]])}
+    for mode, (key, elements) in expected.items():
+        asset["meshes"][0]["primitives"][0]["mode"] = mode
+        run.write("a.glb", glb(asset, data))
+        run.ffd("deform", "a.glb", "b.obj", "-l", "still.json", "--force")
+        found = [line.split() for line in run.text("b.obj").splitlines() if line[0] in "plf"]
+        equal([words[0] for words in found], [key] * len(elements), f"mode {mode}")
+        found = [[int(w) - 1 for w in words[1:]] for words in found]
+        if key == "f":  # a triangle may begin with any of its corners
+            found, elements = ([min(t[i:] + t[:i] for i in range(3)) for t in kind] for kind in (found, elements))
+        equal(found, elements, f"mode {mode}")
+
+
+@case
+def lines_points_and_clouds(run):
+    run.write("still.json", STILL)
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 5 5\nf 1 2 3\nl 1 2 4\np 4\n")
+    run.ffd("deform", "a.obj", "a.ply", "-l", "still.json")
+    elements = ply_elements(run.read("a.ply"))
+    equal([len(elements["vertex"]), elements["edge"]], [5, [{"vertex1": 0, "vertex2": 1}, {"vertex1": 1, "vertex2": 3}]])
+    run.ffd("deform", "a.obj", "a.off", "-l", "still.json")
+    equal(run.text("a.off").splitlines()[7:], ["3 0 1 2", "2 0 1", "2 1 3", "1 3"])
+    run.ffd("deform", "a.obj", "a.glb", "-l", "still.json", err="a.obj: glTF cannot hold: vertices that nothing uses")
+    asset, data = glb_split(run.read("a.glb"))
+    primitives = asset["meshes"][0]["primitives"]
+    equal([p["mode"] for p in primitives], [4, 1, 0])
+    positions = read_accessor(asset, data, primitives[1]["attributes"]["POSITION"])
+    equal([positions[i] for i, in read_accessor(asset, data, primitives[1]["indices"])],
+          [(0, 0, 0), (1, 0, 0), (1, 0, 0), (0, 0, 1)])
+    run.ffd("deform", "a.obj", "a.stl", "-l", "still.json",
+            err="a.obj: STL cannot hold: lines, points, vertices that nothing uses")
+    for name in ("a.ply", "a.off"):
+        run.ffd("deform", name, "b.obj", "-l", "still.json", "--force")
+        lines = run.text("b.obj").splitlines()
+        equal(lines[5:8], ["f 1 2 3", "l 1 2", "l 2 4"], name)
+
+    cloud = "v 1 2 3\nv 4 5 6\nv 7 8 8.5\n"
+    run.write("cloud.obj", cloud)
+    for target in ("ply", "off", "glb"):
+        run.ffd("deform", "cloud.obj", f"cloud.{target}", "-l", "still.json")
+        run.ffd("deform", f"cloud.{target}", "back.obj", "-l", "still.json", "--force")
+        equal([line for line in run.text("back.obj").splitlines() if line.startswith("v")], cloud.splitlines(), target)
+    run.ffd("deform", "cloud.obj", "cloud.stl", "-l", "still.json", err="cloud.obj: STL cannot hold: points")
+    run.write("empty.obj", "")
+    for target in FORMATS[1:]:
+        run.ffd("deform", "empty.obj", f"empty.{target}", "-l", "still.json")
+        run.ffd("deform", f"empty.{target}", "nothing.obj", "-l", "still.json", "--force")
+        equal(run.text("nothing.obj"), "", target)
+
+
+@case
+def colours_go_along(run):
+    run.write("still.json", STILL)
+    run.write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0.501961 0.2 1\nv 0 1 0 0 0 0\nf 1 2 3\n")
+    bytes_ = [(255, 0, 0), (128, 51, 255), (0, 0, 0)]
+    run.ffd("deform", "a.obj", "a.ply", "-l", "still.json")
+    equal([(v["red"], v["green"], v["blue"]) for v in ply_elements(run.read("a.ply"))["vertex"]], bytes_)
+    run.ffd("deform", "a.obj", "a.off", "-l", "still.json")
+    equal([line.split()[3:] for line in run.text("a.off").splitlines()[2:5]],
+          [[str(c) for c in (*colour, 255)] for colour in bytes_])
+    run.ffd("deform", "a.obj", "a.glb", "-l", "still.json")
+    asset, data = glb_split(run.read("a.glb"))
+    equal(read_accessor(asset, data, asset["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]),
+          [(*colour, 255) for colour in bytes_])
+    for name in ("a.ply", "a.off", "a.glb"):
+        run.ffd("deform", name, "b.obj", "-l", "still.json", "--force")
+        found = [[float(x) for x in line.split()[4:]] for line in run.text("b.obj").splitlines() if line.startswith("v ")]
+        equal(found, [[c / 255 for c in colour] for colour in bytes_], name)
+    run.ffd("deform", "a.obj", "a.stl", "-l", "still.json", err="a.obj: STL cannot hold: vertex colours")
+    # Finer than bytes: as they are.
+    run.write("fine.obj", "v 0 0 0 0.123 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n")
+    for target in ("off", "ply", "glb"):
+        run.ffd("deform", "fine.obj", f"fine.{target}", "-l", "still.json")
+        run.ffd("deform", f"fine.{target}", "b.obj", "-l", "still.json", "--force")
+        near([float(run.text("b.obj").split()[4])], [0.123], 1e-8, target)
+    # Bytes in text.
+    run.write("bytes.obj", "v 0 0 0 51 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 102\nf 1 2 3\n")
+    run.ffd("deform", "bytes.obj", "bytes.ply", "-l", "still.json")
+    equal([v["red"] for v in ply_elements(run.read("bytes.ply"))["vertex"]], [51, 0, 0])
+
+
+@case
+def equal_corners_share_a_vertex(run):
+    """Also where an OBJ says the same by different numbers; and where an STL repeats it."""
+    run.write("still.json", STILL)
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvn 0 0 2\nvt 0 0\nvt -0 0\n"
+                       "f 1/1/1 2/1/1 3/2/1\nf 1/2/2 3/1/2 4/1/2\n")
+    run.ffd("deform", "a.obj", "a.glb", "-l", "still.json")
+    asset, data = glb_split(run.read("a.glb"))
+    primitive, = asset["meshes"][0]["primitives"]
+    equal([len(read_accessor(asset, data, a)) for a in primitive["attributes"].values()], [4, 4, 4])
+    equal(read_accessor(asset, data, primitive["attributes"]["POSITION"]), [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)])
+    convert(run, "a.obj", "a.stl")
+    run.ffd("deform", "a.stl", "b.obj", "-l", "still.json")
+    equal(run.text("b.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+
+
+@case
+def many_vertices_need_long_indices(run):
+    """65535 vertices are the most that 16 bits number."""
+    run.write("still.json", STILL)
+    for count, component in ((65535, 5123), (65538, 5125)):
+        run.write("a.obj", "".join(f"v {i * 1e-5:.5f} {i % 2} {i % 3}\n" for i in range(count)) +
+                  "".join(f"f {i} {i + 1} {i + 2}\n" for i in range(1, count, 3)))
+        run.ffd("deform", "a.obj", "a.glb", "-l", "still.json", "--force")
+        asset, data = glb_split(run.read("a.glb"))
+        primitive, = asset["meshes"][0]["primitives"]
+        equal(asset["accessors"][primitive["indices"]]["componentType"], component)
+        equal([i for i, in read_accessor(asset, data, primitive["indices"])], list(range(count)))
+
+
+@case
+def streams(run):
+    start(run)
+    for target in FORMATS[1:]:
+        convert(run, "a.obj", f"b.{target}")
+        done = run.ffd("deform", "-", "-", "--input-format", "obj", "--output-format", target, "-l", "still.json",
+                       stdin=SHAPE.encode(), lines=1)
+        check(done.err[0].startswith("standard input: "), done.err)
+        if target != "gltf":
+            equal(done.out, run.read(f"b.{target}"), target)
+            continue
+        asset = done.json
+        head, payload = asset["buffers"][0]["uri"].split(",")
+        equal([head, base64.b64decode(payload)], ["data:application/octet-stream;base64", run.read("b.bin")])
+        equal(len(payload), (asset["buffers"][0]["byteLength"] + 2) // 3 * 4)
+    run.ffd("deform", "a.obj", "-", "-l", "still.json", code=USAGE)
+
+
+@case
+def outputs_are_not_overwritten(run):
+    start(run)
+    run.write("b.bin", b"mine")
+    convert(run, "a.obj", "b.gltf", code=IO, err="./b.bin: exists already (--force overwrites it)")
+    equal([run.read("b.bin"), run.exists("b.gltf")], [b"mine", False])
+    convert(run, "a.obj", "b.gltf", "--force")
+    equal(read_faces(run, "b.gltf") != [], True)
+    convert(run, "a.obj", "b.gltf", code=IO)
+    # Nor the input, force or not.
+    run.write("c.bin", SHAPE)
+    convert(run, "c.bin", "c.gltf", "--input-format", "obj", "--force", code=IO,
+            err="./c.bin: is the input and is not overwritten by a buffer")
+    equal([run.text("c.bin"), run.exists("c.gltf")], [SHAPE, False])
+
+
+@case
+def numbers_that_do_not_fit(run):
+    run.write("still.json", STILL)
+    run.write("a.obj", "v 0 0 0\nv 1e39 0 0\nv 0 1 0\nf 1 2 3\n")
+    for target, name in (("stl", "STL"), ("glb", "glTF"), ("gltf", "glTF")):
+        run.ffd("deform", "a.obj", f"b.{target}", "-l", "still.json", "-q", code=INVALID,
+                err=f"b.{target}: x of vertex 1 (counted from 0) is 1e+39, too large for the numbers of {name}")
+        check(not run.exists(f"b.{target}") and not run.exists("b.bin"), "an output of a failure")
+    run.ffd("deform", "a.obj", "b.ply", "-l", "still.json", "-q")
+
+
+@case
+def what_a_conversion_needs_to_be_valid(run):
+    """A texture coordinate is not looked at until it is converted."""
+    run.write("still.json", STILL)
+    for text, says in (
+            ("vt 0 0\nf 1/1 2/2 3/1\n", "a.obj:5: texture coordinate index 2 is out of range: the file has 1"),
+            ("vt 0 x\nf 1/1 2/1 3/1\n", "a.obj:4: texture coordinate v is not a number: \"x\"")):
+        run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n" + text)
+        run.ffd("deform", "a.obj", "b.obj", "-l", "still.json", "--force")
+        for target in FORMATS[1:]:
+            run.ffd("deform", "a.obj", f"b.{target}", "-l", "still.json", code=INVALID, err=says)
+    run.write("none.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1/1 2/2/2 3/3/3\n")
+    run.ffd("deform", "none.obj", "none.glb", "-l", "still.json")
+    equal(list(glb_split(run.read("none.glb"))[0]["meshes"][0]["primitives"][0]["attributes"]), ["POSITION"])
+
+
+@case
+def containers_of_gltf(run):
+    """A .gltf and a .glb hold the same JSON, but for the buffer's place; images come along."""
+    run.write("still.json", STILL)
+    asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="a.bin")
+    asset["images"] = [{"uri": "pictures/a.png"}]
+    asset["extras"] = {"large": 12345678901234567890}
+    run.write("a.gltf", asset)
+    run.write("a.bin", data)
+    run.write("pictures/a.png", b"a picture")
+    run.folder_of("out")
+    run.ffd("deform", "a.gltf", "out/b.glb", "-l", "still.json")
+    equal(run.read("out/pictures/a.png"), b"a picture")
+    found, chunk = glb_split(run.read("out/b.glb"))
+    expected = json.loads(json.dumps(asset))
+    del expected["buffers"][0]["uri"]
+    equal([found, chunk[:len(data)]], [expected, data])
+    run.ffd("deform", "out/b.glb", "out/c.gltf", "-l", "still.json")
+    expected["buffers"][0]["uri"] = "c.bin"
+    equal([json.loads(run.text("out/c.gltf")), run.read("out/c.bin")], [expected, data])
+    run.ffd("compare", "out/b.glb", "out/b.glb")
+    done = run.ffd("deform", "out/b.glb", "-", "--output-format", "gltf", "-l", "still.json")
+    expected["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    equal(done.json, expected)
+    done = run.ffd("deform", "a.gltf", "-", "--output-format", "glb", "-l", "still.json")
+    equal(done.out, run.read("out/b.glb"))
+    # A chunk that only a GLB can hold is said to be left out.
+    more = run.read("out/b.glb") + struct.pack("<II", 4, 0x12345678) + b"more"
+    run.write("more.glb", more[:8] + struct.pack("<I", len(more)) + more[12:])
+    run.ffd("deform", "more.glb", "more.gltf", "-l", "still.json",
+            err="more.glb: a .gltf cannot hold: the GLB's further chunks (12 bytes), which are left out")
+
+
+@case
+def quiet_says_nothing(run):
+    start(run)
+    convert(run, "a.obj", "b.stl", "-q", err=[])
+    convert(run, "a.obj", "c.stl", err="a.obj: STL cannot hold: polygons (written as triangles), vertex normals, texture "
+                                       "coordinates, object names, group names, materials")
+    equal(run.read("b.stl"), run.read("c.stl"))
+
+
+@case
+def unknown_formats(run):
+    start(run)
+    run.ffd("deform", "a.obj", "b.fbx", "-l", "still.json", code=USAGE)
+    run.ffd("deform", "a.obj", "b.obj.txt", "-l", "still.json", code=USAGE)
+    equal(sorted(run.names()), ["a.obj", "moved.json", "still.json"])
+
+
+main()
