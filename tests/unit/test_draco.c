@@ -263,7 +263,7 @@ static void memory_is_asked_for_in_proportion(void **state)
                                                 1,    0xff, 0xff, 0xff, 0xff, 4, 0, 0, 0};
     const draco_claim huge = {1u << 30, 3 * (uint64_t)0x4fffffff};
     check_refusal(edgebreaker, sizeof edgebreaker, &huge, FFD_E_LIMIT,
-                  "the Draco data needs more than 67112832 bytes of memory");
+                  "the Draco data needs more than 67116800 bytes of memory");
 }
 
 /* A tree whose nodes each promise as many children as there are bytes. */

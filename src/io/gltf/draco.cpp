@@ -18,10 +18,10 @@ struct draco_mesh {
 namespace
 {
 
-/* Working memory: this much for any data, and so much more for each byte of it. Real data is below a third.
- */
+/* Working memory: this much for any data, and so much more for each byte of it. Large regular meshes have
+   half a byte for a triangle. */
 constexpr uint64_t FREE_MEMORY = uint64_t(1) << 26;
-constexpr uint64_t MEMORY_PER_BYTE = 128;
+constexpr uint64_t MEMORY_PER_BYTE = 256;
 /* What the library needs about at most for a triangle, for each set of attribute seams of it, and for a
    number of an attribute beside the number itself. */
 constexpr uint64_t TRIANGLE_MEMORY = 96;

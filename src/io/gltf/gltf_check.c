@@ -273,7 +273,7 @@ static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
         left += MOST_ZEROS_A_BYTE * (uint64_t)d->buffers[b].size;
     for (size_t i = 0; i < d->model.accessor_count; i++) {
         const gltf_accessor *accessor = &d->model.accessors[i];
-        if (accessor->view >= 0 || !d->layouts[i].readable)
+        if (accessor->view >= 0 || d->layouts[i].data || !d->layouts[i].readable)
             continue;
         if (accessor->count > left)
             return ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, FFD_E_LIMIT, error,
@@ -342,6 +342,8 @@ ffd_status ffd_gltf_check(gltf_document *d, ffd_error *error)
         status = check_accessor(d, i, error);
     for (size_t i = 0; i < d->model.mesh_count && status == FFD_OK; i++)
         status = check_mesh(d, i, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_decode_draco(d, error);
     if (status == FFD_OK)
         status = limit_zeros(d, error);
     const uint32_t skins = ffd_json_span_member(&d->tree, 0, "skins");

@@ -155,7 +155,7 @@ extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
 
 /* gltf_check.c: validates every index, offset, count and stride of the model, and fills layouts. */
 ffd_status ffd_gltf_check(gltf_document *document, ffd_error *error);
-/* gltf_views.c: decodes the bufferViews that are compressed; comes within ffd_gltf_check. What is not
+/* gltf_views.c: decodes the bufferViews that are compressed. Comes within ffd_gltf_check. What is not
    supported is left out. */
 ffd_status ffd_gltf_decode_views(gltf_document *document, ffd_error *error);
 /* The meshopt extension of a view; JSON_NONE: it is not compressed. */
@@ -166,10 +166,11 @@ const unsigned char *ffd_gltf_view_bytes(const gltf_document *document, size_t v
 const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *document, size_t view, size_t *size);
 /* Says why a compressed view was left out. */
 ffd_status ffd_gltf_refuse_view(const gltf_document *document, size_t view, ffd_error *error);
-/* Counts bytes of memory that compressed data takes; FFD_E_LIMIT at value where they are out of proportion to
-   the file. */
-ffd_status ffd_gltf_reserve(gltf_document *document, uint32_t value, uint64_t bytes, ffd_error *error);
-/* gltf_draco.c: likewise for the primitives that are compressed. */
+/* Counts bytes of memory that compressed data takes; FFD_E_LIMIT at value where they are more than
+   bytes_per_byte for each byte of the files, and many. */
+ffd_status ffd_gltf_reserve(gltf_document *document, uint32_t value, uint64_t bytes, uint64_t bytes_per_byte,
+                            ffd_error *error);
+/* gltf_draco.c: likewise for the primitives that are compressed, of meshes that are checked. */
 ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
 uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);
 ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, size_t primitive,

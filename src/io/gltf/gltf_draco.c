@@ -8,6 +8,10 @@
 #define MODE_TRIANGLES 4
 #define INDICES_SOURCE UINT64_MAX
 
+/* Decoded bytes of a document for each byte of its files, at the most; large regular meshes at half a byte
+   for a triangle become 75. */
+#define BYTES_PER_BYTE 128
+
 /* What the decoder keeps of a point and of a triangle's corner at the least, to count decodings that give
    nothing new. */
 #define POINT_BYTES 12
@@ -89,7 +93,7 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
                     "a matrix or a sparse accessor compressed by Draco is not supported");
     if (unpacked->bytes && unpacked->source == source && unpacked->view == u->view)
         return FFD_OK;
-    ffd_status status = ffd_gltf_reserve(d, value, accessor->count * stride, u->error);
+    ffd_status status = ffd_gltf_reserve(d, value, accessor->count * stride, BYTES_PER_BYTE, u->error);
     if (status)
         return status;
     unsigned char *bytes = ffd_alloc_zero((size_t)accessor->count, stride);
@@ -176,7 +180,7 @@ static ffd_status decode_mesh(gltf_document *d, const packed_primitive *packed, 
     status = ffd_gltf_reserve(d, value,
                               (uint64_t)ffd_draco_point_count(*mesh) * POINT_BYTES +
                                   (uint64_t)ffd_draco_corner_count(*mesh) * CORNER_BYTES,
-                              error);
+                              BYTES_PER_BYTE, error);
     return status;
 }
 
