@@ -82,6 +82,8 @@ const cli_option cli_job_options[] = {
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
      add_selector, 0, NULL},
+    {"as-morph", 0, "NAME", "glTF: leave the shape, and add the deformation as a morph target of this name",
+     cli_set_text, AT(as_morph), NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_text, AT(embedding), NULL},
     {"fail-on", 0, "GATES", "of folds,outside,multiple,singular: exit 1, nothing written, if there are any",
@@ -187,6 +189,7 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->outside = (ffd_outside)job->outside;
     desc->falloff = job->falloff;
     desc->embedding = job->embedding;
+    desc->as_morph = job->as_morph;
     desc->fail_on = job->fail_on;
     desc->quality = job->report != NULL;
     desc->normals = (ffd_normals)job->normals;

@@ -13,6 +13,7 @@ typedef struct cli_job {
     int outside, normals, space;
     double falloff; /* 0: not given */
     const char *embedding;
+    const char *as_morph;
     unsigned fail_on; /* of ffd_gate */
     const char *report;
     int threads;

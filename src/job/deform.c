@@ -63,14 +63,39 @@ static ffd_status save(const deform_job *job, const mesh_save_options *options, 
     return status;
 }
 
+static ffd_status check_morph(const deform_job *job, const mesh_save_options *options, ffd_error *error)
+{
+    const bool morphs = options->format == FFD_FORMAT_GLTF || options->format == FFD_FORMAT_GLB;
+    if (!job->desc->as_morph || morphs)
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_ARGUMENT, options->path,
+                         "cannot hold a morph target: only .gltf and .glb can (--as-morph)");
+}
+
+/* Lets the base shape stay where a morph target is wanted. */
+static ffd_status begin_morph(const deform_job *job, ffd_error *error)
+{
+    const mesh_format *format = job->document->format;
+    if (!job->desc->as_morph)
+        return FFD_OK;
+    if (!format->keep_base)
+        return ffd_fail_file(error, FFD_E_UNSUPPORTED, ffd_source_name(&job->desc->input),
+                             "gets no morph target: --as-morph needs glTF as input too");
+    return format->keep_base(job->document, job->desc->as_morph, error);
+}
+
 static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
     ffd_status status = resolve_output(job->desc, &options, error);
     if (!status)
+        status = check_morph(job, &options, error);
+    if (!status)
         status = ffd_deform_job_open(job, result, error);
     if (!status)
         status = ffd_conversion_check(job->document, options.format, error);
+    if (!status)
+        status = begin_morph(job, error);
     if (!status)
         status = ffd_deform_job_run(job, result, error);
     if (status)

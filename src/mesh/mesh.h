@@ -143,6 +143,10 @@ typedef struct mesh_format {
     void (*read_offsets)(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
                          size_t first, size_t count, double *xyz);
 
+    /* From now on the base shape stays, results are offsets of a further morph target of this name, and parts
+       show no morph targets. At most once, before begin_results. NULL: the format has no morph targets. */
+    ffd_status (*keep_base)(mesh_document *document, const char *name, ffd_error *error);
+
     /* Results. ffd_mesh_begin_results must come first (it makes room); the writers may run in several threads
        on disjoint ranges. changed: one byte a value, 0: kept as it was (xyz is then not looked at). */
     ffd_status (*begin_results)(mesh_document *document, bool normals, bool tangents, ffd_error *error);

@@ -2,7 +2,7 @@
 """Deforms every glTF model of FFD_MODELS and of data/models that a small reader of its own can read, and
 evaluates what the scene then shows by itself: node transforms, skins, morph targets, in double precision, with a
 Bezier volume over a box. Positions, normals, tangents and the offsets of morph targets of the output must be
-those of the input, deformed.
+those of the input, deformed; with --as-morph the base stays and a further target holds the difference.
 
     scene.py FFD TABLE      TABLE: the outcome of every model is written there
 """
@@ -316,7 +316,29 @@ class Comparison:
             self.near(f, expected, size, self.before.quantum(was[name]), f"{what} {name} {i}")
             self.offsets += 1
 
-    def run(self):
+    def added_target(self, old, new, matrix, i, what):
+        """The base as it was, and the deformation in the last target."""
+        vertex = values_at(self.before, old["attributes"], i)
+        base = Shape(self.volume, matrix, vertex[0], vertex[1], vertex[2] if vertex[1] else None)
+        if base.unsure:
+            return
+        if values_at(self.after, new["attributes"], i) != vertex:
+            self.worst, self.where = math.inf, f"{what}: the base of vertex {i} has changed"
+        # A mesh of which nothing moves gets none.
+        added = (new.get("targets", [])[len(old.get("targets", [])):] or [{}])[0]
+        found = values_at(self.after, added, i)
+        self.vertices += 1
+        self.moved += not base.still
+        for name, offset, a, b in zip(("POSITION", "NORMAL", "TANGENT"), found, vertex,
+                                      (base.position, base.normal, base.tangent)):
+            if not a or not b:
+                continue
+            expected = [y - x for x, y in zip(a, b)]
+            size = max(*(abs(v) for v in expected), *(1e-7 * abs(v) for v in a)) if name == "POSITION" else 1
+            self.near(offset or [0.0] * 3, expected, size, 0, f"{what} added {name} {i}")
+            self.offsets += 1
+
+    def run(self, added=False):
         world, shown = worlds(self.before)
         for number in shown:
             node, now = self.before.list("nodes")[number], self.after.list("nodes")[number]
@@ -331,7 +353,8 @@ class Comparison:
                 count = len(self.before.accessor(old["attributes"]["POSITION"]))
                 for i in range(0, count, max(1, count // MOST)):
                     matrix = vertex_matrix(self.before, old["attributes"], matrices, i) if matrices else world[number]
-                    self.vertex(old, new, matrix, i, f"node {number} primitive {k}")
+                    look_at = self.added_target if added else self.vertex
+                    look_at(old, new, matrix, i, f"node {number} primitive {k}")
 
 
 def bounds(asset):
@@ -386,17 +409,19 @@ def look(ffd, folder, path, name):
     if not all(math.isfinite(v) for v in low + high):
         return [(name, "", "skipped", "nothing finite is shown")]
     rows = []
-    for kind, volume in volumes(low, high).items():
+    around = volumes(low, high)
+    for kind, volume, options in ((("all", around["all"], []), ("part", around["part"], []),
+                                   ("morph", around["part"], ["--as-morph", "bent"]))):
         target = os.path.join(folder, "out" + os.path.splitext(name)[1])
         volume.file(os.path.join(folder, "lattice.json"))
         done = subprocess.run([ffd, "deform", path, target, "--force", "--quiet", "--resources", "reference", "-l",
-                               os.path.join(folder, "lattice.json")], capture_output=True, text=True, check=False)
+                               os.path.join(folder, "lattice.json"), *options], capture_output=True, text=True, check=False)
         if done.returncode != 0:
             outcome = {UNSUPPORTED: "refused", INVALID: "invalid"}.get(done.returncode, "FAILED")
             rows.append((name, kind, outcome, done.stderr.strip().replace(path, name)))
             continue
         comparison = Comparison(before, Asset(target), volume)
-        comparison.run()
+        comparison.run(bool(options))
         # Floats are rounded to 2^-24 of the largest coordinate, which M^-1 F M's own rounding can add to.
         right = comparison.worst <= 2e-6
         rows.append((name, kind, "right" if right else "FAILED",

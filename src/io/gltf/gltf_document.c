@@ -234,6 +234,7 @@ static void free_document(gltf_document *d)
     ffd_free(d->shapes);
     ffd_free(d->targets);
     ffd_free(d->crowds);
+    ffd_free(d->morph_name);
     ffd_free(d->path);
     ffd_free(d);
 }
@@ -346,6 +347,7 @@ const mesh_format ffd_gltf_format = {
     .close = close_document,
     .check = check,
     .check_reach = ffd_gltf_check_reach,
+    .keep_base = ffd_gltf_keep_base,
     .largest_coordinate = FLT_MAX,
     .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
     .select = ffd_gltf_select,

@@ -131,7 +131,10 @@ typedef struct gltf_document {
     mesh_part *mesh_parts;
     mesh_shape *shapes; /* morph targets of all parts, those of a part one behind the other */
     size_t shape_count;
-    gltf_crowd *crowds; /* by node */
+    char *morph_name;     /* results are offsets of a further morph target of this name; NULL: they are not */
+    bool morph_normals;   /* of normals and tangents too */
+    size_t own_accessors; /* at the end of the list, that the file did not have: zeros without bytes */
+    gltf_crowd *crowds;   /* by node */
     size_t crowd_count;
     /* What keeps their places from being known: such a document can only be described. */
     ffd_status crowds_status;
@@ -252,6 +255,9 @@ void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first,
                              const double *xyzw, const uint8_t *changed);
 void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
                             size_t first, size_t count, const double *xyz, const uint8_t *changed);
+
+/* gltf_as_morph.c: mesh.h's keep_base. */
+ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_error *error);
 
 /* gltf_select.c, gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_extract.c, gltf_compare.c: entries of the
    table (mesh.h). */

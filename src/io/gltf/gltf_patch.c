@@ -151,9 +151,11 @@ static void add_accessors(gltf_saver *saver)
     const gltf_document *d = saver->document;
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
-        json_edits edits = {0};
-        edit_storage(saver, version, d->view_values.count + i, &edits);
-        ffd_gltf_edit_bounds(saver, version, &edits);
+        json_edits edits = {0}, *own = version->rebinds ? &saver->edits : &edits;
+        edit_storage(saver, version, d->view_values.count + i, own);
+        ffd_gltf_edit_bounds(saver, version, own);
+        if (version->rebinds)
+            continue;
         add_copy(saver, &d->accessor_values, "accessors", version->accessor, &edits);
         announce_floats(saver, version);
     }

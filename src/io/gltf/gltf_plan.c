@@ -275,6 +275,13 @@ static bool has_place(const gltf_document *d, const gltf_version *version)
     return has_bytes && !accessor->sparse.present && version->component == accessor->component;
 }
 
+/* Whether the accessor is one of our own, of zeros without bytes, that can get bytes for the version. */
+static bool can_rebind(const gltf_document *d, const gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
+    return version->accessor >= d->model.accessor_count - d->own_accessors && accessor->view < 0;
+}
+
 static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     bool *original = ffd_alloc_zero(d->model.accessor_count, sizeof *original);
@@ -290,10 +297,15 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
     ffd_gltf_mark_other_users(d, original);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         plan->in_place[a] = GLTF_NONE;
-    for (size_t v = plan->version_count; v-- > 0;)
-        if (plan->versions[v].needed && !original[plan->versions[v].accessor] &&
-            has_place(d, &plan->versions[v]))
-            plan->in_place[plan->versions[v].accessor] = v;
+    for (size_t v = plan->version_count; v-- > 0;) {
+        gltf_version *version = &plan->versions[v];
+        if (!version->needed || original[version->accessor])
+            continue;
+        if (has_place(d, version))
+            plan->in_place[version->accessor] = v;
+        version->rebinds = can_rebind(d, version);
+        original[version->accessor] = original[version->accessor] || version->rebinds; /* one of them */
+    }
     ffd_free(original);
     return FFD_OK;
 }
@@ -303,12 +315,13 @@ static ffd_status append_rest(const gltf_document *d, gltf_plan *plan, ffd_error
     plan->appended = ffd_alloc(plan->version_count, sizeof *plan->appended);
     if (!plan->appended)
         return ffd_fail_memory(error);
+    size_t added = 0;
     for (size_t v = 0; v < plan->version_count; v++) {
         gltf_version *version = &plan->versions[v];
         if (plan->in_place[version->accessor] == v) {
             version->output = version->accessor;
         } else if (version->needed) {
-            version->output = d->model.accessor_count + plan->appended_count;
+            version->output = version->rebinds ? version->accessor : d->model.accessor_count + added++;
             plan->appended[plan->appended_count++] = v;
         }
     }

@@ -14,6 +14,7 @@ typedef struct gltf_version {
     bool needed;
     int component; /* of its numbers: the accessor's, or GLTF_FLOAT where that does not hold them */
     size_t output; /* the accessor that holds it in the output; GLTF_NONE: none yet */
+    bool rebinds;  /* its accessor, one of our own without bytes, gets a bufferView itself */
 } gltf_version;
 
 /* A mesh as nodes want it that cannot use the original. */
@@ -36,7 +37,7 @@ typedef struct gltf_plan {
     gltf_node_change *changes;
     size_t change_count;
     size_t *in_place; /* of an accessor: the version that overwrites it, or GLTF_NONE */
-    size_t *appended; /* versions, in the order of the new accessors */
+    size_t *appended; /* versions with new bufferViews, in the order of these and of the new accessors */
     size_t appended_count;
 } gltf_plan;
 

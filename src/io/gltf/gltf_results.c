@@ -8,10 +8,10 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     const size_t count = d->mesh_parts[part].vertex_count;
     if (stream->accessor == GLTF_NONE || stream->result)
         return FFD_OK;
-    stream->result = ffd_alloc(count, 3 * sizeof *stream->result);
+    stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
     if (!stream->result)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && !d->morph_name; i++)
         ffd_gltf_original(d, stream->accessor, i, stream->result + 3 * i);
     return FFD_OK;
 }
@@ -23,7 +23,8 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     ffd_status status = ffd_gltf_refuse_read(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_refuse_store(d, normals, tangents, error);
-    for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
+    d->morph_normals = normals;
+    for (size_t i = 0; i < (d->morph_name ? d->base.part_count : ffd_gltf_part_count(d)); i++)
         for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
             if (wanted[s] && !d->mesh_parts[i].skipped &&
                 !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
@@ -39,6 +40,15 @@ static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
            (accessor->normalized && (accessor->component == GLTF_I8 || accessor->component == GLTF_I16));
 }
 
+/* Results that are offsets to what the file has. */
+static void write_offset(const gltf_document *d, const gltf_stream *stream, size_t i, const double *value)
+{
+    double original[3];
+    ffd_gltf_read(d, stream->accessor, i, 1, 3, original);
+    for (size_t c = 0; c < 3; c++)
+        stream->result[3 * i + c] = (float)(value[c] - original[c]);
+}
+
 static void write_result(mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
                          size_t count, const double *values, size_t components, const uint8_t *changed)
 {
@@ -49,7 +59,10 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
         return;
     const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
     const bool steps = has_steps(accessor, semantic);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && d->morph_name; i++)
+        if (changed[i])
+            write_offset(d, stream, first + i, values + components * i);
+    for (size_t i = 0; i < count && !d->morph_name; i++)
         for (size_t c = 0; c < 3 && changed[i]; c++)
             result[3 * (first + i) + c] = steps ? ffd_gltf_round(accessor, values[components * i + c])
                                                 : (float)values[components * i + c];

@@ -1,6 +1,6 @@
 #include "base/memory.h"
 #include "io/gltf/base64.h"
-#include "io/gltf/gltf_saver.h"
+#include "io/gltf/gltf_morph.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -262,6 +262,8 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
                          const mesh_log *log, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
+    if (d->morph_name)
+        return ffd_gltf_save_as_morph(document, options, output, log, error);
     gltf_saver saver = {.document = d, .options = options, .output = output, .log = log};
     saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;
     saver.in_place =

@@ -1,0 +1,131 @@
+/* gltf_as_morph.c - the deformation as a further morph target. The file with a target of zeros is opened as a
+   document of its own; what this one has as results become the results of that target, and it is saved. */
+#include "base/memory.h"
+#include "base/path.h"
+#include "io/formats.h"
+#include "io/gltf/gltf_morph.h"
+#include <string.h>
+
+ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_error *error)
+{
+    gltf_document *d = (gltf_document *)document;
+    d->morph_name = ffd_text_copy(name);
+    if (!d->morph_name)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < d->base.part_count; i++)
+        d->mesh_parts[i].shape_count = 0; /* the other targets stay */
+    return FFD_OK;
+}
+
+static bool is_moved(const gltf_document *d, size_t part, size_t semantic)
+{
+    const float *result = part == GLTF_NONE ? NULL : d->parts[part].streams[semantic].result;
+    for (size_t i = 0; result && i < 3 * d->mesh_parts[part].vertex_count; i++)
+        if (result[i] < 0 || result[i] > 0)
+            return true;
+    return false;
+}
+
+/* moved: a part's streams, 1 + whether they are; 0: not looked at. */
+static bool is_stream_moved(const gltf_document *d, size_t part, size_t semantic, unsigned char *moved)
+{
+    if (part == GLTF_NONE)
+        return false;
+    unsigned char *known = &moved[part * GLTF_DEFORMED + semantic];
+    if (*known == 0)
+        *known = (unsigned char)(1 + is_moved(d, part, semantic));
+    return *known > 1;
+}
+
+/* Marks the meshes that some node shows otherwise than before. Returns whether there are any. */
+static bool mark_moved(const gltf_document *d, unsigned char *moved, bool *meshes)
+{
+    const gltf_instance *instance = d->instances;
+    bool any = false;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t k = 0; k < d->model.meshes[m].primitive_count * d->showings[m].node_count;
+             k++, instance++)
+            for (size_t s = 0; s < GLTF_DEFORMED && instance->selected && !meshes[m]; s++) {
+                meshes[m] = is_stream_moved(d, instance->part[s], s, moved);
+                any = any || meshes[m];
+            }
+    return any;
+}
+
+/* Lends the results to the last targets of the other document's primitives, or takes them back. Both have the
+   same instances in the same order. */
+static void lend_results(const gltf_document *d, const bool *meshes, bool back, gltf_document *other)
+{
+    size_t k = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            for (size_t n = 0; n < d->showings[m].node_count; n++, k++) {
+                const gltf_instance *from = &d->instances[k];
+                gltf_instance *to = &other->instances[k];
+                to->selected = from->selected;
+                if (!meshes[m] || !from->selected)
+                    continue;
+                const size_t target =
+                    to->first_target + other->model.meshes[m].primitives[p].target_count - 1;
+                const size_t shape = other->targets[target];
+                for (size_t s = 0; s < GLTF_DEFORMED && shape != GLTF_NONE; s++)
+                    if (other->parts[shape].streams[s].accessor != GLTF_NONE && from->part[s] != GLTF_NONE)
+                        other->parts[shape].streams[s].result =
+                            back ? NULL : d->parts[from->part[s]].streams[s].result;
+            }
+}
+
+static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
+                                   const mesh_save_options *options, file_output *output, const mesh_log *log,
+                                   ffd_error *error)
+{
+    const ffd_source source = {d->path, d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF, d->space};
+    mesh_document *other = NULL;
+    file_input file = {0};
+    ffd_status status = ffd_gltf_add_target(d, meshes, log, &file, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_format.open(&file, &source, &other, error);
+    if (status == FFD_OK) {
+        ((gltf_document *)other)->own_accessors =
+            ffd_gltf_of(other)->model.accessor_count - d->model.accessor_count;
+        lend_results(d, meshes, false, (gltf_document *)other);
+        status = ffd_gltf_save(other, options, output, log, error);
+        lend_results(d, meshes, true, (gltf_document *)other);
+    }
+    ffd_gltf_format.close(other);
+    ffd_file_unload(&file);
+    return status;
+}
+
+static void drop_results(gltf_document *d)
+{
+    for (size_t i = 0; i < d->base.part_count; i++)
+        for (int s = 0; s < GLTF_DEFORMED; s++) {
+            ffd_free(d->parts[i].streams[s].result);
+            d->parts[i].streams[s].result = NULL;
+        }
+    ffd_free(d->morph_name);
+    d->morph_name = NULL;
+}
+
+ffd_status ffd_gltf_save_as_morph(mesh_document *document, const mesh_save_options *options,
+                                  file_output *output, const mesh_log *log, ffd_error *error)
+{
+    gltf_document *d = (gltf_document *)document;
+    const gltf_saver talk = {.log = log};
+    bool *meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *meshes);
+    unsigned char *moved = ffd_alloc_zero(d->base.part_count, GLTF_DEFORMED);
+    ffd_status status;
+    if (!meshes || !moved) {
+        status = ffd_fail_memory(error);
+    } else if (mark_moved(d, moved, meshes)) {
+        status = save_with_target(d, meshes, options, output, log, error);
+    } else {
+        ffd_gltf_log(&talk, FFD_LOG_WARNING, "nothing moves: no morph target is added");
+        drop_results(d);
+        status = ffd_gltf_save(document, options, output, log, error);
+    }
+    ffd_free(meshes);
+    ffd_free(moved);
+    return status;
+}

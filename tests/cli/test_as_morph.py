@@ -1,0 +1,229 @@
+#!/usr/bin/env python3
+"""ffd deform --as-morph: the base stays, and the deformation is a further morph target."""
+
+import json
+import re
+import struct
+
+from gltf_build import SHEAR, SHIFT, Scene, vectors
+from harness import (CUBE, UNSUPPORTED, USAGE, case, check, equal, glb_split, gltf_vectors, lattice, main, near)
+
+POINTS = [[1.0, 2.0, 0.0], [2.0, -4.0, 1.0]]
+NORMALS = [[0.6000000238418579, 0.800000011920929, 0.0]] * 2
+
+
+def plain(**members):
+    scene = Scene(nodes=[{"mesh": 0}], scenes=[{"nodes": [0]}], **members)
+    attributes = {"POSITION": scene.add(POINTS, bounds=True), "NORMAL": scene.add(NORMALS),
+                  "TANGENT": scene.add([[0.8, -0.6, 0.0, -1.0]] * 2, shape="VEC4")}
+    scene.asset["meshes"] = [{"primitives": [{"attributes": attributes, "mode": 0}]}]
+    return scene
+
+
+def morphed(run, scene, *options, box=SHEAR, name="bent", **expected):
+    run.write("in.glb", scene.glb())
+    run.write("l.json", box)
+    run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--as-morph", name, *options, **expected)
+    return run.read("out.glb")
+
+
+def sheared(p):
+    return [0.05 * p[0] * p[1], 0, 0]
+
+
+def floats(asset, data, accessor):
+    accessor = asset["accessors"][accessor]
+    view = asset["bufferViews"][accessor["bufferView"]]
+    return list(struct.unpack_from(f"<{accessor['count']}f", data, view.get("byteOffset", 0)
+                                   + accessor.get("byteOffset", 0)))
+
+
+@case
+def the_target_is_the_difference(run):
+    scene = plain()
+    asset, data = glb_split(morphed(run, scene))
+    deformed = None
+    run.ffd("deform", "in.glb", "moved.glb", "-l", "l.json")
+    deformed = run.read("moved.glb")
+    mesh = asset["meshes"][0]
+    target = mesh["primitives"][0]["targets"][0]
+    equal(list(target), ["POSITION", "NORMAL", "TANGENT"])
+    equal((mesh["weights"], mesh["extras"]), ([0], {"targetNames": ["bent"]}))
+    old, old_data = glb_split(run.read("in.glb"))
+    equal(data[:len(old_data)], old_data)
+    equal(asset["accessors"][:3], old["accessors"])
+    near(gltf_vectors(asset, data, target["POSITION"]), [sheared(p) for p in POINTS], 1e-6)
+    near(gltf_vectors(asset, data, target["NORMAL"]),
+         [[b - a for a, b in zip(n, m)] for n, m in zip(NORMALS, vectors(deformed, 1))], 1e-6)
+    bounds = asset["accessors"][target["POSITION"]]
+    found = gltf_vectors(asset, data, target["POSITION"])
+    equal((bounds["min"], bounds["max"]), ([min(v[a] for v in found) for a in range(3)],
+                                          [max(v[a] for v in found) for a in range(3)]))
+    check(bounds["componentType"] == 5126, bounds)
+    for number in target.values():
+        check("bufferView" in asset["accessors"][number], "zeros were left")
+    equal(len(asset["accessors"]), 6)
+    keep = glb_split(morphed(run, scene, "--normals", "keep"))[0]
+    equal(list(keep["meshes"][0]["primitives"][0]["targets"][0]), ["POSITION"])
+
+
+@case
+def nothing_moves(run):
+    scene = plain()
+    far = lattice(low=(50, 50, 50), high=(60, 60, 60), moves=[{"by": [1, 0, 0]}])
+    run.write("in.glb", scene.glb())
+    run.write("l.json", far)
+    done = run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", "--as-morph", "x", lines=2)
+    equal(done.err[1], "in.glb: nothing moves: no morph target is added")
+    equal(run.read("out.glb"), run.read("in.glb"))
+
+
+@case
+def other_targets_and_their_names_stay(run):
+    def scene_with(targets, **members):
+        scene = plain()
+        for primitive in scene.asset["meshes"][0]["primitives"]:
+            primitive["targets"] = [{"POSITION": scene.add([[float(t), 0.0, 0.0]] * 2, bounds=True)}
+                                    for t in range(targets)]
+        scene.asset["meshes"][0].update(members)
+        return scene
+
+    def mesh(scene, **expected):
+        asset, data = glb_split(morphed(run, scene, **expected))
+        for t, target in enumerate(asset["meshes"][0]["primitives"][0]["targets"][:-1]):
+            equal(gltf_vectors(asset, data, target["POSITION"]), [[t, 0, 0]] * 2)
+        last = asset["meshes"][0]["primitives"][0]["targets"][-1]
+        near(gltf_vectors(asset, data, last["POSITION"]), [sheared(p) for p in POINTS], 1e-6)
+        return asset["meshes"][0]
+
+    found = mesh(scene_with(2, weights=[0.5, 1], extras={"targetNames": ["a", "b"], "more": [1.50]}))
+    equal((found["weights"], found["extras"]), ([0.5, 1, 0], {"targetNames": ["a", "b", "bent"], "more": [1.5]}))
+    found = mesh(scene_with(2))
+    equal((found["weights"], found["extras"]), ([0, 0, 0], {"targetNames": ["target_0", "target_1", "bent"]}))
+    found = mesh(scene_with(2, extras={"targetNames": ["a"]}))
+    equal(found["extras"], {"targetNames": ["a", "target_1", "bent"]})
+    found = mesh(scene_with(1, extras={"targetNames": ["a", "left over", "c"]}))
+    equal(found["extras"], {"targetNames": ["a", "bent", "c"]})
+    found = mesh(scene_with(1, extras={}, weights=[]))
+    equal((found["weights"], found["extras"]), ([0], {"targetNames": ["target_0", "bent"]}))
+    found = mesh(scene_with(0, extras=[1]), err="in.glb: mesh 0: its extras have no place for the name of the morph target")
+    equal(found["extras"], [1])
+    mesh(scene_with(1, extras={"targetNames": ["bent"]}), err="in.glb: mesh 0 has a morph target of that name already")
+    found = json.loads(json.dumps(glb_split(morphed(run, plain(), name='b"\\\u00e4'))[0]))["meshes"][0]
+    equal(found["extras"]["targetNames"], ['b"\\\u00e4'])
+
+
+@case
+def every_primitive_of_a_mesh_and_only_meshes_that_move(run):
+    scene = plain()
+    far = scene.add([[90.0, 0.0, 0.0]], bounds=True)
+    scene.asset["meshes"][0]["primitives"].append({"attributes": {"POSITION": far}, "mode": 0})
+    scene.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": far}, "mode": 0}]})
+    scene.asset["nodes"].append({"mesh": 1})
+    scene.asset["scenes"][0]["nodes"].append(1)
+    asset, _ = glb_split(morphed(run, scene, lines=1))
+    first, second = asset["meshes"][0]["primitives"]
+    equal((len(first["targets"]), len(second["targets"])), (1, 1))
+    zeros = asset["accessors"][second["targets"][0]["POSITION"]]
+    equal((zeros["count"], zeros["min"], zeros["max"]), (1, [0, 0, 0], [0, 0, 0]))
+    equal(asset["meshes"][1], scene.asset["meshes"][1])
+
+
+@case
+def nodes_that_see_it_otherwise(run):
+    scene = plain()
+    scene.asset["nodes"] += [{"mesh": 0, "translation": [4, 0, 0], "weights": []}, {"mesh": 0, "translation": [90, 0, 0]},
+                             {"mesh": 0}]
+    scene.asset["scenes"][0]["nodes"] += [1, 2]
+    asset, data = glb_split(morphed(run, scene, lines=2))
+    places = []
+    for n in range(4):
+        mesh = asset["meshes"][asset["nodes"][n]["mesh"]]
+        target = mesh["primitives"][0]["targets"][0]["POSITION"]
+        equal((mesh["weights"], mesh["extras"]["targetNames"]), ([0], ["bent"]))
+        moved = "bufferView" in asset["accessors"][target]
+        places.append(gltf_vectors(asset, data, target) if moved else [[0, 0, 0]] * 2)
+    near(places, [[sheared(p) for p in POINTS], [sheared([p[0] + 4, p[1]]) for p in POINTS], [[0, 0, 0]] * 2,
+                  [[0, 0, 0]] * 2], 1e-6)
+    equal(asset["nodes"][1]["weights"], [0])
+    check("weights" not in asset["nodes"][0], asset["nodes"])
+
+
+@case
+def animations_of_weights_go_on(run):
+    scene = plain()
+    primitive = scene.asset["meshes"][0]["primitives"][0]
+    primitive["targets"] = [{"POSITION": scene.add([[0.0] * 3] * 2, bounds=True)} for _ in range(2)]
+    scene.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": scene.add([[90.0, 0.0, 0.0]], bounds=True)},
+                                                  "mode": 0, "targets": [{}, {}]}]})
+    scene.asset["nodes"].append({"mesh": 1})
+    scene.asset["scenes"][0]["nodes"].append(1)
+    times = scene.add([[0.0], [1.0]], shape="SCALAR", min=[0], max=[1])
+    linear = scene.add([[v] for v in (1.0, 2.0, 3.0, 4.0)], shape="SCALAR")
+    cubic = scene.add([[float(v)] for v in range(12)], shape="SCALAR")
+    bytes_ = scene.add([[0], [255], [51], [0]], 5121, "SCALAR", normalized=True)
+
+    def channel(sampler, node):
+        return {"sampler": sampler, "target": {"node": node, "path": "weights"}}
+
+    scene.asset["animations"] = [{
+        "channels": [channel(0, 0), channel(1, 0), channel(2, 0), channel(2, 1)],
+        "samplers": [{"input": times, "output": linear}, {"input": times, "output": cubic, "interpolation": "CUBICSPLINE"},
+                     {"input": times, "output": bytes_, "extras": 7}]}]
+    asset, data = glb_split(morphed(run, scene, lines=1))
+    animation = asset["animations"][0]
+    equal([c["sampler"] for c in animation["channels"]], [0, 1, 3, 2])
+    outputs = [floats(asset, data, s["output"]) for s in (animation["samplers"][i] for i in (0, 1, 3))]
+    equal(outputs[0], [1, 2, 0, 3, 4, 0])
+    equal(outputs[1], [0, 1, 0, 2, 3, 0, 4, 5, 0, 6, 7, 0, 8, 9, 0, 10, 11, 0])
+    near(outputs[2], [0, 1, 0, 0.2, 0, 0], 1e-6)
+    equal(animation["samplers"][2], scene.asset["animations"][0]["samplers"][2])
+    equal(animation["samplers"][3]["extras"], 7)
+    equal(animation["samplers"][3]["input"], times)
+    # The same in a .gltf with a data URI, and one without buffers of its own kind.
+    check(len(asset["buffers"]) == 1, asset["buffers"])
+
+
+@case
+def what_cannot_have_one(run):
+    run.write("cube.obj", CUBE)
+    run.write("l.json", SHIFT)
+    run.write("in.glb", plain().glb())
+    run.ffd("deform", "cube.obj", "out.obj", "-l", "l.json", "--as-morph", "x", code=USAGE,
+            err="out.obj: cannot hold a morph target: only .gltf and .glb can (--as-morph)")
+    run.ffd("deform", "in.glb", "out.obj", "-l", "l.json", "--as-morph", "x", code=USAGE, lines=1)
+    run.ffd("deform", "cube.obj", "out.glb", "-l", "l.json", "--as-morph", "x", code=UNSUPPORTED,
+            err=re.compile("--as-morph needs glTF as input too"))
+    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", "--as-morph", "", code=USAGE, lines=1)
+    for name in ("out.obj", "out.glb"):
+        check(not run.exists(name), name)
+
+
+@case
+def in_place_and_mesh_space_and_selection(run):
+    scene = plain()
+    run.write("in.glb", scene.glb())
+    run.write("l.json", SHEAR)
+    run.ffd("deform", "in.glb", "a.glb", "-l", "l.json", "--as-morph", "bent")
+    run.ffd("deform", "in.glb", "--in-place", "-l", "l.json", "--as-morph", "bent")
+    equal(run.read("in.glb"), run.read("a.glb"))
+    # Once more: a second target, and the first stays.
+    run.ffd("deform", "in.glb", "--in-place", "-l", "l.json", "--as-morph", "again")
+    asset, data = glb_split(run.read("in.glb"))
+    equal(asset["meshes"][0]["extras"]["targetNames"], ["bent", "again"])
+    first, second = asset["meshes"][0]["primitives"][0]["targets"]
+    equal(gltf_vectors(asset, data, first["POSITION"]), gltf_vectors(asset, data, second["POSITION"]))
+    scene.asset["nodes"] = [{"mesh": 0, "name": "one", "translation": [4, 0, 0]}, {"mesh": 0, "name": "two"}]
+    scene.asset["scenes"][0]["nodes"] = [0, 1]
+    asset, data = glb_split(morphed(run, scene, "--space", "mesh"))
+    near(gltf_vectors(asset, data, asset["meshes"][0]["primitives"][0]["targets"][0]["POSITION"]),
+         [sheared(p) for p in POINTS], 1e-6)
+    asset, data = glb_split(morphed(run, scene, "--only", "node:two"))
+    moved = []
+    for n in range(2):
+        target = asset["meshes"][asset["nodes"][n]["mesh"]]["primitives"][0]["targets"][0]["POSITION"]
+        moved.append("bufferView" in asset["accessors"][target])
+    equal(moved, [False, True])
+
+
+main()
