@@ -169,9 +169,8 @@ static size_t log_count;
 static void count_line(void *user, ffd_log_level level, const char *line)
 {
     (void)user;
-    assert_int_equal(level, FFD_LOG_INFO);
-    assert_non_null(strstr(line, "is written uncompressed"));
-    log_count++;
+    assert_non_null(strstr(line, " written uncompressed "));
+    log_count += level == FFD_LOG_INFO;
 }
 
 /* Deforms a file into `output` and gives its text; *lines: how many unpackings were told. */

@@ -203,7 +203,8 @@ static void a_mesh_under_two_nodes_is_copied_where_they_differ(void **state)
                                                    "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
                                                    "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
                                                        TWO_NODES("0", "1"),
-        "1 node 1 gets a copy of mesh 0, mesh 1: it is deformed otherwise than under other nodes\n");
+        "1 node 1 gets a copy of mesh 0 (mesh 1): it is deformed otherwise than under other nodes\n"
+        "0 1 node gets a copy of its mesh, which is deformed otherwise than under other nodes\n");
 }
 
 static void nodes_that_agree_share_a_copy(void **state)
@@ -223,8 +224,9 @@ static void nodes_that_agree_share_a_copy(void **state)
                                                    "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
                                                    "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
                                                        THREE("1"),
-        "1 node 1 gets a copy of mesh 0, mesh 1: it is deformed otherwise than under other nodes\n"
-        "1 node 2 gets a copy of mesh 0, mesh 1: it is deformed otherwise than under other nodes\n");
+        "1 node 1 gets a copy of mesh 0 (mesh 1): it is deformed otherwise than under other nodes\n"
+        "1 node 2 gets a copy of mesh 0 (mesh 1): it is deformed otherwise than under other nodes\n"
+        "0 2 nodes get copies of their meshes, which are deformed otherwise than under other nodes\n");
 #undef THREE
 }
 

@@ -176,7 +176,7 @@ static void add_meshes(gltf_saver *saver)
         const size_t mesh = d->mesh_values.count + change->copy;
         replace_number(saver, d->node_values.values[change->node], "mesh", mesh, &saver->edits);
         ffd_gltf_log(saver, FFD_LOG_INFO,
-                     "node %zu gets a copy of mesh %d, mesh %zu: it is deformed otherwise than under "
+                     "node %zu gets a copy of mesh %d (mesh %zu): it is deformed otherwise than under "
                      "other nodes",
                      change->node, d->model.nodes[change->node].mesh, mesh);
     }

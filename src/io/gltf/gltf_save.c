@@ -232,32 +232,6 @@ static void warn_of_chunks(const gltf_saver *saver)
                      d->glb.end - d->glb.rest_begin);
 }
 
-/* What the scene shows otherwise than the parts do, or does not show at all. */
-static void tell_left(const gltf_saver *saver)
-{
-    const gltf_document *d = saver->document;
-    size_t unused = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        unused += !d->showings[m].is_used;
-    if (d->crowd_count > 0)
-        ffd_gltf_log(saver, FFD_LOG_WARNING,
-                     "%zu node%s with EXT_mesh_gpu_instancing, out of the lattice's reach: left as %s",
-                     d->crowd_count, d->crowd_count == 1 ? "" : "s",
-                     d->crowd_count == 1 ? "it is" : "they are");
-    if (d->hidden_nodes == 1)
-        ffd_gltf_log(saver, FFD_LOG_WARNING,
-                     "1 node with a mesh is not in the scene that is shown: left as it is");
-    else if (d->hidden_nodes > 1)
-        ffd_gltf_log(saver, FFD_LOG_WARNING,
-                     "%zu nodes with a mesh are not in the scene that is shown: left as they are",
-                     d->hidden_nodes);
-    if (unused > 0 && d->space == FFD_SPACE_SCENE)
-        ffd_gltf_log(saver, FFD_LOG_WARNING,
-                     unused == 1 ? "%zu mesh that no node has: left as it is"
-                                 : "%zu meshes that no node has: left as they are",
-                     unused);
-}
-
 ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                          const mesh_log *log, ffd_error *error)
 {
@@ -280,7 +254,7 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
     if (status == FFD_OK)
         status = ffd_gltf_name_buffers(&saver, error);
     if (status == FFD_OK)
-        tell_left(&saver);
+        ffd_gltf_announce(&saver);
     if (status == FFD_OK)
         status = put_files(&saver, error);
     ffd_gltf_free_content(&saver);

@@ -60,6 +60,9 @@ typedef struct gltf_saver {
 
 void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
 
+/* gltf_announce.c: tells what was left alone, copied or stored otherwise; comes after all else is known. */
+void ffd_gltf_announce(const gltf_saver *saver);
+
 /* gltf_unpack.c: what is to be decoded, from the plan. */
 ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error);
 void ffd_gltf_free_unpackings(gltf_saver *saver);
