@@ -499,6 +499,7 @@ def instances_out_of_reach_are_left_alone(run):
         run.write("in.glb", scene.glb())
         done = run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--report", "r.json", lines=2)
         check(LEFT in done.err, done.err)
+        equal(done.announced, ["in.glb: 1 node gets a copy of its mesh, which is deformed otherwise than under other nodes"])
         asset, data = glb_split(run.read("out.glb"))
         equal([node["mesh"] for node in asset["nodes"]], [0, 1, 0])
         near(gltf_vectors(asset, data, asset["meshes"][1]["primitives"][0]["attributes"]["POSITION"]),

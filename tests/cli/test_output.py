@@ -226,8 +226,11 @@ def pipes_and_sockets_as_files(run):
     expected = start(run)
     os.mkfifo(run.path("in.obj"))
     writer = subprocess.Popen(["sh", "-c", "cat a.obj > in.obj"], cwd=run.folder)
-    run.ffd("deform", "in.obj", "b.obj", "-l", "l.json")
+    # A pipe among files may never give anything; one that this process was given does.
+    run.ffd("deform", "in.obj", "b.obj", "-l", "l.json", code=IO)
+    writer.kill()
     writer.wait(timeout=SECONDS)
+    run.ffd("deform", "/dev/stdin", "b.obj", "-l", "l.json", "--input-format", "obj", stdin=run.read("a.obj"))
     equal(run.read("b.obj"), expected)
     if len(run.path("s.obj")) < 100:
         with socket.socket(socket.AF_UNIX) as server:
