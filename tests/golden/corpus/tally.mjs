@@ -4,9 +4,10 @@ const HALF = 0.5 + 1e-6;
 // Of the size of the coordinates: what double arithmetic may add before the one rounding.
 const DOUBLE = 1e-13;
 
-// Half the distance to the next float.
+// Half the distance to the next number of the file's kind. Quantized values may have been floats on their way:
+// one in some thousands then takes the next quantum, by no more than a float's rounding beyond the half.
 function roundingOf(value, step, precision) {
-    if (step) return HALF * step;
+    if (step) return HALF * step + roundingOf(value, 0, 'float');
     const bits = precision === 'double' ? 52 : 23;
     const exponent = Math.max(Math.floor(Math.log2(Math.abs(value) || Number.MIN_VALUE)), -126);
     return HALF * 2 ** (exponent - bits);
