@@ -2,14 +2,14 @@
 # Fuzzes lattice files or a reader of meshes with clang's libFuzzer under the address and undefined-behaviour
 # sanitizers.
 #     sh tests/fuzz/run.sh [-t TARGET] SECONDS [FOLDER]
-# TARGET: lattice (default), obj, gltf, glb, ply, off. Builds in FOLDER (default .build-test/fuzz). What is found new
+# TARGET: lattice (default), obj, gltf, glb, ply, off, stl. Builds in FOLDER (default .build-test/fuzz). What is found new
 # goes to FOLDER/TARGET/corpus, which the next run goes on with; inputs that end in a finding go to
 # FOLDER/TARGET/findings. Meshes start from the small ones of the folder FFD_MODELS too, where that is set. Ends
 # with 0 when there was no finding.
 set -eu
 
 usage() {
-    echo "usage: sh tests/fuzz/run.sh [-t lattice|obj|gltf|glb|ply|off] SECONDS [FOLDER]" >&2
+    echo "usage: sh tests/fuzz/run.sh [-t lattice|obj|gltf|glb|ply|off|stl] SECONDS [FOLDER]" >&2
     exit 2
 }
 
@@ -28,7 +28,7 @@ work=${2-$root/.build-test/fuzz}
 case $target in
 lattice) length=8192 dictionary=lattice.dict ;;
 gltf | glb) length=16384 dictionary=gltf.dict ;;
-obj | ply | off) length=8192 dictionary=$target.dict ;;
+obj | ply | off | stl) length=8192 dictionary=$target.dict ;;
 *) usage ;;
 esac
 
