@@ -94,6 +94,11 @@ class Run:
     def names(self, folder=""):
         return sorted(os.listdir(self.path(folder)))
 
+    def remove(self, name):
+        """Removes a file, if it is there."""
+        if self.exists(name):
+            os.unlink(self.path(name))
+
     def folder_of(self, name):
         os.makedirs(self.path(name))
         return name

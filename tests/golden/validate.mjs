@@ -1,6 +1,7 @@
 // Runs the Khronos glTF validator over files.
 //     node validate.mjs FOLDER-WITH-NODE_MODULES < list-of-paths
-// Prints for each path, as it comes, one line of JSON: {"path", "errors": [[code, pointer], ...]} or {"path", "failed": why}.
+// Prints for each path, as it comes, one line of JSON: {"path", "errors": [[code, pointer], ...], "codes": [code, ...]}, the
+// codes being those of all severities, or {"path", "failed": why}.
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import path from 'node:path';
@@ -17,16 +18,18 @@ async function validate(file) {
         externalResourceFunction: async (uri) =>
             new Uint8Array(await readFile(path.join(path.dirname(file), decodeURIComponent(uri)))),
     });
-    return report.issues.messages
+    const { messages } = report.issues;
+    const errors = messages
         .filter((message) => message.severity === ERROR)
         .map((message) => [message.code, message.pointer ?? `@${message.offset ?? ''}`]);
+    return { errors, codes: [...new Set(messages.map((message) => message.code))] };
 }
 
 for await (const file of createInterface({ input: process.stdin })) {
     if (!file) continue;
     let line;
     try {
-        line = { path: file, errors: await validate(file) };
+        line = { path: file, ...(await validate(file)) };
     } catch (problem) {
         line = { path: file, failed: String(problem) };
     }

@@ -257,6 +257,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         return ffd_fail_memory(error);
     status = ffd_gltf_check(d, error);
     if (status == FFD_OK)
+        status = ffd_gltf_check_indices(d, error);
+    if (status == FFD_OK)
         status = ffd_gltf_list_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_scene(d, error);

@@ -178,6 +178,8 @@ ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
 uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);
 ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, size_t primitive,
                                  ffd_error *error);
+/* gltf_indices.c: refuses indices that are not below their primitive's number of vertices. */
+ffd_status ffd_gltf_check_indices(const gltf_document *document, ffd_error *error);
 /* gltf_scene.c: which nodes are shown, and their matrices. Refuses cycles and second parents. */
 ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
 /* The node's own matrix, linear row by row and offset. */

@@ -266,6 +266,17 @@ static ffd_status check_value(const checker *c, uint32_t value, const rule *r)
     return FFD_OK;
 }
 
+/* Whether text is two whole numbers with a point between. */
+static bool is_version(const char *text)
+{
+    static const char digits[] = "0123456789";
+    const size_t major = strspn(text, digits);
+    if (major == 0 || text[major] != '.')
+        return false;
+    const size_t minor = strspn(text + major + 1, digits);
+    return minor > 0 && text[major + 1 + minor] == 0;
+}
+
 static ffd_status check_version(const checker *c)
 {
     const uint32_t version =
@@ -274,7 +285,10 @@ static ffd_status check_version(const checker *c)
     if (!text)
         return ffd_fail_memory(c->error);
     ffd_status status = FFD_OK;
-    if (strncmp(text, "2.", 2) != 0)
+    if (!is_version(text))
+        status = ffd_json_span_fail(c->tree, version, c->name, FFD_E_INVALID, c->error,
+                                    "\"%s\" is no version of glTF like \"2.0\"", text);
+    else if (strncmp(text, "2.", 2) != 0)
         status = ffd_json_span_fail(c->tree, version, c->name, FFD_E_UNSUPPORTED, c->error,
                                     "glTF version \"%s\" is not known, only 2", text);
     ffd_free(text);

@@ -1,0 +1,53 @@
+#include "base/memory.h"
+#include "io/gltf/gltf_document.h"
+
+/* Elements that are read at a time. */
+#define BLOCK 256
+
+static uint32_t largest_of(const gltf_document *d, size_t a)
+{
+    const size_t count = (size_t)d->model.accessors[a].count;
+    double values[BLOCK];
+    uint32_t largest = 0;
+    for (size_t first = 0; first < count; first += BLOCK) {
+        const size_t size = count - first < BLOCK ? count - first : BLOCK;
+        ffd_gltf_read(d, a, first, size, 1, values);
+        for (size_t i = 0; i < size; i++)
+            if (values[i] > largest)
+                largest = (uint32_t)values[i];
+    }
+    return largest;
+}
+
+static ffd_status check_primitive(const gltf_document *d, size_t m, size_t p, uint64_t *largest,
+                                  ffd_error *error)
+{
+    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    const int position = primitive->accessor[GLTF_POSITION], indices = primitive->indices;
+    if (position < 0 || indices < 0 || !d->layouts[indices].readable)
+        return FFD_OK;
+    /* Found once: many primitives can share the indices. */
+    if (largest[indices] == UINT64_MAX)
+        largest[indices] = largest_of(d, (size_t)indices);
+    const uint64_t vertices = d->model.accessors[position].count;
+    if (largest[indices] < vertices)
+        return FFD_OK;
+    return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID, error,
+                              "there is an index %llu, but only %llu vertices",
+                              (unsigned long long)largest[indices], (unsigned long long)vertices);
+}
+
+ffd_status ffd_gltf_check_indices(const gltf_document *d, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    uint64_t *largest = ffd_alloc(d->model.accessor_count, sizeof *largest);
+    if (!largest)
+        return ffd_fail_memory(error);
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        largest[a] = UINT64_MAX;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
+            status = check_primitive(d, m, p, largest, error);
+    ffd_free(largest);
+    return status;
+}
