@@ -4,13 +4,11 @@ table and one line, in time, in little memory, without a look outside of the mod
 
 import json
 import os
-import resource
 import shutil
-import stat
 import struct
 import subprocess
 
-from broken_gltf_cases import Model
+from broken_gltf_cases import TRIANGLES, USHORT, Model
 from harness import (CUBE, FFD, INVALID, IO, LIMIT, OK, UNSUPPORTED, case, check, equal, glb, gltf_json, lattice, main)
 
 REFUSALS = (IO, INVALID, UNSUPPORTED, LIMIT)
@@ -22,8 +20,8 @@ PLY = ("ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty floa
        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
        + "".join("%d %d %d\n" % (x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)) + "4 0 1 3 2\n3 4 5 6\n")
 PLY_BYTES = (b"ply\nformat binary_little_endian 1.0\nelement vertex 2\nproperty double x\nproperty float y\n"
-             b"property short z\nelement face 1\nproperty list uchar uint vertex_indices\nend_header\n"
-             + struct.pack("<dfhdfh", 0, 1, 0, 1, 0, 1) + struct.pack("<B3I", 3, 0, 1, 1))
+             b"property float z\nelement face 1\nproperty list uchar uint vertex_indices\nend_header\n"
+             + struct.pack("<dffdff", 0, 1, 0, 1, 0, 1) + struct.pack("<B3I", 3, 0, 1, 1))
 OFF = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
 STL = ("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
        "endsolid x\n")
@@ -192,7 +190,6 @@ def images_that_lead_out_are_not_copied(run):
 
 def peak(run, *words, code):
     """Peak memory of a run, in bytes."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
     pid = os.fork()
     if pid == 0:
         os.chdir(run.folder)
@@ -201,7 +198,6 @@ def peak(run, *words, code):
         os.dup2(null, 2)
         os.execv(FFD, [FFD, *words])
     _, status, usage = os.wait4(pid, 0)
-    del before
     check(os.WIFEXITED(status), f"{words}: ended by signal {os.WTERMSIG(status) if os.WIFSIGNALED(status) else '?'}")
     check(os.WEXITSTATUS(status) in code, f"{words}: exit {os.WEXITSTATUS(status)}, expected {code}")
     return usage.ru_maxrss * 1024
@@ -217,18 +213,41 @@ def zeros(count, nodes=1, primitives=1):
 
 
 def instances(vertices, nodes):
-    """A small buffer that many nodes show."""
+    """A small buffer that many nodes show: vertices * nodes points."""
     points = [[(n * 7 % 16) / 8 - 1, (n * 5 % 16) / 8 - 1, (n * 3 % 16) / 8 - 1] for n in range(vertices)]
     asset, data = gltf_json(points, nodes=[{"mesh": 0, "translation": [n / 4096, 0, 0]} for n in range(nodes)])
     return glb(asset, data)
 
 
+def drawn(primitives):
+    """Indices that many primitives share: 12000 triangles each."""
+    model = Model()
+    model.primitive["indices"] = model.add(TRIANGLES * 2000, "SCALAR", USHORT, target=34963)
+    model.asset["meshes"][0]["primitives"] = [model.primitive] * primitives
+    return model.glb()
+
+
+def crowd(primitives, nodes):
+    """Primitives * nodes that are shown."""
+    model = Model()
+    model.asset["meshes"][0]["primitives"] = [model.primitive] * primitives
+    model.asset["nodes"] = [{"mesh": 0}] * nodes
+    model.asset["scenes"][0]["nodes"] = list(range(nodes))
+    return model.glb()
+
+
+# Vertices, and nodes that show them: each time counts as a vertex of the file.
+SHOWN = 400, 4000
+
+# The name, and what makes the file.
 HUNGRY = [
     ("zeros.gltf", lambda: zeros(2**22)),
     ("more-zeros.gltf", lambda: zeros(2**62)),
     ("zeros-shown.gltf", lambda: zeros(2**20, nodes=500)),
     ("zeros-drawn.gltf", lambda: zeros(3 * 2**20, primitives=500)),
-    ("shown.glb", lambda: instances(4000, 4000)),
+    ("drawn.glb", lambda: drawn(3000)),
+    ("crowd.glb", lambda: crowd(3000, 20000)),
+    ("shown.glb", lambda: instances(*SHOWN)),
     ("nested.gltf", lambda: '{"asset":{"version":"2.0"},"extras":' + "[" * 10**6),
     ("members.gltf", lambda: '{"asset":{"version":"2.0"},"extras":[' + "0," * 10**6 + "0]}"),
     ("objects.gltf", lambda: '{"asset":{"version":"2.0"},"nodes":[' + "{}," * 10**5 + "{}]}"),
@@ -257,6 +276,8 @@ def memory_stays_near_the_size_of_the_file(run):
     for name, make in HUNGRY:
         run.write(name, make())
         size = os.path.getsize(run.path(name))
+        if name == "shown.glb":
+            size += 12 * SHOWN[0] * SHOWN[1]
         output = "out" + os.path.splitext(name)[1]
         for words in (("deform", name, output, "-l", "l.json", "-q", "--force"), ("info", name),
                       ("check", name, "-l", "l.json", "-q")):

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "base/vec.h"
 #include "io/formats.h"
+#include "io/gltf/gltf_document.h"
 #include "job/deform_job.h"
 #include "job/info.h"
 #include "job/placement.h"
@@ -24,7 +25,7 @@ typedef struct trial {
     ffd_format format;
     ffd_space space;
     ffd_normals normals;
-    bool is_quantized;          /* or may be so */
+    bool is_quantized;          /* some positions of the input are whole numbers */
     const char *input, *output; /* names in the work folder */
     char lattice[WORK_PATH];
 } trial;
@@ -313,12 +314,14 @@ static void prepare_files(void)
     work_write("moves.json", text, (size_t)snprintf(text, sizeof text, "%s%s]}", rest, moves));
 }
 
-static bool holds(const uint8_t *data, size_t size, const char *text)
+static bool is_quantized(const mesh_document *document)
 {
-    const size_t length = strlen(text);
-    for (size_t i = 0; i + length <= size; i++)
-        if (!memcmp(data + i, text, length))
+    const gltf_document *const d = ffd_gltf_of(document);
+    for (size_t i = 0; i < document->part_count; i++) {
+        const size_t accessor = d->parts[i].streams[GLTF_POSITION].accessor;
+        if (d->model.accessors[accessor].component != GLTF_FLOAT)
             return true;
+    }
     return false;
 }
 
@@ -330,6 +333,7 @@ static void run(trial *of, const uint8_t *data, size_t size)
     if (!document)
         return;
     check_description(document);
+    of->is_quantized = is_gltf(of->format) && is_quantized(document);
     const bool goes_on = is_small(document) && take_faces(document, &faces);
     ffd_source_close(&document);
     if (!goes_on)
@@ -348,7 +352,6 @@ void fuzz_mesh(ffd_format format, const uint8_t *data, size_t size)
         work_write("m.bin", end + 1, size - (size_t)(end + 1 - data));
         size = (size_t)(end - data);
     }
-    of.is_quantized = is_gltf(format) && holds(data, size, "KHR_mesh_quantization");
     run(&of, data, size);
     of.space = FFD_SPACE_MESH;
     of.normals = is_gltf(format) ? FFD_NORMALS_TRANSFORM : FFD_NORMALS_KEEP;

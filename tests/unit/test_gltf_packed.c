@@ -559,6 +559,10 @@ static void the_last_meshopt_view_takes_the_extension_along(void **state)
     assert_non_null(factor);
     factor[strlen("{\"bufferView\":")] = '1';
     indices[strlen("\"bufferView\":")] = '1';
+    /* What stands there now are no indices of 25 vertices. */
+    char *use = strstr(text, ",\"indices\":0");
+    assert_non_null(use);
+    memset(use, ' ', strlen(",\"indices\":0"));
     char *written = run_text(text, add_one, &lines);
     assert_int_equal(lines, 1);
     assert_null(strstr(written, "extensions"));

@@ -143,6 +143,10 @@ typedef struct gltf_document {
                         that is deformed */
 } gltf_document;
 
+/* How much of something that may be stated again and again is allowed: a number for every file, and more for
+   each of its bytes. */
+uint64_t ffd_gltf_allowance(const gltf_document *document, uint64_t at_least, double a_byte);
+
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {
     return (const gltf_document *)document;

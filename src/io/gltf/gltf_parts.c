@@ -3,8 +3,14 @@
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 
-#define MOST_INSTANCES ((size_t)1 << 24)
-#define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
+/* Primitives and vertices that nodes show: some, and more for each byte of the file, so that a short file
+   cannot ask for any amount of memory. */
+#define MOST_INSTANCES ((uint64_t)1 << 18)
+#define MOST_INSTANCES_A_BYTE (1.0 / 32)
+#define MOST_VERTICES ((uint64_t)1 << 24)
+#define MOST_VERTICES_A_BYTE 16
+/* And no more than have numbers. */
+#define MOST_NUMBERS ((uint64_t)UINT32_MAX - 1)
 
 /* Finds the parts of one POSITION accessor under one node and, with a skin, of the same influences. */
 typedef struct part_table {
@@ -13,15 +19,25 @@ typedef struct part_table {
     size_t *next; /* the part's next one with the same positions */
 } part_table;
 
+uint64_t ffd_gltf_allowance(const gltf_document *d, uint64_t at_least, double a_byte)
+{
+    double bytes = (double)d->input.size;
+    for (size_t b = 0; b < d->buffer_values.count; b++)
+        bytes += d->buffers[b].kind == BUFFER_FILE ? (double)d->buffers[b].size : 0;
+    return at_least + (uint64_t)(a_byte * bytes);
+}
+
 static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *error)
 {
+    const uint64_t most = ffd_gltf_allowance(d, MOST_INSTANCES, MOST_INSTANCES_A_BYTE);
     *total = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         const size_t primitives = d->model.meshes[m].primitive_count, nodes = d->showings[m].node_count;
         d->showings[m].first_instance = *total;
-        if (nodes > 0 && primitives > (MOST_INSTANCES - *total) / nodes)
-            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %zu primitives",
-                                 MOST_INSTANCES);
+        if (nodes > 0 && primitives > (most - *total) / nodes)
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name,
+                                 "its scene shows more than %llu primitives, the limit for its size",
+                                 (unsigned long long)most);
         *total += primitives * nodes;
     }
     return FFD_OK;
@@ -148,12 +164,15 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
 
 static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
 {
-    uint64_t vertices = 0;
+    uint64_t vertices = 0, most = ffd_gltf_allowance(d, MOST_VERTICES, MOST_VERTICES_A_BYTE);
+    if (most > MOST_NUMBERS)
+        most = MOST_NUMBERS;
     for (size_t i = 0; i < d->base.part_count; i++) {
         vertices += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
-        if (vertices > MOST_VERTICES)
-            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %llu vertices",
-                                 (unsigned long long)MOST_VERTICES);
+        if (vertices > most)
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name,
+                                 "its scene shows more than %llu vertices, the limit for its size",
+                                 (unsigned long long)most);
     }
     return FFD_OK;
 }
