@@ -6,6 +6,9 @@
 #include <float.h>
 #include <string.h>
 
+#define MOST_OBJECTS ((uint64_t)1 << 16)
+#define MOST_OBJECTS_A_BYTE (1.0 / 32)
+
 const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};
 
 uint32_t ffd_gltf_primitive_value(const gltf_document *d, size_t mesh, size_t primitive)
@@ -104,6 +107,23 @@ static ffd_status list_primitives(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
+/* An object takes about 1 kB, and a file 3 bytes to state it: so many are allowed, and more where the file is
+   as long as objects are that say something. */
+static ffd_status limit_objects(const gltf_document *d, ffd_error *error)
+{
+    const uint64_t most = ffd_gltf_allowance(d, MOST_OBJECTS, MOST_OBJECTS_A_BYTE);
+    const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
+    const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
+                           d->accessor_values.count + d->mesh_values.count + d->primitive_values.count +
+                           d->node_values.count + (scenes == JSON_NONE ? 0 : d->tree.values[scenes].count);
+    if (count <= most)
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_LIMIT, d->name,
+                         "%llu buffers, views, accessors, meshes, primitives, nodes and scenes are more than "
+                         "the %llu allowed for its size",
+                         (unsigned long long)count, (unsigned long long)most);
+}
+
 /* tinygltf refuses indices without a bufferView, which compressed and sparse ones have: it is not shown them.
  */
 static void hide_indices(const gltf_document *d, json_edits *edits)
@@ -172,6 +192,8 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
         status = list_all_values(d, error);
     if (status == FFD_OK)
         status = list_primitives(d, error);
+    if (status == FFD_OK)
+        status = limit_objects(d, error);
     if (status == FFD_OK) {
         hide_indices(d, &plain);
         ffd_edits_sort(&plain);

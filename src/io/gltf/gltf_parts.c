@@ -23,7 +23,7 @@ uint64_t ffd_gltf_allowance(const gltf_document *d, uint64_t at_least, double a_
 {
     double bytes = (double)d->input.size;
     for (size_t b = 0; b < d->buffer_values.count; b++)
-        bytes += d->buffers[b].kind == BUFFER_FILE ? (double)d->buffers[b].size : 0;
+        bytes += d->buffers && d->buffers[b].kind == BUFFER_FILE ? (double)d->buffers[b].size : 0;
     return at_least + (uint64_t)(a_byte * bytes);
 }
 
