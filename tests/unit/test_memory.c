@@ -76,6 +76,14 @@ static ffd_status run_deform(ffd_error *error)
     return ffd_deform_run(&desc, &result, error);
 }
 
+static ffd_status run_as_morph(ffd_error *error)
+{
+    ffd_deform_desc desc = describe();
+    ffd_job_result result;
+    desc.as_morph = "bent";
+    return ffd_deform_run(&desc, &result, error);
+}
+
 static ffd_status run_check(ffd_error *error)
 {
     ffd_deform_desc desc = describe();
@@ -192,7 +200,8 @@ static const struct {
     const char *format, *name;
 } inputs[] = {{"obj", "normals"}, {"obj", "many-normals"}, {"ply", "ascii"}, {"ply", "big"},
               {"off", "normals"}, {"gltf", "data"},        {"glb", "plain"}, {"glb", "tangents"},
-              {"glb", "sparse"},  {"glb", "quantized"},    {"glb", "nodes"}};
+              {"glb", "sparse"},  {"glb", "quantized"},    {"glb", "nodes"}, {"glb", "skin"},
+              {"glb", "morphs"}};
 
 static void memory_of_ours(void **state)
 {
@@ -201,6 +210,18 @@ static void memory_of_ours(void **state)
         take_input(inputs[i].format, inputs[i].name);
         for (size_t j = 0; j < sizeof jobs / sizeof *jobs; j++)
             assert_true(fail_everywhere(input, jobs[j], ffd_alloc_fail_after) > 5);
+        unlink(input);
+    }
+    (void)state;
+}
+
+static void memory_of_morph_targets(void **state)
+{
+    static const char *const names[] = {"plain", "skin", "morphs", "nodes"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        take_input("glb", names[i]);
+        assert_true(fail_everywhere(input, run_as_morph, ffd_alloc_fail_after) > 30);
+        fail_everywhere(input, run_as_morph, cpp_fail_after);
         unlink(input);
     }
     (void)state;
@@ -260,6 +281,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_of_ours),
+        cmocka_unit_test(memory_of_morph_targets),
         cmocka_unit_test(memory_of_cpp),
         cmocka_unit_test(memory_of_jansson),
     };

@@ -281,24 +281,23 @@ static void write_glb(const morph_writer *w, byte_buffer *json, byte_buffer *out
 static ffd_status write_file(morph_writer *w, file_input *made, ffd_error *error)
 {
     const gltf_document *d = w->saver.document;
-    byte_buffer text = {0}, file = {0};
+    byte_buffer text = {0}, glb = {0}, *const file = d->binary ? &glb : &text;
+    ffd_status status = FFD_OK;
     ffd_edits_sort(&w->saver.edits);
     ffd_edits_apply(&w->saver.edits, d->tree.text, 0, (uint32_t)d->tree.size, &text);
-    ffd_status status = text.failed || w->data.bytes.failed ? ffd_fail_memory(error) : FFD_OK;
-    if (status == FFD_OK && d->binary)
-        write_glb(w, &text, &file);
-    else
-        file = text;
-    if (status == FFD_OK && file.failed)
+    if (d->binary && !text.failed)
+        write_glb(w, &text, &glb);
+    if (text.failed || glb.failed || w->data.bytes.failed)
         status = ffd_fail_memory(error);
-    if (status == FFD_OK && file.size > UINT32_MAX)
+    else if (file->size > UINT32_MAX)
         status = ffd_fail_file(error, FFD_E_LIMIT, d->name, "would have more than 4294967295 bytes");
-    if (d->binary)
-        ffd_buffer_free(&text);
-    if (status == FFD_OK)
-        *made = (file_input){.data = (const unsigned char *)file.data, .size = file.size, .block = file.data};
-    else
-        ffd_buffer_free(&file);
+    if (status == FFD_OK) {
+        *made =
+            (file_input){.data = (const unsigned char *)file->data, .size = file->size, .block = file->data};
+        *file = (byte_buffer){0};
+    }
+    ffd_buffer_free(&text);
+    ffd_buffer_free(&glb);
     return status;
 }
 
