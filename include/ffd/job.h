@@ -75,6 +75,8 @@ typedef struct ffd_deform_desc {
     size_t struct_size; /* sizeof(ffd_deform_desc) of the caller */
     ffd_source input;
     const char *output; /* path, "-" for standard output */
+    /* May be another than the input's: the deformed mesh is then converted, in scene space, and the log is
+       warned of what the output's format cannot hold. .gltf and .glb are one format in two containers. */
     ffd_format output_format;
     const char *const *lattices; /* lattice_count paths, applied in that order; at least one */
     size_t lattice_count;
