@@ -97,6 +97,8 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     if (!status)
         status = begin_morph(job, error);
     if (!status)
+        job->document->converted = ffd_conversion_needed(job->document, options.format);
+    if (!status)
         status = ffd_deform_job_run(job, result, error);
     if (status)
         return status;

@@ -188,6 +188,9 @@ struct mesh_document {
     const mesh_part *parts; /* part_count, lent */
     size_t part_count;
     double largest_coordinate; /* that the file's numbers can hold; 0: that of the format */
+    /* Set before results: they are for another format (model), not for the file, and so not rounded to the
+       steps of its integers. */
+    bool converted;
 };
 
 /* The number of each part's first vertex in the document; of a part that repeats positions it is that of the

@@ -388,6 +388,25 @@ def scenes_are_placed(run):
 
 
 @case
+def quantized_positions_become_numbers(run):
+    """They come out as the fractions that they are, and what moves is not rounded to their steps."""
+    run.write("still.json", STILL)
+    run.write("shift.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [0.001, 0, 0]}]))
+    asset, _ = gltf_json([[0, 0, 0]] * 3)
+    asset["extensionsUsed"] = asset["extensionsRequired"] = ["KHR_mesh_quantization"]
+    asset["accessors"][0].update(componentType=5120, normalized=True, min=[-127, 0, 0], max=[127, 127, 0])
+    asset["bufferViews"][0].update(byteLength=12, byteStride=4)
+    asset["meshes"][0]["primitives"][0]["mode"] = 4
+    asset["buffers"][0]["byteLength"] = 12
+    run.write("a.glb", glb(asset, struct.pack("<12b", -127, 0, 0, 0, 100, 0, 0, 0, 3, 127, 0, 0)))
+    exact = [(-1.0, 0.0, 0.0), (100 / 127, 0.0, 0.0), (3 / 127, 1.0, 0.0)]
+    run.ffd("deform", "a.glb", "b.obj", "-l", "still.json")
+    equal(places(read_faces(run, "b.obj")), [exact])
+    run.ffd("deform", "a.glb", "c.obj", "-l", "shift.json")
+    near(places(read_faces(run, "c.obj"))[0], [(x + 0.001, y, z) for x, y, z in exact], 1e-7)
+
+
+@case
 def modes_of_drawing(run):
     run.write("still.json", STILL)
     points = [[x, y, 0.0] for x in (0, 1, 2) for y in (0, 1)]

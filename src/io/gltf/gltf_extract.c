@@ -74,15 +74,16 @@ static ffd_status count_values(extractor *e)
     return ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
 }
 
-/* The result of a stream where there is one, else what the file has. */
+/* The result of a stream where it is another than what the file has; that may be finer than a float, in
+ * integers. */
 static void read_stream(const gltf_document *d, size_t part, gltf_semantic semantic, double *values)
 {
     const gltf_stream *stream = &d->parts[part].streams[semantic];
     const size_t count = d->mesh_parts[part].vertex_count;
-    if (!stream->result)
-        ffd_gltf_read(d, stream->accessor, 0, count, 3, values);
+    ffd_gltf_read(d, stream->accessor, 0, count, 3, values);
     for (size_t i = 0; i < 3 * count && stream->result; i++)
-        values[i] = stream->result[i];
+        if ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i])
+            values[i] = stream->result[i];
 }
 
 static void read_transform(const gltf_document *d, size_t part, size_t vertex, double transform[12])

@@ -58,7 +58,7 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
     if (!result)
         return;
     const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
-    const bool steps = has_steps(accessor, semantic);
+    const bool steps = !d->base.converted && has_steps(accessor, semantic);
     for (size_t i = 0; i < count && d->morph_name; i++)
         if (changed[i])
             write_offset(d, stream, first + i, values + components * i);
