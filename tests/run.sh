@@ -199,8 +199,10 @@ if [ -n "$all" ]; then
             --wrap "valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite"
     fi
 
-    # The fuzz target itself, for a moment; its corpus was replayed by every build above.
-    case_of fuzz run sh "$root/tests/fuzz/run.sh" 30 "$work/fuzz"
+    # The fuzz targets themselves, for a moment; their corpus was replayed by every build above.
+    for target in lattice obj gltf glb ply off stl; do
+        case_of fuzz "$target" sh "$root/tests/fuzz/run.sh" -t "$target" 15 "$work/fuzz"
+    done
     drop fuzz
 
     case_of demo run sh "$root/data/demo.sh" "$work/demo"
