@@ -493,6 +493,8 @@ def instances_out_of_reach_are_left_alone(run):
     run.write("l.json", SHIFT)
     run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", err=[LEFT])
     equal(run.read("out.glb"), run.read("in.glb"))
+    run.ffd("deform", "in.glb", "out.obj", "-l", "l.json", code=UNSUPPORTED,
+            err="in.glb:/nodes/0: the instances of EXT_mesh_gpu_instancing are not converted")
     # The same mesh under nodes without instances: a copy of it.
     for nodes in ([{"mesh": 0}, {"mesh": 0, "translation": [100, 0, 0]}],):
         scene = instanced([[11.0, 0.0, 0.0]], nodes)

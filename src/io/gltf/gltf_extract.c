@@ -360,10 +360,21 @@ static ffd_status extract(extractor *e)
     return status;
 }
 
+/* A model has no instances, and the node's own place shows none of them. */
+static ffd_status refuse_instances(const gltf_document *d, ffd_error *error)
+{
+    if (d->crowd_count == 0)
+        return FFD_OK;
+    return ffd_json_span_fail(&d->tree, d->node_values.values[d->crowds[0].node], d->name, FFD_E_UNSUPPORTED,
+                              error, "the instances of EXT_mesh_gpu_instancing are not converted");
+}
+
 ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error)
 {
     extractor e = {.document = ffd_gltf_of(document), .model = model, .error = error};
-    ffd_status status = extract(&e);
+    ffd_status status = refuse_instances(e.document, error);
+    if (status == FFD_OK)
+        status = extract(&e);
     if (status == FFD_OK)
         status = ffd_model_finish(model, error);
     ffd_free(e.first_position);

@@ -40,6 +40,9 @@ ffd_status ffd_ply_find_roles(ply_document *document, ffd_error *error);
 /* The element whose rows are lines: "edge" with vertex1 and vertex2. NULL where there is none. */
 const ply_element *ffd_ply_find_edges(const ply_document *document);
 
+/* Refuses corners of faces that are no vertices. */
+ffd_status ffd_ply_check_faces(const ply_document *document, ffd_error *error);
+
 /* The entries of the format's table. */
 ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error);

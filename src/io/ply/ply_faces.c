@@ -6,7 +6,7 @@
 typedef struct face_reader {
     const ply_document *document;
     ply_walk walk;
-    mesh_faces *faces;
+    mesh_faces *faces; /* NULL: the corners are only looked at */
     size_t corners, capacity;
     ffd_error *error;
 } face_reader;
@@ -32,7 +32,8 @@ static ffd_status read_corners(face_reader *r, uint64_t face)
     size_t count = 0;
     ffd_ply_walk_value(&r->walk, list->count_type, &word);
     ffd_ply_load_count(d->header.encoding, list->count_type, word, &count);
-    if (!ffd_grow((void **)&r->faces->corners, &r->capacity, r->corners + count, sizeof *r->faces->corners))
+    if (r->faces &&
+        !ffd_grow((void **)&r->faces->corners, &r->capacity, r->corners + count, sizeof *r->faces->corners))
         return ffd_fail_memory(r->error);
     for (size_t i = 0; i < count; i++) {
         size_t vertex;
@@ -40,7 +41,9 @@ static ffd_status read_corners(face_reader *r, uint64_t face)
         if (!ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) ||
             vertex >= d->part.vertex_count)
             return refuse_index(r, face, word);
-        r->faces->corners[r->corners++] = (uint32_t)vertex;
+        if (r->faces)
+            r->faces->corners[r->corners] = (uint32_t)vertex;
+        r->corners++;
     }
     return FFD_OK;
 }
@@ -71,6 +74,18 @@ static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error
         status = read_face(&r, face);
     }
     faces->start[faces->face_count] = r.corners;
+    return status;
+}
+
+ffd_status ffd_ply_check_faces(const ply_document *d, ffd_error *error)
+{
+    face_reader r = {.document = d, .error = error};
+    ffd_status status = FFD_OK;
+    if (!d->face)
+        return FFD_OK;
+    ffd_ply_document_walk(d, d->face, &r.walk);
+    for (uint64_t face = 0; status == FFD_OK && face < d->face->count; face++)
+        status = read_face(&r, face);
     return status;
 }
 

@@ -10,7 +10,7 @@ ffd_status ffd_ply_check(const mesh_document *document, ffd_error *error)
             return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
                                  "%c of the vertices is of type %s: float and double can be deformed",
                                  "xyz"[a], ffd_ply_type_name(d->types[a]));
-    return FFD_OK;
+    return ffd_ply_check_faces(d, error);
 }
 
 const mesh_format ffd_ply_format = {
