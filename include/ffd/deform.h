@@ -21,8 +21,9 @@ FFD_API int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], do
                              double gradient[9]);
 
 /* Carries a normal n to the deformed surface: cof(I + gradient) n, normalised. Returns 1 and writes result;
-   returns 0 and copies n where gradient is all 0 (the bits are kept), or where the result has no direction
-   (collapse): *collapsed is then 1, else 0. collapsed may be NULL; result may be n. Any thread. */
+   returns 0 and copies n where gradient is all 0 or n is zero or not finite (the bits are kept), or where the
+   result has no direction (collapse): *collapsed is then 1, else 0. collapsed may be NULL; result may be n.
+   Any thread. */
 FFD_API int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3],
                               int *collapsed);
 

@@ -12,6 +12,12 @@ static bool is_zero(const double gradient[9])
     return true;
 }
 
+/* Files have zero normals, and broken ones: they stay as they are, and no deformation is to blame. */
+static bool has_direction(const double v[3])
+{
+    return vec_is_finite(v) && (v[0] != 0 || v[1] != 0 || v[2] != 0);
+}
+
 static void add_identity(const double gradient[9], double f[9])
 {
     for (int i = 0; i < 9; i++)
@@ -53,7 +59,7 @@ static double largest_entry(const double m[9])
 int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3], int *collapsed)
 {
     double f[9], cofactor[9], carried[3];
-    if (is_zero(gradient))
+    if (is_zero(gradient) || !has_direction(normal))
         return keep(normal, result, collapsed, 0);
     add_identity(gradient, f);
     mat_cofactor(f, cofactor);
@@ -80,7 +86,7 @@ static int carry_tangent(const double gradient[9], const double tangent[3], cons
 int ffd_deform_tangent(const double gradient[9], const double tangent[3], const double normal[3],
                        double result[3], int *collapsed)
 {
-    if (is_zero(gradient))
+    if (is_zero(gradient) || !has_direction(tangent))
         return keep(tangent, result, collapsed, 0);
     return carry_tangent(gradient, tangent, normal, result, collapsed);
 }

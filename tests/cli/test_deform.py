@@ -102,6 +102,17 @@ def normals(run):
 
 
 @case
+def zero_normals(run):
+    """A zero normal keeps its text, and is not told of as one that the deformation collapses."""
+    start(run, moves=[{"scale": {"factor": [1, 1, 0], "about": [0, 0, 0]}}])
+    run.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0.0 -0 0\nvn 1 0 0\nf 1//1 2//1 3//1\n")
+    run.ffd("deform", "n.obj", "t.obj", "-l", "l.json", err=[])
+    check("vn 0.0 -0 0\n" in run.text("t.obj"), run.text("t.obj"))
+    run.write("n.obj", run.text("n.obj").replace("f 1//1", "f 1//2"))
+    run.ffd("deform", "n.obj", "u.obj", "-l", "l.json", err="n.obj: 1 normals stay: the deformation collapses them")
+
+
+@case
 def glb_positions_and_bounds(run):
     start(run)
     asset, data = gltf_json(CUBE_CORNERS)
