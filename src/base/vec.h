@@ -5,6 +5,10 @@
 #include <math.h>
 #include <stdbool.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 static inline double vec_dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -87,5 +91,9 @@ static inline bool mat_invert(const double m[9], double out[9])
         out[i] = result[i];
     return true;
 }
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -3,7 +3,6 @@
 #include "base/vec.h"
 #include "io/openmesh/normals.h"
 #include "job/vertex_place.h"
-#include <float.h>
 #include <string.h>
 
 #define BLOCK VERTEX_PLACES
@@ -214,28 +213,19 @@ static bool drop_kept(grouping *g)
     return any;
 }
 
-static ffd_status sum_faces(grouping *g, ffd_error *error)
+static ffd_status find_directions(grouping *g, ffd_error *error)
 {
     normal_groups *groups = g->groups;
-    double *sizes = ffd_alloc_zero(groups->group_count, sizeof *sizes);
     groups->directions = ffd_alloc_zero(groups->group_count, 3 * sizeof *groups->directions);
-    if (!sizes || !groups->directions) {
-        ffd_free(sizes);
+    if (!groups->directions)
         return ffd_fail_memory(error);
-    }
-    const ffd_status status =
-        ffd_normals_sum(g->faces, g->deformed, g->corners, g->sides, groups->directions, sizes, error);
+    const ffd_status status = ffd_normals_of_groups(g->faces, g->deformed, g->corners, groups->group_count,
+                                                    g->sides, groups->directions, error);
     for (size_t i = 0; i < groups->group_count && status == FFD_OK; i++) {
-        double *n = groups->directions + 3 * i;
-        const double length = vec_length(n);
-        if (groups->outcomes[i] == NORMAL_KEPT)
-            continue;
-        if (!(length > 16 * DBL_EPSILON * sizes[i]))
+        const double *n = groups->directions + 3 * i;
+        if (groups->outcomes[i] == NORMAL_NEW && n[0] == 0 && n[1] == 0 && n[2] == 0)
             groups->outcomes[i] = NORMAL_LOST;
-        for (int a = 0; a < 3 && groups->outcomes[i] == NORMAL_NEW; a++)
-            n[a] /= length;
     }
-    ffd_free(sizes);
     return status;
 }
 
@@ -259,7 +249,7 @@ static ffd_status make(grouping *g, ffd_error *error)
     if (status == FFD_OK) {
         touch_groups(g);
         if (drop_kept(g))
-            status = sum_faces(g, error);
+            status = find_directions(g, error);
     }
     ffd_free(first_vertices);
     return status;

@@ -23,9 +23,11 @@ typedef struct normal_groups {
 
 /* Corners belong together whose vertices stand at one place (of 0 and -0 either), are brought to one place
    and have one normal, all three equal in bits, in the lattice's space. Their new normal is the direction of
-   the sum over them of (area of the face) (angle) (unit normal of the face), of the deformed faces. faces of
-   the whole document, at rest deformed  3 doubles a vertex: where the vertices are now, in the lattice's
-   space Freed by ffd_normal_groups_free, also after a failure. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+   the sum over them of (area of the face) (angle) (unit normal of the face), of the deformed faces; of faces
+   with one unit normal it is that one to the bit.
+     faces      of the whole document, at rest
+     deformed   3 doubles a vertex: where the vertices are now, in the lattice's space
+   Freed by ffd_normal_groups_free, also after a failure. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_normal_groups_make(const mesh_document *document, const mesh_faces *faces,
                                   const double *deformed, normal_groups *groups, ffd_error *error);
 void ffd_normal_groups_free(normal_groups *groups);

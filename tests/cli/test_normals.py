@@ -157,12 +157,15 @@ def sphere_obj():
 
 @case
 def hard_edges_stay_hard(run):
-    """A moved cube has the normals it had, one a face; a twisted one has four normals a face."""
+    """A moved cube has the normals it had, one a face; so has a twisted one, whose faces are no longer flat."""
     run.write("a.obj", hard_cube())
     run.write("l.json", lattice(moves=[{"by": [0.5, 0.25, -1]}]))
     equal(recompute(run, "a.obj", "b.obj").decode().splitlines()[8:], hard_cube().splitlines()[8:], "moved as a whole")
     run.write("l.json", lattice(moves=TWIST))
-    equal(compare_obj(Obj(hard_cube()), Obj(recompute(run, "a.obj", "b.obj").decode()), "twisted"), (24, 0))
+    after = Obj(recompute(run, "a.obj", "b.obj").decode())
+    equal(compare_obj(Obj(hard_cube()), after, "twisted"), (24, 0))
+    equal(len(after.normals), 6, "one a face")
+    equal([[n for _, n in face] for face in after.faces], [[i] * 4 for i in range(6)], "the numbers stay")
 
 
 @case

@@ -1,6 +1,8 @@
 #include "io/openmesh/normals.h"
+#include "base/vec.h"
 #include "io/openmesh/surface.h"
 #include "mesh/polygon.h"
+#include <cfloat>
 #include <cmath>
 
 namespace
@@ -35,6 +37,7 @@ class face_terms
     size_t count() const { return numbers_.size(); }
     uint32_t number(size_t i) const { return numbers_[i]; }
     uint32_t vertex(size_t i) const { return vertices_[i]; }
+    const double *unit_normal() const { return normal_; }
     /* The term of a corner; returns its length. */
     double term(size_t i, double to[3]) const;
 
@@ -45,7 +48,14 @@ class face_terms
     array<uint32_t> numbers_, vertices_;
     array<double> angles_;
     array<size_t> scratch_;
+    double normal_[3];
     double vector_[3], length_ = 0; /* twice the area along the normal, in units */
+};
+
+/* What the faces have added to a group. */
+struct group_sum {
+    double sum[3] = {0, 0, 0}, size = 0; /* of the terms, and of their lengths */
+    bool mixed = false;                  /* of faces that look different ways */
 };
 
 bool face_terms::read(half_edge_mesh::FaceHandle face)
@@ -66,7 +76,9 @@ bool face_terms::read(half_edge_mesh::FaceHandle face)
     angles_.resize(count());
     scratch_.resize(count());
     ffd_polygon_angles(faces_.positions, vertices_.data(), count(), vector_, scratch_.data(), angles_.data());
-    const double scale = extent / unit_;
+    const double own_length = vec_length(vector_), scale = extent / unit_;
+    for (int a = 0; a < 3; a++)
+        normal_[a] = vector_[a] / own_length;
     for (double &v : vector_)
         v *= scale * scale;
     length_ = std::sqrt(vector_[0] * vector_[0] + vector_[1] * vector_[1] + vector_[2] * vector_[2]);
@@ -81,12 +93,43 @@ double face_terms::term(size_t i, double to[3]) const
     return weight * length_;
 }
 
-void sum_all(const mesh_faces &faces, const uint32_t *groups, const uint8_t *mirrored, double *sums,
-             double *sizes)
+/* direction: the unit normal of the faces that the group has had so far, and has while they all look one way.
+ */
+void add_term(group_sum &group, double sign, const double normal[3], const double term[3], double length,
+              double direction[3])
+{
+    if (!(length > 0))
+        return;
+    for (int a = 0; a < 3; a++) {
+        const double n = sign * normal[a] + 0.0; /* -0 becomes 0 */
+        if (group.size > 0)
+            group.mixed = group.mixed || n < direction[a] || n > direction[a];
+        else
+            direction[a] = n;
+        group.sum[a] += sign * term[a];
+    }
+    group.size += length;
+}
+
+/* Leaves the one direction of a group as it is: from the sum of terms of different lengths it would come out
+   different in the last bit at each corner of the face. */
+void finish_group(const group_sum &group, double direction[3])
+{
+    if (!group.mixed)
+        return;
+    const double length = vec_length(group.sum);
+    const bool cancelled = !(length > 16 * DBL_EPSILON * group.size);
+    for (int a = 0; a < 3; a++)
+        direction[a] = cancelled ? 0 : group.sum[a] / length;
+}
+
+void find_directions(const mesh_faces &faces, const uint32_t *groups, size_t group_count,
+                     const uint8_t *mirrored, double *directions)
 {
     surface s(faces);
     s.add_faces(faces);
     face_terms terms(faces, s);
+    array<group_sum> sums(group_count);
     for (size_t f = 0; f < s.mesh.n_faces(); f++) {
         if (!terms.read(half_edge_mesh::FaceHandle(static_cast<int>(f))))
             continue;
@@ -95,18 +138,20 @@ void sum_all(const mesh_faces &faces, const uint32_t *groups, const uint8_t *mir
             if (group == NORMALS_NONE)
                 continue;
             double term[3];
-            sizes[group] += terms.term(i, term);
-            const double sign = mirrored && mirrored[terms.vertex(i)] ? -1 : 1;
-            for (size_t a = 0; a < 3; a++)
-                sums[3 * static_cast<size_t>(group) + a] += sign * term[a];
+            const double length = terms.term(i, term), sign = mirrored && mirrored[terms.vertex(i)] ? -1 : 1;
+            add_term(sums[group], sign, terms.unit_normal(), term, length,
+                     directions + 3 * static_cast<size_t>(group));
         }
     }
+    for (size_t g = 0; g < group_count; g++)
+        finish_group(sums[g], directions + 3 * g);
 }
 
 } // namespace
 
-ffd_status ffd_normals_sum(const mesh_faces *faces, const double *positions, const uint32_t *groups,
-                           const uint8_t *mirrored, double *sums, double *sizes, ffd_error *error)
+ffd_status ffd_normals_of_groups(const mesh_faces *faces, const double *positions, const uint32_t *groups,
+                                 size_t group_count, const uint8_t *mirrored, double *directions,
+                                 ffd_error *error)
 {
     return guarded(
         [&] {
@@ -114,7 +159,7 @@ ffd_status ffd_normals_sum(const mesh_faces *faces, const double *positions, con
             placed.positions = const_cast<double *>(positions); /* read only */
             const ffd_status status = check(placed, error);
             if (status == FFD_OK)
-                sum_all(placed, groups, mirrored, sums, sizes);
+                find_directions(placed, groups, group_count, mirrored, directions);
             return status;
         },
         "the normals", error);
