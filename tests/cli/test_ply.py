@@ -303,6 +303,26 @@ def compare(run):
 
 
 @case
+def compare_floats(run):
+    """A text of a float stands for the nearest float, of normals and other numbers too: the forms of a file are one
+    mesh. Floats that differ are shown as short as they can be told apart."""
+    vertex = [("float", name) for name in ("x", "y", "z", "nx", "ny", "nz", "quality")]
+    row = [0.1, 1.0 / 3, -2.0 / 3, -0.8821082, 0.123456789, 0.7, 0.3]
+    for encoding in ENCODINGS:
+        run.write(f"{encoding}.ply", write_ply([("vertex", vertex, [row])], encoding))
+    run.write("long.ply", run.read("ascii.ply").replace(b"-0.8821082 ", b"-0.88210820000000001 "))
+    check(run.read("long.ply") != run.read("ascii.ply"), "the text is another")
+    forms = [*ENCODINGS, "long"]
+    for a in forms:
+        for b in forms:
+            run.ffd("compare", f"{a}.ply", f"{b}.ply", out="")
+    row[3] = -0.8821081519126892  # the next float
+    run.write("n.ply", write_ply([("vertex", vertex, [row])], "binary_big_endian"))
+    run.ffd("compare", "binary_little_endian.ply", "n.ply", code=NO,
+            out="binary_little_endian.ply and n.ply differ: vertex 0 counted from 0: nx: -0.8821082 and -0.88210815\n")
+
+
+@case
 def refused(run):
     run.write("l.json", lattice(moves=BUMP))
     head = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"

@@ -93,14 +93,17 @@ static void format_place(const comparer *c, char *text, size_t capacity)
              lines);
 }
 
-/* A number as it may be shown: its text, or what its bytes stand for. */
+/* A number as it may be shown: its text, or the shortest one for what its bytes stand for. */
 static void format_value(const ply_document *d, ply_type type, text_word word, char *text, size_t capacity)
 {
     double value = 0;
     if (d->header.encoding == PLY_ASCII)
         snprintf(text, capacity, "%.*s", ffd_text_shown(word), word.first);
-    else if (ffd_ply_load(d->header.encoding, type, word, &value))
-        snprintf(text, capacity, "%s", ffd_number_text(value).text);
+    else if (ffd_ply_load(d->header.encoding, type, word, &value)) {
+        char shortest[FFD_NUMBER_CAPACITY];
+        const size_t length = ffd_ply_store(PLY_ASCII, type, value, shortest);
+        snprintf(text, capacity, "%.*s", (int)length, shortest);
+    }
 }
 
 static void differ_in_values(comparer *c, const ply_property *property, ply_type type, text_word a,
