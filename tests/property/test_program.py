@@ -13,7 +13,7 @@ import tempfile
 
 EPS = sys.float_info.epsilon
 # Sample models that are not valid: a node with two parents; faces with the indices 0, 100 and -100.
-BROKEN = {"cube_att.gltf", "synthetic_partial_attrib_0_obj.obj"}
+BROKEN = {"unassigned-skeleton.gltf", "cube_att.gltf", "synthetic_partial_attrib_0_obj.obj"}
 
 
 def run(ffd, *arguments):
@@ -189,7 +189,7 @@ def samples(work, models):
     whole = refused = 0
     for folder, _, names in sorted(os.walk(models)):
         for name in sorted(names):
-            if not name.lower().endswith((".obj", ".glb", ".gltf")):
+            if not name.lower().endswith((".obj", ".glb", ".gltf", ".ply", ".off", ".stl")):
                 continue
             # A folder for each: the images that go along have common names.
             source, own = os.path.join(folder, name), work.path(f"same{whole + refused}")
