@@ -637,4 +637,23 @@ def unknown_formats(run):
     equal(sorted(run.names()), ["a.obj", "moved.json", "still.json"])
 
 
+@case
+def obj_with_a_part_kept(run):
+    """Vertices that a selected face shares move with it, also in the other's faces, as in OBJ; a normal that both
+    name at one vertex is turned in the selected face only."""
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0.6 0.8\ng one\nf 1//1 2//1 3//1\n"
+                       "g two\nf 1//1 3//1 4//1\n")
+    run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9),
+                                moves=[{"rotate": {"axis": "z", "degrees": 90, "about": [0, 0, 0]}}]))
+    turned, kept = (-0.6, 0, 0.8), (0, 0.6, 0.8)
+    for target in ("obj", "glb"):
+        run.ffd("deform", "a.obj", f"b.{target}", "-l", "l.json", "--only", "group:two", "--force", "-q")
+        one, two = read_faces(run, f"b.{target}")
+        for face, normal in ((one, kept), (two, turned)):
+            for _, _, n in face:
+                near(n, normal, 1e-6, target)
+        near([p for p, _, _ in one], [(0, 0, 0), (1, 0, 0), (-1, 1, 0)], 1e-6, target)
+        near([p for p, _, _ in two], [(0, 0, 0), (-1, 1, 0), (-1, 0, 0)], 1e-6, target)
+
+
 main()

@@ -10,9 +10,26 @@ typedef struct extractor {
     char *object, *group, *material; /* the current names, owned; NULL: none */
     model_corner *corners;           /* of the current element */
     size_t capacity;
+    size_t faces; /* so far */
     bool has_library;
     ffd_error *error;
 } extractor;
+
+/* Whether corners of faces that are not selected need the old normal where others have a new one. The old
+   ones then follow the new ones. */
+static bool has_both(const obj_document *d)
+{
+    return d->new_directions && d->selected_faces;
+}
+
+static size_t count_normals(const obj_document *d)
+{
+    if (!d->pair_start)
+        return 0;
+    if (!d->new_directions)
+        return d->normals;
+    return d->part.normal_count + (has_both(d) ? d->normals : 0);
+}
 
 static void copy_values(const extractor *e)
 {
@@ -20,9 +37,11 @@ static void copy_values(const extractor *e)
     const double *positions = d->new_positions ? d->new_positions : d->positions;
     if (d->vertices > 0)
         memcpy(e->model->positions, positions, 3 * d->vertices * sizeof *positions);
-    const double *normals = d->new_directions ? d->new_directions : d->directions;
-    if (e->model->normal_count > 0)
-        memcpy(e->model->normals, normals, 3 * e->model->normal_count * sizeof *normals);
+    const size_t normals = e->model->normal_count, fresh = d->new_directions ? d->part.normal_count : 0;
+    if (normals > 0 && fresh > 0)
+        memcpy(e->model->normals, d->new_directions, 3 * fresh * sizeof *d->new_directions);
+    if (normals > fresh)
+        memcpy(e->model->normals + 3 * fresh, d->directions, 3 * (normals - fresh) * sizeof *d->directions);
 }
 
 static ffd_status take_texcoord(extractor *e)
@@ -98,7 +117,11 @@ static uint32_t find_normal(const extractor *e, obj_index index, size_t vertex)
     if (!d->pair_start || index.text.first == index.text.last ||
         !ffd_obj_find(index.value, e->walk.normals, &corner.normal))
         return MODEL_NONE;
-    return (uint32_t)(d->new_directions ? ffd_obj_find_pair(d, &corner) : corner.normal);
+    if (!d->new_directions)
+        return (uint32_t)corner.normal;
+    if (has_both(d) && !d->selected_faces[e->faces])
+        return (uint32_t)(d->part.normal_count + corner.normal);
+    return (uint32_t)ffd_obj_find_pair(d, &corner);
 }
 
 static ffd_status take_element(extractor *e, model_kind kind)
@@ -118,6 +141,7 @@ static ffd_status take_element(extractor *e, model_kind kind)
         if (status)
             return status;
     }
+    e->faces += kind == MODEL_FACES;
     return ffd_model_add(e->model, kind, e->corners, count, e->error);
 }
 
@@ -169,9 +193,8 @@ static ffd_status take_statement(extractor *e)
 ffd_status ffd_obj_model(const mesh_document *document, mesh_model *model, ffd_error *error)
 {
     const obj_document *d = ffd_obj_of(document);
-    const size_t normals = !d->pair_start ? 0 : d->new_directions ? d->part.normal_count : d->normals;
     extractor e = {.document = d, .model = model, .error = error};
-    ffd_status status = ffd_model_make_values(model, d->vertices, d->texcoords, normals, error);
+    ffd_status status = ffd_model_make_values(model, d->vertices, d->texcoords, count_normals(d), error);
     if (status == FFD_OK) {
         copy_values(&e);
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
