@@ -13,7 +13,8 @@ void mutant_replace(mutant *m, size_t at, size_t length, const void *with, size_
     if (m->size - length + with_length > m->capacity)
         return;
     memmove(m->data + at + with_length, m->data + at + length, m->size - at - length);
-    memcpy(m->data + at, with, with_length);
+    if (with_length > 0)
+        memcpy(m->data + at, with, with_length);
     m->size = m->size - length + with_length;
 }
 
