@@ -1,8 +1,10 @@
 #include "io/gltf/draco_orientations.h"
+#include <cstring>
 #include <draco/compression/attributes/sequential_attribute_decoders_controller.h>
 #include <draco/compression/attributes/sequential_integer_attribute_decoder.h>
 #include <draco/compression/attributes/sequential_quantization_attribute_decoder.h>
 #include <draco/core/varint_decoding.h>
+#include <type_traits>
 #include <typeinfo>
 
 using decoder_list = std::vector<std::unique_ptr<draco::SequentialAttributeDecoder>>;
@@ -93,6 +95,14 @@ template <class Decoder> class limited_decoder : public Decoder
     CreateIntPredictionScheme(draco::PredictionSchemeMethod method,
                               draco::PredictionSchemeTransformType transform) override
     {
+        /* The library takes the method's byte as it is in the file: what is no method is not even to be read
+           as one, and makes no scheme. */
+        std::underlying_type_t<draco::PredictionSchemeMethod> number;
+        static_assert(sizeof number == sizeof method, "an enumeration has the size of its type");
+        std::memcpy(&number, &method, sizeof number);
+        if (static_cast<int>(number) < draco::PREDICTION_NONE ||
+            static_cast<int>(number) >= draco::NUM_PREDICTION_SCHEMES)
+            return nullptr;
         auto scheme = Decoder::CreateIntPredictionScheme(method, transform);
         if (!scheme || (scheme->GetPredictionMethod() != draco::MESH_PREDICTION_TEX_COORDS_PORTABLE &&
                         scheme->GetPredictionMethod() != draco::MESH_PREDICTION_TEX_COORDS_DEPRECATED))
