@@ -1,13 +1,19 @@
 #include "io/splice.h"
 #include "base/memory.h"
+#include "base/number.h"
 #include <string.h>
 
 #define BLOCK ((size_t)256 * 1024)
 
-ffd_status ffd_splice_begin(file_splice *splice, const void *data, file_output *output, ffd_error *error)
+ffd_status ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
+                            file_output *output, ffd_error *error)
 {
-    *splice = (file_splice){
-        .output = output, .error = error, .copied = data, .block = ffd_alloc(BLOCK, sizeof *splice->block)};
+    const char *data = (const char *)input->data;
+    *splice = (file_splice){.output = output, .error = error, .copied = data, .last = data + input->size};
+    const ffd_status status = ffd_output_begin(output, options->path, options->force, error);
+    if (status)
+        return status;
+    splice->block = ffd_alloc(BLOCK, sizeof *splice->block);
     return splice->block ? FFD_OK : ffd_fail_memory(error);
 }
 
@@ -35,16 +41,26 @@ void ffd_splice_copy(file_splice *splice, const char *to)
     splice->copied = to;
 }
 
-void ffd_splice_replace(file_splice *splice, const char *first, const char *last, const void *bytes,
-                        size_t size)
+void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size)
 {
-    ffd_splice_copy(splice, first);
+    ffd_splice_copy(splice, word.first);
     ffd_splice_bytes(splice, bytes, size);
-    splice->copied = last;
+    splice->copied = word.last;
+}
+
+void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *before,
+                        const double *after, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        char text[FFD_NUMBER_CAPACITY];
+        if (memcmp(before + i, after + i, sizeof *after) != 0)
+            ffd_splice_replace(splice, words[i], text, ffd_number_format(after[i], text));
+    }
 }
 
 ffd_status ffd_splice_end(file_splice *splice)
 {
+    ffd_splice_copy(splice, splice->last);
     flush(splice);
     ffd_free(splice->block);
     splice->block = NULL;

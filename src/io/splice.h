@@ -3,25 +3,30 @@
 #define FFD_IO_SPLICE_H
 
 #include "base/file.h"
+#include "io/text_scan.h"
+#include "mesh/mesh.h"
 
 typedef struct file_splice {
     file_output *output;
     ffd_error *error;
-    ffd_status status;  /* the first failure; nothing is written after it */
-    const char *copied; /* the file is copied up to here */
+    ffd_status status;         /* the first failure; nothing is written after it */
+    const char *copied, *last; /* the file is copied up to here, and ends there */
     char *block;
     size_t used;
 } file_splice;
 
-ffd_status ffd_splice_begin(file_splice *splice, const void *data, file_output *output, ffd_error *error);
+/* Begins the output that options name. To be followed by ffd_splice_end unless it fails. */
+ffd_status ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
+                            file_output *output, ffd_error *error);
 /* Copies the file up to a place not before the last one. */
 void ffd_splice_copy(file_splice *splice, const char *to);
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);
-/* Copies up to `first` and writes bytes instead of what stands in [first, last). */
-void ffd_splice_replace(file_splice *splice, const char *first, const char *last, const void *bytes,
-                        size_t size);
-/* Writes what is held back, frees, and tells whether all went well. To be called after ffd_splice_begin in
-   every case. */
+/* Copies up to a word and writes bytes in its stead. */
+void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size);
+/* Writes those of count numbers that have other bits than before in the place of their words. */
+void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *before,
+                        const double *after, size_t count);
+/* Copies the rest of the file, writes what is held back, frees, and tells whether all went well. */
 ffd_status ffd_splice_end(file_splice *splice);
 
 #endif

@@ -16,7 +16,7 @@
 
 /* Statements */
 
-static void append_word(char *text, size_t capacity, const char *before, obj_word word)
+static void append_word(char *text, size_t capacity, const char *before, text_word word)
 {
     const size_t used = strlen(text);
     snprintf(text + used, capacity - used, "%s%.*s", before, (int)(word.last - word.first), word.first);
@@ -26,7 +26,7 @@ static void append_word(char *text, size_t capacity, const char *before, obj_wor
 static void statements_of(const char *bytes, size_t size, char *text, size_t capacity)
 {
     obj_scan scan;
-    obj_word word;
+    text_word word;
     text[0] = 0;
     ffd_obj_scan_begin(&scan, bytes, size);
     while (ffd_obj_scan_next(&scan)) {
@@ -80,7 +80,7 @@ static void test_unread_words(void **state)
     static const char text[] = "v 1 2 \\\n 3 # \\\nusemtl a \\\n#b\nf 1\n";
     for (int taken = 0; taken < 5; taken++) {
         obj_scan scan;
-        obj_word word;
+        text_word word;
         ffd_obj_scan_begin(&scan, text, sizeof text - 1);
         for (size_t s = 0; s < 3; s++) {
             static const size_t lines[] = {1, 3, 5};
@@ -96,9 +96,9 @@ static void test_unread_words(void **state)
 
 /* Values */
 
-static obj_word word_of(const char *text)
+static text_word word_of(const char *text)
 {
-    return (obj_word){text, text + strlen(text)};
+    return (text_word){text, text + strlen(text)};
 }
 
 static void test_numbers(void **state)

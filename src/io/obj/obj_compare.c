@@ -29,7 +29,7 @@ static void format_lines(const comparer *c, char *text, size_t capacity)
 /* What is compared: "vertex 17", "normal 3", or the keyword. */
 static void format_subject(const comparer *c, char *text, size_t capacity)
 {
-    const obj_word name = c->a.scan.name;
+    const text_word name = c->a.scan.name;
     if (c->a.scan.keyword == OBJ_VERTEX)
         snprintf(text, capacity, "vertex %zu", c->a.vertices.seen);
     else if (c->a.scan.keyword == OBJ_NORMAL)
@@ -37,7 +37,7 @@ static void format_subject(const comparer *c, char *text, size_t capacity)
     else if (c->a.scan.keyword == OBJ_TEXCOORD)
         snprintf(text, capacity, "texcoord %zu", c->a.texcoords.seen);
     else
-        snprintf(text, capacity, "%.*s", ffd_obj_word_shown(name), name.first);
+        snprintf(text, capacity, "%.*s", ffd_text_shown(name), name.first);
 }
 
 static void without_control_characters(char *text)
@@ -64,19 +64,19 @@ static void differ(comparer *c, const char *format, ...)
     without_control_characters(c->result->difference);
 }
 
-static void differ_in_words(comparer *c, obj_word a, obj_word b)
+static void differ_in_words(comparer *c, text_word a, text_word b)
 {
-    differ(c, "\"%.*s\" and \"%.*s\"", ffd_obj_word_shown(a), a.first, ffd_obj_word_shown(b), b.first);
+    differ(c, "\"%.*s\" and \"%.*s\"", ffd_text_shown(a), a.first, ffd_text_shown(b), b.first);
     c->same_statements = false;
 }
 
-static bool same_text(obj_word a, obj_word b)
+static bool same_text(text_word a, text_word b)
 {
     const size_t size = (size_t)(a.last - a.first);
     return size == (size_t)(b.last - b.first) && (size == 0 || memcmp(a.first, b.first, size) == 0);
 }
 
-static bool same_number(obj_word a, obj_word b)
+static bool same_number(text_word a, text_word b)
 {
     double x, y;
     if (!ffd_obj_number(a, &x) || !ffd_obj_number(b, &y))
@@ -91,7 +91,7 @@ static bool same_index(obj_index a, obj_count a_count, obj_index b, obj_count b_
     return a_there && b_there ? x == y : same_text(a.text, b.text);
 }
 
-static bool same_corner(const comparer *c, obj_word a, obj_word b)
+static bool same_corner(const comparer *c, text_word a, text_word b)
 {
     obj_corner x, y;
     return ffd_obj_corner(a, &x) && ffd_obj_corner(b, &y) &&
@@ -108,7 +108,7 @@ static double distance(double a, double b)
     return a < b || a > b ? fabs(a - b) : 0;
 }
 
-static void compare_coordinate(comparer *c, int axis, obj_word a, obj_word b)
+static void compare_coordinate(comparer *c, int axis, text_word a, text_word b)
 {
     double x, y;
     if (!ffd_obj_number(a, &x) || !ffd_obj_number(b, &y)) {
@@ -124,11 +124,11 @@ static void compare_coordinate(comparer *c, int axis, obj_word a, obj_word b)
     if (isfinite(difference))
         differ(c, "%c differs by %.*s", "xyz"[axis], (int)ffd_number_format(difference, text), text);
     else
-        differ(c, "%c: \"%.*s\" and \"%.*s\"", "xyz"[axis], ffd_obj_word_shown(a), a.first,
-               ffd_obj_word_shown(b), b.first);
+        differ(c, "%c: \"%.*s\" and \"%.*s\"", "xyz"[axis], ffd_text_shown(a), a.first, ffd_text_shown(b),
+               b.first);
 }
 
-static void compare_word(comparer *c, int place, obj_word a, obj_word b)
+static void compare_word(comparer *c, int place, text_word a, text_word b)
 {
     const obj_keyword keyword = c->a.scan.keyword;
     if (same_text(a, b))
@@ -146,15 +146,15 @@ static void compare_word(comparer *c, int place, obj_word a, obj_word b)
 static void compare_words(comparer *c)
 {
     for (int place = 0; c->same_statements; place += place < 3) {
-        obj_word a, b;
+        text_word a, b;
         const bool in_a = ffd_obj_scan_word(&c->a.scan, &a), in_b = ffd_obj_scan_word(&c->b.scan, &b);
         if (!in_a && !in_b)
             break;
         if (in_a && in_b)
             compare_word(c, place, a, b);
         else {
-            differ(c, "\"%.*s\" is only in the %s", ffd_obj_word_shown(in_a ? a : b),
-                   in_a ? a.first : b.first, in_a ? "first" : "second");
+            differ(c, "\"%.*s\" is only in the %s", ffd_text_shown(in_a ? a : b), in_a ? a.first : b.first,
+                   in_a ? "first" : "second");
             c->same_statements = false;
         }
     }
@@ -166,7 +166,7 @@ static void differ_in_length(comparer *c, bool in_a)
     const obj_scan *longer = in_a ? &c->a.scan : &c->b.scan;
     if (!c->result->difference[0])
         snprintf(c->result->difference, sizeof c->result->difference, "%.*s (line %zu) is only in the %s",
-                 ffd_obj_word_shown(longer->name), longer->name.first, longer->keyword_line,
+                 ffd_text_shown(longer->name), longer->name.first, longer->keyword_line,
                  in_a ? "first" : "second");
     without_control_characters(c->result->difference);
     c->same_statements = false;

@@ -11,7 +11,7 @@ typedef struct obj_facts {
 
 static size_t count_words(obj_scan *scan)
 {
-    obj_word word;
+    text_word word;
     size_t count = 0;
     while (ffd_obj_scan_word(scan, &word))
         count++;
@@ -28,11 +28,11 @@ static void count_face(obj_facts *facts, size_t corners)
 /* A group's words are names of their own; an object's or material's name may hold blanks. */
 static void count_names(obj_facts *facts, obj_names *names, obj_scan *scan, bool each_word)
 {
-    obj_word name = {0}, word;
+    text_word name = {0}, word;
     while (ffd_obj_scan_word(scan, &word)) {
         if (each_word)
             facts->failed = facts->failed || !ffd_obj_names_add(names, word);
-        name = (obj_word){name.first ? name.first : word.first, word.last};
+        name = (text_word){name.first ? name.first : word.first, word.last};
     }
     if (name.first && !each_word)
         facts->failed = facts->failed || !ffd_obj_names_add(names, name);

@@ -22,7 +22,7 @@ typedef struct vectors {
 static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char *what, vectors *list,
                               ffd_error *error)
 {
-    obj_word word;
+    text_word word;
     if (list->count == OBJ_ELEMENTS_MAX)
         return ffd_fail_line(error, FFD_E_LIMIT, d->name, scan->keyword_line,
                              "one %s too many: the limit is %" PRIu32, what, OBJ_ELEMENTS_MAX);
@@ -35,7 +35,7 @@ static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char 
         if (!ffd_obj_number(word, &list->xyz[3 * list->count + (size_t)a]))
             return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
                                  "coordinate %c of a %s is not a number: \"%.*s\"", "xyz"[a], what,
-                                 ffd_obj_word_shown(word), word.first);
+                                 ffd_text_shown(word), word.first);
     }
     list->count++;
     return FFD_OK;

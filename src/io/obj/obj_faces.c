@@ -9,7 +9,7 @@ static ffd_status check_index(const obj_document *d, const obj_scan *scan, obj_i
 {
     if (ffd_obj_find(index.value, count, element))
         return FFD_OK;
-    const int shown = ffd_obj_word_shown(index.text);
+    const int shown = ffd_text_shown(index.text);
     if (index.value == 0)
         return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line, "%s index %.*s: the first is 1", kind,
                              shown, index.text.first);
@@ -33,7 +33,7 @@ static void note_negative_normal(obj_document *d, const obj_corner *corner)
 /* What is left alone may name normals too (surf). */
 static void look_for_corners(obj_document *d, obj_scan *scan)
 {
-    obj_word word;
+    text_word word;
     obj_corner corner;
     while (ffd_obj_scan_word(scan, &word))
         if (ffd_obj_corner(word, &corner))
@@ -46,13 +46,13 @@ static void look_for_corners(obj_document *d, obj_scan *scan)
 static ffd_status check_corners(obj_document *d, obj_walk *walk, uint64_t *with_normal, ffd_error *error)
 {
     obj_scan *scan = &walk->scan;
-    obj_word word;
+    text_word word;
     obj_corner corner;
     while (ffd_obj_scan_word(scan, &word)) {
         size_t vertex, normal;
         if (!ffd_obj_corner(word, &corner))
             return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
-                                 "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"", ffd_obj_word_shown(word),
+                                 "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"", ffd_text_shown(word),
                                  word.first);
         ffd_status status = check_index(d, scan, corner.vertex, walk->vertices, "vertex", &vertex, error);
         if (status)

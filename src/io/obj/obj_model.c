@@ -49,12 +49,12 @@ static ffd_status take_texcoord(extractor *e)
     const obj_document *d = e->document;
     double *values = e->model->texcoords + 2 * (e->walk.texcoords.seen - 1);
     double uvw[3] = {0, 0, 0};
-    obj_word word;
+    text_word word;
     for (int i = 0; i < 3 && ffd_obj_scan_word(&e->walk.scan, &word); i++)
         if (!ffd_obj_number(word, &uvw[i]))
             return ffd_fail_line(e->error, FFD_E_INVALID, d->name, e->walk.scan.line,
                                  "texture coordinate %c is not a number: \"%.*s\"", "uvw"[i],
-                                 ffd_obj_word_shown(word), word.first);
+                                 ffd_text_shown(word), word.first);
     memcpy(values, uvw, 2 * sizeof *values);
     if (uvw[2] < 0 || uvw[2] > 0)
         e->model->features |= MODEL_HAS_MORE_TEXCOORDS;
@@ -66,7 +66,7 @@ static ffd_status take_colour(extractor *e)
 {
     double numbers[7];
     int count = 0;
-    obj_word word;
+    text_word word;
     while (count < 7 && ffd_obj_scan_word(&e->walk.scan, &word) && ffd_obj_number(word, &numbers[count]))
         count++;
     if (count < 6)
@@ -80,9 +80,9 @@ static ffd_status take_colour(extractor *e)
 /* What is behind the keyword, from the first word to the last. */
 static ffd_status take_name(extractor *e, char **name)
 {
-    obj_word whole = {0}, word;
+    text_word whole = {0}, word;
     while (ffd_obj_scan_word(&e->walk.scan, &word))
-        whole = (obj_word){whole.first ? whole.first : word.first, word.last};
+        whole = (text_word){whole.first ? whole.first : word.first, word.last};
     ffd_free(*name);
     *name = NULL;
     if (whole.first) {
@@ -105,7 +105,7 @@ static ffd_status find_texcoord(const extractor *e, obj_index index, uint32_t *n
     if (!ffd_obj_find(index.value, e->walk.texcoords, &element))
         return ffd_fail_line(e->error, FFD_E_INVALID, d->name, e->walk.scan.line,
                              "texture coordinate index %.*s is out of range: the file has %zu",
-                             ffd_obj_word_shown(index.text), index.text.first, d->texcoords);
+                             ffd_text_shown(index.text), index.text.first, d->texcoords);
     *number = (uint32_t)element;
     return FFD_OK;
 }
@@ -127,7 +127,7 @@ static uint32_t find_normal(const extractor *e, obj_index index, size_t vertex)
 static ffd_status take_element(extractor *e, model_kind kind)
 {
     size_t count = 0, vertex;
-    obj_word word;
+    text_word word;
     obj_corner text;
     while (ffd_obj_scan_word(&e->walk.scan, &word)) {
         if (!ffd_grow((void **)&e->corners, &e->capacity, count + 1, sizeof *e->corners))
@@ -149,9 +149,9 @@ static ffd_status take_element(extractor *e, model_kind kind)
 static void note_other(extractor *e)
 {
     static const char *const free_form[] = {"curv", "curv2", "surf", "vp"};
-    const obj_word name = e->walk.scan.name;
+    const text_word name = e->walk.scan.name;
     const size_t size = (size_t)(name.last - name.first);
-    obj_word value;
+    text_word value;
     for (size_t i = 0; i < sizeof free_form / sizeof *free_form; i++)
         if (strlen(free_form[i]) == size && memcmp(free_form[i], name.first, size) == 0)
             e->model->features |= MODEL_HAS_FREE_FORM;

@@ -5,14 +5,14 @@
 
 static int compare_words(const void *a, const void *b)
 {
-    const obj_word *x = a, *y = b;
+    const text_word *x = a, *y = b;
     const ptrdiff_t x_size = x->last - x->first, y_size = y->last - y->first;
     if (x_size != y_size)
         return x_size < y_size ? -1 : 1;
     return memcmp(x->first, y->first, (size_t)x_size);
 }
 
-bool ffd_obj_names_add(obj_names *names, obj_word word)
+bool ffd_obj_names_add(obj_names *names, text_word word)
 {
     /* Many files repeat the name for every face. */
     if (names->count && compare_words(&names->words[names->count - 1], &word) == 0)

@@ -6,12 +6,12 @@
 
 /* Zeroed: the empty list. The words stay the caller's. */
 typedef struct obj_names {
-    obj_word *words;
+    text_word *words;
     size_t count, capacity;
 } obj_names;
 
 /* False when there is no memory. */
-bool ffd_obj_names_add(obj_names *names, obj_word word);
+bool ffd_obj_names_add(obj_names *names, text_word word);
 /* Leaves each word once, in another order, and tells how many that are. */
 size_t ffd_obj_names_distinct(obj_names *names);
 void ffd_obj_names_free(obj_names *names);

@@ -1,8 +1,8 @@
 #include "base/memory.h"
 #include "base/number.h"
 #include "io/obj/obj_document.h"
-#include "io/obj/obj_splice.h"
 #include "io/obj/obj_split.h"
+#include "io/splice.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,18 +10,19 @@
 typedef struct saver {
     const obj_document *document;
     obj_split split;
-    obj_splice splice;
+    file_splice splice;
 } saver;
 
 /* Replaces those of a statement's three numbers that have other bits than before. */
 static void replace_numbers(saver *s, obj_scan *scan, const double *before, const double *after)
 {
-    obj_word word;
+    text_word words[3];
+    size_t count = 0;
     if (ffd_obj_same_vector(before, after))
         return;
-    for (int a = 0; a < 3 && ffd_obj_scan_word(scan, &word); a++)
-        if (memcmp(before + a, after + a, sizeof *after) != 0)
-            ffd_obj_splice_number(&s->splice, word, after[a]);
+    while (count < 3 && ffd_obj_scan_word(scan, &words[count]))
+        count++;
+    ffd_splice_numbers(&s->splice, words, before, after, count);
 }
 
 static void renumber_corners(saver *s, obj_walk *walk)
@@ -36,33 +37,33 @@ static void renumber_corners(saver *s, obj_walk *walk)
         char text[24];
         const uint64_t index = (uint64_t)s->document->normals + target + 1;
         const int size = snprintf(text, sizeof text, "%" PRIu64, index);
-        ffd_obj_splice_word(&s->splice, corner.normal_text, text, (size_t)size);
+        ffd_splice_replace(&s->splice, corner.normal_text, text, (size_t)size);
     }
 }
 
 /* The line end that lines before a place have: the one right there, else the file's first, else LF. */
-static obj_word line_end_at(const obj_document *d, const char *place)
+static text_word line_end_at(const obj_document *d, const char *place)
 {
     static const char lf[] = "\n";
     const char *first = (const char *)d->input.data, *last = first + d->input.size;
     if (place > first && place[-1] == '\n')
-        return (obj_word){place - (place - first > 1 && place[-2] == '\r' ? 2 : 1), place};
+        return (text_word){place - (place - first > 1 && place[-2] == '\r' ? 2 : 1), place};
     if (place > first && place[-1] == '\r')
-        return (obj_word){place - 1, place};
+        return (text_word){place - 1, place};
     for (const char *at = first; at < last; at++)
         if (*at == '\n' || *at == '\r')
-            return (obj_word){at, at + ffd_obj_line_end_size(at, last)};
-    return (obj_word){lf, lf + 1};
+            return (text_word){at, at + ffd_obj_line_end_size(at, last)};
+    return (text_word){lf, lf + 1};
 }
 
-static void write_word(obj_splice *splice, obj_word word)
+static void write_word(file_splice *splice, text_word word)
 {
-    ffd_obj_splice_text(splice, word.first, (size_t)(word.last - word.first));
+    ffd_splice_bytes(splice, word.first, (size_t)(word.last - word.first));
 }
 
 /* Makes the place the beginning of a line that nothing continues: a backslash that ends the line before gets
    an empty line to join, be it in a comment, which some readers continue too. */
-static void begin_line(obj_splice *splice, const char *first, const char *place, obj_word line_end)
+static void begin_line(file_splice *splice, const char *first, const char *place, text_word line_end)
 {
     const char *text_end = place;
     if (place > first && (place[-1] == '\n' || place[-1] == '\r'))
@@ -79,15 +80,15 @@ static void add_normals(saver *s)
     const char *first = (const char *)d->input.data, *place = first + d->addition;
     if (s->split.added_count == 0)
         return;
-    const obj_word line_end = line_end_at(d, place);
-    ffd_obj_splice_copy(&s->splice, place);
+    const text_word line_end = line_end_at(d, place);
+    ffd_splice_copy(&s->splice, place);
     begin_line(&s->splice, first, place, line_end);
     for (size_t i = 0; i < s->split.added_count; i++) {
         const double *value = d->new_directions + 3 * (size_t)s->split.added[i];
-        ffd_obj_splice_text(&s->splice, "vn", 2);
+        ffd_splice_bytes(&s->splice, "vn", 2);
         for (int a = 0; a < 3; a++) {
             char text[1 + FFD_NUMBER_CAPACITY] = " ";
-            ffd_obj_splice_text(&s->splice, text, 1 + ffd_number_format(value[a], text + 1));
+            ffd_splice_bytes(&s->splice, text, 1 + ffd_number_format(value[a], text + 1));
         }
         write_word(&s->splice, line_end);
     }
@@ -128,23 +129,17 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
 {
     const obj_document *d = ffd_obj_of(document);
     saver s = {.document = d};
-    const char *last = (const char *)d->input.data + d->input.size;
     (void)log;
     ffd_status status = d->new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
     if (status == FFD_OK)
-        status = ffd_obj_splice_begin(&s.splice, d->input.data, output, error);
-    if (status == FFD_OK)
-        status = ffd_output_begin(output, options->path, options->force, error);
-    if (status)
-        goto out;
-    if (d->new_positions)
-        write_statements(&s);
-    ffd_obj_splice_copy(&s.splice, last);
-    if (d->addition == d->input.size)
-        add_normals(&s);
-    status = ffd_obj_splice_end(&s.splice);
-out:
-    ffd_free(s.splice.block);
+        status = ffd_splice_begin(&s.splice, &d->input, options, output, error);
+    if (status == FFD_OK) {
+        if (d->new_positions)
+            write_statements(&s);
+        if (d->addition == d->input.size)
+            add_normals(&s);
+        status = ffd_splice_end(&s.splice);
+    }
     ffd_obj_split_free(&s.split);
     return status;
 }

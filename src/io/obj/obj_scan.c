@@ -98,10 +98,10 @@ static void pass_blanks(obj_scan *scan)
     }
 }
 
-static obj_word take_word(obj_scan *scan, bool names)
+static text_word take_word(obj_scan *scan, bool names)
 {
     const char *at = scan->at;
-    const obj_word word = {.first = at};
+    const text_word word = {.first = at};
     for (; at < scan->last; at++) {
         const int class = class_of(at);
         if (class == BLANK || class == LINE_END || (class == HASH && !names) ||
@@ -109,10 +109,10 @@ static obj_word take_word(obj_scan *scan, bool names)
             break;
     }
     scan->at = at;
-    return (obj_word){word.first, at};
+    return (text_word){word.first, at};
 }
 
-static obj_keyword keyword_of(obj_word word)
+static obj_keyword keyword_of(text_word word)
 {
     static const struct {
         char text[8];
@@ -154,7 +154,7 @@ bool ffd_obj_scan_next(obj_scan *scan)
     return true;
 }
 
-bool ffd_obj_scan_word(obj_scan *scan, obj_word *word)
+bool ffd_obj_scan_word(obj_scan *scan, text_word *word)
 {
     const bool names = takes_names(scan->keyword);
     pass_blanks(scan);

@@ -8,6 +8,7 @@
 #ifndef FFD_IO_OBJ_OBJ_SCAN_H
 #define FFD_IO_OBJ_OBJ_SCAN_H
 
+#include "io/text_scan.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -25,17 +26,12 @@ typedef enum obj_keyword {
     OBJ_LIBRARY
 } obj_keyword;
 
-/* A word of the file: [first, last). */
-typedef struct obj_word {
-    const char *first, *last;
-} obj_word;
-
 typedef struct obj_scan {
     const char *at, *last;
     size_t line;         /* of at, from 1 */
     bool inside;         /* at is in a statement, not between two */
     obj_keyword keyword; /* of the statement begun last */
-    obj_word name;       /* the keyword as written */
+    text_word name;      /* the keyword as written */
     size_t keyword_line;
 } obj_scan;
 
@@ -45,7 +41,7 @@ void ffd_obj_scan_finish(obj_scan *scan);
 /* Goes to the next statement, behind its keyword. False at the end of the file. */
 bool ffd_obj_scan_next(obj_scan *scan);
 /* Takes the next argument of the current statement. False (and *word is empty) where there is none left. */
-bool ffd_obj_scan_word(obj_scan *scan, obj_word *word);
+bool ffd_obj_scan_word(obj_scan *scan, text_word *word);
 
 /* The line end that starts at a character, given that one does: its length, 1 or 2. */
 size_t ffd_obj_line_end_size(const char *at, const char *last);

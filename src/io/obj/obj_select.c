@@ -16,7 +16,7 @@ typedef struct selecting {
 } selecting;
 
 /* Whether a selector has this name. */
-static bool names(const selecting *s, selector_kind kind, obj_word name)
+static bool names(const selecting *s, selector_kind kind, text_word name)
 {
     bool any = false;
     for (size_t i = 0; i < s->count; i++)
@@ -27,17 +27,17 @@ static bool names(const selecting *s, selector_kind kind, obj_word name)
 }
 
 /* From the first to the last word that is left; empty where there is none. */
-static obj_word take_line(obj_scan *scan)
+static text_word take_line(obj_scan *scan)
 {
-    obj_word name = {0}, word;
+    text_word name = {0}, word;
     while (ffd_obj_scan_word(scan, &word))
-        name = (obj_word){name.first ? name.first : word.first, word.last};
+        name = (text_word){name.first ? name.first : word.first, word.last};
     return name;
 }
 
 static void enter_groups(selecting *s, obj_scan *scan)
 {
-    obj_word word;
+    text_word word;
     s->group = false;
     s->in_default = true;
     while (ffd_obj_scan_word(scan, &word)) {
@@ -51,7 +51,7 @@ static bool is_selected(selecting *s)
 {
     static const char text[] = "default";
     if (s->in_default)
-        s->group = names(s, SELECT_GROUP, (obj_word){text, text + sizeof text - 1});
+        s->group = names(s, SELECT_GROUP, (text_word){text, text + sizeof text - 1});
     return s->group || s->object || s->material;
 }
 
@@ -105,7 +105,7 @@ static void mark_elements(selecting *s)
 
 static bool offer_line(const selector_nearest *nearest, obj_names *known, obj_scan *scan)
 {
-    obj_word word;
+    text_word word;
     if (nearest->selector->kind != SELECT_GROUP)
         return ffd_obj_names_add(known, take_line(scan));
     while (ffd_obj_scan_word(scan, &word))

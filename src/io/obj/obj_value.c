@@ -1,8 +1,6 @@
 #include "io/obj/obj_value.h"
 #include "base/number.h"
 
-#define SHOWN_MAX 40
-
 static bool is_digit(char c)
 {
     return c >= '0' && c <= '9';
@@ -18,21 +16,10 @@ static bool is_misplaced_exponent(const char *at, const char *last)
     return true;
 }
 
-bool ffd_obj_number(obj_word word, double *value)
+bool ffd_obj_number(text_word word, double *value)
 {
     const char *end = ffd_number_parse(word.first, word.last, value);
     return end && (end == word.last || is_misplaced_exponent(end, word.last));
-}
-
-int ffd_obj_word_shown(obj_word word)
-{
-    const ptrdiff_t size = word.last - word.first;
-    if (size <= SHOWN_MAX)
-        return (int)size;
-    int shown = SHOWN_MAX;
-    while (shown > 0 && ((unsigned char)word.first[shown] & 0xc0) == 0x80)
-        shown--;
-    return shown;
 }
 
 /* Reads an optional index at *at and goes behind it. */
@@ -57,7 +44,7 @@ static bool take_index(const char **at, const char *last, obj_index *index)
     return true;
 }
 
-bool ffd_obj_corner(obj_word word, obj_corner *corner)
+bool ffd_obj_corner(text_word word, obj_corner *corner)
 {
     obj_index *const indices[3] = {&corner->vertex, &corner->texcoord, &corner->normal};
     *corner = (obj_corner){0};

@@ -8,16 +8,13 @@
 
 /* Reads a word that is a number as a whole. An exponent with its sign on the wrong side ("3.1+e2") is let
    pass and not applied: files hold it, and the readers that they are made for stop in front of it. */
-bool ffd_obj_number(obj_word word, double *value);
-
-/* How many bytes of a word a message shows: long ones are cut, between two characters of UTF-8. */
-int ffd_obj_word_shown(obj_word word);
+bool ffd_obj_number(text_word word, double *value);
 
 /* An index of a corner: as written, from 1 or counting back from -1. Too large ones stay out of every range.
  */
 typedef struct obj_index {
     int64_t value;
-    obj_word text; /* empty: there is none */
+    text_word text; /* empty: there is none */
 } obj_index;
 
 typedef struct obj_corner {
@@ -25,6 +22,6 @@ typedef struct obj_corner {
 } obj_corner;
 
 /* Reads v, v/t, v//n or v/t/n; a slash with nothing behind it is allowed. False for anything else. */
-bool ffd_obj_corner(obj_word word, obj_corner *corner);
+bool ffd_obj_corner(text_word word, obj_corner *corner);
 
 #endif

@@ -30,7 +30,7 @@ bool ffd_obj_find(int64_t index, obj_count count, size_t *element)
 
 bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner)
 {
-    obj_word word;
+    text_word word;
     obj_corner text;
     if (!ffd_obj_scan_word(&walk->scan, &word) || !ffd_obj_corner(word, &text) ||
         !ffd_obj_find(text.vertex.value, walk->vertices, &corner->vertex))

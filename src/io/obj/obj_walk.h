@@ -27,7 +27,7 @@ bool ffd_obj_find(int64_t index, obj_count count, size_t *element);
 typedef struct obj_face_corner {
     size_t vertex, normal;
     bool has_normal;
-    obj_word normal_text; /* the index as written */
+    text_word normal_text; /* the index as written */
 } obj_face_corner;
 
 /* Takes the next corner of the current face in a file whose faces are known to be valid. False where there is

@@ -14,7 +14,7 @@ static void replace_number(const ply_document *d, file_splice *splice, const ply
     if (!after || memcmp(before + place, after + place, sizeof *after) == 0)
         return;
     const size_t size = ffd_ply_store(d->header.encoding, property->type, after[place], bytes);
-    ffd_splice_replace(splice, word.first, word.last, bytes, size);
+    ffd_splice_replace(splice, word, bytes, size);
 }
 
 static void write_vertices(const ply_document *d, file_splice *splice)
@@ -42,13 +42,10 @@ ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *option
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
     (void)log;
-    ffd_status status = ffd_output_begin(output, options->path, options->force, error);
-    if (status == FFD_OK)
-        status = ffd_splice_begin(&splice, d->input.data, output, error);
+    const ffd_status status = ffd_splice_begin(&splice, &d->input, options, output, error);
     if (status)
         return status;
     if (d->new_positions)
         write_vertices(d, &splice);
-    ffd_splice_copy(&splice, (const char *)d->input.data + d->input.size);
     return ffd_splice_end(&splice);
 }

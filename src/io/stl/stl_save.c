@@ -1,4 +1,3 @@
-#include "base/number.h"
 #include "base/vec.h"
 #include "io/splice.h"
 #include "io/stl/stl_document.h"
@@ -30,25 +29,14 @@ static bool renew_normal(const stl_document *d, const double before[9], const do
     return true;
 }
 
-static void replace_words(stl_saver *s, const text_word *words, const double *before, const double *after,
-                          size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        char text[FFD_NUMBER_CAPACITY];
-        if (memcmp(before + i, after + i, sizeof *after) != 0)
-            ffd_splice_replace(&s->splice, words[i].first, words[i].last, text,
-                               ffd_number_format(after[i], text));
-    }
-}
-
 static void write_text_facet(stl_saver *s, const stl_facet *facet, const double *before, const double *after)
 {
     double old[3], normal[3];
     for (int a = 0; a < 3; a++)
         ffd_stl_text_normal(facet->normal[a], &old[a]);
     if (renew_normal(s->document, before, after, old, normal))
-        replace_words(s, facet->normal, old, normal, 3);
-    replace_words(s, facet->corners, before, after, 9);
+        ffd_splice_numbers(&s->splice, facet->normal, old, normal, 3);
+    ffd_splice_numbers(&s->splice, facet->corners, before, after, 9);
 }
 
 static void write_binary_facet(stl_saver *s, size_t facet, const double *before, const double *after)
@@ -63,7 +51,7 @@ static void write_binary_facet(stl_saver *s, size_t facet, const double *before,
     for (size_t i = 0; i < 9; i++)
         if (memcmp(before + i, after + i, sizeof *after) != 0)
             ffd_stl_store(bytes + STL_NORMAL + 4 * i, after + i, 1);
-    ffd_splice_replace(&s->splice, first, first + sizeof bytes, bytes, sizeof bytes);
+    ffd_splice_replace(&s->splice, (text_word){first, first + sizeof bytes}, bytes, sizeof bytes);
 }
 
 static void write_facets(stl_saver *s)
@@ -91,15 +79,11 @@ ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *option
                         const mesh_log *log, ffd_error *error)
 {
     stl_saver s = {.document = ffd_stl_of(document)};
-    const file_input *input = &s.document->input;
     (void)log;
-    ffd_status status = ffd_output_begin(output, options->path, options->force, error);
-    if (status == FFD_OK)
-        status = ffd_splice_begin(&s.splice, input->data, output, error);
+    const ffd_status status = ffd_splice_begin(&s.splice, &s.document->input, options, output, error);
     if (status)
         return status;
     if (s.document->new_positions)
         write_facets(&s);
-    ffd_splice_copy(&s.splice, (const char *)input->data + input->size);
     return ffd_splice_end(&s.splice);
 }
