@@ -285,8 +285,8 @@ static void broken_streams_do_no_harm(void **state)
     static stream s;
     uint64_t seed = 9;
     size_t refused = 0;
-    float values[COUNT];
-    for (size_t i = 0; i < COUNT; i++)
+    float values[2 * COUNT]; /* for elements of up to 8 bytes */
+    for (size_t i = 0; i < 2 * COUNT; i++)
         values[i] = (float)(next_number(&seed) % 1000);
     for (size_t run = 0; run < MUTATIONS; run++) {
         unsigned char *bytes = NULL;
@@ -303,8 +303,8 @@ static void broken_streams_do_no_harm(void **state)
             make_indices(&s, run % 8 < 4 ? 2 : 4);
             break;
         default:
-            make_attributes(&s, 8, values); /* reads half of it twice */
-            s.view.count = COUNT / 2;
+            make_attributes(&s, 8, values);
+            s.view.count = COUNT / 2; /* the stream has more */
             s.view.filter = MESHOPT_QUATERNION;
             break;
         }
