@@ -1,5 +1,5 @@
-#include "base/memory.h"
 #include "io/ply/ply_document.h"
+#include "io/vectors.h"
 #include <string.h>
 
 void ffd_ply_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
@@ -15,18 +15,6 @@ void ffd_ply_read_normals(const mesh_document *document, size_t part, size_t fir
     memcpy(xyz, ffd_ply_of(document)->directions + 3 * first, 3 * count * sizeof *xyz);
 }
 
-/* A copy of the vectors for the results, unless there is one. */
-static ffd_status make_room(const double *vectors, size_t count, double **results, ffd_error *error)
-{
-    if (*results)
-        return FFD_OK;
-    *results = ffd_alloc(count, 3 * sizeof **results);
-    if (!*results)
-        return ffd_fail_memory(error);
-    memcpy(*results, vectors, 3 * count * sizeof **results);
-    return FFD_OK;
-}
-
 ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
     ply_document *d = (ply_document *)document;
@@ -34,12 +22,13 @@ ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tan
     if (normals && d->has_whole_normals)
         return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
                              "nx ny nz are not all float or double: such normals can only be kept");
-    const ffd_status status = make_room(d->positions, d->part.vertex_count, &d->new_positions, error);
+    const ffd_status status = ffd_vectors_copy(d->positions, d->part.vertex_count, &d->new_positions, error);
     if (status || !normals || !d->has_normals)
         return status;
-    return make_room(d->directions, d->part.normal_count, &d->new_directions, error);
+    return ffd_vectors_copy(d->directions, d->part.normal_count, &d->new_directions, error);
 }
 
+/* Rounded to their types. */
 static void write_vectors(double *results, const ply_type types[3], size_t first, size_t count,
                           const double *xyz, const uint8_t *changed)
 {

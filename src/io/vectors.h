@@ -1,0 +1,16 @@
+/* vectors.h - the positions and normals of documents that hold them as numbers, 3 a vector. */
+#ifndef FFD_IO_VECTORS_H
+#define FFD_IO_VECTORS_H
+
+#include "base/fail.h"
+#include <stddef.h>
+#include <stdint.h>
+
+/* Makes *results a copy of count vectors, unless there is one. Freed by ffd_free. Errors: FFD_E_MEMORY. */
+ffd_status ffd_vectors_copy(const double *vectors, size_t count, double **results, ffd_error *error);
+/* Puts those of count vectors at xyz that are marked as changed into results, from number first on. results
+   may be NULL: nothing is kept. Any thread, on ranges of its own. */
+void ffd_vectors_write(double *results, size_t first, size_t count, const double *xyz,
+                       const uint8_t *changed);
+
+#endif
