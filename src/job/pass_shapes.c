@@ -189,9 +189,11 @@ static ffd_status deform_shape(const shape_work *work, ffd_error *error)
     shape_scratch *s = work->scratch;
     const mesh_part *part = work->part->part;
     const mesh_document *document = work->part->pass->document;
-    const bool normals = work->part->pass->attributes && part->normal_count > 0 &&
-                         (has(work, MESH_NORMALS) || has(work, MESH_TANGENTS));
-    const bool tangents = work->part->pass->attributes && part->has_tangents && has(work, MESH_TANGENTS);
+    /* As for the base: what cannot be carried out and back stays. */
+    const bool attributes = work->part->pass->attributes && !part->singular;
+    const bool normals =
+        attributes && part->normal_count > 0 && (has(work, MESH_NORMALS) || has(work, MESH_TANGENTS));
+    const bool tangents = attributes && part->has_tangents && has(work, MESH_TANGENTS);
     read_offsets(work, MESH_POSITIONS);
     document->format->read_positions(document, work->part->part_number, work->first, work->count, s->base);
     place_moved(work);

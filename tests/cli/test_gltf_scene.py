@@ -325,6 +325,15 @@ def normals_and_tangents_of_targets(run):
 
 
 @case
+def targets_under_a_node_without_inverse_stay(run):
+    # A mesh that its node shows flat: base and targets stay in all they have.
+    scene = morphed([{"POSITION": [[0.0, 3.0, 0.0]], "NORMAL": [[-0.6, -0.8, 1.0]], "TANGENT": [[0.0, 0.5, 0.0]]}],
+                    [[1.0, 2.0, 0.0]], NORMAL=[[0.6, 0.8, 0.0]], TANGENT=[[0.8, -0.6, 0.0, -1.0]])
+    scene.asset["nodes"][0]["scale"] = [1, 1, 0]
+    equal(deformed(run, scene, SHEAR), scene.glb())
+
+
+@case
 def offsets_that_are_shared(run):
     # One accessor of offsets for two targets of the same points (one result), and for other points (another).
     scene = morphed([{"POSITION": [[0.0, 3.0, 0.0]] * 2}, {}])
