@@ -100,22 +100,52 @@ void ffd_part_place(const mesh_document *document, size_t part, size_t first, si
 /* The same with the vertices' own transforms, as read_transforms gives them. */
 void ffd_points_place(const double *transforms, size_t count, double *points);
 
+/* The functions of a format, each described at its member of mesh_format. */
+typedef ffd_status mesh_open_function(file_input *input, const ffd_source *source, mesh_document **document,
+                                      ffd_error *error);
+typedef void mesh_close_function(mesh_document *document);
+typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
+typedef ffd_status mesh_check_reach_function(const mesh_document *document, const ffd_bounds *reach,
+                                             ffd_error *error);
+typedef ffd_status mesh_select_function(mesh_document *document, const mesh_selector *selectors, size_t count,
+                                        ffd_error *error);
+typedef void mesh_read_function(const mesh_document *document, size_t part, size_t first, size_t count,
+                                double *values);
+typedef void mesh_read_offsets_function(const mesh_document *document, size_t part, size_t shape,
+                                        mesh_stream stream, size_t first, size_t count, double *xyz);
+typedef ffd_status mesh_keep_base_function(mesh_document *document, const char *name, ffd_error *error);
+typedef ffd_status mesh_begin_results_function(mesh_document *document, bool normals, bool tangents,
+                                               ffd_error *error);
+typedef void mesh_write_function(mesh_document *document, size_t part, size_t first, size_t count,
+                                 const double *values, const uint8_t *changed);
+typedef void mesh_write_offsets_function(mesh_document *document, size_t part, size_t shape,
+                                         mesh_stream stream, size_t first, size_t count, const double *xyz,
+                                         const uint8_t *changed);
+typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
+                                      file_output *output, const mesh_log *log, ffd_error *error);
+typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+typedef ffd_status mesh_corner_normals_function(const mesh_document *document, const mesh_faces *faces,
+                                                uint32_t *normals, ffd_error *error);
+typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
+typedef ffd_status mesh_describe_function(const mesh_document *document, json_text *json, ffd_error *error);
+typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_document *b, double tolerance,
+                                         ffd_comparison *comparison, ffd_error *error);
+
 typedef struct mesh_format {
     ffd_format format;
     const char *name; /* "OBJ" */
     /* Reads the document from input, whose ownership passes to the document on success only. name stands in
        messages and says where relative references lead ("-": nowhere). */
-    ffd_status (*open)(file_input *input, const ffd_source *source, mesh_document **document,
-                       ffd_error *error);
-    void (*close)(mesh_document *document);
+    mesh_open_function *open;
+    mesh_close_function *close;
     /* Refuses (FFD_E_UNSUPPORTED) what the parts' streams do not show as it is, before anything is embedded
        or deformed: skins, morph targets, compressed data. A document that only is to be described need not
        pass. */
-    ffd_status (*check)(const mesh_document *document, ffd_error *error);
+    mesh_check_function *check;
     double largest_coordinate; /* that the format's numbers can hold */
     /* Refuses (FFD_E_UNSUPPORTED) if, in a box of the lattice's space (edges may be infinite), the document
        shows something that its parts cannot change and that is selected. NULL: the parts are all. */
-    ffd_status (*check_reach)(const mesh_document *document, const ffd_bounds *reach, ffd_error *error);
+    mesh_check_reach_function *check_reach;
     bool normals_of_faces; /* faces have normals, which saving renews, and vertices none */
 
     /* From now on only what one of the selectors names is moved, counted and written: sets selected and
@@ -123,63 +153,51 @@ typedef struct mesh_format {
        the set of kinds that the format has (0: select is NULL). Errors: FFD_E_ARGUMENT where a name is not in
        the file. */
     unsigned selector_kinds;
-    ffd_status (*select)(mesh_document *document, const mesh_selector *selectors, size_t count,
-                         ffd_error *error);
+    mesh_select_function *select;
 
     /* Raw values of the file, as double: 3 a position or normal, 4 a tangent (x,y,z and the handedness). Any
      * thread. */
-    void (*read_positions)(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz);
-    void (*read_normals)(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz);
-    void (*read_tangents)(const mesh_document *document, size_t part, size_t first, size_t count,
-                          double *xyzw);
+    mesh_read_function *read_positions;
+    mesh_read_function *read_normals;
+    mesh_read_function *read_tangents;
 
     /* Of a skinned part: 12 numbers a vertex, linear row by row and offset. NULL where no part is skinned. */
-    void (*read_transforms)(const mesh_document *document, size_t part, size_t first, size_t count,
-                            double *transforms);
+    mesh_read_function *read_transforms;
 
     /* Offsets of a part's morph target to one of the streams that it has: 3 a vertex, of tangents too. NULL
        where no part has shapes. */
-    void (*read_offsets)(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
-                         size_t first, size_t count, double *xyz);
+    mesh_read_offsets_function *read_offsets;
 
     /* From now on the base shape stays, results are offsets of a further morph target of this name, and parts
        show no morph targets. At most once, before begin_results. NULL: the format has no morph targets. */
-    ffd_status (*keep_base)(mesh_document *document, const char *name, ffd_error *error);
+    mesh_keep_base_function *keep_base;
 
-    /* Results. ffd_mesh_begin_results must come first (it makes room); the writers may run in several threads
-       on disjoint ranges. changed: one byte a value, 0: kept as it was (xyz is then not looked at). */
-    ffd_status (*begin_results)(mesh_document *document, bool normals, bool tangents, ffd_error *error);
-    void (*write_positions)(mesh_document *document, size_t part, size_t first, size_t count,
-                            const double *xyz, const uint8_t *changed);
-    void (*write_normals)(mesh_document *document, size_t part, size_t first, size_t count, const double *xyz,
-                          const uint8_t *changed);
-    void (*write_tangents)(mesh_document *document, size_t part, size_t first, size_t count,
-                           const double *xyzw, const uint8_t *changed);
+    /* Results. begin_results must come first (it makes room); the writers may run in several threads
+       on disjoint ranges. changed: one byte a vector, 0: kept as it was (its values are then not read). */
+    mesh_begin_results_function *begin_results;
+    mesh_write_function *write_positions;
+    mesh_write_function *write_normals;
+    mesh_write_function *write_tangents;
 
-    void (*write_offsets)(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
-                          size_t first, size_t count, const double *xyz, const uint8_t *changed);
+    mesh_write_offsets_function *write_offsets;
 
     /* Writes the file (and what belongs to it) into output; byte-identical to the input where nothing
      * changed. */
-    ffd_status (*save)(mesh_document *document, const mesh_save_options *options, file_output *output,
-                       const mesh_log *log, ffd_error *error);
+    mesh_save_function *save;
 
     /* Topology and description. describe appends members to an open JSON object. */
-    ffd_status (*faces)(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+    mesh_faces_function *faces;
     /* The normal of each corner that faces has given, or MESH_NO_NORMAL: numbers count the normals of the
        parts in order. Of documents with normals only. NULL: the normal of the corner's vertex, in the one
        part. */
-    ffd_status (*corner_normals)(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
-                                 ffd_error *error);
+    mesh_corner_normals_function *corner_normals;
     /* Fills an empty model (which the caller frees in every case) with the mesh as the parts place it, with
        the results where there are some. */
-    ffd_status (*model)(const mesh_document *document, mesh_model *model, ffd_error *error);
-    ffd_status (*describe)(const mesh_document *document, json_text *json, ffd_error *error);
+    mesh_model_function *model;
+    mesh_describe_function *describe;
 
     /* Compares two documents of this format (see ffd_compare_run). */
-    ffd_status (*compare)(const mesh_document *a, const mesh_document *b, double tolerance,
-                          ffd_comparison *comparison, ffd_error *error);
+    mesh_compare_function *compare;
 } mesh_format;
 
 /* The head of every document; a format's own struct starts with it. */

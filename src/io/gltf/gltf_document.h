@@ -197,8 +197,7 @@ ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
 ffd_status ffd_gltf_place_skins(gltf_document *document, ffd_error *error);
 void ffd_gltf_free_skins(gltf_document *document);
 /* mesh.h's read_transforms. */
-void ffd_gltf_read_transforms(const mesh_document *document, size_t part, size_t first, size_t count,
-                              double *transforms);
+mesh_read_function ffd_gltf_read_transforms;
 /* gltf_parts.c */
 ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
 /* gltf_shapes.c: the morph targets of the parts. Comes after ffd_gltf_make_parts. */
@@ -208,7 +207,7 @@ ffd_status ffd_gltf_make_shapes(gltf_document *document, ffd_error *error);
 ffd_status ffd_gltf_make_crowds(gltf_document *document, ffd_error *error);
 /* That of a node; NULL: it shows its mesh once, or not at all. */
 gltf_crowd *ffd_gltf_crowd_of(const gltf_document *document, size_t node);
-ffd_status ffd_gltf_check_reach(const mesh_document *document, const ffd_bounds *reach, ffd_error *error);
+mesh_check_reach_function ffd_gltf_check_reach;
 /* Parts and shapes. */
 static inline size_t ffd_gltf_part_count(const gltf_document *document)
 {
@@ -252,31 +251,23 @@ uint32_t ffd_gltf_read_index(const unsigned char *at, int component);
 size_t ffd_gltf_component_size(int component);
 
 /* gltf_results.c */
-ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
-void ffd_gltf_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                              const double *xyz, const uint8_t *changed);
-void ffd_gltf_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
-                            const double *xyz, const uint8_t *changed);
-void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first, size_t count,
-                             const double *xyzw, const uint8_t *changed);
-void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
-                            size_t first, size_t count, const double *xyz, const uint8_t *changed);
+mesh_begin_results_function ffd_gltf_begin_results;
+mesh_write_function ffd_gltf_write_positions;
+mesh_write_function ffd_gltf_write_normals;
+mesh_write_function ffd_gltf_write_tangents;
+mesh_write_offsets_function ffd_gltf_write_offsets;
 
 /* gltf_as_morph.c: mesh.h's keep_base. */
-ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_error *error);
+mesh_keep_base_function ffd_gltf_keep_base;
 
 /* gltf_select.c, gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_extract.c, gltf_compare.c: entries of the
    table (mesh.h). */
-ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selectors, size_t count,
-                           ffd_error *error);
-ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
-                         const mesh_log *log, ffd_error *error);
-ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error);
-ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd_error *error);
-ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
-ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
-                                   ffd_error *error);
-ffd_status ffd_gltf_compare(const mesh_document *a, const mesh_document *b, double tolerance,
-                            ffd_comparison *comparison, ffd_error *error);
+mesh_select_function ffd_gltf_select;
+mesh_save_function ffd_gltf_save;
+mesh_model_function ffd_gltf_extract;
+mesh_describe_function ffd_gltf_describe;
+mesh_faces_function ffd_gltf_faces;
+mesh_corner_normals_function ffd_gltf_corner_normals;
+mesh_compare_function ffd_gltf_compare;
 
 #endif

@@ -48,28 +48,19 @@ ffd_status ffd_obj_read_faces(obj_document *document, ffd_error *error);
 size_t ffd_obj_find_pair(const obj_document *document, const obj_face_corner *corner);
 
 /* The entries of the format's table. */
-ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_document **document,
-                        ffd_error *error);
-void ffd_obj_close(mesh_document *document);
-ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selectors, size_t count,
-                          ffd_error *error);
-void ffd_obj_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                            double *xyz);
-void ffd_obj_read_normals(const mesh_document *document, size_t part, size_t first, size_t count,
-                          double *xyz);
-ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
-void ffd_obj_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                             const double *xyz, const uint8_t *changed);
-void ffd_obj_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
-                           const double *xyz, const uint8_t *changed);
-ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *options, file_output *output,
-                        const mesh_log *log, ffd_error *error);
-ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
-ffd_status ffd_obj_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
-                                  ffd_error *error);
-ffd_status ffd_obj_model(const mesh_document *document, mesh_model *model, ffd_error *error);
-ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_error *error);
-ffd_status ffd_obj_compare(const mesh_document *a, const mesh_document *b, double tolerance,
-                           ffd_comparison *comparison, ffd_error *error);
+mesh_open_function ffd_obj_open;
+mesh_close_function ffd_obj_close;
+mesh_select_function ffd_obj_select;
+mesh_read_function ffd_obj_read_positions;
+mesh_read_function ffd_obj_read_normals;
+mesh_begin_results_function ffd_obj_begin_results;
+mesh_write_function ffd_obj_write_positions;
+mesh_write_function ffd_obj_write_normals;
+mesh_save_function ffd_obj_save;
+mesh_faces_function ffd_obj_faces;
+mesh_corner_normals_function ffd_obj_corner_normals;
+mesh_model_function ffd_obj_model;
+mesh_describe_function ffd_obj_describe;
+mesh_compare_function ffd_obj_compare;
 
 #endif

@@ -33,24 +33,17 @@ ffd_status ffd_off_read_vertices(off_document *document, off_walk *walk, ffd_err
 ffd_status ffd_off_read_faces(off_document *document, off_walk *walk, ffd_error *error);
 
 /* The entries of the format's table. */
-ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_document **document,
-                        ffd_error *error);
-void ffd_off_close(mesh_document *document);
-void ffd_off_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                            double *xyz);
-void ffd_off_read_normals(const mesh_document *document, size_t part, size_t first, size_t count,
-                          double *xyz);
-ffd_status ffd_off_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
-void ffd_off_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                             const double *xyz, const uint8_t *changed);
-void ffd_off_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
-                           const double *xyz, const uint8_t *changed);
-ffd_status ffd_off_save(mesh_document *document, const mesh_save_options *options, file_output *output,
-                        const mesh_log *log, ffd_error *error);
-ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
-ffd_status ffd_off_model(const mesh_document *document, mesh_model *model, ffd_error *error);
-ffd_status ffd_off_describe(const mesh_document *document, json_text *json, ffd_error *error);
-ffd_status ffd_off_compare(const mesh_document *a, const mesh_document *b, double tolerance,
-                           ffd_comparison *comparison, ffd_error *error);
+mesh_open_function ffd_off_open;
+mesh_close_function ffd_off_close;
+mesh_read_function ffd_off_read_positions;
+mesh_read_function ffd_off_read_normals;
+mesh_begin_results_function ffd_off_begin_results;
+mesh_write_function ffd_off_write_positions;
+mesh_write_function ffd_off_write_normals;
+mesh_save_function ffd_off_save;
+mesh_faces_function ffd_off_faces;
+mesh_model_function ffd_off_model;
+mesh_describe_function ffd_off_describe;
+mesh_compare_function ffd_off_compare;
 
 #endif

@@ -51,20 +51,15 @@ void ffd_stl_store(unsigned char *bytes, const double *values, size_t count);
 bool ffd_stl_normal(const double corners[9], double normal[3]);
 
 /* The entries of the format's table. */
-ffd_status ffd_stl_open(file_input *input, const ffd_source *source, mesh_document **document,
-                        ffd_error *error);
-void ffd_stl_close(mesh_document *document);
-void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                            double *xyz);
-ffd_status ffd_stl_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error);
-void ffd_stl_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
-                             const double *xyz, const uint8_t *changed);
-ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *options, file_output *output,
-                        const mesh_log *log, ffd_error *error);
-ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error);
-ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_error *error);
-ffd_status ffd_stl_describe(const mesh_document *document, json_text *json, ffd_error *error);
-ffd_status ffd_stl_compare(const mesh_document *a, const mesh_document *b, double tolerance,
-                           ffd_comparison *comparison, ffd_error *error);
+mesh_open_function ffd_stl_open;
+mesh_close_function ffd_stl_close;
+mesh_read_function ffd_stl_read_positions;
+mesh_begin_results_function ffd_stl_begin_results;
+mesh_write_function ffd_stl_write_positions;
+mesh_save_function ffd_stl_save;
+mesh_faces_function ffd_stl_faces;
+mesh_model_function ffd_stl_model;
+mesh_describe_function ffd_stl_describe;
+mesh_compare_function ffd_stl_compare;
 
 #endif
