@@ -1,84 +1,15 @@
-/* mesh_bytes.h - meshes of any format in memory: opened, changed, saved, broken, and with memory that runs
+/* mesh_bytes.h - meshes of any format but glTF, broken at random, changed, saved, and with memory that runs
    out. */
 #ifndef FFD_TESTS_MESH_BYTES_H
 #define FFD_TESTS_MESH_BYTES_H
 
-#include "base/file.h"
 #include "base/memory.h"
 #include "draw.h"
-#include "mesh/mesh.h"
+#include "mesh_file.h"
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-/* Opens bytes (which must stay) as if they were the file "a.mesh". */
-static inline ffd_status open_bytes(const mesh_format *format, const void *bytes, size_t size,
-                                    mesh_document **document, ffd_error *error)
-{
-    file_input input = {.data = bytes, .size = size};
-    const ffd_source source = {.path = "a.mesh", .format = format->format};
-    *error = (ffd_error){0};
-    *document = NULL;
-    return format->open(&input, &source, document, error);
-}
-
-static inline mesh_document *opened_bytes(const mesh_format *format, const void *bytes, size_t size)
-{
-    mesh_document *document;
-    ffd_error error;
-    if (open_bytes(format, bytes, size, &document, &error))
-        fail_msg("line %zu: %s", error.line, error.message);
-    assert_int_equal(document->part_count, 1);
-    assert_true(document->parts->identity);
-    return document;
-}
-
-/* A path for the saved files of this process; remove_saved takes it away again. */
-static inline const char *saved_path(void)
-{
-    static char path[64];
-    snprintf(path, sizeof path, "/tmp/ffd-test-mesh-%ld", (long)getpid());
-    return path;
-}
-
-static inline int remove_saved(void **state)
-{
-    (void)state;
-    remove(saved_path());
-    return 0;
-}
-
-/* Saves into a file and reads that. */
-static inline ffd_status save_bytes(mesh_document *document, file_input *saved, ffd_error *error)
-{
-    const mesh_format *format = document->format;
-    const mesh_save_options options = {.path = saved_path(), .format = format->format, .force = true};
-    const mesh_log log = {0};
-    file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (status)
-        return status;
-    status = format->save(document, &options, output, &log, error);
-    if (status == FFD_OK)
-        status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
-    return status == FFD_OK ? ffd_file_load(saved_path(), saved, error) : status;
-}
-
-static inline void assert_saved(mesh_document *document, const void *bytes, size_t size)
-{
-    file_input saved;
-    ffd_error error = {0};
-    if (save_bytes(document, &saved, &error))
-        fail_msg("%s", error.message);
-    if (saved.size != size || memcmp(saved.data, bytes, size) != 0)
-        fail_msg("saved:\n%.*s\nexpected:\n%.*s", (int)saved.size, (const char *)saved.data, (int)size,
-                 (const char *)bytes);
-    ffd_file_unload(&saved);
-}
 
 static inline double as_held(const mesh_document *document, double value)
 {

@@ -6,9 +6,12 @@
 
 #include "base/memory.h"
 #include "draw.h"
+#include "io/formats.h"
 #include "io/obj/obj_document.h"
-#include "obj_file.h"
+#include "mesh_file.h"
 #include "obj_reader.h"
+
+static const mesh_format *const obj = &ffd_obj_format;
 
 /* New values for the document's pairs: unchanged, one of a few for all, or one of its own. 3 a pair. */
 static inline double *draw_normals(mesh_document *document, draw *d)
@@ -135,7 +138,7 @@ static inline void check_new_normals(mesh_document *document, draw *d, bool coun
     memset(changed, 1, document->parts->normal_count + 1);
     assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
     obj->write_normals(document, 0, 0, document->parts->normal_count, values, changed);
-    if (save_bytes(document, saved_path(), &saved, &error) != FFD_OK)
+    if (save_bytes(document, &saved, &error) != FFD_OK)
         fail_msg("%s", error.message);
     plain_obj a = plain_read(o->input.data, o->input.size), b = plain_read(saved.data, saved.size);
     assert_int_equal(a.vertex_count, b.vertex_count);

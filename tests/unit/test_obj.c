@@ -7,12 +7,16 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "../support/obj_file.h"
+#include "../support/mesh_file.h"
 #include "base/memory.h"
+#include "io/formats.h"
 #include "io/obj/obj_document.h"
 #include <math.h>
+#include <stdlib.h>
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
+
+static const mesh_format *const obj = &ffd_obj_format;
 
 /* Statements */
 
@@ -182,14 +186,7 @@ static void test_corners(void **state)
 
 static mesh_document *opened(const char *text)
 {
-    mesh_document *document = NULL;
-    ffd_error error = {0};
-    if (open_bytes(text, strlen(text), "a.obj", &document, &error) != FFD_OK)
-        fail_msg("line %zu: %s, in:\n%s", error.line, error.message, text);
-    assert_int_equal(document->part_count, 1);
-    assert_true(document->parts->identity);
-    assert_false(document->parts->has_tangents);
-    return document;
+    return opened_bytes(obj, text, strlen(text));
 }
 
 /* All positions, as "1,2,3 4,5,6". */
@@ -307,11 +304,10 @@ static void test_refused(void **state)
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_document *document = NULL;
         ffd_error error = {0};
-        const ffd_status status =
-            open_bytes(cases[i].text, strlen(cases[i].text), "a.obj", &document, &error);
+        const ffd_status status = open_bytes(obj, cases[i].text, strlen(cases[i].text), &document, &error);
         assert_int_equal(status, FFD_E_INVALID);
         assert_int_equal(error.status, FFD_E_INVALID);
-        assert_string_equal(error.file, "a.obj");
+        assert_string_equal(error.file, "a.mesh");
         assert_string_equal(error.message, cases[i].message);
         assert_int_equal(error.line, cases[i].line);
         assert_null(document);
@@ -340,17 +336,11 @@ static void apply(mesh_document *document, const edit *edits)
         }
 }
 
-static void assert_saved(const char *text, const edit *edits, const char *expected)
+static void assert_edited(const char *text, const edit *edits, const char *expected)
 {
-    file_input saved;
-    ffd_error error = {0};
     mesh_document *document = opened(text);
     apply(document, edits);
-    if (save_bytes(document, saved_path(), &saved, &error) != FFD_OK)
-        fail_msg("%s", error.message);
-    if (!same_bytes(&saved, expected, strlen(expected)))
-        fail_msg("saved:\n%.*s\nexpected:\n%s", (int)saved.size, (const char *)saved.data, expected);
-    ffd_file_unload(&saved);
+    assert_saved(document, expected, strlen(expected));
     obj->close(document);
 }
 
@@ -364,15 +354,15 @@ static void test_save_positions(void **state)
     const edit zero[] = {{'v', 0, {-0.0, 0, 0}}, {0}};
     static const char odd[] =
         "\xEF\xBB\xBF\r# c\r\n v\t1.0  2.00 3.1+e2 .5 x # c\\\nv 4 \\\r\n 5e0 \\\r 6#7\nl 1 2";
-    assert_saved("", nothing, "");
-    assert_saved(odd, nothing, odd);
-    assert_saved("v 1.0 2.00 3e0", same, "v 1.0 2.00 3e0");
-    assert_saved("v 1.0 2.00 3 .1 .2 .3\n", first, "v 0.1 2.00 -1e+300 .1 .2 .3\n");
-    assert_saved(odd, first,
-                 "\xEF\xBB\xBF\r# c\r\n v\t0.1  2.00 -1e+300 .5 x # c\\\nv 4 \\\r\n 5e0 \\\r 6#7\nl 1 2");
-    assert_saved(odd, second,
-                 "\xEF\xBB\xBF\r# c\r\n v\t1.0  2.00 3.1+e2 .5 x # c\\\nv 7 \\\r\n 8 \\\r 9#7\nl 1 2");
-    assert_saved("v 0 0 0\n", zero, "v -0 0 0\n");
+    assert_edited("", nothing, "");
+    assert_edited(odd, nothing, odd);
+    assert_edited("v 1.0 2.00 3e0", same, "v 1.0 2.00 3e0");
+    assert_edited("v 1.0 2.00 3 .1 .2 .3\n", first, "v 0.1 2.00 -1e+300 .1 .2 .3\n");
+    assert_edited(odd, first,
+                  "\xEF\xBB\xBF\r# c\r\n v\t0.1  2.00 -1e+300 .5 x # c\\\nv 4 \\\r\n 5e0 \\\r 6#7\nl 1 2");
+    assert_edited(odd, second,
+                  "\xEF\xBB\xBF\r# c\r\n v\t1.0  2.00 3.1+e2 .5 x # c\\\nv 7 \\\r\n 8 \\\r 9#7\nl 1 2");
+    assert_edited("v 0 0 0\n", zero, "v -0 0 0\n");
 }
 
 static void test_kept_values_are_not_looked_at(void **state)
@@ -381,14 +371,11 @@ static void test_kept_values_are_not_looked_at(void **state)
     const double xyz[6] = {9, 9, 9, 8, 8, 8};
     const uint8_t changed[2] = {0, 1};
     mesh_document *document = opened("v 1 1 1\nv 1 1 1\nvn 1 1 1\nvn 1 1 1\nf 1//1 2//2");
-    file_input saved;
     assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
     obj->write_positions(document, 0, 0, 2, xyz, changed);
     obj->write_normals(document, 0, 0, 2, xyz, changed);
-    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
     static const char expected[] = "v 1 1 1\nv 8 8 8\nvn 1 1 1\nvn 8 8 8\nf 1//1 2//2";
-    assert_true(same_bytes(&saved, expected, sizeof expected - 1));
-    ffd_file_unload(&saved);
+    assert_saved(document, expected, sizeof expected - 1);
     obj->close(document);
 }
 
@@ -450,7 +437,7 @@ static void test_save_normals(void **state)
          "v 0 0 0\nv 0 0 0\nvn 0 0 1\nvn 1 0 0\nf\t1/7/1\\\r\n  2/8/2# c\n"},
     };
     for (size_t i = 0; i < COUNT(cases); i++)
-        assert_saved(cases[i].text, cases[i].edits, cases[i].expected);
+        assert_edited(cases[i].text, cases[i].edits, cases[i].expected);
 }
 
 static void test_normals_kept(void **state)
@@ -460,12 +447,9 @@ static void test_normals_kept(void **state)
     const double xyz[3] = {5, 5, 5};
     const uint8_t changed = 1;
     mesh_document *document = opened(text);
-    file_input saved;
     assert_int_equal(obj->begin_results(document, false, false, NULL), FFD_OK);
     obj->write_normals(document, 0, 0, 1, xyz, &changed);
-    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
-    assert_true(same_bytes(&saved, text, sizeof text - 1));
-    ffd_file_unload(&saved);
+    assert_saved(document, text, sizeof text - 1);
     obj->close(document);
 }
 
@@ -474,10 +458,7 @@ static void test_saved_without_results(void **state)
     (void)state;
     static const char text[] = CORNERS "f 1//1 2//1 3//1 # no end";
     mesh_document *document = opened(text);
-    file_input saved;
-    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
-    assert_true(same_bytes(&saved, text, sizeof text - 1));
-    ffd_file_unload(&saved);
+    assert_saved(document, text, sizeof text - 1);
     obj->close(document);
 }
 
@@ -503,10 +484,7 @@ static void test_save_large(void **state)
         const uint8_t changed = 1;
         obj->write_positions(document, 0, i, 1, xyz, &changed);
     }
-    file_input saved;
-    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
-    assert_true(same_bytes(&saved, expected, strlen(expected)));
-    ffd_file_unload(&saved);
+    assert_saved(document, expected, strlen(expected));
     obj->close(document);
     free(text);
     free(expected);
@@ -652,15 +630,16 @@ static ffd_status use_everything(const char *text)
     file_input saved;
     byte_buffer buffer = {0};
     json_text json;
+    ffd_error error;
     const edit moves[] = {{'v', 0, {1, 1, 1}}, {'n', 0, {1, 2, 3}}, {'n', 1, {4, 5, 6}}, {0}};
-    ffd_status status = open_bytes(text, strlen(text), "a.obj", &document, NULL);
+    ffd_status status = open_bytes(obj, text, strlen(text), &document, &error);
     if (status)
         return status;
     status = obj->begin_results(document, true, true, NULL);
     if (status == FFD_OK)
         apply(document, moves);
     if (status == FFD_OK)
-        status = save_bytes(document, saved_path(), &saved, NULL);
+        status = save_bytes(document, &saved, NULL);
     if (status == FFD_OK)
         ffd_file_unload(&saved);
     if (status == FFD_OK)
@@ -733,10 +712,7 @@ static bool same_value(const double *a, const double *b)
 /* What was written is there again when the saved file is read. */
 static void assert_holds(const file_input *saved, const mesh_document *before, const double *positions)
 {
-    mesh_document *document;
-    ffd_error error = {0};
-    if (open_bytes(saved->data, saved->size, "saved.obj", &document, &error) != FFD_OK)
-        fail_msg("saved file: line %zu: %s", error.line, error.message);
+    mesh_document *document = opened_bytes(obj, saved->data, saved->size);
     assert_int_equal(document->parts->vertex_count, before->parts->vertex_count);
     for (size_t i = 0; i < document->parts->vertex_count; i++) {
         double p[3];
@@ -765,7 +741,7 @@ static void change_and_save(mesh_document *document, draw *d)
         obj->write_normals(document, 0, n, 1, value, &changed);
     }
     file_input saved;
-    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
     assert_holds(&saved, document, positions);
     ffd_file_unload(&saved);
     free(positions);
@@ -804,8 +780,8 @@ static void test_mutations(void **state)
         assert_non_null(bytes);
         memcpy(bytes, scratch, size);
         mesh_document *document;
-        ffd_error error = {0};
-        if (open_bytes(bytes, size, "m.obj", &document, &error) == FFD_OK) {
+        ffd_error error;
+        if (open_bytes(obj, bytes, size, &document, &error) == FFD_OK) {
             valid++;
             read_everything(document);
             if (round % 20 == 0)

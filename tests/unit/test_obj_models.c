@@ -30,10 +30,10 @@ static int add_path(const char *path, const struct stat *info, int type, struct 
 
 static mesh_document *open_model(const char *path, file_input *input)
 {
-    mesh_document *document = NULL;
-    ffd_error error = {0};
+    mesh_document *document;
+    ffd_error error;
     assert_int_equal(ffd_file_load(path, input, NULL), FFD_OK);
-    const ffd_status status = open_bytes(input->data, input->size, path, &document, &error);
+    const ffd_status status = open_bytes(obj, input->data, input->size, &document, &error);
     if (strcmp(ffd_path_name(path), invalid_model) == 0) {
         assert_int_equal(status, FFD_E_INVALID);
         assert_int_equal(error.line, 23);
@@ -69,7 +69,7 @@ static void check_unchanged(const char *path, mesh_document *document, const fil
 {
     file_input saved;
     assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
-    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
     if (!same_bytes(&saved, input->data, input->size))
         fail_msg("%s: saved with other bytes", path);
     ffd_file_unload(&saved);
@@ -163,7 +163,7 @@ static void check_moved(const char *path, mesh_document *document, const file_in
         }
         obj->write_positions(document, 0, i, 1, new, &changed);
     }
-    assert_int_equal(save_bytes(document, saved_path(), &saved, NULL), FFD_OK);
+    assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
     assert_int_equal(check_words(path, input, &saved), expected);
     ffd_file_unload(&saved);
 }

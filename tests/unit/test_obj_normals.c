@@ -121,11 +121,8 @@ static void test_random_files(void **state)
     size_t pairs = 0;
     for (int round = 0; round < 400; round++) {
         writer w = {.d = &d};
-        mesh_document *document;
-        ffd_error error = {0};
         draw_file(&w);
-        if (open_bytes(w.text, strlen(w.text), "random.obj", &document, &error) != FFD_OK)
-            fail_msg("line %zu: %s, in:\n%s", error.line, error.message, w.text);
+        mesh_document *document = opened_bytes(obj, w.text, strlen(w.text));
         pairs += document->parts->normal_count;
         check_new_normals(document, &d, true);
         obj->close(document);

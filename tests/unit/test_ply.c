@@ -6,81 +6,22 @@
 
 #include <cmocka.h>
 
+#include "../support/mesh_file.h"
 #include "base/buffer.h"
-#include "base/memory.h"
 #include "io/formats.h"
 #include "io/ply/ply_document.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 static const mesh_format *const ply = &ffd_ply_format;
 
-static ffd_status open_bytes(const void *bytes, size_t size, mesh_document **document, ffd_error *error)
-{
-    file_input input = {.data = bytes, .size = size};
-    const ffd_source source = {.path = "a.ply", .format = FFD_FORMAT_PLY};
-    *error = (ffd_error){0};
-    return ply->open(&input, &source, document, error);
-}
-
 static mesh_document *opened(const void *bytes, size_t size)
 {
-    mesh_document *document = NULL;
-    ffd_error error;
-    if (open_bytes(bytes, size, &document, &error))
-        fail_msg("line %zu: %s", error.line, error.message);
-    return document;
-}
-
-/* The document must not free what is the sample's. */
-static void close_document(mesh_document *document)
-{
-    ((ply_document *)document)->input = (file_input){0};
-    ply->close(document);
-}
-
-static const char *saved_path(void)
-{
-    static char path[64];
-    snprintf(path, sizeof path, "/tmp/ffd-test-ply-%ld.ply", (long)getpid());
-    return path;
-}
-
-static int remove_saved(void **state)
-{
-    (void)state;
-    remove(saved_path());
-    return 0;
-}
-
-static ffd_status save(mesh_document *document, file_input *saved, ffd_error *error)
-{
-    const mesh_save_options options = {.path = saved_path(), .format = FFD_FORMAT_PLY, .force = true};
-    const mesh_log log = {0};
-    file_output *output;
-    ffd_status status = ffd_output_create(&output, error);
-    if (status)
-        return status;
-    status = ply->save(document, &options, output, &log, error);
-    if (status == FFD_OK)
-        status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
-    return status == FFD_OK ? ffd_file_load(saved_path(), saved, error) : status;
-}
-
-static void assert_saved(mesh_document *document, const void *bytes, size_t size)
-{
-    file_input saved;
-    ffd_error error;
-    assert_int_equal(save(document, &saved, &error), FFD_OK);
-    assert_int_equal(saved.size, size);
-    assert_memory_equal(saved.data, bytes, size);
-    ffd_file_unload(&saved);
+    return opened_bytes(ply, bytes, size);
 }
 
 /* Values */
@@ -263,14 +204,15 @@ static void test_refused(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(refused); i++) {
-        mesh_document *document = NULL;
+        mesh_document *document;
         ffd_error error;
-        const ffd_status status = open_bytes(refused[i].text, strlen(refused[i].text), &document, &error);
+        const ffd_status status =
+            open_bytes(ply, refused[i].text, strlen(refused[i].text), &document, &error);
         if (status != refused[i].status || error.line != refused[i].line ||
             !strstr(error.message, refused[i].says))
             fail_msg("case %zu: status %d, line %zu: %s", i, status, error.line, error.message);
         assert_null(document);
-        assert_string_equal(error.file, "a.ply");
+        assert_string_equal(error.file, "a.mesh");
     }
 }
 
@@ -287,10 +229,10 @@ static void test_too_many_declarations(void **state)
             for (int i = 0; i < more; i++)
                 ffd_buffer_format(&text, elements ? "element e%d 0\n" : "property int p%d\n", i);
             ffd_buffer_text(&text, "end_header\n");
-            assert_int_equal(open_bytes(text.data, text.size, &document, &error),
+            assert_int_equal(open_bytes(ply, text.data, text.size, &document, &error),
                              excess ? FFD_E_LIMIT : FFD_OK);
             if (document)
-                close_document(document);
+                ply->close(document);
             ffd_buffer_free(&text);
         }
 }
@@ -458,7 +400,7 @@ static void test_samples(void **state)
         }
         ffd_mesh_faces_free(&faces);
         assert_saved(d, s.bytes.data, s.bytes.size);
-        close_document(d);
+        ply->close(d);
         ffd_buffer_free(&s.bytes);
     }
 }
@@ -479,7 +421,7 @@ static void test_results(void **state)
         assert_int_equal(ply->begin_results(d, true, true, NULL), FFD_OK);
         ply->write_positions(d, 0, 0, 2, moved, second);
         ply->write_normals(d, 0, 3, 1, turned, first);
-        assert_int_equal(save(d, &saved, &error), FFD_OK);
+        assert_int_equal(save_bytes(d, &saved, &error), FFD_OK);
 
         mesh_document *after = opened(saved.data, saved.size);
         ply->read_positions(d, 0, 0, 5, expected);
@@ -499,9 +441,9 @@ static void test_results(void **state)
         ply->read_normals(d, 0, 0, 5, expected);
         ply->write_normals(after, 0, 3, 1, expected + 9, first);
         assert_saved(after, s.bytes.data, s.bytes.size);
-        close_document(after);
+        ply->close(after);
         ffd_file_unload(&saved);
-        close_document(d);
+        ply->close(d);
         ffd_buffer_free(&s.bytes);
     }
 }
@@ -520,7 +462,7 @@ static void test_texts_are_kept(void **state)
     assert_int_equal(ply->begin_results(d, true, false, NULL), FFD_OK);
     ply->write_positions(d, 0, 0, 2, moved, changed);
     assert_saved(d, after, strlen(after));
-    close_document(d);
+    ply->close(d);
 }
 
 static void test_mixed_line_ends(void **state)
@@ -532,7 +474,7 @@ static void test_mixed_line_ends(void **state)
     ply->read_positions(d, 0, 0, 3, xyz);
     assert_true(xyz[3] == 1 && xyz[7] == 1);
     assert_saved(d, text, strlen(text));
-    close_document(d);
+    ply->close(d);
 }
 
 /* What the streams cannot show */
@@ -551,7 +493,7 @@ static void test_whole_coordinates(void **state)
     assert_int_equal(ply->check(d, &error), FFD_E_UNSUPPORTED);
     assert_int_equal(error.line, 3);
     assert_non_null(strstr(error.message, "y of the vertices is of type short"));
-    close_document(d);
+    ply->close(d);
 }
 
 static void test_whole_normals(void **state)
@@ -565,7 +507,7 @@ static void test_whole_normals(void **state)
     assert_int_equal(d->parts[0].normal_count, 0);
     assert_int_equal(ply->begin_results(d, true, false, &error), FFD_E_UNSUPPORTED);
     assert_int_equal(ply->begin_results(d, false, false, &error), FFD_OK);
-    close_document(d);
+    ply->close(d);
 }
 
 static void test_two_of_three_normals(void **state)
@@ -577,7 +519,7 @@ static void test_two_of_three_normals(void **state)
     assert_int_equal(d->parts[0].normal_count, 0);
     assert_int_equal(ply->begin_results(d, true, false, NULL), FFD_OK);
     assert_saved(d, text, strlen(text));
-    close_document(d);
+    ply->close(d);
 }
 
 static void test_largest_coordinate(void **state)
@@ -588,10 +530,10 @@ static void test_largest_coordinate(void **state)
                                      "property double z\nend_header";
     mesh_document *d = opened(narrow, strlen(narrow));
     assert_true(d->largest_coordinate == (double)FLT_MAX);
-    close_document(d);
+    ply->close(d);
     d = opened(wide, strlen(wide));
     assert_true(d->largest_coordinate == DBL_MAX);
-    close_document(d);
+    ply->close(d);
 }
 
 /* Faces */
@@ -600,7 +542,7 @@ static ffd_status faces_of(const char *text, mesh_faces *faces, ffd_error *error
 {
     mesh_document *d = opened(text, strlen(text));
     const ffd_status status = ply->faces(d, faces, error);
-    close_document(d);
+    ply->close(d);
     return status;
 }
 
@@ -662,8 +604,8 @@ static ffd_comparison compared(const sample *a, const sample *b, double toleranc
     mesh_document *x = opened(a->bytes.data, a->bytes.size), *y = opened(b->bytes.data, b->bytes.size);
     ffd_comparison result;
     assert_int_equal(ply->compare(x, y, tolerance, &result, NULL), FFD_OK);
-    close_document(x);
-    close_document(y);
+    ply->close(x);
+    ply->close(y);
     return result;
 }
 
@@ -746,7 +688,7 @@ static ffd_status run_on(const char *bytes, size_t size, bool saves)
     mesh_document *d = NULL;
     ffd_error error;
     memcpy(copy, bytes, size);
-    const ffd_status status = open_bytes(copy, size, &d, &error);
+    const ffd_status status = open_bytes(ply, copy, size, &d, &error);
     assert_true(status == FFD_OK || status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED ||
                 status == FFD_E_LIMIT);
     if (status)
@@ -769,7 +711,7 @@ static ffd_status run_on(const char *bytes, size_t size, bool saves)
         assert_true(comparison.equal);
         if (ply->begin_results(d, true, true, NULL) == FFD_OK && saves)
             assert_saved(d, copy, size);
-        close_document(d);
+        ply->close(d);
     }
     ffd_free(copy);
     return status;
@@ -824,13 +766,13 @@ static void test_memory_runs_out(void **state)
             file_input saved = {0};
             ffd_error error;
             ffd_alloc_fail_after(successes);
-            ffd_status status = open_bytes(s.bytes.data, s.bytes.size, &d, &error);
+            ffd_status status = open_bytes(ply, s.bytes.data, s.bytes.size, &d, &error);
             if (!status)
                 status = ply->begin_results(d, true, false, &error);
             if (!status)
                 status = ply->faces(d, &faces, &error);
             if (!status)
-                status = save(d, &saved, &error);
+                status = save_bytes(d, &saved, &error);
             ffd_alloc_fail_after(-1);
             done = status == FFD_OK;
             if (!done)
@@ -839,7 +781,7 @@ static void test_memory_runs_out(void **state)
                 ffd_file_unload(&saved);
             ffd_mesh_faces_free(&faces);
             if (d)
-                close_document(d);
+                ply->close(d);
         }
         assert_true(successes > 10);
         ffd_buffer_free(&s.bytes);

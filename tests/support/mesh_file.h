@@ -1,0 +1,85 @@
+/* mesh_file.h - meshes of any format but glTF, whose documents have one part: opened from memory, described,
+   compared, and saved. */
+#ifndef FFD_TESTS_MESH_FILE_H
+#define FFD_TESTS_MESH_FILE_H
+
+#include "base/file.h"
+#include "base/memory.h"
+#include "mesh/mesh.h"
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Opens bytes (which must stay) as if they were the file "a.mesh". */
+static inline ffd_status open_bytes(const mesh_format *format, const void *bytes, size_t size,
+                                    mesh_document **document, ffd_error *error)
+{
+    file_input input = {.data = bytes, .size = size};
+    const ffd_source source = {.path = "a.mesh", .format = format->format};
+    *error = (ffd_error){0};
+    *document = NULL;
+    return format->open(&input, &source, document, error);
+}
+
+static inline mesh_document *opened_bytes(const mesh_format *format, const void *bytes, size_t size)
+{
+    mesh_document *document;
+    ffd_error error;
+    if (open_bytes(format, bytes, size, &document, &error))
+        fail_msg("line %zu: %s, in:\n%.*s", error.line, error.message, (int)size, (const char *)bytes);
+    assert_int_equal(document->part_count, 1);
+    assert_true(document->parts->identity);
+    assert_false(document->parts->has_tangents);
+    return document;
+}
+
+/* A path for the saved files of this process; remove_saved takes it away again. */
+static inline const char *saved_path(void)
+{
+    static char path[64];
+    snprintf(path, sizeof path, "/tmp/ffd-test-mesh-%ld", (long)getpid());
+    return path;
+}
+
+static inline int remove_saved(void **state)
+{
+    (void)state;
+    remove(saved_path());
+    return 0;
+}
+
+/* Saves into a file and reads that. */
+static inline ffd_status save_bytes(mesh_document *document, file_input *saved, ffd_error *error)
+{
+    const mesh_format *format = document->format;
+    const mesh_save_options options = {.path = saved_path(), .format = format->format, .force = true};
+    const mesh_log log = {0};
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (status)
+        return status;
+    status = format->save(document, &options, output, &log, error);
+    if (status == FFD_OK)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status == FFD_OK ? ffd_file_load(saved_path(), saved, error) : status;
+}
+
+static inline bool same_bytes(const file_input *file, const void *bytes, size_t size)
+{
+    return file->size == size && memcmp(file->data, bytes, size) == 0;
+}
+
+static inline void assert_saved(mesh_document *document, const void *bytes, size_t size)
+{
+    file_input saved;
+    ffd_error error = {0};
+    if (save_bytes(document, &saved, &error))
+        fail_msg("%s", error.message);
+    if (!same_bytes(&saved, bytes, size))
+        fail_msg("saved:\n%.*s\nexpected:\n%.*s", (int)saved.size, (const char *)saved.data, (int)size,
+                 (const char *)bytes);
+    ffd_file_unload(&saved);
+}
+
+#endif
