@@ -99,7 +99,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
 {
     const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
     const mesh_format *format = job->document->format;
-    ffd_status status = format->check(job->document, error);
+    ffd_status status = ffd_mesh_check(job->document, error);
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);

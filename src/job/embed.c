@@ -109,7 +109,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
         return status;
     status = ffd_source_open(&desc->input, &document, error);
     if (!status)
-        status = document->format->check(document, error);
+        status = ffd_mesh_check(document, error);
     if (!status)
         status = ffd_chain_place(&chain, document, threads, error);
     if (status)

@@ -29,7 +29,7 @@ static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *d
         return status;
     const uint64_t count = ffd_pass_vertex_count(document);
     double *xyz = NULL;
-    status = document->format->check(document, error);
+    status = ffd_mesh_check(document, error);
     if (status == FFD_OK && document->format->check_reach)
         status = document->format->check_reach(document, &everywhere, error);
     if (status == FFD_OK) {

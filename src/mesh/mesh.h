@@ -140,7 +140,7 @@ typedef struct mesh_format {
     mesh_close_function *close;
     /* Refuses (FFD_E_UNSUPPORTED) what the parts' streams do not show as it is, before anything is embedded
        or deformed: skins, morph targets, compressed data. A document that only is to be described need not
-       pass. */
+       pass. NULL: they show all. Called by ffd_mesh_check. */
     mesh_check_function *check;
     double largest_coordinate; /* that the format's numbers can hold */
     /* Refuses (FFD_E_UNSUPPORTED) if, in a box of the lattice's space (edges may be infinite), the document
@@ -210,6 +210,12 @@ struct mesh_document {
        steps of its integers. */
     bool converted;
 };
+
+static inline ffd_status ffd_mesh_check(const mesh_document *document, ffd_error *error)
+{
+    const mesh_format *format = document->format;
+    return format->check ? format->check(document, error) : FFD_OK;
+}
 
 /* The number of each part's first vertex in the document; of a part that repeats positions it is that of the
    part which it repeats. *first is the caller's to free, NULL after a failure. Errors: FFD_E_MEMORY. */

@@ -245,7 +245,7 @@ static void test_dialects(void **state)
         assert_string_equal(text, cases[i].positions);
         normals_text(document, text, sizeof text);
         assert_string_equal(text, cases[i].normals);
-        assert_int_equal(document->format->check(document, NULL), FFD_OK);
+        assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
         obj->close(document);
     }
 }

@@ -100,7 +100,7 @@ static void test_dialects(void **state)
         contents_of(document, contents, sizeof contents);
         if (strcmp(contents, cases[i].contents) != 0)
             fail_msg("case %zu: %s", i, contents);
-        assert_int_equal(off->check(document, NULL), FFD_OK);
+        assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
         assert_int_equal(off->begin_results(document, true, true, NULL), FFD_OK);
         assert_saved(document, cases[i].text, strlen(cases[i].text));
         off->close(document);

@@ -121,7 +121,7 @@ static void test_texts(void **state)
             fail_msg("case %zu: %s", i, contents);
         assert_true(document->largest_coordinate == DBL_MAX);
         assert_int_equal(document->parts->normal_count, 0);
-        assert_int_equal(stl->check(document, NULL), FFD_OK);
+        assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
         assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
         assert_saved(document, cases[i].text, strlen(cases[i].text));
         stl->close(document);

@@ -2,20 +2,11 @@
 #include "io/obj/obj_document.h"
 #include <float.h>
 
-/* Nothing in an OBJ file moves vertices but the file's own numbers. */
-static ffd_status check(const mesh_document *document, ffd_error *error)
-{
-    (void)document;
-    (void)error;
-    return FFD_OK;
-}
-
 const mesh_format ffd_obj_format = {
     .format = FFD_FORMAT_OBJ,
     .name = "OBJ",
     .open = ffd_obj_open,
     .close = ffd_obj_close,
-    .check = check,
     .largest_coordinate = DBL_MAX,
     .selector_kinds =
         SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),

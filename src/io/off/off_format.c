@@ -2,20 +2,11 @@
 #include "io/off/off_document.h"
 #include <float.h>
 
-/* Nothing in an OFF file moves vertices but the file's own numbers. */
-static ffd_status check(const mesh_document *document, ffd_error *error)
-{
-    (void)document;
-    (void)error;
-    return FFD_OK;
-}
-
 const mesh_format ffd_off_format = {
     .format = FFD_FORMAT_OFF,
     .name = "OFF",
     .open = ffd_off_open,
     .close = ffd_off_close,
-    .check = check,
     .largest_coordinate = DBL_MAX,
     .read_positions = ffd_off_read_positions,
     .read_normals = ffd_off_read_normals,

@@ -2,20 +2,11 @@
 #include "io/stl/stl_document.h"
 #include <float.h>
 
-/* Nothing in an STL file moves vertices but the file's own numbers. */
-static ffd_status check(const mesh_document *document, ffd_error *error)
-{
-    (void)document;
-    (void)error;
-    return FFD_OK;
-}
-
 const mesh_format ffd_stl_format = {
     .format = FFD_FORMAT_STL,
     .name = "STL",
     .open = ffd_stl_open,
     .close = ffd_stl_close,
-    .check = check,
     .normals_of_faces = true,
     .largest_coordinate = DBL_MAX,
     .read_positions = ffd_stl_read_positions,
