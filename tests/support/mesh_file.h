@@ -82,4 +82,63 @@ static inline void assert_saved(mesh_document *document, const void *bytes, size
     ffd_file_unload(&saved);
 }
 
+typedef struct refused_text {
+    const char *text;
+    ffd_status status;
+    size_t line;
+    const char *says; /* the message, or a part of it */
+} refused_text;
+
+static inline bool has_words(const char *message, const char *words)
+{
+    return strstr(message, words) != NULL;
+}
+
+static inline bool is_words(const char *message, const char *words)
+{
+    return strcmp(message, words) == 0;
+}
+
+/* Texts that do not open. agrees: compares the message with what the case says. */
+static inline void assert_refused(const mesh_format *format, const refused_text *cases, size_t count,
+                                  bool (*agrees)(const char *message, const char *says))
+{
+    for (size_t i = 0; i < count; i++) {
+        mesh_document *document;
+        ffd_error error;
+        const ffd_status status = open_bytes(format, cases[i].text, strlen(cases[i].text), &document, &error);
+        if (status != cases[i].status || error.line != cases[i].line || !agrees(error.message, cases[i].says))
+            fail_msg("case %zu: status %d, line %zu: %s", i, status, error.line, error.message);
+        assert_int_equal(error.status, status);
+        assert_string_equal(error.file, "a.mesh");
+        assert_null(document);
+    }
+}
+
+static inline void assert_described(mesh_document *document, const char *expected)
+{
+    byte_buffer buffer = {0};
+    json_text json;
+    ffd_json_begin(&json, &buffer);
+    ffd_json_object(&json, NULL, true);
+    assert_int_equal(document->format->describe(document, &json, NULL), FFD_OK);
+    ffd_json_end(&json, '}');
+    char *text = ffd_buffer_finish(&buffer);
+    assert_non_null(text);
+    assert_string_equal(text, expected);
+    ffd_free(text);
+}
+
+/* Compares a with b; b with a must come to the same. */
+static inline ffd_comparison compared(mesh_document *a, mesh_document *b, double tolerance)
+{
+    ffd_comparison result, turned;
+    assert_int_equal(a->format->compare(a, b, tolerance, &result, NULL), FFD_OK);
+    assert_int_equal(a->format->compare(b, a, tolerance, &turned, NULL), FFD_OK);
+    assert_int_equal(result.equal, turned.equal);
+    assert_int_equal(result.equal, result.difference[0] == 0);
+    assert_int_equal(result.positions_compared, turned.positions_compared);
+    return result;
+}
+
 #endif

@@ -272,46 +272,36 @@ static void test_many_normals_of_one_vertex(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text;
-        size_t line;
-        const char *message;
-    } cases[] = {
-        {"v 1 2\n", 1, "a vertex needs 3 numbers, found 2"},
-        {"\nv", 2, "a vertex needs 3 numbers, found 0"},
-        {"v 1 2 # 3\n", 1, "a vertex needs 3 numbers, found 2"},
-        {"v 1 2 3\r\nv 1 x 3\r\n", 2, "coordinate y of a vertex is not a number: \"x\""},
-        {"v 1 2 \\\r 1,5", 2, "coordinate z of a vertex is not a number: \"1,5\""},
-        {"vn 1 2\n", 1, "a normal needs 3 numbers, found 2"},
-        {"v 0 0 0\nvn 1 2 3e\n", 2, "coordinate z of a normal is not a number: \"3e\""},
-        {"v 0 0 0\nf 1 2 1\n", 2, "vertex index 2 is out of range: the file has 1"},
-        {"v 0 0 0\nf 1 1\\\n -2\nv 0 0 0\n", 3, "vertex index -2 is out of range: 1 stand before"},
-        {"v 0 0 0\nf 1 0 1\n", 2, "vertex index 0: the first is 1"},
-        {"v 0 0 0\nf 1 4294967297 1\n", 2, "vertex index 4294967297 is out of range: the file has 1"},
-        {"v 0 0 0\nf 99999999999999999999999999 1\n", 2,
+    static const refused_text cases[] = {
+        {"v 1 2\n", FFD_E_INVALID, 1, "a vertex needs 3 numbers, found 2"},
+        {"\nv", FFD_E_INVALID, 2, "a vertex needs 3 numbers, found 0"},
+        {"v 1 2 # 3\n", FFD_E_INVALID, 1, "a vertex needs 3 numbers, found 2"},
+        {"v 1 2 3\r\nv 1 x 3\r\n", FFD_E_INVALID, 2, "coordinate y of a vertex is not a number: \"x\""},
+        {"v 1 2 \\\r 1,5", FFD_E_INVALID, 2, "coordinate z of a vertex is not a number: \"1,5\""},
+        {"vn 1 2\n", FFD_E_INVALID, 1, "a normal needs 3 numbers, found 2"},
+        {"v 0 0 0\nvn 1 2 3e\n", FFD_E_INVALID, 2, "coordinate z of a normal is not a number: \"3e\""},
+        {"v 0 0 0\nf 1 2 1\n", FFD_E_INVALID, 2, "vertex index 2 is out of range: the file has 1"},
+        {"v 0 0 0\nf 1 1\\\n -2\nv 0 0 0\n", FFD_E_INVALID, 3,
+         "vertex index -2 is out of range: 1 stand before"},
+        {"v 0 0 0\nf 1 0 1\n", FFD_E_INVALID, 2, "vertex index 0: the first is 1"},
+        {"v 0 0 0\nf 1 4294967297 1\n", FFD_E_INVALID, 2,
+         "vertex index 4294967297 is out of range: the file has 1"},
+        {"v 0 0 0\nf 99999999999999999999999999 1\n", FFD_E_INVALID, 2,
          "vertex index 99999999999999999999999999 is out of range: the file has 1"},
-        {"v 0 0 0\nvn 0 0 1\nf 1//1 1//2 1\n", 3, "normal index 2 is out of range: the file has 1"},
-        {"v 0 0 0\nf 1//-1 1//2 1\nvn 0 0 1\n", 2, "normal index -1 is out of range: 0 stand before"},
-        {"v 0 0 0\nvn 0 0 1\nf 1//0\n", 3, "normal index 0: the first is 1"},
-        {"v 0 0 0\nf 1 a 1\n", 2, "not a corner (v, v/t, v//n or v/t/n): \"a\""},
-        {"v 0 0 0\nf 1/1/1/1\n", 2, "not a corner (v, v/t, v//n or v/t/n): \"1/1/1/1\""},
-        {"v 0 0 0\nl 1 2\n", 2, "vertex index 2 is out of range: the file has 1"},
-        {"v 0 0 0\np x\n", 2, "not a corner (v, v/t, v//n or v/t/n): \"x\""},
-        {"v 0 0 1234567890123456789012345678901234567890x\n", 1,
+        {"v 0 0 0\nvn 0 0 1\nf 1//1 1//2 1\n", FFD_E_INVALID, 3,
+         "normal index 2 is out of range: the file has 1"},
+        {"v 0 0 0\nf 1//-1 1//2 1\nvn 0 0 1\n", FFD_E_INVALID, 2,
+         "normal index -1 is out of range: 0 stand before"},
+        {"v 0 0 0\nvn 0 0 1\nf 1//0\n", FFD_E_INVALID, 3, "normal index 0: the first is 1"},
+        {"v 0 0 0\nf 1 a 1\n", FFD_E_INVALID, 2, "not a corner (v, v/t, v//n or v/t/n): \"a\""},
+        {"v 0 0 0\nf 1/1/1/1\n", FFD_E_INVALID, 2, "not a corner (v, v/t, v//n or v/t/n): \"1/1/1/1\""},
+        {"v 0 0 0\nl 1 2\n", FFD_E_INVALID, 2, "vertex index 2 is out of range: the file has 1"},
+        {"v 0 0 0\np x\n", FFD_E_INVALID, 2, "not a corner (v, v/t, v//n or v/t/n): \"x\""},
+        {"v 0 0 1234567890123456789012345678901234567890x\n", FFD_E_INVALID, 1,
          "coordinate z of a vertex is not a number: \"1234567890123456789012345678901234567890\""},
-        {"\xff\xfev", 1, "is UTF-16 text: an OBJ file is ASCII or UTF-8"},
+        {"\xff\xfev", FFD_E_INVALID, 1, "is UTF-16 text: an OBJ file is ASCII or UTF-8"},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        mesh_document *document = NULL;
-        ffd_error error = {0};
-        const ffd_status status = open_bytes(obj, cases[i].text, strlen(cases[i].text), &document, &error);
-        assert_int_equal(status, FFD_E_INVALID);
-        assert_int_equal(error.status, FFD_E_INVALID);
-        assert_string_equal(error.file, "a.mesh");
-        assert_string_equal(error.message, cases[i].message);
-        assert_int_equal(error.line, cases[i].line);
-        assert_null(document);
-    }
+    assert_refused(obj, cases, COUNT(cases), is_words);
 }
 
 /* Saving */
@@ -513,37 +503,29 @@ static void test_faces(void **state)
     obj->close(document);
 }
 
-static void assert_described(const char *text, const char *expected)
+static void assert_text_described(const char *text, const char *expected)
 {
-    byte_buffer buffer = {0};
-    json_text json;
     mesh_document *document = opened(text);
-    ffd_json_begin(&json, &buffer);
-    ffd_json_object(&json, NULL, true);
-    assert_int_equal(obj->describe(document, &json, NULL), FFD_OK);
-    ffd_json_end(&json, '}');
+    assert_described(document, expected);
     obj->close(document);
-    char *described = ffd_buffer_finish(&buffer);
-    described[strcspn(described, "\n")] = 0;
-    assert_string_equal(described, expected);
-    ffd_free(described);
 }
 
 static void test_description(void **state)
 {
     (void)state;
-    assert_described("", "{\"vertices\": 0, \"vertices_with_color\": 0, \"normals\": 0, \"texcoords\": 0, "
-                         "\"faces\": 0, \"triangles\": 0, \"quads\": 0, \"ngons\": 0, \"lines\": 0, "
-                         "\"points\": 0, \"groups\": 0, \"objects\": 0, \"materials\": 0, "
-                         "\"line_endings\": \"none\"}");
-    assert_described(
+    assert_text_described("",
+                          "{\"vertices\": 0, \"vertices_with_color\": 0, \"normals\": 0, \"texcoords\": 0, "
+                          "\"faces\": 0, \"triangles\": 0, \"quads\": 0, \"ngons\": 0, \"lines\": 0, "
+                          "\"points\": 0, \"groups\": 0, \"objects\": 0, \"materials\": 0, "
+                          "\"line_endings\": \"none\"}\n");
+    assert_text_described(
         "v 0 0 0 1 1 1\r\nv 0 0 0 1\r\nv 0 0 0 1 1 1 1\r\nvn 0 0 1\r\nvt 0\r\nvt 0\r\n"
         "g a b\r\ng b\r\ng a c\r\no one\r\no one two\r\nusemtl m 1\r\nusemtl m 2\r\nusemtl m 1\r\n"
         "f 1 2\r\nf 1 2 3\r\nf 1 2 3 1\r\nf 1 2 3 1 2\r\nf 1 2 3 1 2 3\r\nl 1 2\r\np 1 2\r\np 3\r\n",
         "{\"vertices\": 3, \"vertices_with_color\": 2, \"normals\": 1, \"texcoords\": 2, "
         "\"faces\": 5, \"triangles\": 1, \"quads\": 1, \"ngons\": 2, \"lines\": 1, "
         "\"points\": 2, \"groups\": 3, \"objects\": 2, \"materials\": 2, "
-        "\"line_endings\": \"CRLF\"}");
+        "\"line_endings\": \"CRLF\"}\n");
     static const struct {
         const char *text, *ends;
     } cases[] = {{"v 0 0 0\n", "\"LF\""}, {"v 0 0 0\r", "\"CR\""}, {"v 0 0 0\r\n\n", "\"mixed\""}};
@@ -552,9 +534,9 @@ static void test_description(void **state)
         snprintf(expected, sizeof expected,
                  "{\"vertices\": 1, \"vertices_with_color\": 0, \"normals\": 0, \"texcoords\": 0, "
                  "\"faces\": 0, \"triangles\": 0, \"quads\": 0, \"ngons\": 0, \"lines\": 0, "
-                 "\"points\": 0, \"groups\": 0, \"objects\": 0, \"materials\": 0, \"line_endings\": %s}",
+                 "\"points\": 0, \"groups\": 0, \"objects\": 0, \"materials\": 0, \"line_endings\": %s}\n",
                  cases[i].ends);
-        assert_described(cases[i].text, expected);
+        assert_text_described(cases[i].text, expected);
     }
 }
 
@@ -610,8 +592,7 @@ static void test_compare(void **state)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_document *a = opened(cases[i].a), *b = opened(cases[i].b);
-        ffd_comparison comparison;
-        assert_int_equal(obj->compare(a, b, cases[i].tolerance, &comparison, NULL), FFD_OK);
+        const ffd_comparison comparison = compared(a, b, cases[i].tolerance);
         assert_string_equal(comparison.difference, cases[i].difference);
         assert_int_equal(comparison.equal, !cases[i].difference[0]);
         assert_int_equal(comparison.positions_compared, cases[i].compared);

@@ -110,12 +110,7 @@ static void test_dialects(void **state)
 static void test_refused(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text;
-        ffd_status status;
-        size_t line;
-        const char *message;
-    } cases[] = {
+    static const refused_text cases[] = {
         {"", FFD_E_INVALID, 1, "the file has no content"},
         {"# only\n\n", FFD_E_INVALID, 3, "the file has no content"},
         {"off\n1 0 0\n", FFD_E_INVALID, 1,
@@ -175,16 +170,7 @@ static void test_refused(void **state)
          "a face states 99999999999999999999 corners, found 3"},
         {"OFF 3 1 0 0 0 0 1 0 0 0 1 0 9 0 1 2", FFD_E_INVALID, 1, "a face states 9 corners, found 3"},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        mesh_document *document;
-        ffd_error error;
-        const ffd_status status = open_bytes(off, cases[i].text, strlen(cases[i].text), &document, &error);
-        if (status != cases[i].status || error.line != cases[i].line ||
-            strcmp(error.message, cases[i].message) != 0)
-            fail_msg("case %zu: status %d, line %zu: %s", i, status, error.line, error.message);
-        assert_string_equal(error.file, "a.mesh");
-        assert_null(document);
-    }
+    assert_refused(off, cases, COUNT(cases), is_words);
 }
 
 /* Results */
@@ -247,21 +233,12 @@ static void test_description(void **state)
     mesh_document *document =
         opened("STCOFF\r\n3 4 0\r\n0 0 0 255 255 255 1 1\r\n1 0 0 1 0 0\r\n0 1 0 1 1 1 1 0 0\r\n"
                "3 0 1 2\r\n4 0 1 2 0 7\r\n2 0 1\r\n5 0 1 2 0 1\r\n\r\n# c\r\nrest");
-    byte_buffer out = {0};
-    json_text json;
-    ffd_json_begin(&json, &out);
-    ffd_json_object(&json, NULL, true);
-    assert_int_equal(off->describe(document, &json, NULL), FFD_OK);
-    ffd_json_end(&json, '}');
-    char *text = ffd_buffer_finish(&out);
-    assert_non_null(text);
-    static const char expected[] =
+    assert_described(
+        document,
         "{\"keyword\": \"STCOFF\", \"vertices\": 3, \"vertices_with_color\": 3, \"normals\": 0, "
         "\"texcoords\": 3, "
         "\"faces\": 3, \"faces_with_color\": 1, \"triangles\": 1, \"quads\": 1, \"ngons\": 1, \"lines\": 1, "
-        "\"points\": 0, \"bytes_behind\": 4, \"line_endings\": \"CRLF\"}\n";
-    assert_string_equal(text, expected);
-    ffd_free(text);
+        "\"points\": 0, \"bytes_behind\": 4, \"line_endings\": \"CRLF\"}\n");
     off->close(document);
 }
 
@@ -304,13 +281,10 @@ static void test_compare(void **state)
     mesh_document *a = opened(base);
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_document *b = opened(cases[i].text);
-        ffd_comparison result;
-        assert_int_equal(off->compare(a, b, cases[i].tolerance, &result, NULL), FFD_OK);
+        const ffd_comparison result = compared(a, b, cases[i].tolerance);
         assert_int_equal(result.equal, cases[i].difference == NULL);
         if (strcmp(result.difference, cases[i].difference ? cases[i].difference : "") != 0)
             fail_msg("case %zu: %s", i, result.difference);
-        assert_int_equal(off->compare(b, a, cases[i].tolerance, &result, NULL), FFD_OK);
-        assert_int_equal(result.equal, cases[i].difference == NULL);
         if (result.equal)
             assert_int_equal(result.positions_compared, 3);
         off->close(b);

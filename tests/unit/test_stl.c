@@ -131,39 +131,31 @@ static void test_texts(void **state)
 static void test_refused_texts(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text;
-        size_t line;
-        const char *message;
-    } cases[] = {
-        {"solid a\n", 2, "the file ends where facet or endsolid is expected"},
-        {"solid a\nface normal 0 0 1\n", 2, "expected facet or endsolid, found \"face\""},
-        {"solid a\nfacet\nouter loop\n", 3, "expected normal, found \"outer\""},
-        {"solid a\nfacet normal 0 0\nouter loop\n", 3, "expected a number of the normal, found \"outer\""},
-        {"solid a\nfacet normal 0 0 1,0\nouter loop\nvertex", 4,
+    static const refused_text cases[] = {
+        {"solid a\n", FFD_E_INVALID, 2, "the file ends where facet or endsolid is expected"},
+        {"solid a\nface normal 0 0 1\n", FFD_E_INVALID, 2, "expected facet or endsolid, found \"face\""},
+        {"solid a\nfacet\nouter loop\n", FFD_E_INVALID, 3, "expected normal, found \"outer\""},
+        {"solid a\nfacet normal 0 0\nouter loop\n", FFD_E_INVALID, 3,
+         "expected a number of the normal, found \"outer\""},
+        {"solid a\nfacet normal 0 0 1,0\nouter loop\nvertex", FFD_E_INVALID, 4,
          "the file ends where a coordinate is expected"},
-        {"solid a\nfacet normal 0 0 x\nouter loop\n", 2, "expected a number of the normal, found \"x\""},
-        {"solid a\nfacet normal 0 0 1\nouter lop\n", 3, "expected loop, found \"lop\""},
-        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0\nvertex 0 1 0\n"), 6,
+        {"solid a\nfacet normal 0 0 x\nouter loop\n", FFD_E_INVALID, 2,
+         "expected a number of the normal, found \"x\""},
+        {"solid a\nfacet normal 0 0 1\nouter lop\n", FFD_E_INVALID, 3, "expected loop, found \"lop\""},
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0\nvertex 0 1 0\n"), FFD_E_INVALID, 6,
          "expected a coordinate, found \"vertex\""},
-        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0x\nvertex 0 1 0\n"), 5,
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0x\nvertex 0 1 0\n"), FFD_E_INVALID, 5,
          "expected a coordinate, found \"0x\""},
-        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0\n"), 6, "expected vertex, found \"endloop\""},
-        {"solid a\n" FACET("0 0 1", CORNERS "vertex 1 1 0\n"), 7, "expected endloop, found \"vertex\""},
-        {"solid a\n" FACET("0 0 1", CORNERS), 9, "the file ends where facet or endsolid is expected"},
-        {TEXT "facet", 10, "expected solid, found \"facet\""},
-        {TEXT "solid", 10, "the file ends where facet or endsolid is expected"},
+        {"solid a\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 0 0\n"), FFD_E_INVALID, 6,
+         "expected vertex, found \"endloop\""},
+        {"solid a\n" FACET("0 0 1", CORNERS "vertex 1 1 0\n"), FFD_E_INVALID, 7,
+         "expected endloop, found \"vertex\""},
+        {"solid a\n" FACET("0 0 1", CORNERS), FFD_E_INVALID, 9,
+         "the file ends where facet or endsolid is expected"},
+        {TEXT "facet", FFD_E_INVALID, 10, "expected solid, found \"facet\""},
+        {TEXT "solid", FFD_E_INVALID, 10, "the file ends where facet or endsolid is expected"},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        mesh_document *document;
-        ffd_error error;
-        const ffd_status status = open_bytes(stl, cases[i].text, strlen(cases[i].text), &document, &error);
-        if (status != FFD_E_INVALID || error.line != cases[i].line ||
-            strcmp(error.message, cases[i].message) != 0)
-            fail_msg("case %zu: status %d, line %zu: %s", i, status, error.line, error.message);
-        assert_string_equal(error.file, "a.mesh");
-        assert_null(document);
-    }
+    assert_refused(stl, cases, COUNT(cases), is_words);
 }
 
 /* Binary files */
@@ -382,57 +374,35 @@ static void test_faces(void **state)
     ffd_buffer_free(&file);
 }
 
-static void assert_described(const void *bytes, size_t size, const char *expected)
-{
-    mesh_document *document = opened_bytes(stl, bytes, size);
-    byte_buffer out = {0};
-    json_text json;
-    ffd_json_begin(&json, &out);
-    ffd_json_object(&json, NULL, true);
-    assert_int_equal(stl->describe(document, &json, NULL), FFD_OK);
-    ffd_json_end(&json, '}');
-    char *text = ffd_buffer_finish(&out);
-    assert_non_null(text);
-    assert_string_equal(text, expected);
-    ffd_free(text);
-    stl->close(document);
-}
-
 static void test_description(void **state)
 {
     (void)state;
     static const record records[2] = {{UP, FLAT, 0x8000}, {UP, {0}, 0}};
     static const char text[] = "solid a  b \r\n" FACET("0 0 1", CORNERS) "endsolid\nsolid\nendsolid";
     byte_buffer file = binary("a\nb  ", records, 2);
+    mesh_document *document = opened_bytes(stl, file.data, file.size);
     assert_described(
-        file.data, file.size,
+        document,
         "{\"encoding\": \"binary\", \"facets\": 2, \"degenerate_facets\": 1, \"header\": \"a\\nb\", "
         "\"facets_with_attribute\": 1, \"bytes_behind\": 0}\n");
+    stl->close(document);
     ffd_buffer_free(&file);
+    document = opened(text);
     assert_described(
-        text, sizeof text - 1,
+        document,
         "{\"encoding\": \"ascii\", \"facets\": 1, \"degenerate_facets\": 0, \"names\": [\"a  b\", \"\"], "
         "\"solids\": 2, \"line_endings\": \"mixed\"}\n");
-}
-
-static ffd_comparison compared(const byte_buffer *a, const byte_buffer *b, double tolerance)
-{
-    mesh_document *x = opened_bytes(stl, a->data, a->size), *y = opened_bytes(stl, b->data, b->size);
-    ffd_comparison result;
-    assert_int_equal(stl->compare(x, y, tolerance, &result, NULL), FFD_OK);
-    stl->close(x);
-    stl->close(y);
-    return result;
+    stl->close(document);
 }
 
 static void assert_compared(const byte_buffer *a, const byte_buffer *b, double tolerance,
                             const char *difference)
 {
-    const ffd_comparison result = compared(a, b, tolerance), turned = compared(b, a, tolerance);
-    if (strcmp(result.difference, difference ? difference : "") != 0)
-        fail_msg("%s", result.difference);
-    assert_int_equal(result.equal, difference == NULL);
-    assert_int_equal(turned.equal, difference == NULL);
+    mesh_document *x = opened_bytes(stl, a->data, a->size), *y = opened_bytes(stl, b->data, b->size);
+    const ffd_comparison result = compared(x, y, tolerance);
+    assert_string_equal(result.difference, difference ? difference : "");
+    stl->close(x);
+    stl->close(y);
 }
 
 static void test_compare_texts(void **state)
