@@ -6,13 +6,10 @@
 
 #include <cmocka.h>
 
-#include "../support/draw.h"
-#include "../support/mesh_file.h"
-#include "base/memory.h"
+#include "../support/mesh_bytes.h"
 #include "io/formats.h"
 #include "io/obj/obj_document.h"
 #include <math.h>
-#include <stdlib.h>
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -602,180 +599,26 @@ static void test_compare(void **state)
     }
 }
 
-/* Failing allocations */
-
-static ffd_status use_everything(const char *text)
-{
-    mesh_document *document = NULL;
-    mesh_faces faces = {0};
-    file_input saved;
-    byte_buffer buffer = {0};
-    json_text json;
-    ffd_error error;
-    const edit moves[] = {{'v', 0, {1, 1, 1}}, {'n', 0, {1, 2, 3}}, {'n', 1, {4, 5, 6}}, {0}};
-    ffd_status status = open_bytes(obj, text, strlen(text), &document, &error);
-    if (status)
-        return status;
-    status = obj->begin_results(document, true, true, NULL);
-    if (status == FFD_OK)
-        apply(document, moves);
-    if (status == FFD_OK)
-        status = save_bytes(document, &saved, NULL);
-    if (status == FFD_OK)
-        ffd_file_unload(&saved);
-    if (status == FFD_OK)
-        status = obj->faces(document, &faces, NULL);
-    ffd_json_begin(&json, &buffer);
-    ffd_json_object(&json, NULL, true);
-    if (status == FFD_OK)
-        status = obj->describe(document, &json, NULL);
-    ffd_buffer_free(&buffer);
-    ffd_mesh_faces_free(&faces);
-    obj->close(document);
-    return status;
-}
+/* Broken files, and no memory */
 
 static void test_memory_failures(void **state)
 {
     (void)state;
-    static const char text[] = CORNERS "g a\no b\nusemtl c\nf 1//1 2//1 3//1\n";
-    long successes = 0;
-    ffd_status status = FFD_E_MEMORY;
-    for (; status == FFD_E_MEMORY && successes < 1000; successes++) {
-        ffd_alloc_fail_after(successes);
-        status = use_everything(text);
-        ffd_alloc_fail_after(-1);
-    }
-    assert_int_equal(status, FFD_OK);
-    assert_true(successes > 10);
-}
-
-/* Broken files: bytes of good ones changed at random */
-
-static const char plain_seed[] = CORNERS "vt 0 0\nf 1/1/1 2/1/-1 3//1 -1\nl 1 2\np 1\ng a b\nusemtl c\n";
-static const char dialect_seed[] = "\xEF\xBB\xBFv 1 2 \\\r\n3 # c\r\nv 4 5 6 1 0 0\r\nvn 0 1 0\rvn 1 0 0\n"
-                                   "f 1//1 \\\n 2//2 -2//-1\\";
-static const char late_seed[] = "f 1//2 2//1 1\nv nan inf -1e999\nv .5 5. 5e-1\nvn 0 0 1\nvn 0 0 1\n"
-                                "cstype bezier\nsurf 0 1 0 1 1/1/-1\nend";
-static const char *const seeds[] = {plain_seed, dialect_seed, late_seed};
-
-static size_t mutate(draw *d, char *bytes, size_t size, size_t capacity)
-{
-    static const char likely[] = "0123456789-+/.\\#\r\n\t vnftlpe";
-    for (int count = draw_int(d, 1, 4); count > 0; count--) {
-        const size_t at = size ? (size_t)draw_int(d, 0, (int)size - 1) : 0;
-        const char byte =
-            draw_int(d, 0, 3) ? likely[draw_int(d, 0, (int)sizeof likely - 2)] : (char)draw_int(d, 0, 255);
-        const int kind = draw_int(d, 0, 3);
-        if (kind == 0 && size < capacity) {
-            memmove(bytes + at + 1, bytes + at, size - at);
-            bytes[at] = byte;
-            size++;
-        } else if (kind == 1 && size) {
-            memmove(bytes + at, bytes + at + 1, size - at - 1);
-            size--;
-        } else if (kind == 2 && size)
-            size = draw_int(d, 0, 3) ? size : at;
-        else if (size)
-            bytes[at] = byte;
-    }
-    return size;
-}
-
-static bool same_value(const double *a, const double *b)
-{
-    for (int i = 0; i < 3; i++)
-        if (!(a[i] == b[i] || (isnan(a[i]) && isnan(b[i]))))
-            return false;
-    return true;
-}
-
-/* What was written is there again when the saved file is read. */
-static void assert_holds(const file_input *saved, const mesh_document *before, const double *positions)
-{
-    mesh_document *document = opened_bytes(obj, saved->data, saved->size);
-    assert_int_equal(document->parts->vertex_count, before->parts->vertex_count);
-    for (size_t i = 0; i < document->parts->vertex_count; i++) {
-        double p[3];
-        obj->read_positions(document, 0, i, 1, p);
-        assert_true(same_value(p, positions + 3 * i));
-    }
-    obj->close(document);
-}
-
-static void change_and_save(mesh_document *document, draw *d)
-{
-    const mesh_part *part = document->parts;
-    double *positions = malloc((part->vertex_count + 1) * 3 * sizeof *positions);
-    assert_non_null(positions);
-    assert_int_equal(obj->begin_results(document, true, true, NULL), FFD_OK);
-    for (size_t i = 0; i < part->vertex_count; i++) {
-        const uint8_t changed = draw_int(d, 0, 1) == 1;
-        obj->read_positions(document, 0, i, 1, positions + 3 * i);
-        for (int a = 0; a < 3 && changed; a++)
-            positions[3 * i + (size_t)a] += draw_int(d, 0, 2);
-        obj->write_positions(document, 0, i, 1, positions + 3 * i, &changed);
-    }
-    for (size_t n = 0; n < part->normal_count; n++) {
-        const double value[3] = {draw_int(d, 0, 1), draw_int(d, 0, 1), 0.5};
-        const uint8_t changed = draw_int(d, 0, 1) == 1;
-        obj->write_normals(document, 0, n, 1, value, &changed);
-    }
-    file_input saved;
-    assert_int_equal(save_bytes(document, &saved, NULL), FFD_OK);
-    assert_holds(&saved, document, positions);
-    ffd_file_unload(&saved);
-    free(positions);
-}
-
-static void read_everything(mesh_document *document)
-{
-    mesh_faces faces;
-    ffd_comparison comparison;
-    byte_buffer buffer = {0};
-    json_text json;
-    assert_int_equal(obj->faces(document, &faces, NULL), FFD_OK);
-    for (size_t i = 0; i < faces.start[faces.face_count]; i++)
-        assert_true(faces.corners[i] < faces.vertex_count);
-    ffd_mesh_faces_free(&faces);
-    ffd_json_begin(&json, &buffer);
-    ffd_json_object(&json, NULL, true);
-    assert_int_equal(obj->describe(document, &json, NULL), FFD_OK);
-    ffd_buffer_free(&buffer);
-    assert_int_equal(obj->compare(document, document, 0, &comparison, NULL), FFD_OK);
-    assert_true(comparison.equal);
+    static const byte_seed seed = BYTE_SEED(CORNERS "g a\no b\nusemtl c\nf 1//1 2//1 3//1\n");
+    use_with_failing_memory(obj, &seed);
 }
 
 static void test_mutations(void **state)
 {
     (void)state;
-    draw d = {draw_seed()};
-    int valid = 0, refused = 0;
-    for (int round = 0; round < 6000; round++) {
-        const char *seed = seeds[round % (int)COUNT(seeds)];
-        char scratch[512];
-        size_t size = strlen(seed);
-        memcpy(scratch, seed, size);
-        size = mutate(&d, scratch, size, sizeof scratch);
-        char *bytes = malloc(size ? size : 1); /* of its exact size, so that reading past it is seen */
-        assert_non_null(bytes);
-        memcpy(bytes, scratch, size);
-        mesh_document *document;
-        ffd_error error;
-        if (open_bytes(obj, bytes, size, &document, &error) == FFD_OK) {
-            valid++;
-            read_everything(document);
-            if (round % 20 == 0)
-                change_and_save(document, &d);
-            obj->close(document);
-        } else {
-            refused++;
-            assert_int_equal(error.status, FFD_E_INVALID);
-            assert_true(error.line > 0 && error.message[0]);
-        }
-        free(bytes);
-    }
-    assert_true(valid > 500 && refused > 500);
+    static const byte_seed seeds[] = {
+        BYTE_SEED(CORNERS "vt 0 0\nf 1/1/1 2/1/-1 3//1 -1\nl 1 2\np 1\ng a b\nusemtl c\n"),
+        BYTE_SEED("\xEF\xBB\xBFv 1 2 \\\r\n3 # c\r\nv 4 5 6 1 0 0\r\nvn 0 1 0\rvn 1 0 0\n"
+                  "f 1//1 \\\n 2//2 -2//-1\\"),
+        BYTE_SEED("f 1//2 2//1 1\nv nan inf -1e999\nv .5 5. 5e-1\nvn 0 0 1\nvn 0 0 1\n"
+                  "cstype bezier\nsurf 0 1 0 1 1/1/-1\nend"),
+    };
+    use_mutations(obj, seeds, COUNT(seeds), 6000, "0123456789-+/.\\#\r\n\t vnftlpe");
 }
 
 int main(void)

@@ -294,23 +294,17 @@ static void test_compare(void **state)
 
 /* Broken files, and no memory */
 
-#define SEED(text)                                                                                           \
-    {                                                                                                        \
-        text, sizeof(text) - 1                                                                               \
-    }
-
 static const byte_seed seeds[] = {
-    SEED("OFF\n4 2 0\n" TRIANGLE "1 1 0.5\n3 0 1 2\n4 0 1 3 2 255 0 0\n# end\n"),
-    SEED("CNOFF # c\r\n2 2 3\r\n0.25 -1e-3 2 0 0 1 1 0 .5 1\r\n1 2 3 0 1 0 1 0 .5 1\r\n2 0 1\r\n1 1"),
-    SEED("STCNOFF 2 1 1 1 2 3 0 1 0 9 9 9 9 .5 .5 4 5 6 1 0 0 9 9 9 9 .5 .5 3 0 1 0 1 1 1"),
-    SEED("3 1 0\n0 0 0 1 2 3\n1 0 0\n0 1 0 9\n3 0 1 2\n"),
+    BYTE_SEED("OFF\n4 2 0\n" TRIANGLE "1 1 0.5\n3 0 1 2\n4 0 1 3 2 255 0 0\n# end\n"),
+    BYTE_SEED("CNOFF # c\r\n2 2 3\r\n0.25 -1e-3 2 0 0 1 1 0 .5 1\r\n1 2 3 0 1 0 1 0 .5 1\r\n2 0 1\r\n1 1"),
+    BYTE_SEED("STCNOFF 2 1 1 1 2 3 0 1 0 9 9 9 9 .5 .5 4 5 6 1 0 0 9 9 9 9 .5 .5 3 0 1 0 1 1 1"),
+    BYTE_SEED("3 1 0\n0 0 0 1 2 3\n1 0 0\n0 1 0 9\n3 0 1 2\n"),
 };
 
 static void test_truncations(void **state)
 {
     (void)state;
-    for (size_t i = 0; i < COUNT(seeds); i++)
-        use_truncations(off, &seeds[i]);
+    use_truncations(off, seeds, COUNT(seeds));
 }
 
 static void test_mutations(void **state)

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "../support/mesh_file.h"
+#include "../support/mesh_bytes.h"
 #include "base/buffer.h"
 #include "io/formats.h"
 #include "io/ply/ply_document.h"
@@ -658,55 +658,19 @@ static void test_differences(void **state)
 
 /* Hostile files */
 
-/* Whatever the bytes: a status that is meant, and a file that opens is saved as it is (where saves is set:
-   writing files takes time). */
-static ffd_status run_on(const char *bytes, size_t size, bool saves)
-{
-    char *copy = ffd_alloc(size, 1); /* of the exact size: reading behind it is seen by the sanitizers */
-    mesh_document *d = NULL;
-    ffd_error error;
-    memcpy(copy, bytes, size);
-    const ffd_status status = open_bytes(ply, copy, size, &d, &error);
-    assert_true(status == FFD_OK || status == FFD_E_INVALID || status == FFD_E_UNSUPPORTED ||
-                status == FFD_E_LIMIT);
-    if (status)
-        assert_true(error.message[0] != 0);
-    else {
-        mesh_faces faces;
-        ffd_comparison comparison;
-        byte_buffer out = {0};
-        json_text json;
-        ffd_json_begin(&json, &out);
-        ffd_json_object(&json, NULL, false);
-        assert_int_equal(ply->describe(d, &json, NULL), FFD_OK);
-        ffd_json_end(&json, '}');
-        ffd_buffer_free(&out);
-        const ffd_status shown = ply->faces(d, &faces, NULL);
-        assert_true(shown == FFD_OK || shown == FFD_E_INVALID || shown == FFD_E_UNSUPPORTED);
-        if (shown == FFD_OK)
-            ffd_mesh_faces_free(&faces);
-        assert_int_equal(ply->compare(d, d, 0, &comparison, NULL), FFD_OK);
-        assert_true(comparison.equal);
-        if (ply->begin_results(d, true, true, NULL) == FFD_OK && saves)
-            assert_saved(d, copy, size);
-        ply->close(d);
-    }
-    ffd_free(copy);
-    return status;
-}
-
 static void test_every_truncation(void **state)
 {
     (void)state;
+    draw d = {draw_seed()};
     for (size_t k = 0; k < 3; k++) {
         sample s = make_sample(kind_of(k));
         for (size_t size = 0; size < s.bytes.size; size++) {
-            const ffd_status status = run_on(s.bytes.data, size, true);
+            const ffd_status status = use_bytes(ply, s.bytes.data, size, 1, &d);
             if (s.kind.encoding != PLY_ASCII || size + 3 < s.bytes.size)
                 /* "1." is another version. */
                 assert_true(status == FFD_E_INVALID || (status == FFD_E_UNSUPPORTED && size < 60));
         }
-        assert_int_equal(run_on(s.bytes.data, s.bytes.size, true), FFD_OK);
+        assert_int_equal(use_bytes(ply, s.bytes.data, s.bytes.size, 1, &d), FFD_OK);
         ffd_buffer_free(&s.bytes);
     }
 }
@@ -715,6 +679,7 @@ static void test_changed_bytes(void **state)
 {
     (void)state;
     static const char values[] = {0, '\n', '\r', ' ', '9', '-', 'e', (char)0x80, (char)0xff};
+    draw d = {draw_seed()};
     size_t opened_files = 0, refused_files = 0;
     for (size_t k = 0; k < 3; k++) {
         sample s = make_sample(kind_of(k));
@@ -722,7 +687,7 @@ static void test_changed_bytes(void **state)
             for (size_t v = 0; v < COUNT(values); v++) {
                 const char kept = s.bytes.data[at];
                 s.bytes.data[at] = values[v];
-                const bool opens = run_on(s.bytes.data, s.bytes.size, (at + v) % 16 == 0) == FFD_OK;
+                const bool opens = use_bytes(ply, s.bytes.data, s.bytes.size, 16, &d) == FFD_OK;
                 opened_files += opens;
                 refused_files += !opens;
                 s.bytes.data[at] = kept;
@@ -737,31 +702,8 @@ static void test_memory_runs_out(void **state)
     (void)state;
     for (size_t k = 0; k < 3; k++) {
         sample s = make_sample(kind_of(k));
-        long successes = 0;
-        for (bool done = false; !done; successes++) {
-            mesh_document *d = NULL;
-            mesh_faces faces = {0};
-            file_input saved = {0};
-            ffd_error error;
-            ffd_alloc_fail_after(successes);
-            ffd_status status = open_bytes(ply, s.bytes.data, s.bytes.size, &d, &error);
-            if (!status)
-                status = ply->begin_results(d, true, false, &error);
-            if (!status)
-                status = ply->faces(d, &faces, &error);
-            if (!status)
-                status = save_bytes(d, &saved, &error);
-            ffd_alloc_fail_after(-1);
-            done = status == FFD_OK;
-            if (!done)
-                assert_int_equal(status, FFD_E_MEMORY);
-            else
-                ffd_file_unload(&saved);
-            ffd_mesh_faces_free(&faces);
-            if (d)
-                ply->close(d);
-        }
-        assert_true(successes > 10);
+        const byte_seed seed = {s.bytes.data, s.bytes.size};
+        use_with_failing_memory(ply, &seed);
         ffd_buffer_free(&s.bytes);
     }
 }

@@ -482,8 +482,7 @@ static void with_seeds(void (*use)(const byte_seed *seeds, size_t count))
 
 static void truncate_seeds(const byte_seed *seeds, size_t count)
 {
-    for (size_t i = 0; i < count; i++)
-        use_truncations(stl, &seeds[i]);
+    use_truncations(stl, seeds, count);
 }
 
 static void mutate_seeds(const byte_seed *seeds, size_t count)
