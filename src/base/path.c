@@ -25,6 +25,11 @@ const char *ffd_path_name(const char *path)
     return name;
 }
 
+const char *ffd_path_shown(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
 const char *ffd_path_ending(const char *path)
 {
     const char *name = ffd_path_name(path);

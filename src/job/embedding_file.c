@@ -1,6 +1,7 @@
 #include "job/embedding_file.h"
 #include "base/little_endian.h"
 #include "base/memory.h"
+#include "base/path.h"
 #include "base/thread.h"
 #include "base/vec.h"
 #include "io/npy/npy.h"
@@ -258,7 +259,7 @@ static ffd_status check_vertices(const embedding_file *file, const char *name, f
 ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *positions,
                               const hash128 *lattice, embedding_file *file, ffd_error *error)
 {
-    file_content content = {.name = strcmp(path, "-") == 0 ? "standard input" : path};
+    file_content content = {.name = ffd_path_shown(path)};
     bool own = true;
     *file = (embedding_file){.count = count};
     ffd_status status = ffd_file_load(path, &file->input, error);

@@ -7,7 +7,7 @@
 
 const char *ffd_source_name(const ffd_source *source)
 {
-    return strcmp(source->path, "-") == 0 ? "standard input" : source->path;
+    return ffd_path_shown(source->path);
 }
 
 ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_error *error)

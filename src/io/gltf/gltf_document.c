@@ -4,7 +4,6 @@
 #include "io/formats.h"
 #include "io/gltf/gltf_schema.h"
 #include <float.h>
-#include <string.h>
 
 #define MOST_OBJECTS ((uint64_t)1 << 16)
 #define MOST_OBJECTS_A_BYTE (1.0 / 32)
@@ -266,7 +265,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     d->path = ffd_text_copy(source->path);
     if (!d->path)
         return ffd_fail_memory(error);
-    d->name = strcmp(d->path, "-") == 0 ? "standard input" : d->path;
+    d->name = ffd_path_shown(d->path);
     ffd_status status = find_json(d, source->format, error);
     if (status == FFD_OK)
         status = parse_model(d, error);

@@ -3,7 +3,6 @@
 #include "base/path.h"
 #include "io/formats.h"
 #include <inttypes.h>
-#include <string.h>
 
 void ffd_obj_document_walk(const obj_document *d, obj_walk *walk)
 {
@@ -112,7 +111,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return ffd_fail_memory(error);
     d->input = *input;
-    d->name = ffd_text_copy(strcmp(source->path, "-") == 0 ? "standard input" : source->path);
+    d->name = ffd_text_copy(ffd_path_shown(source->path));
     ffd_status status = d->name ? check_encoding(d, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
         status = read_vectors(d, error);

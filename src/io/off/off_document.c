@@ -2,7 +2,6 @@
 #include "base/memory.h"
 #include "base/path.h"
 #include "io/formats.h"
-#include <string.h>
 
 static ffd_status read_body(off_document *d, ffd_error *error)
 {
@@ -44,7 +43,7 @@ ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return ffd_fail_memory(error);
     d->input = *input;
-    d->name = ffd_text_copy(strcmp(source->path, "-") == 0 ? "standard input" : source->path);
+    d->name = ffd_text_copy(ffd_path_shown(source->path));
     ffd_status status =
         d->name ? ffd_off_header_read(&d->input, d->name, &d->header, error) : ffd_fail_memory(error);
     if (status == FFD_OK)

@@ -4,7 +4,6 @@
 #include "io/formats.h"
 #include <float.h>
 #include <inttypes.h>
-#include <string.h>
 
 void ffd_ply_document_walk(const ply_document *d, const ply_element *element, ply_walk *walk)
 {
@@ -89,7 +88,7 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return ffd_fail_memory(error);
     d->input = *input;
-    d->name = ffd_text_copy(strcmp(source->path, "-") == 0 ? "standard input" : source->path);
+    d->name = ffd_text_copy(ffd_path_shown(source->path));
     ffd_status status =
         d->name ? ffd_ply_header_read(input, d->name, &d->header, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
