@@ -82,6 +82,40 @@ static inline void assert_saved(mesh_document *document, const void *bytes, size
     ffd_file_unload(&saved);
 }
 
+/* Appends all positions, as "1,2,3 4,5,6"; behind each `row` of them stands a bar. */
+static inline void append_positions(const mesh_document *document, size_t row, byte_buffer *text)
+{
+    for (size_t i = 0; i < document->parts->vertex_count; i++) {
+        double p[3];
+        document->format->read_positions(document, 0, i, 1, p);
+        ffd_buffer_format(text, "%s%g,%g,%g", i == 0 ? "" : i % row == 0 ? " | " : " ", p[0], p[1], p[2]);
+    }
+}
+
+typedef struct read_text {
+    const char *text, *contents;
+} read_text;
+
+/* Texts that open, and are saved as they are. append_contents: puts in words what a document holds. */
+static inline void assert_read(const mesh_format *format, const read_text *cases, size_t count,
+                               void (*append_contents)(const mesh_document *document, byte_buffer *text))
+{
+    for (size_t i = 0; i < count; i++) {
+        mesh_document *document = opened_bytes(format, cases[i].text, strlen(cases[i].text));
+        byte_buffer buffer = {0};
+        append_contents(document, &buffer);
+        char *contents = ffd_buffer_finish(&buffer);
+        assert_non_null(contents);
+        if (strcmp(contents, cases[i].contents) != 0)
+            fail_msg("case %zu: %s", i, contents);
+        ffd_free(contents);
+        assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
+        assert_int_equal(format->begin_results(document, true, true, NULL), FFD_OK);
+        assert_saved(document, cases[i].text, strlen(cases[i].text));
+        format->close(document);
+    }
+}
+
 typedef struct refused_text {
     const char *text;
     ffd_status status;

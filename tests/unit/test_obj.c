@@ -186,65 +186,42 @@ static mesh_document *opened(const char *text)
     return opened_bytes(obj, text, strlen(text));
 }
 
-/* All positions, as "1,2,3 4,5,6". */
-static void positions_text(const mesh_document *document, char *text, size_t capacity)
-{
-    text[0] = 0;
-    for (size_t i = 0; i < document->parts->vertex_count; i++) {
-        double p[3];
-        obj->read_positions(document, 0, i, 1, p);
-        snprintf(text + strlen(text), capacity - strlen(text), "%s%g,%g,%g", i ? " " : "", p[0], p[1], p[2]);
-    }
-}
-
-/* The x of each vertex's normals: "1,2|3|" for two, one and none. */
-static void normals_text(const mesh_document *document, char *text, size_t capacity)
+/* All positions, and the x of each vertex's normals: "1,2|3|" for two, one and none. */
+static void append_contents(const mesh_document *document, byte_buffer *text)
 {
     const mesh_part *part = document->parts;
-    text[0] = 0;
+    append_positions(document, SIZE_MAX, text);
     for (size_t i = 0; part->normal_count && i < part->vertex_count; i++) {
+        ffd_buffer_text(text, i ? "|" : " N ");
         for (uint32_t n = part->normal_start[i]; n < part->normal_start[i + 1]; n++) {
             double v[3];
             obj->read_normals(document, 0, n, 1, v);
-            snprintf(text + strlen(text), capacity - strlen(text), "%s%g",
-                     n > part->normal_start[i] ? "," : "", v[0]);
+            ffd_buffer_format(text, "%s%g", n > part->normal_start[i] ? "," : "", v[0]);
         }
-        snprintf(text + strlen(text), capacity - strlen(text), "|");
     }
 }
 
 static void test_dialects(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text, *positions, *normals;
-    } cases[] = {
-        {"", "", ""},
-        {"\n# nothing\n", "", ""},
-        {"v 1 2 3\nv 4 5 6\n", "1,2,3 4,5,6", ""},
-        {"v 1 2 3\rv 4 5 6", "1,2,3 4,5,6", ""},
-        {"v 1 2 3\r\n\tv\t4 5  6 \r\n", "1,2,3 4,5,6", ""},
-        {"v 1 2 3 0.5\nv 4 5 6 .1 .2 .3\nv 7 8 9 1 .1 .2 .3 x\n", "1,2,3 4,5,6 7,8,9", ""},
-        {"v 1 \\\n2 \\\r\n3 # c\n", "1,2,3", ""},
-        {"v nan 2 -inf\n", "nan,2,-inf", ""},
-        {"vn 7 0 0\nv 1 2 3\n", "1,2,3", ""},
-        {"f 1//1 2//1 1//2\nv 1 2 3\nv 4 5 6\nvn 7 0 0\nvn 8 0 0\n", "1,2,3 4,5,6", "7,8|7|"},
-        {"v 1 1 1\nvn 1 0 0\nf -1//-1\nv 2 2 2\nvn 2 0 0\nf -1//-1 -2//-1 1//1\n", "1,1,1 2,2,2", "1,2|2|"},
-        {"v 1 1 1\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0\nf 1//3 1//1 1//3 1//2 1\n", "1,1,1", "1,2,3|"},
-        {"v 1 1 1\nvn 1 0 0\nl 1\np 1\nf 1/9\ncurv 0 1 9 9\nvp 1\nfoo x\n", "1,1,1", ""},
-        {"v 1 1 1\nf 1/1/1 1//5 1//0 1//-1\n", "1,1,1", ""},
-        {"mtllib ../../x.mtl\nv 1 1 1\nusemtl a b\ns off\n", "1,1,1", ""},
+    static const read_text cases[] = {
+        {"", ""},
+        {"\n# nothing\n", ""},
+        {"v 1 2 3\nv 4 5 6\n", "1,2,3 4,5,6"},
+        {"v 1 2 3\rv 4 5 6", "1,2,3 4,5,6"},
+        {"v 1 2 3\r\n\tv\t4 5  6 \r\n", "1,2,3 4,5,6"},
+        {"v 1 2 3 0.5\nv 4 5 6 .1 .2 .3\nv 7 8 9 1 .1 .2 .3 x\n", "1,2,3 4,5,6 7,8,9"},
+        {"v 1 \\\n2 \\\r\n3 # c\n", "1,2,3"},
+        {"v nan 2 -inf\n", "nan,2,-inf"},
+        {"vn 7 0 0\nv 1 2 3\n", "1,2,3"},
+        {"f 1//1 2//1 1//2\nv 1 2 3\nv 4 5 6\nvn 7 0 0\nvn 8 0 0\n", "1,2,3 4,5,6 N 7,8|7"},
+        {"v 1 1 1\nvn 1 0 0\nf -1//-1\nv 2 2 2\nvn 2 0 0\nf -1//-1 -2//-1 1//1\n", "1,1,1 2,2,2 N 1,2|2"},
+        {"v 1 1 1\nvn 1 0 0\nvn 2 0 0\nvn 3 0 0\nf 1//3 1//1 1//3 1//2 1\n", "1,1,1 N 1,2,3"},
+        {"v 1 1 1\nvn 1 0 0\nl 1\np 1\nf 1/9\ncurv 0 1 9 9\nvp 1\nfoo x\n", "1,1,1"},
+        {"v 1 1 1\nf 1/1/1 1//5 1//0 1//-1\n", "1,1,1"},
+        {"mtllib ../../x.mtl\nv 1 1 1\nusemtl a b\ns off\n", "1,1,1"},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        mesh_document *document = opened(cases[i].text);
-        char text[256];
-        positions_text(document, text, sizeof text);
-        assert_string_equal(text, cases[i].positions);
-        normals_text(document, text, sizeof text);
-        assert_string_equal(text, cases[i].normals);
-        assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
-        obj->close(document);
-    }
+    assert_read(obj, cases, COUNT(cases), append_contents);
 }
 
 static void test_many_normals_of_one_vertex(void **state)

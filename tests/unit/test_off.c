@@ -20,31 +20,24 @@ static mesh_document *opened(const char *text)
 }
 
 /* Vertices as "1,2,3 4,5,6", normals likewise, faces as "0,1,2 1,2". */
-static void contents_of(const mesh_document *document, char *text, size_t capacity)
+static void append_contents(const mesh_document *document, byte_buffer *text)
 {
     const mesh_part *part = document->parts;
     mesh_faces faces;
-    text[0] = 0;
-#define ADD(...) snprintf(text + strlen(text), capacity - strlen(text), __VA_ARGS__)
-    for (size_t i = 0; i < part->vertex_count; i++) {
-        double p[3];
-        off->read_positions(document, 0, i, 1, p);
-        ADD("%s%g,%g,%g", i ? " " : "", p[0], p[1], p[2]);
-    }
+    append_positions(document, SIZE_MAX, text);
     for (size_t i = 0; i < part->normal_count; i++) {
         double n[3];
         off->read_normals(document, 0, i, 1, n);
-        ADD("%s%g,%g,%g", i ? " " : " N ", n[0], n[1], n[2]);
+        ffd_buffer_format(text, "%s%g,%g,%g", i ? " " : " N ", n[0], n[1], n[2]);
     }
     assert_int_equal(off->faces(document, &faces, NULL), FFD_OK);
     for (size_t f = 0; f < faces.face_count; f++) {
-        ADD("%s", f ? " " : " F ");
+        ffd_buffer_text(text, f ? " " : " F ");
         for (size_t c = faces.start[f]; c < faces.start[f + 1]; c++)
-            ADD("%s%u", c > faces.start[f] ? "," : "", (unsigned)faces.corners[c]);
+            ffd_buffer_format(text, "%s%u", c > faces.start[f] ? "," : "", (unsigned)faces.corners[c]);
     }
     if (faces.lines || faces.points)
-        ADD(" L%zu P%zu", faces.lines, faces.points);
-#undef ADD
+        ffd_buffer_format(text, " L%zu P%zu", faces.lines, faces.points);
     ffd_mesh_faces_free(&faces);
 }
 
@@ -54,9 +47,7 @@ static void contents_of(const mesh_document *document, char *text, size_t capaci
 static void test_dialects(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text, *contents;
-    } cases[] = {
+    static const read_text cases[] = {
         {"OFF\n3 1 0\n" TRIANGLE "3 0 1 2\n", IS_TRIANGLE},
         {"OFF 3 1 0\n" TRIANGLE "3 0 1 2", IS_TRIANGLE},
         {"OFF3 1 0\n" TRIANGLE "3 0 1 2", IS_TRIANGLE},
@@ -94,17 +85,7 @@ static void test_dialects(void **state)
         {"OFF\n1 0 0\n1 2 3\n\nmore # than\nthat", "1,2,3"},
         {"OFF\n2 0 0\nnan 2 3\n1 -inf 1e999\n", "nan,2,3 1,-inf,inf"},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        char contents[256];
-        mesh_document *document = opened(cases[i].text);
-        contents_of(document, contents, sizeof contents);
-        if (strcmp(contents, cases[i].contents) != 0)
-            fail_msg("case %zu: %s", i, contents);
-        assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
-        assert_int_equal(off->begin_results(document, true, true, NULL), FFD_OK);
-        assert_saved(document, cases[i].text, strlen(cases[i].text));
-        off->close(document);
-    }
+    assert_read(off, cases, COUNT(cases), append_contents);
 }
 
 static void test_refused(void **state)

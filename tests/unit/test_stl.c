@@ -66,18 +66,16 @@ static byte_buffer binary(const char *header, const record *records, size_t coun
     }
 
 /* Positions as "0,0,0 1,0,0 0,1,0", a facet a bar. */
-static void contents_of(const mesh_document *document, char *text, size_t capacity)
+static void append_contents(const mesh_document *document, byte_buffer *text)
 {
-    text[0] = 0;
-    for (size_t i = 0; i < document->parts->vertex_count; i++) {
-        double p[3];
-        stl->read_positions(document, 0, i, 1, p);
-        snprintf(text + strlen(text), capacity - strlen(text), "%s%g,%g,%g",
-                 i == 0       ? ""
-                 : i % 3 == 0 ? " | "
-                              : " ",
-                 p[0], p[1], p[2]);
-    }
+    assert_int_equal(document->parts->normal_count, 0);
+    append_positions(document, 3, text);
+}
+
+static void append_contents_of_text(const mesh_document *document, byte_buffer *text)
+{
+    assert_true(document->largest_coordinate == DBL_MAX);
+    append_contents(document, text);
 }
 
 #define FACET(normal, corners) "facet normal " normal "\nouter loop\n" corners "endloop\nendfacet\n"
@@ -88,9 +86,7 @@ static void contents_of(const mesh_document *document, char *text, size_t capaci
 static void test_texts(void **state)
 {
     (void)state;
-    static const struct {
-        const char *text, *contents;
-    } cases[] = {
+    static const read_text cases[] = {
         {TEXT, IS_TEXT},
         {"solid\n" FACET("0 0 1", CORNERS) "endsolid", IS_TEXT},
         {"\xEF\xBB\xBFsolid\n" FACET("0 0 1", CORNERS) "endsolid", IS_TEXT},
@@ -113,19 +109,7 @@ static void test_texts(void **state)
         {"solid\n" FACET("0 0 1", "vertex nan 0 1e999\nvertex 1 2 3\nvertex 1 2 3\n") "endsolid",
          "nan,0,inf 1,2,3 1,2,3"},
     };
-    for (size_t i = 0; i < COUNT(cases); i++) {
-        char contents[256];
-        mesh_document *document = opened(cases[i].text);
-        contents_of(document, contents, sizeof contents);
-        if (strcmp(contents, cases[i].contents) != 0)
-            fail_msg("case %zu: %s", i, contents);
-        assert_true(document->largest_coordinate == DBL_MAX);
-        assert_int_equal(document->parts->normal_count, 0);
-        assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
-        assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
-        assert_saved(document, cases[i].text, strlen(cases[i].text));
-        stl->close(document);
-    }
+    assert_read(stl, cases, COUNT(cases), append_contents_of_text);
 }
 
 static void test_refused_texts(void **state)
@@ -169,16 +153,18 @@ static void test_binary(void **state)
         for (size_t count = 0; count <= 2; count++)
             for (int behind = 0; behind < 2; behind++) {
                 static const char *const expected[] = {"", IS_TEXT, IS_TEXT " | 1,2,3 4,5,6 -0.1,8,9"};
-                char contents[128];
+                byte_buffer contents = {0};
                 byte_buffer file = binary(headers[h], records, count);
                 ffd_buffer_append(&file, "behind", behind ? 6 : 0);
                 mesh_document *document = opened_bytes(stl, file.data, file.size);
-                contents_of(document, contents, sizeof contents);
-                assert_string_equal(contents, expected[count]);
+                append_contents(document, &contents);
+                assert_int_equal(contents.size, strlen(expected[count]));
+                assert_memory_equal(contents.data, expected[count], contents.size);
                 assert_true(document->largest_coordinate == (double)FLT_MAX);
                 assert_int_equal(stl->begin_results(document, true, true, NULL), FFD_OK);
                 assert_saved(document, file.data, file.size);
                 stl->close(document);
+                ffd_buffer_free(&contents);
                 ffd_buffer_free(&file);
             }
 }
