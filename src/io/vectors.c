@@ -2,6 +2,12 @@
 #include "base/memory.h"
 #include <string.h>
 
+void ffd_vectors_read(const double *vectors, size_t first, size_t count, double *xyz)
+{
+    if (count > 0) /* else vectors may be NULL */
+        memcpy(xyz, vectors + 3 * first, 3 * count * sizeof *xyz);
+}
+
 ffd_status ffd_vectors_copy(const double *vectors, size_t count, double **results, ffd_error *error)
 {
     if (*results)
@@ -9,8 +15,7 @@ ffd_status ffd_vectors_copy(const double *vectors, size_t count, double **result
     *results = ffd_alloc(count, 3 * sizeof **results);
     if (!*results)
         return ffd_fail_memory(error);
-    if (count > 0) /* else vectors may be NULL */
-        memcpy(*results, vectors, 3 * count * sizeof **results);
+    ffd_vectors_read(vectors, 0, count, *results);
     return FFD_OK;
 }
 

@@ -8,6 +8,8 @@
 
 /* Makes *results a copy of count vectors, unless there is one. Freed by ffd_free. Errors: FFD_E_MEMORY. */
 ffd_status ffd_vectors_copy(const double *vectors, size_t count, double **results, ffd_error *error);
+/* Copies count vectors from number first on, if any, to xyz. */
+void ffd_vectors_read(const double *vectors, size_t first, size_t count, double *xyz);
 /* Puts those of count vectors at xyz that are marked as changed into results, from number first on. results
    may be NULL: nothing is kept. Any thread, on ranges of its own. */
 void ffd_vectors_write(double *results, size_t first, size_t count, const double *xyz,

@@ -6,9 +6,8 @@
 void ffd_obj_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                             double *xyz)
 {
-    (void)part;    /* there is one */
-    if (count > 0) /* else there may be no positions */
-        memcpy(xyz, ffd_obj_of(document)->positions + 3 * first, 3 * count * sizeof *xyz);
+    (void)part; /* there is one */
+    ffd_vectors_read(ffd_obj_of(document)->positions, first, count, xyz);
 }
 
 void ffd_obj_read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
@@ -39,12 +38,12 @@ void ffd_obj_write_positions(mesh_document *document, size_t part, size_t first,
                              const double *xyz, const uint8_t *changed)
 {
     (void)part;
-    ffd_vectors_write(((obj_document *)document)->new_positions, first, count, xyz, changed);
+    ffd_vectors_write(ffd_obj_of(document)->new_positions, first, count, xyz, changed);
 }
 
 void ffd_obj_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
                            const double *xyz, const uint8_t *changed)
 {
     (void)part;
-    ffd_vectors_write(((obj_document *)document)->new_directions, first, count, xyz, changed);
+    ffd_vectors_write(ffd_obj_of(document)->new_directions, first, count, xyz, changed);
 }

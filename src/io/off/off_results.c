@@ -1,18 +1,17 @@
 #include "io/off/off_document.h"
 #include "io/vectors.h"
-#include <string.h>
 
 void ffd_off_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                             double *xyz)
 {
     (void)part; /* there is one */
-    memcpy(xyz, ffd_off_of(document)->positions + 3 * first, 3 * count * sizeof *xyz);
+    ffd_vectors_read(ffd_off_of(document)->positions, first, count, xyz);
 }
 
 void ffd_off_read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
 {
     (void)part;
-    memcpy(xyz, ffd_off_of(document)->directions + 3 * first, 3 * count * sizeof *xyz);
+    ffd_vectors_read(ffd_off_of(document)->directions, first, count, xyz);
 }
 
 ffd_status ffd_off_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)

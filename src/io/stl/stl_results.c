@@ -1,6 +1,7 @@
 #include "base/little_endian.h"
 #include "base/memory.h"
 #include "io/stl/stl_document.h"
+#include "io/vectors.h"
 
 void ffd_stl_load(const unsigned char *bytes, double xyz[3])
 {
@@ -28,8 +29,7 @@ void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t f
     const stl_document *d = ffd_stl_of(document);
     (void)part; /* there is one */
     if (!d->binary) {
-        if (count)
-            memcpy(xyz, d->positions + 3 * first, 3 * count * sizeof *xyz);
+        ffd_vectors_read(d->positions, first, count, xyz);
         return;
     }
     for (size_t i = 0; i < count; i++) {
