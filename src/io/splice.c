@@ -5,16 +5,17 @@
 
 #define BLOCK ((size_t)256 * 1024)
 
-ffd_status ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
-                            file_output *output, ffd_error *error)
+void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
+                      file_output *output, ffd_error *error)
 {
     const char *data = (const char *)input->data;
     *splice = (file_splice){.output = output, .error = error, .copied = data, .last = data + input->size};
-    const ffd_status status = ffd_output_begin(output, options->path, options->force, error);
-    if (status)
-        return status;
+    splice->status = ffd_output_begin(output, options->path, options->force, error);
+    if (splice->status)
+        return;
     splice->block = ffd_alloc(BLOCK, sizeof *splice->block);
-    return splice->block ? FFD_OK : ffd_fail_memory(error);
+    if (!splice->block)
+        splice->status = ffd_fail_memory(error);
 }
 
 static void flush(file_splice *splice)
@@ -28,10 +29,12 @@ void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size)
 {
     if (size > BLOCK - splice->used)
         flush(splice);
+    if (splice->status)
+        return;
     if (size < BLOCK) {
         memcpy(splice->block + splice->used, bytes, size);
         splice->used += size;
-    } else if (splice->status == FFD_OK)
+    } else
         splice->status = ffd_output_write(splice->output, bytes, size, splice->error);
 }
 

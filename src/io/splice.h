@@ -15,9 +15,9 @@ typedef struct file_splice {
     size_t used;
 } file_splice;
 
-/* Begins the output that options name. To be followed by ffd_splice_end unless it fails. */
-ffd_status ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
-                            file_output *output, ffd_error *error);
+/* Begins the output that options name. To be followed by ffd_splice_end, which tells of failures. */
+void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
+                      file_output *output, ffd_error *error);
 /* Copies the file up to a place not before the last one. */
 void ffd_splice_copy(file_splice *splice, const char *to);
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);

@@ -131,9 +131,8 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
     saver s = {.document = d};
     (void)log;
     ffd_status status = d->new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
-    if (status == FFD_OK)
-        status = ffd_splice_begin(&s.splice, &d->input, options, output, error);
     if (status == FFD_OK) {
+        ffd_splice_begin(&s.splice, &d->input, options, output, error);
         if (d->new_positions)
             write_statements(&s);
         if (d->addition == d->input.size)

@@ -42,9 +42,7 @@ ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *option
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
     (void)log;
-    const ffd_status status = ffd_splice_begin(&splice, &d->input, options, output, error);
-    if (status)
-        return status;
+    ffd_splice_begin(&splice, &d->input, options, output, error);
     if (d->new_positions)
         write_vertices(d, &splice);
     return ffd_splice_end(&splice);

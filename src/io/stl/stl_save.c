@@ -80,9 +80,7 @@ ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *option
 {
     stl_saver s = {.document = ffd_stl_of(document)};
     (void)log;
-    const ffd_status status = ffd_splice_begin(&s.splice, &s.document->input, options, output, error);
-    if (status)
-        return status;
+    ffd_splice_begin(&s.splice, &s.document->input, options, output, error);
     if (s.document->new_positions)
         write_facets(&s);
     return ffd_splice_end(&s.splice);
