@@ -40,6 +40,12 @@ static inline uint64_t draw_bits(draw *d)
     return z ^ (z >> 31);
 }
 
+/* In 0..2^31 - 1. */
+static inline uint32_t draw_number(draw *d)
+{
+    return (uint32_t)(draw_bits(d) >> 33);
+}
+
 /* In [0, 1). */
 static inline double draw_unit(draw *d)
 {

@@ -7,6 +7,8 @@
 #include <cmocka.h>
 
 #include "../support/draco_sample.h"
+#include "../support/draw.h"
+#include "../support/sheet.h"
 #include "io/gltf/draco.h"
 #include "io/gltf/gltf_model.h"
 #include <math.h>
@@ -26,12 +28,6 @@ typedef struct grid {
     sample_mesh mesh;
 } grid;
 
-static uint32_t next_number(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(*state >> 33);
-}
-
 static void make_grid(grid *g)
 {
     for (uint32_t i = 0; i < POINTS; i++) {
@@ -45,14 +41,7 @@ static void make_grid(grid *g)
             g->joints[4 * i + c] = (uint16_t)(i + 60 * c);
         g->factors[i] = (uint8_t)(3 * i);
     }
-    uint32_t *to = g->triangles;
-    for (uint32_t y = 0; y + 1 < SIDE; y++)
-        for (uint32_t x = 0; x + 1 < SIDE; x++) {
-            const uint32_t i = y * SIDE + x;
-            const uint32_t square[6] = {i, i + 1, i + SIDE, i + 1, i + SIDE + 1, i + SIDE};
-            memcpy(to, square, sizeof square);
-            to += 6;
-        }
+    sheet_triangles(SIDE, g->triangles);
     g->mesh = (sample_mesh){POINTS,       TRIANGLES, g->positions, g->normals,
                             g->texcoords, g->joints, g->factors,   g->triangles};
 }
@@ -325,7 +314,7 @@ static void broken_data_does_no_harm(void **state)
 {
     (void)state;
     static grid g;
-    uint64_t seed = 11;
+    draw d = {11};
     size_t refused = 0;
     make_grid(&g);
     for (int kind = 0; kind < 4; kind++) {
@@ -335,11 +324,11 @@ static void broken_data_does_no_harm(void **state)
         unsigned char *bytes = make_draco(&g.mesh, &options, &size);
         assert_non_null(bytes);
         for (size_t run = 0; run < MUTATIONS / 4; run++) {
-            const size_t kept = next_number(&seed) % 4 ? size : next_number(&seed) % size;
+            const size_t kept = draw_number(&d) % 4 ? size : draw_number(&d) % size;
             unsigned char *changed = malloc(kept ? kept : 1);
             memcpy(changed, bytes, kept);
-            for (uint32_t flips = 1 + next_number(&seed) % 3; flips > 0 && kept > 0; flips--)
-                changed[next_number(&seed) % kept] ^= (unsigned char)(1 << next_number(&seed) % 8);
+            for (uint32_t flips = 1 + draw_number(&d) % 3; flips > 0 && kept > 0; flips--)
+                changed[draw_number(&d) % kept] ^= (unsigned char)(1 << draw_number(&d) % 8);
             const draco_claim points = {POINTS, UINT64_MAX};
             draco_mesh *mesh = NULL;
             ffd_error error = {0};

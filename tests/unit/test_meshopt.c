@@ -5,6 +5,7 @@
 
 #include <cmocka.h>
 
+#include "../support/draw.h"
 #include "base/memory.h"
 #include "io/gltf/meshopt_view.h"
 #include <math.h>
@@ -20,13 +21,6 @@ typedef struct stream {
     meshopt_view view;
     unsigned char bytes[CAPACITY];
 } stream;
-
-/* A small generator of numbers that are the same everywhere. */
-static uint32_t next_number(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (uint32_t)(*state >> 33);
-}
 
 static void fill_indices(uint32_t *indices)
 {
@@ -81,13 +75,13 @@ static ffd_status decode(const meshopt_view *view, unsigned char **bytes, ffd_er
 static void attributes_come_back(void **state)
 {
     (void)state;
-    uint64_t seed = 1;
+    draw d = {1};
     for (size_t stride = 4; stride <= 256; stride += 36) {
         unsigned char *elements = malloc(COUNT * stride), *bytes = NULL;
         static stream s;
         ffd_error error = {0};
         for (size_t i = 0; i < COUNT * stride; i++)
-            elements[i] = (unsigned char)(i / stride + next_number(&seed) % 7);
+            elements[i] = (unsigned char)(i / stride + draw_number(&d) % 7);
         s.view = (meshopt_view){.mode = MESHOPT_ATTRIBUTES, .count = COUNT, .stride = stride};
         unsigned char *room = malloc(meshopt_encodeVertexBufferBound(COUNT, stride));
         s.view.size = meshopt_encodeVertexBuffer(room, meshopt_encodeVertexBufferBound(COUNT, stride),
@@ -147,32 +141,40 @@ static void indices_come_back(void **state)
 }
 
 /* Four numbers of length 1. */
-static void make_unit(uint64_t *seed, int dimensions, float unit[4])
+static void make_unit(draw *d, int dimensions, float unit[4])
 {
     double square = 0, value[4] = {0};
     for (int c = 0; c < dimensions; c++) {
-        value[c] = (double)next_number(seed) / 2147483648.0 - 0.5;
+        value[c] = (double)draw_number(d) / 2147483648.0 - 0.5;
         square += value[c] * value[c];
     }
     for (int c = 0; c < 4; c++)
         unit[c] = (float)(value[c] / sqrt(square));
 }
 
+/* What a filter's elements decode to. Free it with ffd_free. */
+static unsigned char *decode_filtered(size_t stride, const void *elements, meshopt_filter filter)
+{
+    static stream s;
+    unsigned char *bytes = NULL;
+    ffd_error error = {0};
+    make_attributes(&s, stride, elements);
+    s.view.filter = filter;
+    assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+    return bytes;
+}
+
 static void octahedral_filter_gives_unit_vectors(void **state)
 {
     (void)state;
     static float units[4 * COUNT];
-    static stream s;
-    uint64_t seed = 3;
+    draw d = {3};
     for (size_t i = 0; i < COUNT; i++)
-        make_unit(&seed, 3, units + 4 * i);
+        make_unit(&d, 3, units + 4 * i);
     for (size_t stride = 4; stride <= 8; stride += 4) {
-        unsigned char elements[8 * COUNT], *bytes = NULL;
-        ffd_error error = {0};
+        unsigned char elements[8 * COUNT];
         meshopt_encodeFilterOct(elements, COUNT, stride, stride == 4 ? 8 : 12, units);
-        make_attributes(&s, stride, elements);
-        s.view.filter = MESHOPT_OCTAHEDRAL;
-        assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+        unsigned char *bytes = decode_filtered(stride, elements, MESHOPT_OCTAHEDRAL);
         for (size_t i = 0; i < COUNT; i++)
             for (size_t c = 0; c < 3; c++) {
                 const unsigned char *at = bytes + i * stride + c * (stride / 4);
@@ -188,16 +190,12 @@ static void quaternion_filter_gives_rotations(void **state)
 {
     (void)state;
     static float units[4 * COUNT];
-    static stream s;
-    unsigned char elements[8 * COUNT], *bytes = NULL;
-    uint64_t seed = 4;
-    ffd_error error = {0};
+    unsigned char elements[8 * COUNT];
+    draw d = {4};
     for (size_t i = 0; i < COUNT; i++)
-        make_unit(&seed, 4, units + 4 * i);
+        make_unit(&d, 4, units + 4 * i);
     meshopt_encodeFilterQuat(elements, COUNT, 8, 14, units);
-    make_attributes(&s, 8, elements);
-    s.view.filter = MESHOPT_QUATERNION;
-    assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+    unsigned char *bytes = decode_filtered(8, elements, MESHOPT_QUATERNION);
     for (size_t i = 0; i < COUNT; i++) {
         double dot = 0;
         for (size_t c = 0; c < 4; c++)
@@ -212,16 +210,12 @@ static void exponential_filter_gives_floats(void **state)
 {
     (void)state;
     static float values[3 * COUNT];
-    static stream s;
-    unsigned char elements[12 * COUNT], *bytes = NULL;
-    uint64_t seed = 5;
-    ffd_error error = {0};
+    unsigned char elements[12 * COUNT];
+    draw d = {5};
     for (size_t i = 0; i < 3 * COUNT; i++)
-        values[i] = (float)next_number(&seed) / 1048576.0f - 1000.0f;
+        values[i] = (float)draw_number(&d) / 1048576.0f - 1000.0f;
     meshopt_encodeFilterExp(elements, COUNT, 12, 20, values);
-    make_attributes(&s, 12, elements);
-    s.view.filter = MESHOPT_EXPONENTIAL;
-    assert_int_equal(decode(&s.view, &bytes, &error), FFD_OK);
+    unsigned char *bytes = decode_filtered(12, elements, MESHOPT_EXPONENTIAL);
     for (size_t i = 0; i < 3 * COUNT; i++) {
         float value;
         memcpy(&value, bytes + 4 * i, sizeof value);
@@ -283,11 +277,11 @@ static void broken_streams_do_no_harm(void **state)
 {
     (void)state;
     static stream s;
-    uint64_t seed = 9;
+    draw d = {9};
     size_t refused = 0;
     float values[2 * COUNT]; /* for elements of up to 8 bytes */
     for (size_t i = 0; i < 2 * COUNT; i++)
-        values[i] = (float)(next_number(&seed) % 1000);
+        values[i] = (float)(draw_number(&d) % 1000);
     for (size_t run = 0; run < MUTATIONS; run++) {
         unsigned char *bytes = NULL;
         ffd_error error = {0};
@@ -308,10 +302,10 @@ static void broken_streams_do_no_harm(void **state)
             s.view.filter = MESHOPT_QUATERNION;
             break;
         }
-        for (uint32_t flips = next_number(&seed) % 4; flips > 0; flips--)
-            s.bytes[next_number(&seed) % s.view.size] ^= (unsigned char)(1 << next_number(&seed) % 8);
-        if (next_number(&seed) % 2)
-            s.view.size -= next_number(&seed) % s.view.size;
+        for (uint32_t flips = draw_number(&d) % 4; flips > 0; flips--)
+            s.bytes[draw_number(&d) % s.view.size] ^= (unsigned char)(1 << draw_number(&d) % 8);
+        if (draw_number(&d) % 2)
+            s.view.size -= draw_number(&d) % s.view.size;
         unsigned char *exact = malloc(s.view.size); /* so that reading past the end is seen */
         memcpy(exact, s.bytes, s.view.size);
         s.view.bytes = exact;
