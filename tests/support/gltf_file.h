@@ -39,6 +39,25 @@ static inline ffd_status open_file(const char *path, ffd_space space, mesh_docum
 /* How a test moves x,y,z of a vertex that stands at `place` in the scene. */
 typedef void (*mover)(const double place[3], double xyz[3]);
 
+static inline void stay(const double place[3], double xyz[3])
+{
+    (void)place;
+    (void)xyz;
+}
+
+static inline void add_one(const double place[3], double xyz[3])
+{
+    (void)place;
+    xyz[0] += 1;
+}
+
+/* Only what stands beyond x = 10 moves. */
+static inline void move_far(const double place[3], double xyz[3])
+{
+    if (place[0] >= 10)
+        xyz[0] += 1;
+}
+
 static inline void move_positions(mesh_document *document, size_t part, mover move)
 {
     for (size_t i = 0; i < document->parts[part].vertex_count; i++) {
@@ -95,6 +114,18 @@ static inline ffd_status save_to(mesh_document *document, const char *path, ffd_
 {
     const mesh_save_options options = {.path = path, .force = true};
     return save_with(document, &options, NULL, error);
+}
+
+/* A file as a string. Free it with free(). */
+static inline char *load_text(const char *path)
+{
+    file_input input;
+    assert_int_equal(ffd_file_load(path, &input, NULL), FFD_OK);
+    char *text = calloc(input.size + 1, 1);
+    assert_non_null(text);
+    memcpy(text, input.data, input.size);
+    ffd_file_unload(&input);
+    return text;
 }
 
 /* Opens, describes, deforms and saves, whatever comes of it. */

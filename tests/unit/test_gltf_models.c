@@ -63,12 +63,6 @@ static bool is_binary(const char *path)
     return ffd_path_has_ending(path, ".glb");
 }
 
-static void stay(const double place[3], double xyz[3])
-{
-    (void)place;
-    (void)xyz;
-}
-
 static void twist(const double place[3], double xyz[3])
 {
     xyz[0] += 0.25 * place[1];

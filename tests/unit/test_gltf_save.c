@@ -60,32 +60,9 @@ static void check_bytes(const char *name, const void *bytes, size_t size)
 /* As a string, so that a difference is shown. */
 static void check_text(const char *name, const char *text)
 {
-    file_input input;
-    assert_int_equal(ffd_file_load(in_folder(name), &input, NULL), FFD_OK);
-    char *read = calloc(input.size + 1, 1);
-    memcpy(read, input.data, input.size);
+    char *read = load_text(in_folder(name));
     assert_string_equal(read, text);
     free(read);
-    ffd_file_unload(&input);
-}
-
-static void add_one(const double place[3], double xyz[3])
-{
-    (void)place;
-    xyz[0] += 1;
-}
-
-static void stay(const double place[3], double xyz[3])
-{
-    (void)place;
-    (void)xyz;
-}
-
-/* Only what stands beyond x = 10 moves. */
-static void move_far(const double place[3], double xyz[3])
-{
-    if (place[0] >= 10)
-        xyz[0] += 1;
 }
 
 static void move_by_place(const double place[3], double xyz[3])

@@ -116,12 +116,6 @@ static void only_what_changes_is_encoded(void **state)
     assert_memory_equal(element, "\0\0\x80\xbf\0\0\x80\xbf\0\0\x80\x3f\0\0\x80\xbf", 16);
 }
 
-static void add_one(const double place[3], double xyz[3])
-{
-    (void)place;
-    xyz[0] += 1;
-}
-
 /* A sparse accessor and zeros without a buffer for them; integers that become floats, whose extension goes.
  */
 static void memory_may_run_out_anywhere(void **state)
