@@ -1,10 +1,10 @@
+#include "io/face_sizes.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_names.h"
 
 typedef struct obj_facts {
-    size_t triangles, quads, ngons; /* faces with 3, 4, more corners */
-    size_t coloured;                /* vertices with 6 numbers or more: x y z [w] r g b */
-    size_t lf, crlf, cr;            /* line ends */
+    face_sizes sizes;
+    size_t coloured; /* vertices with 6 numbers or more: x y z [w] r g b */
     obj_names groups, objects, materials;
     bool failed; /* memory ran out */
 } obj_facts;
@@ -16,13 +16,6 @@ static size_t count_words(obj_scan *scan)
     while (ffd_obj_scan_word(scan, &word))
         count++;
     return count;
-}
-
-static void count_face(obj_facts *facts, size_t corners)
-{
-    facts->triangles += corners == 3;
-    facts->quads += corners == 4;
-    facts->ngons += corners > 4;
 }
 
 /* A group's words are names of their own; an object's or material's name may hold blanks. */
@@ -45,7 +38,7 @@ static void survey_statement(obj_facts *facts, obj_scan *scan)
         facts->coloured += count_words(scan) >= 6;
         break;
     case OBJ_FACE:
-        count_face(facts, count_words(scan));
+        face_sizes_count(&facts->sizes, count_words(scan));
         break;
     case OBJ_GROUP:
         count_names(facts, &facts->groups, scan, true);
@@ -61,29 +54,6 @@ static void survey_statement(obj_facts *facts, obj_scan *scan)
     }
 }
 
-static void count_line_ends(obj_facts *facts, const file_input *input)
-{
-    const char *at = (const char *)input->data, *last = at + input->size;
-    for (; at < last; at++) {
-        if (*at == '\n')
-            facts->lf++;
-        else if (*at == '\r' && ffd_obj_line_end_size(at, last) == 1)
-            facts->cr++;
-        else if (*at == '\r') {
-            facts->crlf++;
-            at++;
-        }
-    }
-}
-
-static const char *line_end_name(const obj_facts *facts)
-{
-    const int kinds = (facts->lf > 0) + (facts->crlf > 0) + (facts->cr > 0);
-    if (kinds != 1)
-        return kinds ? "mixed" : "none";
-    return facts->lf ? "LF" : facts->crlf ? "CRLF" : "CR";
-}
-
 ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_error *error)
 {
     const obj_document *d = ffd_obj_of(document);
@@ -92,7 +62,6 @@ ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_
     ffd_obj_document_walk(d, &walk);
     while (!facts.failed && ffd_obj_walk_next(&walk))
         survey_statement(&facts, &walk.scan);
-    count_line_ends(&facts, &d->input);
     const struct {
         const char *key;
         size_t count;
@@ -102,9 +71,9 @@ ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_
         {"normals", d->normals},
         {"texcoords", d->texcoords},
         {"faces", d->faces},
-        {"triangles", facts.triangles},
-        {"quads", facts.quads},
-        {"ngons", facts.ngons},
+        {"triangles", facts.sizes.triangles},
+        {"quads", facts.sizes.quads},
+        {"ngons", facts.sizes.ngons},
         {"lines", d->lines},
         {"points", d->points},
         {"groups", ffd_obj_names_distinct(&facts.groups)},
@@ -113,7 +82,7 @@ ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_
     };
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)
         ffd_json_count(json, members[i].key, members[i].count);
-    ffd_json_string(json, "line_endings", line_end_name(&facts));
+    ffd_json_string(json, "line_endings", ffd_text_line_ends(d->input.data, d->input.size));
     ffd_obj_names_free(&facts.groups);
     ffd_obj_names_free(&facts.objects);
     ffd_obj_names_free(&facts.materials);

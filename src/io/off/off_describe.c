@@ -1,9 +1,10 @@
+#include "io/face_sizes.h"
 #include "io/off/off_document.h"
 #include <stdio.h>
 
 typedef struct off_facts {
     size_t coloured, coloured_faces; /* vertices and faces with words of a colour */
-    size_t triangles, quads, ngons;  /* faces with 3, 4, more corners */
+    face_sizes sizes;
 } off_facts;
 
 static size_t count_rest(off_walk *walk)
@@ -28,9 +29,7 @@ static off_facts survey(const off_document *d)
     }
     for (size_t i = 0; i < d->header.faces; i++) {
         const size_t corners = ffd_off_walk_face_size(&walk);
-        facts.triangles += corners == 3;
-        facts.quads += corners == 4;
-        facts.ngons += corners > 4;
+        face_sizes_count(&facts.sizes, corners);
         for (size_t c = 0; c < corners; c++)
             ffd_off_walk_corner_index(&walk);
         facts.coloured_faces += count_rest(&walk) > 0;
@@ -53,9 +52,9 @@ ffd_status ffd_off_describe(const mesh_document *document, json_text *json, ffd_
         {"texcoords", d->header.has_texcoords ? d->header.vertices : 0},
         {"faces", d->header.faces - d->lines - d->points},
         {"faces_with_color", facts.coloured_faces},
-        {"triangles", facts.triangles},
-        {"quads", facts.quads},
-        {"ngons", facts.ngons},
+        {"triangles", facts.sizes.triangles},
+        {"quads", facts.sizes.quads},
+        {"ngons", facts.sizes.ngons},
         {"lines", d->lines},
         {"points", d->points},
         {"bytes_behind", (size_t)((const char *)d->input.data + d->input.size - d->behind)},

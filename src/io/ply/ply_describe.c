@@ -1,16 +1,6 @@
 #include "base/memory.h"
+#include "io/face_sizes.h"
 #include "io/ply/ply_document.h"
-
-typedef struct face_sizes {
-    uint64_t triangles, quads, ngons; /* faces with 3, 4, more corners */
-} face_sizes;
-
-static void count_face(face_sizes *sizes, size_t corners)
-{
-    sizes->triangles += corners == 3;
-    sizes->quads += corners == 4;
-    sizes->ngons += corners > 4;
-}
 
 static face_sizes survey_faces(const ply_document *d)
 {
@@ -27,7 +17,7 @@ static face_sizes survey_faces(const ply_document *d)
             size_t count;
             if (property == d->face_corners && ffd_ply_walk_value(&list, property->count_type, &word) &&
                 ffd_ply_load_count(d->header.encoding, property->count_type, word, &count))
-                count_face(&sizes, count);
+                face_sizes_count(&sizes, count);
             ffd_ply_walk_skip(&walk, property);
         }
     }
