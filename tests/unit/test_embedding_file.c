@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "../support/test_folder.h"
 #include "base/little_endian.h"
 #include "base/memory.h"
 #include "job/embedding_file.h"
@@ -19,39 +20,6 @@
 /* Of the format (embedding_file.h), written down again. */
 #define HEADER 128
 #define FOOTER 72
-
-static char folder[] = "/tmp/ffd-test-embedding-XXXXXX";
-
-static const char *in_folder(const char *name)
-{
-    static char path[4][200];
-    static int turn;
-    turn = (turn + 1) % 4;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
-    return path[turn];
-}
-
-static void put(const char *name, const void *bytes, size_t size)
-{
-    FILE *file = fopen(in_folder(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
-}
 
 /* Hashes */
 

@@ -5,31 +5,13 @@
 
 #include <cmocka.h>
 
+#include "../support/test_folder.h"
 #include "base/file.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-static char folder[] = "/tmp/ffd-test-file-XXXXXX";
-
-static const char *in_folder(const char *name)
-{
-    static char path[4][200];
-    static int turn;
-    turn = (turn + 1) % 4;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
-    return path[turn];
-}
-
-static void put(const char *name, const char *text)
-{
-    FILE *file = fopen(in_folder(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-    assert_int_equal(fclose(file), 0);
-}
 
 static void check_content(const char *name, const char *text)
 {
@@ -52,7 +34,7 @@ static void test_load(void **state)
 {
     file_input input;
     ffd_error error;
-    put("empty", "");
+    put_text("empty", "");
     assert_int_equal(ffd_file_load(in_folder("empty"), &input, &error), FFD_OK);
     assert_int_equal(input.size, 0);
     assert_non_null(input.data);
@@ -71,8 +53,8 @@ static void test_load_within(void **state)
     file_input input;
     ffd_error error;
     assert_int_equal(mkdir(in_folder("model"), 0777), 0);
-    put("secret.bin", "secret");
-    put("model/a.bin", "inside");
+    put_text("secret.bin", "secret");
+    put_text("model/a.bin", "inside");
     assert_int_equal(symlink("../secret.bin", in_folder("model/link.bin")), 0);
     assert_int_equal(ffd_file_load_within(in_folder("model"), "a.bin", "m.gltf", &input, &error), FFD_OK);
     assert_int_equal(input.size, 6);
@@ -103,7 +85,7 @@ static void test_appears_when_committed(void **state)
 
 static void test_dropped(void **state)
 {
-    put("old.txt", "old");
+    put_text("old.txt", "old");
     file_output *output = begin("old.txt", true);
     assert_int_equal(ffd_output_write(output, "newer", 5, NULL), FFD_OK);
     ffd_output_destroy(&output);
@@ -116,7 +98,7 @@ static void test_refusals(void **state)
 {
     file_output *output;
     ffd_error error;
-    put("there.txt", "there");
+    put_text("there.txt", "there");
     assert_int_equal(ffd_output_create(&output, &error), FFD_OK);
     assert_int_equal(ffd_output_begin(output, in_folder("there.txt"), false, &error), FFD_E_EXISTS);
     assert_int_equal(ffd_output_begin(output, folder, true, &error), FFD_E_IO);
@@ -134,7 +116,7 @@ static void test_refusals(void **state)
 static void test_leftover_and_lock(void **state)
 {
     ffd_error error;
-    put(".locked.txt.ffd-tmp", "left by a run that was killed, and longer than what comes now");
+    put_text(".locked.txt.ffd-tmp", "left by a run that was killed, and longer than what comes now");
     file_output *first = begin("locked.txt", false), *second;
     assert_int_equal(ffd_output_create(&second, &error), FFD_OK);
     assert_int_equal(ffd_output_begin(second, in_folder("locked.txt"), false, &error), FFD_E_IO);
@@ -150,7 +132,7 @@ static void test_leftover_and_lock(void **state)
 static void test_permissions_and_links(void **state)
 {
     struct stat info;
-    put("mode.txt", "old");
+    put_text("mode.txt", "old");
     assert_int_equal(chmod(in_folder("mode.txt"), 0640), 0);
     assert_int_equal(symlink("mode.txt", in_folder("link.txt")), 0);
     file_output *output = begin("link.txt", true);
@@ -173,7 +155,7 @@ static void test_set(void **state)
     assert_non_null(bytes);
     for (int i = 0; i < SIZE; i++)
         bytes[i] = (unsigned char)(i * 7);
-    put("set.gltf", "old");
+    put_text("set.gltf", "old");
     file_output *output = begin("set.bin", false);
     for (int i = 0; i < SIZE; i += 1000)
         assert_int_equal(ffd_output_write(output, bytes + i, SIZE - i < 1000 ? SIZE - i : 1000, NULL),
@@ -228,20 +210,6 @@ static void test_full_disk(void **state)
     assert_int_equal(ffd_output_commit(output, &error), FFD_E_IO);
     ffd_output_destroy(&output);
     (void)state;
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[100];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    (void)state;
-    return system(command);
 }
 
 int main(void)

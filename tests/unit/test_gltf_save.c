@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/gltf_file.h"
+#include "../support/test_folder.h"
 #include "io/gltf/glb.h"
 #include <sys/stat.h>
 #include <unistd.h>
@@ -23,30 +24,6 @@
     "\"VEC3\"}"
 #define OLD_ACCESSOR ACCESSOR("[0, 0,0.0]", "[1,1,0]")
 #define MESH(position) "{\"primitives\":[{\"attributes\":{\"POSITION\":" position "}}]}"
-
-static char folder[] = "/tmp/ffd-test-gltf-XXXXXX";
-
-static const char *in_folder(const char *name)
-{
-    static char path[8][200];
-    static int turn;
-    turn = (turn + 1) % 8;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
-    return path[turn];
-}
-
-static void put(const char *name, const void *bytes, size_t size)
-{
-    FILE *file = fopen(in_folder(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
-static void put_text(const char *name, const char *text)
-{
-    put(name, text, strlen(text));
-}
 
 static void check_bytes(const char *name, const void *bytes, size_t size)
 {
@@ -712,20 +689,6 @@ static void memory_may_run_out_anywhere(void **state)
         assert_int_equal(access(output, F_OK), -1);
     }
     assert_int_equal(access(output, F_OK), 0);
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[100];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
 }
 
 int main(void)

@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "../support/test_folder.h"
 #include "base/memory.h"
 #include "job/info.h"
 #include <ffd/job.h>
@@ -16,42 +17,10 @@
 #include <string.h>
 #include <unistd.h>
 
-static char folder[64];
-
-static const char *path_of(const char *name)
-{
-    static char path[128];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return path;
-}
-
-static void write_file(const char *name, const char *text)
-{
-    FILE *file = fopen(path_of(name), "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
-    assert_int_equal(fclose(file), 0);
-}
-
-static int make_folder(void **state)
-{
-    (void)state;
-    strcpy(folder, "/tmp/ffd-test-info-XXXXXX");
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[96];
-    snprintf(command, sizeof command, "rm -r '%s'", folder);
-    return system(command);
-}
-
 /* The JSON of a file in the folder; the caller's. */
 static json_t *info_of(const char *name)
 {
-    const ffd_source source = {.path = path_of(name)};
+    const ffd_source source = {.path = in_folder(name)};
     char *text = NULL;
     ffd_error error = {0};
     if (ffd_info_run(&source, true, &text, &error) != FFD_OK)
@@ -64,13 +33,13 @@ static json_t *info_of(const char *name)
     ffd_text_free(text);
     assert_string_equal(json_string_value(json_object_get(json, "format")), "ffd-info");
     assert_int_equal(json_integer_value(json_object_get(json, "version")), 1);
-    assert_string_equal(json_string_value(json_object_get(json, "file")), path_of(name));
+    assert_string_equal(json_string_value(json_object_get(json, "file")), in_folder(name));
     return json;
 }
 
 static char *text_of(const char *name)
 {
-    const ffd_source source = {.path = path_of(name)};
+    const ffd_source source = {.path = in_folder(name)};
     char *text = NULL;
     ffd_error error = {0};
     if (ffd_info_run(&source, false, &text, &error) != FFD_OK)
@@ -318,7 +287,7 @@ static const char cube[] = "o cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 2\
 static void test_obj_file(void **state)
 {
     (void)state;
-    write_file("cube.obj", cube);
+    put_text("cube.obj", cube);
     json_t *json = info_of("cube.obj");
     assert_word(json, "kind", "mesh");
     assert_word(json, "mesh_format", "OBJ");
@@ -354,9 +323,9 @@ static void assert_told(const char *text, const char *line_name, const char *val
 static void test_obj_file_as_text(void **state)
 {
     (void)state;
-    write_file("cube.obj", cube);
+    put_text("cube.obj", cube);
     char *text = text_of("cube.obj");
-    assert_told(text, "file", path_of("cube.obj"));
+    assert_told(text, "file", in_folder("cube.obj"));
     assert_told(text, "kind", "mesh");
     assert_told(text, "vertices", "8");
     assert_told(text, "  max", "1 1 2");
@@ -369,8 +338,8 @@ static void test_obj_file_as_text(void **state)
 static void test_names_that_are_not_utf8(void **state)
 {
     (void)state;
-    write_file("caf\xe9.obj", "v 0 0 0\n");
-    const ffd_source source = {.path = path_of("caf\xe9.obj")};
+    put_text("caf\xe9.obj", "v 0 0 0\n");
+    const ffd_source source = {.path = in_folder("caf\xe9.obj")};
     for (int json = 0; json < 2; json++) {
         char *text = NULL;
         assert_int_equal(ffd_info_run(&source, json, &text, NULL), FFD_OK);
@@ -383,17 +352,17 @@ static void test_files_that_cannot_be_told(void **state)
 {
     (void)state;
     ffd_error error;
-    write_file("a.txt", "");
-    write_file("bad.json", "{\"format\": \"ffd-lattice\", \"version\": 1, \"sise\": [4, 4, 4]}");
-    assert_int_equal(failure_of((ffd_source){.path = path_of("a.txt")}, &error), FFD_E_ARGUMENT);
+    put_text("a.txt", "");
+    put_text("bad.json", "{\"format\": \"ffd-lattice\", \"version\": 1, \"sise\": [4, 4, 4]}");
+    assert_int_equal(failure_of((ffd_source){.path = in_folder("a.txt")}, &error), FFD_E_ARGUMENT);
     assert_non_null(strstr(error.message, ".txt"));
     assert_int_equal(failure_of((ffd_source){.path = "-"}, &error), FFD_E_ARGUMENT);
     assert_string_equal(error.file, "");
-    assert_int_equal(failure_of((ffd_source){.path = path_of("absent.obj")}, &error), FFD_E_IO);
-    assert_int_equal(failure_of((ffd_source){.path = path_of("absent.json")}, &error), FFD_E_IO);
-    assert_string_equal(error.file, path_of("absent.json"));
-    assert_int_equal(failure_of((ffd_source){.path = path_of("bad.json")}, &error), FFD_E_INVALID);
-    assert_string_equal(error.file, path_of("bad.json"));
+    assert_int_equal(failure_of((ffd_source){.path = in_folder("absent.obj")}, &error), FFD_E_IO);
+    assert_int_equal(failure_of((ffd_source){.path = in_folder("absent.json")}, &error), FFD_E_IO);
+    assert_string_equal(error.file, in_folder("absent.json"));
+    assert_int_equal(failure_of((ffd_source){.path = in_folder("bad.json")}, &error), FFD_E_INVALID);
+    assert_string_equal(error.file, in_folder("bad.json"));
 }
 
 /* Lattices */
@@ -403,10 +372,10 @@ static void test_files_that_cannot_be_told(void **state)
 static void test_box_lattice(void **state)
 {
     (void)state;
-    write_file("box.json",
-               LATTICE "\"size\": [4, 5, 3], \"knots\": [\"clamped\", \"open\", [0, 0, 0, 2, 2, 2]],"
-                       "\"rest\": {\"box\": {\"min\": [0, 0, 0], \"max\": [3, 2, 6]}},"
-                       "\"moves\": [{\"at\": [0, \"all\", 0], \"by\": [-3, 0, -4]}]}");
+    put_text("box.json",
+             LATTICE "\"size\": [4, 5, 3], \"knots\": [\"clamped\", \"open\", [0, 0, 0, 2, 2, 2]],"
+                     "\"rest\": {\"box\": {\"min\": [0, 0, 0], \"max\": [3, 2, 6]}},"
+                     "\"moves\": [{\"at\": [0, \"all\", 0], \"by\": [-3, 0, -4]}]}");
     json_t *json = info_of("box.json");
     assert_word(json, "kind", "lattice");
     assert_vector(json, "size", 4, 5, 3);
@@ -441,9 +410,9 @@ static void test_box_lattice(void **state)
 static void test_cylinder_lattice(void **state)
 {
     (void)state;
-    write_file("cylinder.json", LATTICE
-               "\"size\": [3, 8, 4], \"rest\": {\"cylinder\": {\"center\": [0, 0, 0], \"axis\": [0, 0, 1],"
-               "\"radius\": [1, 2], \"height\": 4, \"angle\": [0, 360]}}}");
+    put_text("cylinder.json", LATTICE
+             "\"size\": [3, 8, 4], \"rest\": {\"cylinder\": {\"center\": [0, 0, 0], \"axis\": [0, 0, 1],"
+             "\"radius\": [1, 2], \"height\": 4, \"angle\": [0, 360]}}}");
     json_t *json = info_of("cylinder.json");
     assert_word(json, "rest", "cylinder");
     assert_string_equal(json_string_value(json_array_get(member(json, "knots"), 1)), "closed");
@@ -456,10 +425,10 @@ static void test_cylinder_lattice(void **state)
 static void test_rational_points_lattice(void **state)
 {
     (void)state;
-    write_file("points.json", LATTICE
-               "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],"
-               "[0,1,1],[1,1,1]]}, \"weights\": [1,1,1,1,1,1,1,2], \"deformed\": {\"weights\": "
-               "[1,1,1,1,1,1,1,3]}}");
+    put_text("points.json", LATTICE
+             "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],"
+             "[0,1,1],[1,1,1]]}, \"weights\": [1,1,1,1,1,1,1,2], \"deformed\": {\"weights\": "
+             "[1,1,1,1,1,1,1,3]}}");
     json_t *json = info_of("points.json");
     assert_word(json, "rest", "points");
     assert_vector(json, "degree", 1, 1, 1);
@@ -473,8 +442,8 @@ static void test_rational_points_lattice(void **state)
 static void test_lattice_of_a_mesh(void **state)
 {
     (void)state;
-    write_file("mesh.json", LATTICE "\"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"},"
-                                    "\"moves\": [{\"by\": [1, 0, 0]}, {\"by\": [0, 1, 0]}]}");
+    put_text("mesh.json", LATTICE "\"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"},"
+                                  "\"moves\": [{\"by\": [1, 0, 0]}, {\"by\": [0, 1, 0]}]}");
     json_t *json = info_of("mesh.json");
     assert_word(json, "rest", "mesh");
     assert_number(json, "control_points", 64);
@@ -491,9 +460,9 @@ static void test_lattice_of_a_mesh(void **state)
 static void test_lattice_that_cannot_be_inverted(void **state)
 {
     (void)state;
-    write_file("flat.json",
-               LATTICE "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],"
-                       "[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}}");
+    put_text("flat.json",
+             LATTICE "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],"
+                     "[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}}");
     json_t *json = info_of("flat.json");
     assert_none(json, "inversion");
     assert_true(json_is_string(member(json, "inversion_unknown")));
@@ -505,14 +474,14 @@ static void test_lattice_new(void **state)
 {
     (void)state;
     char mesh[128];
-    write_file("cube.obj", cube);
-    snprintf(mesh, sizeof mesh, "%s", path_of("cube.obj"));
+    put_text("cube.obj", cube);
+    snprintf(mesh, sizeof mesh, "%s", in_folder("cube.obj"));
     const ffd_source source = {.path = mesh};
     ffd_lattice_desc desc;
     ffd_error error = {0};
     ffd_lattice_desc_init(&desc);
     desc.margin = 0.5;
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("new.json"), false, &error), FFD_OK);
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), false, &error), FFD_OK);
     json_t *json = info_of("new.json");
     assert_word(json, "rest", "box");
     assert_vector(json, "size", 4, 4, 4);
@@ -522,21 +491,22 @@ static void test_lattice_new(void **state)
     assert_word(json, "inversion", "affine");
     json_decref(json);
 
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("new.json"), false, &error), FFD_E_EXISTS);
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("new.json"), true, &error), FFD_OK);
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), false, &error), FFD_E_EXISTS);
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), true, &error), FFD_OK);
     assert_int_equal(ffd_lattice_new_run(&source, &desc, mesh, true, &error), FFD_E_ARGUMENT);
-    write_file("empty.obj", "# nothing\n");
-    snprintf(mesh, sizeof mesh, "%s", path_of("empty.obj"));
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, path_of("none.json"), false, &error), FFD_E_INVALID);
+    put_text("empty.obj", "# nothing\n");
+    snprintf(mesh, sizeof mesh, "%s", in_folder("empty.obj"));
+    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("none.json"), false, &error),
+                     FFD_E_INVALID);
     assert_string_equal(error.file, mesh);
-    assert_int_equal(access(path_of("none.json"), F_OK), -1);
+    assert_int_equal(access(in_folder("none.json"), F_OK), -1);
 }
 
 static void test_memory_runs_out(void **state)
 {
     (void)state;
-    write_file("cube.obj", cube);
-    const ffd_source source = {.path = path_of("cube.obj")};
+    put_text("cube.obj", cube);
+    const ffd_source source = {.path = in_folder("cube.obj")};
     long failures = 0;
     for (;; failures++) {
         char *text = NULL;

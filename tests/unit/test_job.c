@@ -7,6 +7,7 @@
 
 #include <cmocka.h>
 
+#include "../support/test_folder.h"
 #include "base/memory.h"
 #include <ffd/job.h>
 #include <math.h>
@@ -15,28 +16,20 @@
 #include <string.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/ffd-test-job-XXXXXX";
 static char mesh[64], lattice[64], output[64];
 static const char *const lattices[] = {lattice, lattice};
 
-static void put(char *path, const char *name, const char *text)
-{
-    snprintf(path, 64, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
-
 static int set_up(void **state)
 {
-    assert_non_null(mkdtemp(folder));
-    put(mesh, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 2//1 3//1 4//1\n");
-    put(lattice, "l.json",
+    assert_int_equal(make_folder(state), 0);
+    put_text("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 0 0\nvn 0 0 1\nf 1//1 2//1 3//1\nf 2//1 3//1 4//1\n");
+    put_text(
+        "l.json",
         "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4], \"rest\": {\"box\": "
         "{\"min\": [-1, -1, -1], \"max\": [2, 2, 2]}}, \"moves\": [{\"at\": [1, 1, 1], \"by\": [0, 0, 1]}]}");
-    snprintf(output, sizeof output, "%s/b.obj", folder);
-    (void)state;
+    strcpy(mesh, in_folder("a.obj"));
+    strcpy(lattice, in_folder("l.json"));
+    strcpy(output, in_folder("b.obj"));
     return 0;
 }
 

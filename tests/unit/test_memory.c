@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "../support/failing_new.h"
+#include "../support/test_folder.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include <dirent.h>
@@ -27,7 +28,6 @@
 enum { PATH = 128 };
 
 static const char *corpus;
-static char folder[] = "/tmp/ffd-test-memory-XXXXXX";
 static char lattice[PATH], input[PATH], output[PATH];
 
 typedef ffd_status job(ffd_error *error);
@@ -35,14 +35,6 @@ typedef ffd_status job(ffd_error *error);
 static void path_of(const char *name, char path[PATH])
 {
     assert_true(snprintf(path, PATH, "%s/%s", folder, name) < PATH);
-}
-
-static void put(const char *path, const void *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
 }
 
 static size_t count_files(void)
@@ -192,7 +184,7 @@ static size_t fail_everywhere(const char *name, job *run, void (*fail_after)(lon
 /* Puts a file of the corpus into the folder; the bytes behind a .gltf's text are those of m.bin. */
 static void take_input(const char *format, const char *name)
 {
-    char path[512], own[32], bin[PATH];
+    char path[512], own[32];
     file_input file;
     ffd_error error;
     snprintf(path, sizeof path, "%s/%s/%s", corpus, format, name);
@@ -202,10 +194,9 @@ static void take_input(const char *format, const char *name)
     const size_t size = strcmp(format, "gltf") == 0 && end ? (size_t)(end - file.data) : file.size;
     snprintf(own, sizeof own, "m.%s", format);
     path_of(own, input);
-    put(input, file.data, size);
-    path_of("m.bin", bin);
+    put(own, file.data, size);
     if (size < file.size)
-        put(bin, end + 1, file.size - size - 1);
+        put("m.bin", end + 1, file.size - size - 1);
     ffd_file_unload(&file);
     snprintf(own, sizeof own, "o.%s", format);
     path_of(own, output);
@@ -284,19 +275,16 @@ static int set_up(void **state)
     static const char text[] =
         "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"}, "
         "\"moves\": [{\"at\": [1, 1, 1], \"by\": [0, 0, 0.25]}]}";
-    (void)state;
-    if (!mkdtemp(folder))
+    if (make_folder(state))
         return -1;
     path_of("l.json", lattice);
-    put(lattice, text, sizeof text - 1);
+    put_text("l.json", text);
     return 0;
 }
 
 static int tear_down(void **state)
 {
-    char bin[PATH];
-    path_of("m.bin", bin);
-    unlink(bin);
+    unlink(in_folder("m.bin"));
     unlink(lattice);
     (void)state;
     return rmdir(folder);
