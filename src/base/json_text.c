@@ -139,6 +139,12 @@ void ffd_json_count(json_text *json, const char *key, uint64_t value)
     ffd_buffer_format(json->out, "%" PRIu64, value);
 }
 
+void ffd_json_counts(json_text *json, const json_count *members, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        ffd_json_count(json, members[i].key, members[i].count);
+}
+
 void ffd_json_bool(json_text *json, const char *key, bool value)
 {
     lead_in(json, key);

@@ -9,6 +9,11 @@
 
 #define FFD_JSON_DEPTH 32
 
+typedef struct json_count {
+    const char *key;
+    uint64_t count;
+} json_count;
+
 typedef struct json_text {
     byte_buffer *out;
     int depth;
@@ -24,6 +29,7 @@ void ffd_json_end(json_text *json, char bracket);                          /* '}
 void ffd_json_string(json_text *json, const char *key, const char *value); /* NULL gives null */
 void ffd_json_number(json_text *json, const char *key, double value);      /* not finite gives null */
 void ffd_json_count(json_text *json, const char *key, uint64_t value);
+void ffd_json_counts(json_text *json, const json_count *members, size_t count);
 void ffd_json_bool(json_text *json, const char *key, bool value);
 void ffd_json_null(json_text *json, const char *key);
 void ffd_json_vector(json_text *json, const char *key, const double *values, size_t count); /* on one line */

@@ -62,10 +62,7 @@ ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_
     ffd_obj_document_walk(d, &walk);
     while (!facts.failed && ffd_obj_walk_next(&walk))
         survey_statement(&facts, &walk.scan);
-    const struct {
-        const char *key;
-        size_t count;
-    } members[] = {
+    const json_count members[] = {
         {"vertices", d->vertices},
         {"vertices_with_color", facts.coloured},
         {"normals", d->normals},
@@ -80,8 +77,7 @@ ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_
         {"objects", ffd_obj_names_distinct(&facts.objects)},
         {"materials", ffd_obj_names_distinct(&facts.materials)},
     };
-    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        ffd_json_count(json, members[i].key, members[i].count);
+    ffd_json_counts(json, members, sizeof members / sizeof *members);
     ffd_json_string(json, "line_endings", ffd_text_line_ends(d->input.data, d->input.size));
     ffd_obj_names_free(&facts.groups);
     ffd_obj_names_free(&facts.objects);

@@ -42,10 +42,7 @@ ffd_status ffd_off_describe(const mesh_document *document, json_text *json, ffd_
     const off_document *d = ffd_off_of(document);
     const text_word keyword = d->header.keyword;
     const off_facts facts = survey(d);
-    const struct {
-        const char *key;
-        size_t count;
-    } members[] = {
+    const json_count members[] = {
         {"vertices", d->header.vertices},
         {"vertices_with_color", facts.coloured},
         {"normals", d->part.normal_count},
@@ -63,8 +60,7 @@ ffd_status ffd_off_describe(const mesh_document *document, json_text *json, ffd_
     (void)error;
     snprintf(text, sizeof text, "%.*s", (int)(keyword.last - keyword.first), keyword.first);
     ffd_json_string(json, "keyword", keyword.first < keyword.last ? text : NULL);
-    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        ffd_json_count(json, members[i].key, members[i].count);
+    ffd_json_counts(json, members, sizeof members / sizeof *members);
     ffd_json_string(json, "line_endings", ffd_text_line_ends(d->input.data, d->input.size));
     return FFD_OK;
 }

@@ -83,10 +83,7 @@ ffd_status ffd_ply_describe(const mesh_document *document, json_text *json, ffd_
                                             [PLY_BIG_ENDIAN] = "binary big endian"};
     const ply_document *d = ffd_ply_of(document);
     const face_sizes sizes = survey_faces(d);
-    const struct {
-        const char *key;
-        uint64_t count;
-    } members[] = {
+    const json_count members[] = {
         {"vertices", d->vertex->count},
         {"vertices_with_color", has_colours(d) ? d->vertex->count : 0},
         {"normals", d->part.normal_count},
@@ -101,8 +98,7 @@ ffd_status ffd_ply_describe(const mesh_document *document, json_text *json, ffd_
     bool done = true;
     ffd_json_string(json, "encoding", encodings[d->header.encoding]);
     ffd_json_string(json, "line_endings", d->header.line_end);
-    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
-        ffd_json_count(json, members[i].key, members[i].count);
+    ffd_json_counts(json, members, sizeof members / sizeof *members);
     ffd_json_array(json, "elements", false);
     for (size_t i = 0; done && i < d->header.element_count; i++)
         done = write_element(json, &d->header.elements[i]);
