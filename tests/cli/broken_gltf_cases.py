@@ -7,45 +7,30 @@ import copy
 import json
 import struct
 
-from harness import IO, INVALID, OK, UNSUPPORTED
+from gltf_asset import CODES, FLOAT, SHORT, SIZES, UBYTE, USHORT, GltfAsset
+from harness import IO, INVALID, OK, UNSUPPORTED, pad
 
 CORNERS = [(x, y, z) for z in (-1.0, 1.0) for y in (-1.0, 1.0) for x in (-1.0, 1.0)]
 CORNER_NORMALS = [tuple(c * 0.5773502691896258 for c in p) for p in CORNERS]
 TRIANGLES = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4]
-FLOAT, BYTE, UBYTE, SHORT, USHORT, UINT = 5126, 5120, 5121, 5122, 5123, 5125
-CODES = {FLOAT: "f", BYTE: "b", UBYTE: "B", SHORT: "h", USHORT: "H", UINT: "I"}
-SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 JSON, BIN = 0x4E4F534A, 0x004E4942
 
 
-class Model:
+class Model(GltfAsset):
     """A cube of triangles with normals that a case changes before it becomes a file."""
 
     def __init__(self):
-        self.data = bytearray()
-        self.asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
-                      "nodes": [{"mesh": 0}], "meshes": [], "buffers": [{}], "bufferViews": [], "accessors": []}
+        super().__init__(scene=0, scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[], buffers=[{}])
         position = self.add(CORNERS, bounds=True)
         self.primitive = {"attributes": {"POSITION": position, "NORMAL": self.add(CORNER_NORMALS)},
                           "indices": self.add(TRIANGLES, "SCALAR", USHORT, target=34963)}
         self.asset["meshes"] = [{"primitives": [self.primitive]}]
 
-    def view(self, data, **members):
-        self.data += b"\0" * (-len(self.data) % 4)
-        self.asset["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **members})
-        self.data += data
-        return len(self.asset["bufferViews"]) - 1
-
     def add(self, rows, kind="VEC3", component=FLOAT, bounds=False, target=34962, **members):
         rows = [row if isinstance(row, (tuple, list)) else (row,) for row in rows]
         data = b"".join(struct.pack(f"<{SIZES[kind]}{CODES[component]}", *row) for row in rows)
         view = self.view(data, **({"target": target} if target else {}))
-        self.asset["accessors"].append({"bufferView": view, "componentType": component, "count": len(rows),
-                                        "type": kind, **members})
-        if bounds:
-            columns = list(zip(*rows))
-            self.asset["accessors"][-1] |= {"min": list(map(min, columns)), "max": list(map(max, columns))}
-        return len(self.asset["accessors"]) - 1
+        return self.view_accessor(view, rows, kind, component, bounds, **members)
 
     def set(self, path, value):
         place = self.asset
@@ -96,10 +81,6 @@ class Model:
 
     def gltf(self, kind="application/octet-stream"):
         return self.text(f"data:{kind};base64," + base64.b64encode(self.data).decode())
-
-
-def pad(data, filler):
-    return data + filler * (-len(data) % 4)
 
 
 def glb_of(*chunks, magic=0x46546C67, version=2, length=None):

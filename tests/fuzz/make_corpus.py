@@ -13,40 +13,25 @@ import re
 import struct
 import sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "cli"))
+from gltf_asset import CODES, SIZES, GltfAsset  # noqa: E402 (a neighbour of this folder)
+
 MOST_BYTES = 16384
 CORNERS = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
 TRIANGLES = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4]
 
 
-class Builder:
-    """A glTF asset that grows accessor by accessor, in one buffer."""
-
-    CODES = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", 5126: "f"}
-    SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-
+class Builder(GltfAsset):
     def __init__(self):
-        self.data = b""
-        self.asset = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-                      "meshes": [], "buffers": [], "bufferViews": [], "accessors": []}
-
-    def view(self, data, **members):
-        self.data += b"\0" * (-len(self.data) % 4)
-        self.asset["bufferViews"].append({"buffer": 0, "byteOffset": len(self.data), "byteLength": len(data), **members})
-        self.data += data
-        return len(self.asset["bufferViews"]) - 1
+        super().__init__(scene=0, scenes=[{"nodes": [0]}], nodes=[{"mesh": 0}], meshes=[], buffers=[])
 
     def accessor(self, rows, kind="VEC3", component=5126, bounds=False, **members):
-        code = self.CODES[component]
-        size = struct.calcsize(code) * self.SIZES[kind]
+        code = CODES[component]
+        size = struct.calcsize(code) * SIZES[kind]
         gap = -size % 4 if kind != "SCALAR" else 0
-        data = b"".join(struct.pack("<%d%s" % (self.SIZES[kind], code), *row) + b"\0" * gap for row in rows)
+        data = b"".join(struct.pack("<%d%s" % (SIZES[kind], code), *row) + b"\0" * gap for row in rows)
         view = self.view(data, **({"byteStride": size + gap} if gap else {}))
-        self.asset["accessors"].append({"bufferView": view, "componentType": component, "count": len(rows),
-                                        "type": kind, **members})
-        if bounds:
-            columns = list(zip(*rows))
-            self.asset["accessors"][-1] |= {"min": list(map(min, columns)), "max": list(map(max, columns))}
-        return len(self.asset["accessors"]) - 1
+        return self.view_accessor(view, rows, kind, component, bounds, **members)
 
     def positions(self, rows=CORNERS, **members):
         return self.accessor(rows, bounds=True, **members)
@@ -172,7 +157,7 @@ ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, 
 def glb_of(asset, data):
     text = json.dumps(asset, separators=(",", ":")).encode()
     text += b" " * (-len(text) % 4)
-    data += b"\0" * (-len(data) % 4)
+    data = data + b"\0" * (-len(data) % 4)
     chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
     if data:
         chunks += struct.pack("<II", len(data), 0x004E4942) + data
