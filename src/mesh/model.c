@@ -25,7 +25,7 @@ static ffd_status make(double **values, size_t count, size_t numbers, ffd_error 
                         MODEL_VALUES_MAX);
     if (count == 0)
         return FFD_OK;
-    *values = ffd_alloc(count, numbers * sizeof **values);
+    *values = ffd_alloc_zero(count, numbers * sizeof **values);
     return *values ? FFD_OK : ffd_fail_memory(error);
 }
 

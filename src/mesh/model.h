@@ -86,7 +86,8 @@ typedef struct mesh_model {
 
 void ffd_model_free(mesh_model *model);
 
-/* Room for values, which the caller fills in; a count of 0 makes none. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+/* Room for values, all 0, which the caller fills in; a count of 0 makes none. Errors: FFD_E_LIMIT,
+ * FFD_E_MEMORY. */
 ffd_status ffd_model_make_values(mesh_model *model, size_t positions, size_t texcoords, size_t normals,
                                  ffd_error *error);
 /* Makes all colours white where there are none yet. */

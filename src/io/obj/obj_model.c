@@ -1,6 +1,7 @@
 #include "base/buffer.h"
 #include "base/memory.h"
 #include "io/obj/obj_document.h"
+#include "io/vectors.h"
 #include <string.h>
 
 typedef struct extractor {
@@ -35,13 +36,11 @@ static void copy_values(const extractor *e)
 {
     const obj_document *d = e->document;
     const double *positions = d->new_positions ? d->new_positions : d->positions;
-    if (d->vertices > 0)
-        memcpy(e->model->positions, positions, 3 * d->vertices * sizeof *positions);
+    ffd_vectors_read(positions, 0, d->vertices, e->model->positions);
     const size_t normals = e->model->normal_count, fresh = d->new_directions ? d->part.normal_count : 0;
-    if (normals > 0 && fresh > 0)
-        memcpy(e->model->normals, d->new_directions, 3 * fresh * sizeof *d->new_directions);
+    ffd_vectors_read(d->new_directions, 0, fresh, e->model->normals);
     if (normals > fresh)
-        memcpy(e->model->normals + 3 * fresh, d->directions, 3 * (normals - fresh) * sizeof *d->directions);
+        ffd_vectors_read(d->directions, 0, normals - fresh, e->model->normals + 3 * fresh);
 }
 
 static ffd_status take_texcoord(extractor *e)

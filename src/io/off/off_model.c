@@ -1,5 +1,6 @@
 #include "base/memory.h"
 #include "io/off/off_document.h"
+#include "io/vectors.h"
 #include <string.h>
 
 /* A colour, a texture coordinate, and one word more, which is too many. */
@@ -73,13 +74,10 @@ static ffd_status make_values(const extractor *e)
     const double *normals = d->new_directions ? d->new_directions : d->directions;
     const ffd_status status = ffd_model_make_values(model, count, d->header.has_texcoords ? count : 0,
                                                     normals ? count : 0, e->error);
-    if (status || count == 0)
+    if (status)
         return status;
-    memcpy(model->positions, positions, 3 * count * sizeof *positions);
-    if (normals)
-        memcpy(model->normals, normals, 3 * count * sizeof *normals);
-    for (size_t i = 0; i < 2 * model->texcoord_count; i++)
-        model->texcoords[i] = 0;
+    ffd_vectors_read(positions, 0, count, model->positions);
+    ffd_vectors_read(normals, 0, model->normal_count, model->normals);
     return FFD_OK;
 }
 

@@ -1,5 +1,6 @@
 #include "base/memory.h"
 #include "io/ply/ply_document.h"
+#include "io/vectors.h"
 #include <string.h>
 
 /* What the model takes of a vertex beside its position and normal. */
@@ -57,13 +58,10 @@ static ffd_status make_values(const extractor *e)
     ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, e->error);
     if (status == FFD_OK && e->roles[ROLE_RED])
         status = ffd_model_make_colours(model, e->error);
-    if (status || count == 0)
+    if (status)
         return status;
-    memcpy(model->positions, positions, 3 * count * sizeof *positions);
-    if (normals)
-        memcpy(model->normals, normals, 3 * count * sizeof *normals);
-    for (size_t i = 0; i < 2 * texcoords; i++)
-        model->texcoords[i] = 0;
+    ffd_vectors_read(positions, 0, count, model->positions);
+    ffd_vectors_read(normals, 0, model->normal_count, model->normals);
     return FFD_OK;
 }
 
