@@ -33,28 +33,29 @@ static void clear(const mesh_model *model, uint32_t *numbers)
         numbers[i] = MODEL_NONE;
 }
 
-bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *numbers)
+/* Of each position, with normals or else with texture coordinates. */
+static bool note_corners(const mesh_model *model, bool normals, uint32_t *numbers)
 {
+    const double *values = normals ? model->normals : model->texcoords;
     bool several = false;
     clear(model, numbers);
     for (int k = 0; k < MODEL_KINDS; k++)
         for (size_t i = 0; i < model->lists[k].corner_count; i++) {
             const model_corner *corner = &model->lists[k].corners[i];
-            several = note(&numbers[corner->position], corner->texcoord, model->texcoords, 2) || several;
+            const uint32_t value = normals ? corner->normal : corner->texcoord;
+            several = note(&numbers[corner->position], value, values, normals ? 3 : 2) || several;
         }
     return several;
 }
 
+bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *numbers)
+{
+    return note_corners(model, false, numbers);
+}
+
 bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers)
 {
-    bool several = false;
-    clear(model, numbers);
-    for (int k = 0; k < MODEL_KINDS; k++)
-        for (size_t i = 0; i < model->lists[k].corner_count; i++) {
-            const model_corner *corner = &model->lists[k].corners[i];
-            several = note(&numbers[corner->position], corner->normal, model->normals, 3) || several;
-        }
-    return several;
+    return note_corners(model, true, numbers);
 }
 
 bool ffd_model_colours_fit_bytes(const mesh_model *model)
