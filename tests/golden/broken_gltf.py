@@ -8,27 +8,16 @@ FFD_NODE names the folder whose node_modules holds gltf-validator."""
 
 import json
 import os
-import shutil
 import subprocess
 import sys
 import tempfile
+
+from validate import answers, find_packages
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(os.path.dirname(HERE), "cli"))
 LATTICE = {"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"box": {"min": [-2] * 3, "max": [2] * 3}},
            "moves": [{"at": [1, "all", "all"], "by": [0.25, 0.5, 0]}]}
-
-
-def skip(reason):
-    print(f"SKIP: {reason}")
-    sys.exit(77)
-
-
-def validate(node_folder, paths):
-    done = subprocess.run(["node", os.path.join(HERE, "validate.mjs"), node_folder], input="\n".join(paths),
-                          capture_output=True, text=True, check=True)
-    answers = [json.loads(line) for line in done.stdout.splitlines()]
-    return {answer["path"]: answer for answer in answers}
 
 
 def places(answer):
@@ -51,11 +40,7 @@ def judge(code, before, after):
 
 def main():
     ffd, table = sys.argv[1:]
-    node_folder = os.environ.get("FFD_NODE", "")
-    if not shutil.which("node"):
-        skip("node is not there")
-    if not os.path.isdir(os.path.join(node_folder, "node_modules", "gltf-validator")):
-        skip("gltf-validator is not installed (tests/run.sh installs it)")
+    node_folder = find_packages("gltf-validator")
     os.environ.setdefault("FFD", ffd)
     from broken_gltf_cases import CASES
 
@@ -73,7 +58,8 @@ def main():
             done = subprocess.run([ffd, "deform", source, target, "-q", "-l", lattice], check=False, timeout=120,
                                   capture_output=True)
             runs.append((code, what, source, target if done.returncode == 0 else None))
-        found = validate(node_folder, [path for run in runs for path in run[2:] if path])
+        said = [json.loads(line) for line in answers(node_folder, [path for run in runs for path in run[2:] if path])]
+        found = {answer["path"]: answer for answer in said}
         for code, what, source, target in runs:
             wrong = judge(code, found[source], found[target] if target else None)
             rows.append((code, what, "deformed" if target else "refused", " ".join(found[source].get("codes", [])), wrong))

@@ -9,11 +9,10 @@ FFD_NODE names the folder whose node_modules holds gltf-validator.
 """
 
 import os
-import shutil
 import sys
 import tempfile
 
-from validate import DATA, INVALID, UNSUPPORTED, deform, models, skip, validate
+from validate import INVALID, UNSUPPORTED, deform, find_packages, model_roots, models, validate
 
 OTHERS = (".obj", ".ply", ".off", ".stl")
 EMBEDDING = 5
@@ -33,15 +32,10 @@ def conversions(folder, root, number):
 
 def main():
     ffd, = sys.argv[1:]
-    node_folder = os.environ.get("FFD_NODE", "")
-    if not shutil.which("node") or not os.path.isdir(os.path.join(node_folder, "node_modules", "gltf-validator")):
-        skip("node or gltf-validator is not there (tests/run.sh installs it)")
-    roots = [os.path.join(DATA, "models")]
-    if os.environ.get("FFD_MODELS"):
-        roots.append(os.environ["FFD_MODELS"])
+    node_folder = find_packages("gltf-validator")
     written, failed, refused = [], [], 0
     with tempfile.TemporaryDirectory() as folder:
-        for number, root in enumerate(roots):
+        for number, root in enumerate(model_roots()):
             for source, target in conversions(folder, root, number):
                 if not os.path.exists(source):  # it was refused
                     continue

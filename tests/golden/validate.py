@@ -33,23 +33,46 @@ def models(root, endings=(".gltf", ".glb")):
     for folder, folders, names in os.walk(root):
         folders.sort()
         for name in sorted(names):
-            if name.endswith(endings):
+            if name.lower().endswith(endings):
                 yield os.path.relpath(os.path.join(folder, name), root)
 
 
-def validate(node_folder, paths):
-    """path -> list of (code, pointer), or a string where the validator itself gave up."""
+def find_packages(*packages):
+    """The folder whose node_modules holds the packages; without them there is no test."""
+    node_folder = os.environ.get("FFD_NODE", "")
+    if not shutil.which("node"):
+        skip("node is not there")
+    for package in packages:
+        if not os.path.isdir(os.path.join(node_folder, "node_modules", package)):
+            skip(f"{package} is not installed (tests/run.sh installs it)")
+    return node_folder
+
+
+def answers(node_folder, paths):
+    """The lines that validate.mjs has for the files, in JSON."""
     done = subprocess.run(["node", os.path.join(HERE, "validate.mjs"), node_folder], input="\n".join(paths),
                           capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"the validator did not run: {done.stderr.strip()}")
-    return dict(answer(line) for line in done.stdout.splitlines())
+    return done.stdout.splitlines()
+
+
+def validate(node_folder, paths):
+    """path -> list of (code, pointer), or a string where the validator itself gave up."""
+    return dict(answer(line) for line in answers(node_folder, paths))
 
 
 def answer(line):
     """What validate.mjs says of one file: its path, and its errors."""
     said = json.loads(line)
     return said["path"], said.get("failed") or [tuple(error) for error in said["errors"]]
+
+
+def model_roots():
+    roots = [os.path.join(DATA, "models")]
+    if os.environ.get("FFD_MODELS"):
+        roots.append(os.environ["FFD_MODELS"])
+    return roots
 
 
 def deform(ffd, lattice, source, target):
@@ -73,19 +96,11 @@ def judge(before, after):
 
 def main():
     ffd, table = sys.argv[1:]
-    node_folder = os.environ.get("FFD_NODE", "")
-    if not shutil.which("node"):
-        skip("node is not there")
-    if not os.path.isdir(os.path.join(node_folder, "node_modules", "gltf-validator")):
-        skip("gltf-validator is not installed (tests/run.sh installs it)")
-    roots = [os.path.join(DATA, "models")]
-    if os.environ.get("FFD_MODELS"):
-        roots.append(os.environ["FFD_MODELS"])
-
+    node_folder = find_packages("gltf-validator")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         runs = []
-        for number, root in enumerate(roots):
+        for number, root in enumerate(model_roots()):
             for model in models(root):
                 for lattice in LATTICES:
                     target = os.path.join(folder, str(number), lattice, model)

@@ -201,25 +201,12 @@ def counted(answer):
     return [f"{answer['failed']} wrong, first {answer['failures'][0]}"] if answer["failed"] else []
 
 
-def models(root):
-    for folder, folders, names in os.walk(root):
-        folders.sort()
-        for name in sorted(names):
-            if name.lower().endswith(ENDINGS):
-                yield os.path.relpath(os.path.join(folder, name), root)
-
-
 def requirements():
     """The folders of the models and of the packages; without them there is nothing to run."""
-    root, node_folder = os.environ.get("FFD_MODELS", ""), os.environ.get("FFD_NODE", "")
+    root = os.environ.get("FFD_MODELS", "")
     if not root:
         validate.skip("FFD_MODELS is not set")
-    if not shutil.which("node"):
-        validate.skip("node is not there")
-    for package in PACKAGES:
-        if not os.path.isdir(os.path.join(node_folder, "node_modules", package)):
-            validate.skip(f"{package} is not installed (tests/run.sh installs it)")
-    return root, node_folder
+    return root, validate.find_packages(*PACKAGES)
 
 
 def main():
@@ -231,7 +218,7 @@ def main():
     parser.add_argument("--keep")
     arguments = parser.parse_args()
     root, node_folder = requirements()
-    chosen = [model for model in models(root) if arguments.only in model]
+    chosen = [model for model in validate.models(root, ENDINGS) if arguments.only in model]
     if arguments.quick:
         chosen = [model for model in chosen if model in expected.QUICK]
 
