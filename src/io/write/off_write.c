@@ -1,45 +1,31 @@
-#include "base/memory.h"
 #include "base/number.h"
 #include "io/write/sink.h"
+#include "io/write/vertex_values.h"
 #include "io/write/write.h"
 #include <float.h>
 #include <math.h>
 
-/* Numbers of normals and texture coordinates by vertex, NULL where the file has none. */
 typedef struct off_plan {
     const mesh_model *model;
-    uint32_t *normals, *texcoords;
+    vertex_values values;
     bool byte_colours;
     bool points; /* they stand as faces of one corner; a cloud's are its vertices */
 } off_plan;
 
 static ffd_status make_plan(const mesh_model *model, off_plan *plan, ffd_error *error)
 {
-    const uint32_t has = model->features;
     *plan = (off_plan){.model = model,
                        .byte_colours = ffd_model_colours_fit_bytes(model),
                        .points = model->lists[MODEL_FACES].count + model->lists[MODEL_LINES].count > 0};
-    if (has & MODEL_HAS_NORMALS && !(has & MODEL_HAS_CORNER_NORMALS)) {
-        plan->normals = ffd_alloc(model->position_count, sizeof *plan->normals);
-        if (!plan->normals)
-            return ffd_fail_memory(error);
-        ffd_model_normals_by_position(model, plan->normals);
-    }
-    if (has & MODEL_HAS_TEXCOORDS && !(has & MODEL_HAS_CORNER_TEXCOORDS)) {
-        plan->texcoords = ffd_alloc(model->position_count, sizeof *plan->texcoords);
-        if (!plan->texcoords)
-            return ffd_fail_memory(error);
-        ffd_model_texcoords_by_position(model, plan->texcoords);
-    }
-    return FFD_OK;
+    return ffd_vertex_values_find(model, &plan->values, error);
 }
 
 static void write_header(model_sink *sink, const off_plan *plan)
 {
     const model_list *lists = plan->model->lists;
-    ffd_sink_text(sink, plan->texcoords ? "ST" : "");
+    ffd_sink_text(sink, plan->values.texcoords ? "ST" : "");
     ffd_sink_text(sink, plan->model->colours ? "C" : "");
-    ffd_sink_text(sink, plan->normals ? "N" : "");
+    ffd_sink_text(sink, plan->values.normals ? "N" : "");
     ffd_sink_text(sink, "OFF\n");
     ffd_sink_count(sink, plan->model->position_count);
     ffd_sink_text(sink, " ");
@@ -80,12 +66,12 @@ static void write_vertices(model_sink *sink, const off_plan *plan)
             ffd_sink_text(sink, a ? " " : "");
             ffd_sink_bytes(sink, text, ffd_number_format(p[a], text));
         }
-        if (plan->normals)
-            write_named(sink, model->normals, 3, plan->normals[i]);
+        if (plan->values.normals)
+            write_named(sink, model->normals, 3, plan->values.normals[i]);
         if (model->colours)
             write_colour(sink, plan, i);
-        if (plan->texcoords)
-            write_named(sink, model->texcoords, 2, plan->texcoords[i]);
+        if (plan->values.texcoords)
+            write_named(sink, model->texcoords, 2, plan->values.texcoords[i]);
         ffd_sink_text(sink, "\n");
     }
 }
@@ -132,8 +118,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     write_lines(&sink, &model->lists[MODEL_LINES]);
     if (plan.points)
         write_list(&sink, &model->lists[MODEL_POINTS]);
-    ffd_free(plan.normals);
-    ffd_free(plan.texcoords);
+    ffd_vertex_values_free(&plan.values);
     return sink.status;
 }
 

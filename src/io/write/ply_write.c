@@ -1,15 +1,15 @@
-#include "base/memory.h"
 #include "io/write/sink.h"
+#include "io/write/vertex_values.h"
 #include "io/write/write.h"
 #include <float.h>
 #include <math.h>
 
 #define LARGEST_UCHAR 255
 
-/* What the file holds: numbers of normals and texture coordinates by vertex, NULL where it has none. */
+/* What the file holds. */
 typedef struct ply_plan {
     const mesh_model *model;
-    uint32_t *normals, *texcoords;
+    vertex_values values;
     bool corner_texcoords; /* a vertex has several: they stand with the faces */
     bool byte_colours, alpha;
     size_t longest; /* corners of a face at most */
@@ -23,25 +23,13 @@ static ffd_status make_plan(const mesh_model *model, ply_plan *plan, ffd_error *
                        .corner_texcoords = has & MODEL_HAS_CORNER_TEXCOORDS,
                        .byte_colours = ffd_model_colours_fit_bytes(model),
                        .alpha = has & MODEL_HAS_ALPHA};
-    if (has & MODEL_HAS_NORMALS && !(has & MODEL_HAS_CORNER_NORMALS)) {
-        plan->normals = ffd_alloc(model->position_count, sizeof *plan->normals);
-        if (!plan->normals)
-            return ffd_fail_memory(error);
-        ffd_model_normals_by_position(model, plan->normals);
-    }
-    if (has & MODEL_HAS_TEXCOORDS && !plan->corner_texcoords) {
-        plan->texcoords = ffd_alloc(model->position_count, sizeof *plan->texcoords);
-        if (!plan->texcoords)
-            return ffd_fail_memory(error);
-        ffd_model_texcoords_by_position(model, plan->texcoords);
-    }
     const model_list *faces = &model->lists[MODEL_FACES], *lines = &model->lists[MODEL_LINES];
     for (size_t i = 0; i < faces->count; i++) {
         const size_t corners = faces->starts[i + 1] - faces->starts[i];
         plan->longest = corners > plan->longest ? corners : plan->longest;
     }
     plan->edges = lines->corner_count - lines->count;
-    return FFD_OK;
+    return ffd_vertex_values_find(model, &plan->values, error);
 }
 
 static void write_element(model_sink *sink, const char *name, size_t count)
@@ -60,9 +48,9 @@ static void write_header(model_sink *sink, const ply_plan *plan)
     ffd_sink_text(sink, "ply\nformat binary_little_endian 1.0\n");
     write_element(sink, "vertex", model->position_count);
     ffd_sink_text(sink, "property double x\nproperty double y\nproperty double z\n");
-    if (plan->normals)
+    if (plan->values.normals)
         ffd_sink_text(sink, "property double nx\nproperty double ny\nproperty double nz\n");
-    if (plan->texcoords)
+    if (plan->values.texcoords)
         ffd_sink_text(sink, "property double s\nproperty double t\n");
     if (model->colours)
         ffd_sink_text(sink, plan->byte_colours
@@ -114,10 +102,10 @@ static void write_vertices(model_sink *sink, const ply_plan *plan)
     const mesh_model *model = plan->model;
     for (size_t i = 0; i < model->position_count && sink->status == FFD_OK; i++) {
         write_values(sink, model->positions, 3, (uint32_t)i);
-        if (plan->normals)
-            write_values(sink, model->normals, 3, plan->normals[i]);
-        if (plan->texcoords)
-            write_values(sink, model->texcoords, 2, plan->texcoords[i]);
+        if (plan->values.normals)
+            write_values(sink, model->normals, 3, plan->values.normals[i]);
+        if (plan->values.texcoords)
+            write_values(sink, model->texcoords, 2, plan->values.texcoords[i]);
         if (model->colours)
             write_colour(sink, plan, i);
     }
@@ -176,8 +164,7 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     write_vertices(&sink, &plan);
     write_faces(&sink, &plan);
     write_edges(&sink, &plan);
-    ffd_free(plan.normals);
-    ffd_free(plan.texcoords);
+    ffd_vertex_values_free(&plan.values);
     return sink.status;
 }
 
