@@ -64,20 +64,22 @@ bool ffd_off_walk_rest(off_walk *walk, text_word *word)
     return take_word(walk, word);
 }
 
-size_t ffd_off_walk_face_size(off_walk *walk)
+/* The next word that `take` finds, as a whole number; 0 where there is none. */
+static uint64_t take_whole(off_walk *walk, bool (*take)(off_walk *, text_word *))
 {
     text_word word;
-    uint64_t count = 0;
-    if (ffd_off_walk_face(walk, &word))
-        ffd_text_whole(word, &count);
-    return (size_t)count;
+    uint64_t number = 0;
+    if (take(walk, &word))
+        ffd_text_whole(word, &number);
+    return number;
+}
+
+size_t ffd_off_walk_face_size(off_walk *walk)
+{
+    return (size_t)take_whole(walk, ffd_off_walk_face);
 }
 
 uint32_t ffd_off_walk_corner_index(off_walk *walk)
 {
-    text_word word;
-    uint64_t index = 0;
-    if (ffd_off_walk_corner(walk, &word))
-        ffd_text_whole(word, &index);
-    return (uint32_t)index;
+    return (uint32_t)take_whole(walk, ffd_off_walk_corner);
 }
