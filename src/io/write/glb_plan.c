@@ -47,54 +47,37 @@ bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3])
     return true;
 }
 
-/* Finds equal values, so that corners that name them by different numbers share a vertex. */
-static ffd_status join_texcoords(planner *p)
+static bool read_texcoord(const mesh_model *model, uint32_t number, float *values)
 {
-    intern_table values = {0};
-    ffd_status status = FFD_OK;
-    uint32_t *first = ffd_alloc(p->model->texcoord_count, sizeof *first);
-    p->texcoords = ffd_alloc(p->model->texcoord_count, sizeof *p->texcoords);
-    if (!p->texcoords || !first)
-        status = ffd_fail_memory(p->error);
-    for (size_t i = 0; i < p->model->texcoord_count && status == FFD_OK; i++) {
-        float value[2];
-        uint32_t number;
-        ffd_glb_texcoord(p->model, (uint32_t)i, value);
-        const size_t known = values.count;
-        if (!ffd_intern(&values, value, sizeof value, &number))
-            status = ffd_fail_memory(p->error);
-        else {
-            if (values.count > known)
-                first[number] = (uint32_t)i;
-            p->texcoords[i] = first[number];
-        }
-    }
-    ffd_intern_free(&values);
-    ffd_free(first);
-    return status;
+    ffd_glb_texcoord(model, number, values);
+    return true;
 }
 
-static ffd_status join_normals(planner *p)
+typedef bool value_reader(const mesh_model *model, uint32_t number, float *values);
+
+/* Finds equal values, so that corners that name them by different numbers share a vertex. Of one that cannot
+   be read the number is MODEL_NONE. */
+static ffd_status join_values(planner *p, size_t count, value_reader *read, size_t size, uint32_t **numbers)
 {
     intern_table values = {0};
     ffd_status status = FFD_OK;
-    uint32_t *first = ffd_alloc(p->model->normal_count, sizeof *first);
-    p->normals = ffd_alloc(p->model->normal_count, sizeof *p->normals);
-    if (!p->normals || !first)
+    uint32_t *first = ffd_alloc(count, sizeof *first);
+    *numbers = ffd_alloc(count, sizeof **numbers);
+    if (!*numbers || !first)
         status = ffd_fail_memory(p->error);
-    for (size_t i = 0; i < p->model->normal_count && status == FFD_OK; i++) {
+    for (size_t i = 0; i < count && status == FFD_OK; i++) {
         float value[3];
         uint32_t number;
         const size_t known = values.count;
-        p->normals[i] = MODEL_NONE;
-        if (!ffd_glb_normal(p->model, (uint32_t)i, value))
+        (*numbers)[i] = MODEL_NONE;
+        if (!read(p->model, (uint32_t)i, value))
             continue;
-        if (!ffd_intern(&values, value, sizeof value, &number))
+        if (!ffd_intern(&values, value, size * sizeof *value, &number))
             status = ffd_fail_memory(p->error);
         else {
             if (values.count > known)
                 first[number] = (uint32_t)i;
-            p->normals[i] = first[number];
+            (*numbers)[i] = first[number];
         }
     }
     ffd_intern_free(&values);
@@ -347,9 +330,9 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
 {
     planner p = {.plan = plan, .model = model, .error = error};
     *plan = (glb_plan){.model = model};
-    ffd_status status = join_texcoords(&p);
+    ffd_status status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
     if (status == FFD_OK)
-        status = join_normals(&p);
+        status = join_values(&p, model->normal_count, ffd_glb_normal, 3, &p.normals);
     if (status == FFD_OK)
         status = assign_all(&p);
     if (status == FFD_OK)
