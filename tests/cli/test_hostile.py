@@ -8,6 +8,7 @@ import resource
 import struct
 
 from harness import FFD, INVALID, LIMIT, OK, case, check, equal, lattice, main, npy
+from vectors import cross, dot
 
 INSIDE, OUTSIDE, MULTIPLE, SINGULAR, POINT_INVALID = range(5)
 EPSILON = 2.0**-52
@@ -68,14 +69,6 @@ class Spline:
                         for r in range(3):
                             total[r] += factor * (p[r] - origin[r])
         return sums[0], sums[1:]
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
 
 
 def newton(spline, p, uvw, residual):

@@ -2,11 +2,13 @@
 """OFF and STL files, with readers of their own here: what deform changes in them, what the other commands say of
 them, and what is refused."""
 import math
+import os
 import re
 import struct
 
 from harness import (INVALID, IO, MODELS, NO, UNSUPPORTED, carried, case, check, equal, lattice, main, models,
                      near)
+from vectors import cross, minus
 
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
 POINTS = [[0.1, 0.2, 0.3], [-1.5, 0.25, 1.75], [0.0, 0.0, 0.0], [1.0 / 3, -2.0 / 3, 1e-3], [5.0, 5.0, 5.0]]
@@ -213,6 +215,15 @@ def write_model_lattices(run):
         run.write(out, lattice(rest={"box": "mesh"}, moves=moves, units="box"))
 
 
+def still_then_moved(run, name, path, before):
+    """A lattice that moves nothing copies the file; the output of the other."""
+    out = "q" + os.path.splitext(path)[1].lower()
+    run.ffd("deform", path, out, "-l", "still.json", "--force")
+    equal(run.read(out), before, name)
+    run.ffd("deform", path, out, "-l", "moved.json", "--force")
+    return run.read(out)
+
+
 def other_commands(run, path):
     for command in (["info", path], ["compare", path, path], ["check", path, "-l", "moved.json"],
                     ["lattice", "new", path, "-o", "new.json", "--force"],
@@ -227,13 +238,11 @@ def off_models(run):
     found = models(".off")
     write_model_lattices(run)
     for name, path, before in found:
-        run.ffd("deform", path, "q.off", "-l", "still.json", "--force")
-        equal(run.read("q.off"), before, name)
-        run.ffd("deform", path, "q.off", "-l", "moved.json", "--force")
-        start, end = off_numbers(before.decode(), 0, 3), off_numbers(run.text("q.off"), 0, 3)
+        after = still_then_moved(run, name, path, before)
+        start, end = off_numbers(before.decode(), 0, 3), off_numbers(after.decode(), 0, 3)
         equal(end, carried(run, start, "moved.json"), name)
         check(end != start and all(a[1] == b[1] for a, b in zip(start, end)), name, "moves along x and z")
-        equal(same_but_numbers(name, before, run.read("q.off")),
+        equal(same_but_numbers(name, before, after),
               sum(a != b for p, q in zip(start, end) for a, b in zip(p, q)), f"{name}: words that changed")
         other_commands(run, path)
     check(not MODELS or len(found) >= 7, f"{len(found)} models")
@@ -250,8 +259,7 @@ def cube_facets():
 
 def cross_normal(facet):
     a, b, c = facet
-    u, v = [q - p for p, q in zip(a, b)], [q - p for p, q in zip(a, c)]
-    n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    n = cross(minus(b, a), minus(c, a))
     length = math.hypot(*n)
     return [x / length for x in n]
 
@@ -453,10 +461,7 @@ def stl_models(run):
     found = models(".stl")
     write_model_lattices(run)
     for name, path, before in found:
-        run.ffd("deform", path, "q.stl", "-l", "still.json", "--force")
-        equal(run.read("q.stl"), before, name)
-        run.ffd("deform", path, "q.stl", "-l", "moved.json", "--force")
-        after = run.read("q.stl")
+        after = still_then_moved(run, name, path, before)
         (start, old), (end, new) = read_stl(before), read_stl(after)
         check(len(start) > 0 and start != end, name, "moves")
         is_binary = not before.lstrip().startswith(b"solid")

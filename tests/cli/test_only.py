@@ -150,13 +150,17 @@ def shown(file):
     return found
 
 
-@case
-def nodes_meshes_and_materials_of_gltf(run):
+def write_triangles(run, *options):
+    """The asset, what it shows, and what it shows when all of it is deformed."""
     _, asset, data = two_triangles()
     run.write("l.json", lattice(moves=TWIST))
     run.write("a.glb", glb(asset, data))
-    before = shown(run.read("a.glb"))
-    every = shown(deform(run, "a.glb"))
+    return asset, shown(run.read("a.glb")), shown(deform(run, "a.glb", options=options))
+
+
+@case
+def nodes_meshes_and_materials_of_gltf(run):
+    asset, before, every = write_triangles(run)
     check(all(a != b for a, b in zip(before, every)), "all move")
     for selectors, expected in [(["node:root"], [0, 1, 2, 3]), (["node:two"], [2, 3]), (["node:three"], [3]),
                                 (["node:one"], [0, 1, 4, 5]), (["mesh:A"], [0, 1, 4, 5]), (["mesh:B"], [2]),
@@ -191,11 +195,7 @@ def what_is_not_selected_keeps_its_bytes(run):
 
 @case
 def mesh_space_takes_nodes_for_their_meshes(run):
-    _, asset, data = two_triangles()
-    run.write("l.json", lattice(moves=TWIST))
-    run.write("a.glb", glb(asset, data))
-    before = shown(run.read("a.glb"))
-    every = shown(deform(run, "a.glb", options=["--space", "mesh"]))
+    _, before, every = write_triangles(run, "--space", "mesh")
     after = shown(deform(run, "a.glb", "node:two", options=["--space", "mesh"]))
     near(after, [every[i] if i in (2, 3) else before[i] for i in range(6)], 0)
 

@@ -5,6 +5,7 @@ import math
 
 from harness import (CUBE, EMBEDDING, case, check, equal, glb, glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near,
                      obj_vertices)
+from vectors import cross, unit
 
 SHIFT = [{"by": [0, 0.5, -8]}]
 BEND = [{"twist": {"axis": "z", "degrees": 50}}, {"at": [3, 3, 3], "by": [0.5, 0.25, 1]}]
@@ -99,14 +100,7 @@ def no_step_at_the_border(run):
 
 
 def cofactor(f):
-    def cross(a, b):
-        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     return [cross(f[1], f[2]), cross(f[2], f[0]), cross(f[0], f[1])]
-
-
-def unit(v):
-    length = math.sqrt(sum(x * x for x in v))
-    return [x / length for x in v]
 
 
 @case
