@@ -1,4 +1,4 @@
-/* test_base.c - sizes, buffers, words, paths, JSON text, messages, tiles. */
+/* test_base.c - sizes, slots, buffers, words, paths, JSON text, messages, tiles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,6 +10,7 @@
 #include "base/json_text.h"
 #include "base/memory.h"
 #include "base/path.h"
+#include "base/slots.h"
 #include "base/thread.h"
 #include "base/words.h"
 #include <stdint.h>
@@ -29,6 +30,21 @@ static void test_sizes(void **state)
     void *block = ffd_alloc(0, 8);
     assert_non_null(block);
     ffd_free(block);
+    (void)state;
+}
+
+static void test_slots(void **state)
+{
+    static const size_t masks[][2] = {{0, 15}, {8, 15}, {9, 31}, {16, 31}, {1000, 2047}};
+    for (size_t i = 0; i < sizeof masks / sizeof *masks; i++) {
+        size_t mask;
+        uint32_t *slots = ffd_slots_make(masks[i][0], sizeof *slots, &mask);
+        assert_non_null(slots);
+        assert_int_equal(mask, masks[i][1]);
+        for (size_t s = 0; s <= mask; s++)
+            assert_int_equal(slots[s], UINT32_MAX);
+        ffd_free(slots);
+    }
     (void)state;
 }
 
@@ -234,11 +250,17 @@ static void test_tiles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),      cmocka_unit_test(test_grow),
-        cmocka_unit_test(test_buffer),     cmocka_unit_test(test_words),
-        cmocka_unit_test(test_paths),      cmocka_unit_test(test_json_text),
-        cmocka_unit_test(test_messages),   cmocka_unit_test(test_json_text_is_utf8),
-        cmocka_unit_test(test_exit_codes), cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_sizes),
+        cmocka_unit_test(test_slots),
+        cmocka_unit_test(test_grow),
+        cmocka_unit_test(test_buffer),
+        cmocka_unit_test(test_words),
+        cmocka_unit_test(test_paths),
+        cmocka_unit_test(test_json_text),
+        cmocka_unit_test(test_messages),
+        cmocka_unit_test(test_json_text_is_utf8),
+        cmocka_unit_test(test_exit_codes),
+        cmocka_unit_test(test_tiles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
 #include "base/memory.h"
+#include "base/slots.h"
 #include "base/vec.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
@@ -179,15 +180,12 @@ static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
 
 ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
 {
-    size_t total, slots = 16;
+    size_t total;
     ffd_status status = count_instances(d, &total, error);
     if (status)
         return status;
-    while (slots < 2 * total)
-        slots *= 2;
-    part_table table = {.heads = ffd_alloc(slots, sizeof *table.heads),
-                        .mask = slots - 1,
-                        .next = ffd_alloc(total, sizeof *table.next)};
+    part_table table = {.next = ffd_alloc(total, sizeof *table.next)};
+    table.heads = ffd_slots_make(total, sizeof *table.heads, &table.mask);
     d->instances = ffd_alloc(total, sizeof *d->instances);
     d->parts = ffd_alloc_zero(total, sizeof *d->parts);
     d->mesh_parts = ffd_alloc_zero(total, sizeof *d->mesh_parts);
@@ -195,8 +193,6 @@ ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
         status = ffd_fail_memory(error);
         goto done;
     }
-    for (size_t i = 0; i < slots; i++)
-        table.heads[i] = GLTF_NONE;
     gltf_instance *instance = d->instances;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)

@@ -1,5 +1,6 @@
 /* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives name it. */
 #include "base/memory.h"
+#include "base/slots.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 
@@ -151,19 +152,14 @@ static ffd_status place_targets(gltf_document *d, const target_table *table, siz
 
 ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
 {
-    size_t total, slots = 16;
+    size_t total;
     ffd_status status = count_targets(d, &total, error);
     if (status || total == 0)
         return status;
-    while (slots < 2 * total)
-        slots *= 2;
-    target_table table = {.slots = ffd_alloc(slots, sizeof *table.slots),
-                          .mask = slots - 1,
-                          .targets = ffd_alloc(total, sizeof *table.targets)};
+    target_table table = {.targets = ffd_alloc(total, sizeof *table.targets)};
+    table.slots = ffd_slots_make(total, sizeof *table.slots, &table.mask);
     d->targets = ffd_alloc(total, sizeof *d->targets);
     if (table.slots && table.targets && d->targets) {
-        for (size_t i = 0; i < slots; i++)
-            table.slots[i] = GLTF_NONE;
         find_targets(d, &table);
         status = place_targets(d, &table, total, error);
     } else {

@@ -1,5 +1,6 @@
 #include "io/obj/obj_split.h"
 #include "base/memory.h"
+#include "base/slots.h"
 #include <string.h>
 
 bool ffd_obj_same_vector(const double *a, const double *b)
@@ -50,26 +51,11 @@ static uint64_t hash_of(const obj_document *d, uint32_t pair)
     return hash;
 }
 
-/* Open addressing: the added `vn` of each distinct value; mask + 1 slots, a power of two, at most half of
- * them used. */
+/* The added `vn` of each distinct value. */
 typedef struct value_table {
-    uint32_t *slots;
+    uint32_t *slots; /* OBJ_NONE: free */
     size_t mask;
 } value_table;
-
-static ffd_status make_table(value_table *table, size_t count, ffd_error *error)
-{
-    size_t slots = 16;
-    while (slots / 2 < count)
-        slots *= 2;
-    table->mask = slots - 1;
-    table->slots = ffd_alloc(slots, sizeof *table->slots);
-    if (!table->slots)
-        return ffd_fail_memory(error);
-    for (size_t i = 0; i < slots; i++)
-        table->slots[i] = OBJ_NONE;
-    return FFD_OK;
-}
 
 /* The added `vn` for the pair's value, made where there is none yet. */
 static uint32_t find_or_add(const obj_document *d, const value_table *table, obj_split *split, uint32_t pair)
@@ -89,12 +75,10 @@ static uint32_t find_or_add(const obj_document *d, const value_table *table, obj
 static ffd_status add_normals(const obj_document *d, size_t own_count, obj_split *split, ffd_error *error)
 {
     value_table table;
-    const ffd_status status = make_table(&table, own_count, error);
-    if (status)
-        return status;
+    table.slots = ffd_slots_make(own_count, sizeof *table.slots, &table.mask);
     split->added = ffd_alloc(own_count, sizeof *split->added);
     split->target = ffd_alloc(d->part.normal_count, sizeof *split->target);
-    if (!split->added || !split->target) {
+    if (!table.slots || !split->added || !split->target) {
         ffd_free(table.slots);
         return ffd_fail_memory(error);
     }
