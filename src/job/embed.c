@@ -14,8 +14,10 @@ void ffd_embed_desc_init(ffd_embed_desc *desc)
     desc->struct_size = sizeof *desc;
 }
 
-/* The arrays of one embedding, and of what they are. */
+/* The arrays of one embedding, and what they are of. */
 typedef struct embedding {
+    mesh_document *document;
+    lattice_chain chain;
     double *uvw;
     uint8_t *statuses;
     size_t count;
@@ -91,63 +93,82 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
     return status;
 }
 
-static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error)
+/* Reads the mesh and places the lattice, which has been read, in it. */
+static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
+{
+    ffd_status status = ffd_source_open(&desc->input, &made->document, error);
+    if (!status)
+        status = ffd_mesh_check(made->document, error);
+    if (!status)
+        status = ffd_chain_place(&made->chain, made->document, threads, error);
+    return status;
+}
+
+/* Fills in the arrays. */
+static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
+{
+    made->count = (size_t)ffd_pass_vertex_count(made->document);
+    made->uvw = ffd_alloc(made->count, 3 * sizeof *made->uvw);
+    made->statuses = ffd_alloc(made->count, sizeof *made->statuses);
+    if (!made->uvw || !made->statuses)
+        return ffd_fail_memory(error);
+    const mesh_pass pass = {.document = made->document,
+                            .chain = &made->chain,
+                            .links = 1,
+                            .threads = threads,
+                            .uvw = made->uvw,
+                            .statuses = made->statuses};
+    return ffd_pass_run(&pass, totals, error);
+}
+
+/* Writes the embedding together with what it was made of. */
+static ffd_status write(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
+{
+    made->lattice = ffd_embedding_hash_lattice(made->chain.links[0].lattice);
+    const ffd_status status = ffd_embedding_hash_positions(made->document, threads, &made->positions, error);
+    return status ? status : write_files(desc, made, error);
+}
+
+/* All that follows the reading of the lattice. */
+static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double start, ffd_job_result *result,
+                        ffd_error *error)
 {
     const mesh_log log = {desc->log, desc->log_user};
     const int threads = desc->threads > 0 ? desc->threads : ffd_processor_count();
-    const double start = ffd_clock_seconds();
-    const chain_outside outside = {.extend = false};
-    mesh_document *document = NULL;
-    lattice_chain chain;
     pass_totals totals;
-    embedding made = {0};
-
-    ffd_status status = check_outputs(desc, error);
-    if (!status)
-        status = ffd_chain_load(&desc->lattice, 1, &outside, &chain, error);
+    ffd_status status = open_mesh(desc, made, threads, error);
     if (status)
         return status;
-    status = ffd_source_open(&desc->input, &document, error);
-    if (!status)
-        status = ffd_mesh_check(document, error);
-    if (!status)
-        status = ffd_chain_place(&chain, document, threads, error);
-    if (status)
-        goto out;
     const double opened = ffd_clock_seconds();
     result->seconds_read = opened - start;
-
-    made.count = (size_t)ffd_pass_vertex_count(document);
-    made.uvw = ffd_alloc(made.count, 3 * sizeof *made.uvw);
-    made.statuses = ffd_alloc(made.count, sizeof *made.statuses);
-    if (!made.uvw || !made.statuses) {
-        status = ffd_fail_memory(error);
-        goto out;
-    }
-    const mesh_pass pass = {.document = document,
-                            .chain = &chain,
-                            .links = 1,
-                            .threads = threads,
-                            .uvw = made.uvw,
-                            .statuses = made.statuses};
-    status = ffd_pass_run(&pass, &totals, error);
+    status = make(made, threads, &totals, error);
     if (status)
-        goto out;
+        return status;
     const double embedded = ffd_clock_seconds();
     ffd_result_fill(result, &totals, embedded - opened);
-    ffd_result_warn(&totals, &chain, false, &log);
-    made.lattice = ffd_embedding_hash_lattice(chain.links[0].lattice);
-    status = ffd_embedding_hash_positions(document, threads, &made.positions, error);
-    if (!status)
-        status = write_files(desc, &made, error);
+    ffd_result_warn(&totals, &made->chain, false, &log);
+    status = write(desc, made, threads, error);
     result->seconds_write = ffd_clock_seconds() - embedded;
-out:
+    return status;
+}
+
+static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error)
+{
+    const double start = ffd_clock_seconds();
+    const chain_outside outside = {.extend = false};
+    embedding made = {0};
+    ffd_status status = check_outputs(desc, error);
+    if (!status)
+        status = ffd_chain_load(&desc->lattice, 1, &outside, &made.chain, error);
+    if (status)
+        return status;
+    status = embed(desc, &made, start, result, error);
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(error, ffd_source_name(&desc->input));
     ffd_free(made.uvw);
     ffd_free(made.statuses);
-    ffd_source_close(&document);
-    ffd_chain_free(&chain);
+    ffd_source_close(&made.document);
+    ffd_chain_free(&made.chain);
     return status;
 }
 
