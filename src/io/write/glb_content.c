@@ -1,0 +1,125 @@
+#include "io/gltf/base64.h"
+#include "io/gltf/glb.h"
+#include "io/write/glb_writer.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static void flush_block(gltf_writer *w)
+{
+    char text[GLB_BLOCK / 3 * 4];
+    ffd_base64_encode(w->block, w->used, text);
+    ffd_sink_bytes(&w->sink, text, ffd_base64_length(w->used));
+    w->used = 0;
+}
+
+static void put_bytes(gltf_writer *w, const unsigned char *bytes, size_t size)
+{
+    if (!w->base64) {
+        ffd_sink_bytes(&w->sink, bytes, size);
+        return;
+    }
+    for (size_t i = 0; i < size; i++) {
+        w->block[w->used++] = bytes[i];
+        if (w->used == GLB_BLOCK)
+            flush_block(w);
+    }
+}
+
+static void put_u32(gltf_writer *w, uint32_t value)
+{
+    unsigned char bytes[4];
+    ffd_glb_write_u32(bytes, value);
+    put_bytes(w, bytes, sizeof bytes);
+}
+
+static void put_floats(gltf_writer *w, const float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, values + i, sizeof bits);
+        put_u32(w, bits);
+    }
+}
+
+static void put_position(gltf_writer *w, const model_corner *vertex)
+{
+    float values[3];
+    for (size_t a = 0; a < 3; a++)
+        values[a] = (float)w->model->positions[3 * (size_t)vertex->position + a];
+    put_floats(w, values, 3);
+}
+
+static void put_colour(gltf_writer *w, const model_corner *vertex)
+{
+    const double *colour = w->model->colours + 4 * (size_t)vertex->position;
+    for (size_t c = 0; c < 4; c++) {
+        const unsigned char byte = w->byte_colours ? (unsigned char)floor(255 * colour[c] + 0.5) : 0;
+        const float value = fabs(colour[c]) <= (double)FLT_MAX ? (float)colour[c] : 1;
+        if (w->byte_colours)
+            put_bytes(w, &byte, 1);
+        else
+            put_floats(w, &value, 1);
+    }
+}
+
+static void put_vertex(gltf_writer *w, const model_corner *vertex, int view)
+{
+    float values[3] = {0, 0, 0};
+    if (view == VIEW_POSITIONS)
+        put_position(w, vertex);
+    else if (view == VIEW_COLOURS)
+        put_colour(w, vertex);
+    else if (view == VIEW_NORMALS) {
+        ffd_glb_normal(w->model, vertex->normal, values);
+        put_floats(w, values, 3);
+    } else {
+        ffd_glb_texcoord(w->model, vertex->texcoord, values);
+        put_floats(w, values, 2);
+    }
+}
+
+static void put_indices(gltf_writer *w, const glb_primitive *primitive)
+{
+    const uint32_t *indices = w->plan.indices + primitive->first_index;
+    for (size_t i = 0; i < primitive->index_count; i++) {
+        unsigned char bytes[4];
+        ffd_glb_write_u32(bytes, indices[i]);
+        put_bytes(w, bytes, glb_has_short_indices(primitive) ? 2 : 4);
+    }
+}
+
+static bool has_view(const gltf_writer *w, const glb_primitive *primitive, int view)
+{
+    switch (view) {
+    case VIEW_NORMALS:
+        return primitive->normals;
+    case VIEW_TEXCOORDS:
+        return primitive->texcoords;
+    case VIEW_SHORT:
+        return glb_has_short_indices(primitive);
+    case VIEW_LONG:
+        return !glb_has_short_indices(primitive);
+    default:
+        return w->sizes[view] > 0;
+    }
+}
+
+void ffd_glb_put_content(gltf_writer *w)
+{
+    static const unsigned char padding[3] = {0};
+    for (int view = 0; view < VIEW_COUNT; view++) {
+        for (size_t i = 0; i < w->plan.primitive_count && w->sink.status == FFD_OK; i++) {
+            const glb_primitive *primitive = &w->plan.primitives[w->plan.by_mesh[i]];
+            if (!has_view(w, primitive, view))
+                continue;
+            if (view >= VIEW_SHORT)
+                put_indices(w, primitive);
+            for (size_t v = 0; v < primitive->vertex_count && view < VIEW_SHORT; v++)
+                put_vertex(w, &w->plan.vertices[primitive->first_vertex + v], view);
+        }
+        put_bytes(w, padding, (4 - w->sizes[view] % 4) % 4);
+    }
+    if (w->base64)
+        flush_block(w);
+}

@@ -1,0 +1,51 @@
+/* glb_writer.h - the parts of writing a model as glTF: glb_json.c makes the JSON, glb_content.c the buffer,
+   and glb_write.c the files of both. */
+#ifndef FFD_IO_WRITE_GLB_WRITER_H
+#define FFD_IO_WRITE_GLB_WRITER_H
+
+#include "base/json_text.h"
+#include "io/write/glb_plan.h"
+#include "io/write/sink.h"
+
+/* Bytes of base64 made at once: a multiple of 3, so that pieces join. */
+#define GLB_BLOCK 3072
+
+/* Primitives with more vertices have indices of 32 bits: the largest of 16 is reserved. */
+#define GLB_SHORT_INDEX_VERTICES 65535
+
+/* The bufferViews, in this order; one that is empty is left out. */
+enum { VIEW_POSITIONS, VIEW_NORMALS, VIEW_TEXCOORDS, VIEW_COLOURS, VIEW_SHORT, VIEW_LONG, VIEW_COUNT };
+
+typedef struct gltf_writer {
+    const mesh_model *model;
+    glb_plan plan;
+    bool byte_colours;
+    size_t sizes[VIEW_COUNT], begins[VIEW_COUNT], numbers[VIEW_COUNT], filled[VIEW_COUNT], total;
+    byte_buffer text;
+    json_text json;
+    size_t accessors;
+    model_sink sink;
+    bool base64;
+    unsigned char block[GLB_BLOCK]; /* of bytes that become base64 */
+    size_t used;
+    ffd_error *error;
+} gltf_writer;
+
+static inline bool glb_has_short_indices(const glb_primitive *primitive)
+{
+    return primitive->vertex_count <= GLB_SHORT_INDEX_VERTICES;
+}
+
+static inline size_t glb_colour_size(const gltf_writer *w)
+{
+    return w->byte_colours ? 4 : 16;
+}
+
+/* Makes the JSON in text; w->text.failed: no memory. uri is that of the buffer, NULL: it is the BIN chunk.
+   Returns where the text of the uri ends, 0 where there is no buffer. */
+size_t ffd_glb_make_json(gltf_writer *w, bool on_one_line, const char *uri);
+
+/* Puts the buffer's bytes, w->total of them, into the sink, as base64 where that is set. */
+void ffd_glb_put_content(gltf_writer *w);
+
+#endif
