@@ -75,22 +75,6 @@ static ffd_status put_glb(gltf_writer *w, const char *path)
     return w->sink.status;
 }
 
-static ffd_status write_glb(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                            ffd_error *error)
-{
-    gltf_writer *w = ffd_alloc_zero(1, sizeof *w);
-    if (!w)
-        return ffd_fail_memory(error);
-    ffd_status status = begin(w, model, error);
-    if (status == FFD_OK)
-        status = ffd_output_begin(output, options->path, options->force, error);
-    w->sink = (model_sink){output, error, status};
-    if (status == FFD_OK)
-        status = put_glb(w, options->path);
-    end(w);
-    return status;
-}
-
 /* On standard output all is in one file: the buffer is a data URI. */
 static ffd_status put_stream(gltf_writer *w)
 {
@@ -157,21 +141,33 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options)
     return status;
 }
 
-static ffd_status write_gltf(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                             ffd_error *error)
+static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
+                        bool binary, ffd_error *error)
 {
-    const bool stream = strcmp(options->path, "-") == 0;
+    const bool files = !binary && strcmp(options->path, "-") != 0;
     gltf_writer *w = ffd_alloc_zero(1, sizeof *w);
     if (!w)
         return ffd_fail_memory(error);
     ffd_status status = begin(w, model, error);
-    if (status == FFD_OK && stream)
+    if (status == FFD_OK && !files)
         status = ffd_output_begin(output, options->path, options->force, error);
     w->sink = (model_sink){output, error, status};
     if (status == FFD_OK)
-        status = stream ? put_stream(w) : put_files(w, options);
+        status = files ? put_files(w, options) : binary ? put_glb(w, options->path) : put_stream(w);
     end(w);
     return status;
+}
+
+static ffd_status write_glb(const mesh_model *model, const mesh_save_options *options, file_output *output,
+                            ffd_error *error)
+{
+    return write(model, options, output, true, error);
+}
+
+static ffd_status write_gltf(const mesh_model *model, const mesh_save_options *options, file_output *output,
+                             ffd_error *error)
+{
+    return write(model, options, output, false, error);
 }
 
 #define HOLDS                                                                                                \
