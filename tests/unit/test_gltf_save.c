@@ -462,6 +462,22 @@ static char *split_glb(const file_input *file, glb_layout *layout)
     return text;
 }
 
+/* The text of its JSON, which spaces may follow, and the bytes of its BIN chunk. */
+static void check_container(const char *name, const char *expected, const void *bytes, size_t size)
+{
+    file_input file;
+    glb_layout layout;
+    assert_int_equal(ffd_file_load(in_folder(name), &file, NULL), FFD_OK);
+    char *text = split_glb(&file, &layout);
+    assert_true(layout.json_size >= strlen(expected));
+    assert_memory_equal(text, expected, strlen(expected));
+    assert_int_equal(strspn(text + strlen(expected), " "), layout.json_size - strlen(expected));
+    assert_int_equal(layout.bin_size, size);
+    assert_memory_equal(file.data + layout.bin_begin, bytes, size);
+    free(text);
+    ffd_file_unload(&file);
+}
+
 /* A file of its own goes into the BIN chunk and comes out of it, and the rest of the JSON is the same text.
  */
 static void containers_change(void **state)
@@ -477,18 +493,7 @@ static void containers_change(void **state)
     put("data .bin", triangle, sizeof triangle);
     change_container("text.gltf", "binary.glb", FFD_FORMAT_GLB);
 
-    file_input file;
-    glb_layout layout;
-    assert_int_equal(ffd_file_load(in_folder("binary.glb"), &file, NULL), FFD_OK);
-    char *text = split_glb(&file, &layout);
-    const char *const expected = CONTAINER("", "", "[1,0,0]", "[2,1,0]");
-    assert_memory_equal(text, expected, strlen(expected));
-    assert_int_equal(strspn(text + strlen(expected), " "), layout.json_size - strlen(expected));
-    assert_int_equal(layout.bin_size, sizeof moved);
-    assert_memory_equal(file.data + layout.bin_begin, moved, sizeof moved);
-    free(text);
-    ffd_file_unload(&file);
-
+    check_container("binary.glb", CONTAINER("", "", "[1,0,0]", "[2,1,0]"), moved, sizeof moved);
     change_container("binary.glb", "text again.gltf", FFD_FORMAT_GLTF);
     check_text("text again.gltf", CONTAINER("", ",\"uri\":\"text%20again.bin\"", "[2,0,0]", "[3,1,0]"));
     check_bytes("text again.bin", twice, sizeof twice);
@@ -506,17 +511,10 @@ static void a_glb_holds_all_buffers(void **state)
     put("two.bin", second, sizeof second); /* one byte more than byteLength */
     change_container("many.gltf", "many.glb", FFD_FORMAT_GLB);
 
-    file_input file;
-    glb_layout layout;
-    assert_int_equal(ffd_file_load(in_folder("many.glb"), &file, NULL), FFD_OK);
-    char *text = split_glb(&file, &layout);
     const char *const expected = "{" ASSET ",\"buffers\":[{\"byteLength\":5},{\"byteLength\":3,\"uri\":"
                                  "\"data:application/octet-stream;base64,Mm5k\"},{\"byteLength\":1,"
                                  "\"uri\":\"data:;base64,QQ==\"}]}";
-    assert_memory_equal(text, expected, strlen(expected));
-    assert_memory_equal(file.data + layout.bin_begin, "first\0\0\0", 8);
-    free(text);
-    ffd_file_unload(&file);
+    check_container("many.glb", expected, "first\0\0\0", 8);
 }
 
 static void images_are_copied_or_referred_to(void **state)
