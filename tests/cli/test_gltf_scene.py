@@ -6,7 +6,7 @@ import re
 import struct
 
 from gltf_build import SHEAR, SHIFT, Scene, vectors
-from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, case, check, equal, glb, glb_split, gltf_vectors, lattice, main, near, npy)
+from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy)
 
 def column_major(linear, offset):
     return [linear[r][c] for c in range(3) for r in (0, 1, 2)][:3] + [0.0] + \

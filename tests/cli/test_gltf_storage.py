@@ -10,7 +10,7 @@ import struct
 
 from gltf_reader import (DEFORMED, FLOAT, SCALES, TYPES, Gltf, attribute_sets, check_bounds, check_rest,
                          deformed_accessors)
-from harness import FFD, LIMIT, MODELS, OK, UNSUPPORTED, case, check, equal, glb, lattice, main, near, pad
+from harness import LIMIT, MODELS, OK, UNSUPPORTED, case, check, equal, glb, lattice, main, near, pad
 
 POINTS = [(-1.0, -1.0, -0.5), (1.0, -1.0, 0.25), (-1.0, 1.0, 0.5), (1.0, 1.0, 0.0), (0.0, 0.5, 1.0), (0.0, 0.0, 0.0)]
 SHIFT = (0.25, -0.5, 0.125)

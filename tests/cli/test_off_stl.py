@@ -186,6 +186,12 @@ def off_compare(run):
     run.ffd("compare", "a.off", "c.off", "--tolerance", "9", code=NO)
 
 
+def refused(run, ending, content, code, says):
+    run.write("p" + ending, content)
+    run.ffd("deform", "p" + ending, "q" + ending, "-l", "l.json", code=code, err=says)
+    check(not run.exists("q" + ending), "an output of a failure")
+
+
 @case
 def off_refused(run):
     run.write("l.json", lattice())
@@ -203,9 +209,7 @@ def off_refused(run):
              "p.off:6: vertex 3 is out of range: there are 3, counted from 0"),
             ("OFF\n3 1 0\n0 0 0\n1 0\n0 1 0\n3 0 1 2\n", INVALID, "p.off:4: a vertex needs 3 numbers, found 2"),
             ("# " + "x" * 100000, INVALID, "p.off:1: the file has no content")):
-        run.write("p.off", content)
-        run.ffd("deform", "p.off", "q.off", "-l", "l.json", code=code, err=says)
-        check(not run.exists("q.off"), "an output of a failure")
+        refused(run, ".off", content, code, says)
     run.folder_of("d.off")
     run.ffd("deform", "d.off", "r.off", "-l", "l.json", code=IO)
 
@@ -444,9 +448,7 @@ def stl_refused(run):
              "p.stl:4: the file ends where a coordinate is expected"),
             ("solid a\n" + "x" * 100000 + "\n",
              "p.stl:2: expected facet or endsolid, found \"" + "x" * 40 + "\"")):
-        run.write("p.stl", content)
-        run.ffd("deform", "p.stl", "q.stl", "-l", "l.json", code=INVALID, err=says)
-        check(not run.exists("q.stl"), "an output of a failure")
+        refused(run, ".stl", content, INVALID, says)
     run.folder_of("d.stl")
     run.ffd("deform", "d.stl", "r.stl", "-l", "l.json", code=IO)
     run.write("far.json", lattice(moves=[{"by": [1e39, 0, 0]}]))

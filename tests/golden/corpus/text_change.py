@@ -3,8 +3,14 @@
 read(path) gives a Shape: positions and corners for the judge, and pieces for the comparison."""
 
 import math
+import os
 import re
 import struct
+import sys
+
+TESTS = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(TESTS, "cli"))
+from vectors import cross, dot, minus  # noqa: E402 (a neighbour of this folder)
 
 DOUBLE, FLOAT = "double", "float"
 
@@ -341,18 +347,6 @@ def facet_changes(before, after):
         slack = tolerance + 4e-16 * math.hypot(*sides[0]) * math.hypot(*sides[1]) / length
         if any(abs(side * x / length - y) > slack for x, y in zip(normal, new)):
             yield f"facet {i}: normal {new}, its corners say {[side * x / length for x in normal]}"
-
-
-def minus(a, b):
-    return [x - y for x, y in zip(a, b)]
-
-
-def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 # ---- all --------------------------------------------------------------------------------------------------------
