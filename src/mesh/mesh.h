@@ -74,6 +74,9 @@ typedef struct mesh_faces {
     size_t repeated;
 } mesh_faces;
 
+/* Makes room for the vertices and faces that are counted, and for their corners. A failure leaves nothing to
+   be freed. Errors: FFD_E_MEMORY. */
+ffd_status ffd_mesh_faces_make(mesh_faces *faces, size_t corners, ffd_error *error);
 void ffd_mesh_faces_free(mesh_faces *faces);
 
 /* A corner that has no normal. */

@@ -192,13 +192,13 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
         return status;
     for (size_t i = 0; i < d->base.part_count; i++)
         faces->vertex_count += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
+    status = ffd_mesh_faces_make(faces, 3 * faces->face_count, error);
+    if (status)
+        return status;
     size_t *base = ffd_alloc(d->base.part_count, sizeof *base);
-    faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
-    faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
-    faces->corners = ffd_alloc(faces->face_count, 3 * sizeof *faces->corners);
-    if (!base || !faces->positions || !faces->start || !faces->corners)
+    if (!base)
         status = ffd_fail_memory(error);
-    if (status == FFD_OK) {
+    else {
         fill_positions(d, faces, base);
         for (size_t i = 0; i <= faces->face_count; i++)
             faces->start[i] = 3 * i;

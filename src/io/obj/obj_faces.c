@@ -227,13 +227,9 @@ ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     const obj_document *d = ffd_obj_of(document);
     *faces = (mesh_faces){
         .vertex_count = d->vertices, .face_count = d->faces, .lines = d->lines, .points = d->points};
-    faces->positions = ffd_alloc(d->vertices, 3 * sizeof *faces->positions);
-    faces->start = ffd_alloc(d->faces + 1, sizeof *faces->start);
-    faces->corners = ffd_alloc(d->corners, sizeof *faces->corners);
-    if (!faces->positions || !faces->start || !faces->corners) {
-        ffd_mesh_faces_free(faces);
-        return ffd_fail_memory(error);
-    }
+    const ffd_status status = ffd_mesh_faces_make(faces, d->corners, error);
+    if (status)
+        return status;
     ffd_obj_read_positions(document, 0, 0, d->vertices, faces->positions);
     fill_faces(d, faces);
     return FFD_OK;

@@ -1,4 +1,3 @@
-#include "base/memory.h"
 #include "io/off/off_document.h"
 #include <inttypes.h>
 
@@ -89,13 +88,9 @@ ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_e
                           .face_count = d->header.faces - d->lines - d->points,
                           .lines = d->lines,
                           .points = d->points};
-    faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
-    faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
-    faces->corners = ffd_alloc(d->corners, sizeof *faces->corners);
-    if (!faces->positions || !faces->start || !faces->corners) {
-        ffd_mesh_faces_free(faces);
-        return ffd_fail_memory(error);
-    }
+    const ffd_status status = ffd_mesh_faces_make(faces, d->corners, error);
+    if (status)
+        return status;
     ffd_off_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
     fill_faces(d, faces);
     return FFD_OK;

@@ -106,16 +106,12 @@ ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_e
                           .face_count = d->face ? (size_t)d->face->count : 0,
                           .lines = edges ? (size_t)edges->count : 0};
     ffd_status status = refuse_strips(d, error);
+    if (status == FFD_OK)
+        status = ffd_mesh_faces_make(faces, faces->face_count, error);
     if (status)
         return status;
-    faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
-    faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
-    faces->corners = ffd_alloc(faces->face_count, sizeof *faces->corners);
-    if (faces->positions && faces->start && faces->corners) {
-        ffd_ply_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
-        status = read_faces(d, faces, error);
-    } else
-        status = ffd_fail_memory(error);
+    ffd_ply_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
+    status = read_faces(d, faces, error);
     if (status)
         ffd_mesh_faces_free(faces);
     return status;

@@ -53,13 +53,12 @@ ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_e
 {
     const stl_document *d = ffd_stl_of(document);
     const size_t vertices = 3 * d->facets;
-    stl_key *keys = ffd_alloc(vertices, sizeof *keys);
     *faces = (mesh_faces){.vertex_count = vertices, .face_count = d->facets};
-    faces->positions = ffd_alloc(vertices, 3 * sizeof *faces->positions);
-    faces->start = ffd_alloc(d->facets + 1, sizeof *faces->start);
-    faces->corners = ffd_alloc(vertices, sizeof *faces->corners);
-    if (!keys || !faces->positions || !faces->start || !faces->corners) {
-        ffd_free(keys);
+    const ffd_status status = ffd_mesh_faces_make(faces, vertices, error);
+    if (status)
+        return status;
+    stl_key *keys = ffd_alloc(vertices, sizeof *keys);
+    if (!keys) {
         ffd_mesh_faces_free(faces);
         return ffd_fail_memory(error);
     }
