@@ -244,7 +244,7 @@ static unsigned resting_rows(const boundary_point *nearest)
    another face or edge of the border. */
 static bool difference(const sample *s, const double p[3], int c, double falloff, double column[3])
 {
-    const double step = 1e-5;
+    const double step = 1e-6; /* the quotient is off by its square times a third derivative */
     double at[2][3], delta[2][3];
     const boundary_point here = nearest_to(s, p);
     for (int side = 0; side < 2; side++) {
