@@ -55,22 +55,24 @@ typedef enum model_feature {
     MODEL_HAS_OBJECTS = 1 << 11,
     MODEL_HAS_GROUPS = 1 << 12,
     MODEL_HAS_MATERIAL_NAMES = 1 << 13,
+    MODEL_HAS_FINE_POSITIONS = 1 << 14, /* so far from the origin that floats would change the shape */
     /* Left behind in the source. */
-    MODEL_HAS_MATERIALS = 1 << 14,
-    MODEL_HAS_TEXTURES = 1 << 15,
-    MODEL_HAS_MORE_TEXCOORDS = 1 << 16, /* further sets, or third coordinates */
-    MODEL_HAS_TANGENTS = 1 << 17,
-    MODEL_HAS_FACE_COLOURS = 1 << 18,
-    MODEL_HAS_SMOOTHING = 1 << 19,
-    MODEL_HAS_FREE_FORM = 1 << 20,
-    MODEL_HAS_HIERARCHY = 1 << 21,
-    MODEL_HAS_SKINS = 1 << 22,
-    MODEL_HAS_MORPHS = 1 << 23,
-    MODEL_HAS_ANIMATIONS = 1 << 24,
-    MODEL_HAS_CAMERAS = 1 << 25,
-    MODEL_HAS_HIDDEN = 1 << 26, /* what the source's scene does not show */
-    MODEL_HAS_PLACES = 1 << 27, /* nodes' places, where each mesh was taken in its own space */
-    MODEL_HAS_MORE = 1 << 28,   /* attributes that no other format knows */
+    MODEL_HAS_MATERIALS = 1 << 15,
+    MODEL_HAS_TEXTURES = 1 << 16,
+    MODEL_HAS_MORE_TEXCOORDS = 1 << 17, /* further sets, or third coordinates */
+    MODEL_HAS_TANGENTS = 1 << 18,
+    MODEL_HAS_FACE_COLOURS = 1 << 19,
+    MODEL_HAS_SMOOTHING = 1 << 20,
+    MODEL_HAS_FREE_FORM = 1 << 21,
+    MODEL_HAS_HIERARCHY = 1 << 22,
+    MODEL_HAS_SKINS = 1 << 23,
+    MODEL_HAS_MORPHS = 1 << 24,
+    MODEL_HAS_ANIMATIONS = 1 << 25,
+    MODEL_HAS_CAMERAS = 1 << 26,
+    MODEL_HAS_HIDDEN = 1 << 27,   /* what the source's scene does not show */
+    MODEL_HAS_PLACES = 1 << 28,   /* nodes' places, where each mesh was taken in its own space */
+    MODEL_HAS_MORE = 1 << 29,     /* attributes that no other format knows */
+    MODEL_HAS_RATIONAL = 1 << 30, /* a fourth coordinate, w, other than 1 */
 } model_feature;
 
 typedef struct mesh_model {

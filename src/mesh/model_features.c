@@ -1,5 +1,6 @@
 #include "base/memory.h"
 #include "mesh/model.h"
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -7,6 +8,9 @@
 /* How far 255 times a colour may be from a whole number: half of the sixth digit that texts have, and some.
  */
 #define BYTE_TOLERANCE 2e-4
+/* What a float may be off, as a part of the model's largest side: half a step of 16-bit quantization, which
+   is commonly taken as good enough. */
+#define FLOAT_TOLERANCE 0x1p-17
 
 static bool same(const double *values, size_t numbers, uint32_t a, uint32_t b)
 {
@@ -153,6 +157,32 @@ static uint32_t features_of_colours(const mesh_model *model)
     return MODEL_HAS_COLOURS;
 }
 
+static double largest_side(const mesh_model *model)
+{
+    double largest = 0;
+    for (size_t axis = 0; axis < 3; axis++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < model->position_count; i++) {
+            low = fmin(low, model->positions[3 * i + axis]);
+            high = fmax(high, model->positions[3 * i + axis]);
+        }
+        largest = fmax(largest, high - low);
+    }
+    return largest;
+}
+
+/* Larger coordinates than floats hold are refused elsewhere. */
+static uint32_t features_of_positions(const mesh_model *model)
+{
+    const double tolerance = FLOAT_TOLERANCE * largest_side(model);
+    for (size_t i = 0; tolerance > 0 && i < 3 * model->position_count; i++) {
+        const double value = model->positions[i];
+        if (fabs(value) <= (double)FLT_MAX && fabs(value - (double)(float)value) > tolerance)
+            return MODEL_HAS_FINE_POSITIONS;
+    }
+    return 0;
+}
+
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
 {
     const ffd_status status = make_cloud(model, error);
@@ -162,7 +192,8 @@ ffd_status ffd_model_finish(mesh_model *model, ffd_error *error)
     if (!numbers)
         return ffd_fail_memory(error);
     scale_colours(model);
-    model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model);
+    model->features |= features_of_corners(model) | features_of_names(model) | features_of_colours(model) |
+                       features_of_positions(model);
     if (ffd_model_normals_by_position(model, numbers))
         model->features |= MODEL_HAS_CORNER_NORMALS;
     if (ffd_model_texcoords_by_position(model, numbers))
@@ -178,6 +209,8 @@ static const struct {
     uint32_t feature, implied_by;
     const char *words;
 } descriptions[] = {
+    {MODEL_HAS_FINE_POSITIONS, 0, "the precision of coordinates that far from the origin"},
+    {MODEL_HAS_RATIONAL, MODEL_HAS_FREE_FORM, "w of vertices"},
     {MODEL_HAS_POLYGONS, 0, "polygons (written as triangles)"},
     {MODEL_HAS_LINES, 0, "lines"},
     {MODEL_HAS_POINTS, 0, "points"},

@@ -572,6 +572,21 @@ def numbers_that_do_not_fit(run):
 
 
 @case
+def places_that_floats_lose(run):
+    """What stands far from the origin, as in a map's coordinates, is another shape in floats."""
+    far = "v 4500000.25 -9000000 100\nv {} -9000000 100\nv 4500000.25 -8999999 100.5\nf 1 2 3\n"
+    run.write("still.json", lattice(low=(0, -1e7, 0), high=(1e7, 0, 1e3), moves=[]))
+    run.write("far.obj", far.format("4500001.3"))
+    for target, name in (("glb", "glTF"), ("stl", "STL")):
+        run.ffd("deform", "far.obj", f"far.{target}", "-l", "still.json",
+                err=f"far.obj: {name} cannot hold: the precision of coordinates that far from the origin")
+    for target in ("ply", "off"):
+        run.ffd("deform", "far.obj", f"far.{target}", "-l", "still.json")
+    run.write("exact.obj", far.format("4500001.5").replace("0.25", "0.5"))
+    run.ffd("deform", "exact.obj", "exact.glb", "-l", "still.json")
+
+
+@case
 def what_a_conversion_needs_to_be_valid(run):
     """A texture coordinate is not looked at until it is converted."""
     run.write("still.json", STILL)

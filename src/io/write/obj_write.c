@@ -97,9 +97,10 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
 
 const model_target ffd_obj_target = {
     .name = "OBJ",
-    .holds = MODEL_HAS_NORMALS | MODEL_HAS_CORNER_NORMALS | MODEL_HAS_TEXCOORDS | MODEL_HAS_CORNER_TEXCOORDS |
-             MODEL_HAS_COLOURS | MODEL_HAS_POLYGONS | MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_LOOSE |
-             MODEL_HAS_OBJECTS | MODEL_HAS_GROUPS | MODEL_HAS_MATERIAL_NAMES,
+    .holds = MODEL_HAS_FINE_POSITIONS | MODEL_HAS_NORMALS | MODEL_HAS_CORNER_NORMALS | MODEL_HAS_TEXCOORDS |
+             MODEL_HAS_CORNER_TEXCOORDS | MODEL_HAS_COLOURS | MODEL_HAS_POLYGONS | MODEL_HAS_LINES |
+             MODEL_HAS_POINTS | MODEL_HAS_LOOSE | MODEL_HAS_OBJECTS | MODEL_HAS_GROUPS |
+             MODEL_HAS_MATERIAL_NAMES,
     .largest_coordinate = DBL_MAX,
     .write = write,
 };

@@ -124,8 +124,9 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
 
 const model_target ffd_off_target = {
     .name = "OFF",
-    .holds = MODEL_HAS_NORMALS | MODEL_HAS_POINT_NORMALS | MODEL_HAS_TEXCOORDS | MODEL_HAS_COLOURS |
-             MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS | MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_LOOSE,
+    .holds = MODEL_HAS_FINE_POSITIONS | MODEL_HAS_NORMALS | MODEL_HAS_POINT_NORMALS | MODEL_HAS_TEXCOORDS |
+             MODEL_HAS_COLOURS | MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS | MODEL_HAS_LINES | MODEL_HAS_POINTS |
+             MODEL_HAS_LOOSE,
     .largest_coordinate = DBL_MAX,
     .write = write,
 };
