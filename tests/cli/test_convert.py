@@ -490,6 +490,16 @@ def colours_go_along(run):
         run.ffd("deform", "fine.obj", f"fine.{target}", "-l", "still.json")
         run.ffd("deform", f"fine.{target}", "b.obj", "-l", "still.json", "--force")
         near([float(run.text("b.obj").split()[4])], [0.123], 1e-8, target)
+    # With alpha, and with w instead.
+    run.write("alpha.obj", "v 0 0 0 1 0 0.2 0.4\nv 1 0 0 0 0 0 1\nv 0 1 0 0 0 1 0\nf 1 2 3\n")
+    run.ffd("deform", "alpha.obj", "alpha.ply", "-l", "still.json")
+    equal([(v["red"], v["green"], v["blue"], v["alpha"]) for v in ply_elements(run.read("alpha.ply"))["vertex"]],
+          [(255, 0, 51, 102), (0, 0, 0, 255), (0, 0, 255, 0)])
+    run.write("w.obj", "v 0 0 0 1\nv 1 0 0 1.0\nv 0 1 0\nf 1 2 3\n")
+    run.ffd("deform", "w.obj", "w.ply", "-l", "still.json")
+    equal(list(ply_elements(run.read("w.ply"))["vertex"][0]), ["x", "y", "z"])
+    run.write("w.obj", "v 0 0 0 1\nv 1 0 0 2\nv 0 1 0\nf 1 2 3\n")
+    run.ffd("deform", "w.obj", "w.off", "-l", "still.json", err="w.obj: OFF cannot hold: w of vertices")
     # Bytes in text.
     run.write("bytes.obj", "v 0 0 0 51 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 102\nf 1 2 3\n")
     run.ffd("deform", "bytes.obj", "bytes.ply", "-l", "still.json")

@@ -4,7 +4,7 @@
 
 typedef struct obj_facts {
     face_sizes sizes;
-    size_t coloured; /* vertices with 6 numbers or more: x y z [w] r g b */
+    size_t coloured; /* vertices with 6 numbers or more: x y z r g b [a] */
     obj_names groups, objects, materials;
     bool failed; /* memory ran out */
 } obj_facts;

@@ -60,19 +60,22 @@ static ffd_status take_texcoord(extractor *e)
     return FFD_OK;
 }
 
-/* x y z [w] r g b. */
-static ffd_status take_colour(extractor *e)
+/* x y z, then nothing, or w, or r g b, or r g b a. */
+static ffd_status take_rest_of_vertex(extractor *e)
 {
     double numbers[7];
-    int count = 0;
+    size_t count = 0;
     text_word word;
     while (count < 7 && ffd_obj_scan_word(&e->walk.scan, &word) && ffd_obj_number(word, &numbers[count]))
         count++;
+    if (count == 4 && (numbers[3] < 1 || numbers[3] > 1))
+        e->model->features |= MODEL_HAS_RATIONAL;
     if (count < 6)
         return FFD_OK;
     const ffd_status status = ffd_model_make_colours(e->model, e->error);
     if (status == FFD_OK)
-        memcpy(e->model->colours + 4 * (e->walk.vertices.seen - 1), numbers + count - 3, 3 * sizeof *numbers);
+        memcpy(e->model->colours + 4 * (e->walk.vertices.seen - 1), numbers + 3,
+               (count - 3) * sizeof *numbers);
     return status;
 }
 
@@ -165,7 +168,7 @@ static ffd_status take_statement(extractor *e)
 {
     switch (e->walk.scan.keyword) {
     case OBJ_VERTEX:
-        return take_colour(e);
+        return take_rest_of_vertex(e);
     case OBJ_TEXCOORD:
         return take_texcoord(e);
     case OBJ_FACE:
