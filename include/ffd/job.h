@@ -87,7 +87,7 @@ typedef struct ffd_deform_desc {
     unsigned fail_on;      /* of ffd_gate */
     bool quality; /* fill the result's folds, flipped faces and det F too: they cost time and memory */
     ffd_normals normals;
-    const char *as_morph; /* glTF: leave the base shape and add the deformation as a morph target of this
+    const char *as_morph; /* to glTF: leave the base shape and add the deformation as a morph target of this
                              name, weight 0; NULL: deform it. ffd_check_run does not look at it. */
     /* only_count selectors "KIND:NAME", or NULL: only what at least one of them names is moved, counted in
        the result and the gates, and inside of a lattice whose box is "mesh"; all else keeps every byte. glTF

@@ -47,15 +47,17 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     return ffd_output_check(desc->output, desc->force, error);
 }
 
-static ffd_status save(const deform_job *job, const mesh_save_options *options, ffd_error *error)
+static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
+    const conversion_morph morph = {job->desc->as_morph, &job->base};
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
     if (status)
         return status;
     ffd_output_record(output, ffd_written_list(job->desc->written));
     status = ffd_conversion_needed(job->document, options->format)
-                 ? ffd_conversion_save(job->document, options, output, &job->log, error)
+                 ? ffd_conversion_save(job->document, job->desc->as_morph ? &morph : NULL, options, output,
+                                       &job->log, error)
                  : job->document->format->save(job->document, options, output, &job->log, error);
     if (!status)
         status = ffd_output_commit(output, error);
@@ -73,14 +75,13 @@ static ffd_status check_morph(const deform_job *job, const mesh_save_options *op
 }
 
 /* Lets the base shape stay where a morph target is wanted. */
-static ffd_status begin_morph(const deform_job *job, ffd_error *error)
+static ffd_status begin_morph(deform_job *job, ffd_error *error)
 {
     const mesh_format *format = job->document->format;
     if (!job->desc->as_morph)
         return FFD_OK;
-    if (!format->keep_base)
-        return ffd_fail_file(error, FFD_E_UNSUPPORTED, ffd_source_name(&job->desc->input),
-                             "gets no morph target: --as-morph needs glTF as input too");
+    if (!format->keep_base) /* then it is a conversion */
+        return format->model(job->document, &job->base, error);
     return format->keep_base(job->document, job->desc->as_morph, error);
 }
 

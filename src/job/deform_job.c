@@ -190,6 +190,7 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
+    ffd_model_free(&job->base);
     ffd_source_close(&job->document);
     ffd_chain_free(&job->chain);
     if (status && error)

@@ -16,6 +16,7 @@ typedef struct deform_job {
     mesh_document *document;
     embedding_file embedding; /* where one is named */
     pass_totals totals;
+    mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
 } deform_job;
 
 /* Clears result and takes desc, after a look at what does not concern the output. Errors: FFD_E_ARGUMENT,

@@ -8,6 +8,8 @@ void ffd_model_free(mesh_model *model)
     ffd_free(model->positions);
     ffd_free(model->texcoords);
     ffd_free(model->normals);
+    ffd_free(model->morph_positions);
+    ffd_free(model->morph_normals);
     ffd_free(model->colours);
     for (int k = 0; k < MODEL_KINDS; k++) {
         ffd_free(model->lists[k].starts);

@@ -78,7 +78,10 @@ typedef enum model_feature {
 typedef struct mesh_model {
     double *positions, *texcoords, *normals; /* 3, 2 and 3 numbers each; texture coordinates with v upwards */
     size_t position_count, texcoord_count, normal_count;
-    double *colours; /* 4 a position, red green blue alpha, 0 to 1; NULL where there are none */
+    /* Where a morph target brings each position and normal; NULL: there is no target. */
+    double *morph_positions, *morph_normals;
+    const char *morph_name; /* of the target, lent */
+    double *colours;        /* 4 a position, red green blue alpha, 0 to 1; NULL where there are none */
     model_list lists[MODEL_KINDS];
     model_run *runs;
     size_t run_count, run_capacity;
@@ -105,6 +108,12 @@ ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner 
 /* Completes a model: colours on a scale of 255 are brought to that of 1; vertices alone become points; and
    features tell of the content. */
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error);
+
+/* Makes what the same document gave before and after it got results one model: the shape before, with a morph
+   target that leads to the shape after. after is left empty. Errors: FFD_E_MEMORY. */
+ffd_status ffd_model_add_morph(mesh_model *before, mesh_model *after, const char *name, ffd_error *error);
+/* Whether the morph target moves anything. */
+bool ffd_model_morphs(const mesh_model *model);
 
 /* The corners of element i. */
 static inline const model_corner *model_element(const model_list *list, size_t i, size_t *count)

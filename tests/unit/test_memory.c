@@ -88,6 +88,7 @@ static ffd_status run_as_morph(ffd_error *error)
     ffd_deform_desc desc = describe();
     ffd_job_result result;
     desc.as_morph = "bent";
+    desc.output_format = FFD_FORMAT_GLB;
     return ffd_deform_run(&desc, &result, error);
 }
 
@@ -224,9 +225,12 @@ static void memory_of_ours(void **state)
 
 static void memory_of_morph_targets(void **state)
 {
-    static const char *const names[] = {"plain", "skin", "morphs", "nodes"};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        take_input("glb", names[i]);
+    static const struct {
+        const char *format, *name;
+    } models[] = {{"glb", "plain"}, {"glb", "skin"},    {"glb", "morphs"}, {"glb", "nodes"},
+                  {"stl", "text"},  {"obj", "normals"}, {"ply", "ascii"}};
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        take_input(models[i].format, models[i].name);
         assert_true(fail_everywhere(input, run_as_morph, ffd_alloc_fail_after) > 30);
         fail_everywhere(input, run_as_morph, cpp_fail_after);
         unlink(input);

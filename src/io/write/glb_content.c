@@ -42,14 +42,6 @@ static void put_floats(gltf_writer *w, const float *values, size_t count)
     }
 }
 
-static void put_position(gltf_writer *w, const model_corner *vertex)
-{
-    float values[3];
-    for (size_t a = 0; a < 3; a++)
-        values[a] = (float)w->model->positions[3 * (size_t)vertex->position + a];
-    put_floats(w, values, 3);
-}
-
 static void put_colour(gltf_writer *w, const model_corner *vertex)
 {
     const double *colour = w->model->colours + 4 * (size_t)vertex->position;
@@ -66,17 +58,27 @@ static void put_colour(gltf_writer *w, const model_corner *vertex)
 static void put_vertex(gltf_writer *w, const model_corner *vertex, int view)
 {
     float values[3] = {0, 0, 0};
-    if (view == VIEW_POSITIONS)
-        put_position(w, vertex);
-    else if (view == VIEW_COLOURS)
-        put_colour(w, vertex);
-    else if (view == VIEW_NORMALS) {
+    switch (view) {
+    case VIEW_POSITIONS:
+        ffd_glb_position(w->model, vertex->position, values);
+        break;
+    case VIEW_NORMALS:
         ffd_glb_normal(w->model, vertex->normal, values);
-        put_floats(w, values, 3);
-    } else {
+        break;
+    case VIEW_TEXCOORDS:
         ffd_glb_texcoord(w->model, vertex->texcoord, values);
-        put_floats(w, values, 2);
+        break;
+    case VIEW_POSITION_OFFSETS:
+        ffd_glb_position_offset(w->model, vertex->position, values);
+        break;
+    case VIEW_NORMAL_OFFSETS:
+        ffd_glb_normal_offset(w->model, vertex->normal, values);
+        break;
+    default:
+        put_colour(w, vertex);
+        return;
     }
+    put_floats(w, values, view == VIEW_TEXCOORDS ? 2 : 3);
 }
 
 static void put_indices(gltf_writer *w, const glb_primitive *primitive)
@@ -96,6 +98,10 @@ static bool has_view(const gltf_writer *w, const glb_primitive *primitive, int v
         return primitive->normals;
     case VIEW_TEXCOORDS:
         return primitive->texcoords;
+    case VIEW_POSITION_OFFSETS:
+        return primitive->morphs;
+    case VIEW_NORMAL_OFFSETS:
+        return primitive->morphs && primitive->normals;
     case VIEW_SHORT:
         return glb_has_short_indices(primitive);
     case VIEW_LONG:

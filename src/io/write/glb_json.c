@@ -9,7 +9,7 @@ enum { TARGET_VERTICES = 34962, TARGET_INDICES = 34963 };
 
 static void add_views(gltf_writer *w)
 {
-    const size_t strides[VIEW_COUNT] = {12, 12, 8, glb_colour_size(w), 0, 0};
+    const size_t strides[VIEW_COUNT] = {12, 12, 8, glb_colour_size(w), 12, 12, 0, 0};
     ffd_json_array(&w->json, "bufferViews", false);
     for (int v = 0; v < VIEW_COUNT; v++) {
         if (w->sizes[v] == 0)
@@ -38,13 +38,16 @@ static void begin_accessor(gltf_writer *w, int view, size_t element, int compone
     w->filled[view] += element * count;
 }
 
-static void add_bounds(gltf_writer *w, const glb_primitive *primitive)
+typedef void value_of_position(const mesh_model *model, uint32_t number, float values[3]);
+
+static void add_bounds(gltf_writer *w, const glb_primitive *primitive, value_of_position *read)
 {
     double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, largest[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (size_t i = 0; i < primitive->vertex_count; i++) {
-        const size_t position = w->plan.vertices[primitive->first_vertex + i].position;
+        float values[3];
+        read(w->model, w->plan.vertices[primitive->first_vertex + i].position, values);
         for (size_t a = 0; a < 3; a++) {
-            const double value = (float)w->model->positions[3 * position + a];
+            const double value = values[a];
             least[a] = value < least[a] ? value : least[a];
             largest[a] = value > largest[a] ? value : largest[a];
         }
@@ -53,11 +56,22 @@ static void add_bounds(gltf_writer *w, const glb_primitive *primitive)
     ffd_json_vector(&w->json, "max", largest, 3);
 }
 
+static void add_offsets_of(gltf_writer *w, const glb_primitive *primitive)
+{
+    begin_accessor(w, VIEW_POSITION_OFFSETS, 12, TYPE_FLOAT, primitive->vertex_count, "VEC3");
+    add_bounds(w, primitive, ffd_glb_position_offset);
+    ffd_json_end(&w->json, '}');
+    if (!primitive->normals)
+        return;
+    begin_accessor(w, VIEW_NORMAL_OFFSETS, 12, TYPE_FLOAT, primitive->vertex_count, "VEC3");
+    ffd_json_end(&w->json, '}');
+}
+
 static void add_accessors_of(gltf_writer *w, const glb_primitive *primitive)
 {
     const size_t count = primitive->vertex_count;
     begin_accessor(w, VIEW_POSITIONS, 12, TYPE_FLOAT, count, "VEC3");
-    add_bounds(w, primitive);
+    add_bounds(w, primitive, ffd_glb_position);
     ffd_json_end(&w->json, '}');
     if (primitive->normals) {
         begin_accessor(w, VIEW_NORMALS, 12, TYPE_FLOAT, count, "VEC3");
@@ -80,6 +94,8 @@ static void add_accessors_of(gltf_writer *w, const glb_primitive *primitive)
                        primitive->index_count, "SCALAR");
         ffd_json_end(&w->json, '}');
     }
+    if (primitive->morphs)
+        add_offsets_of(w, primitive);
 }
 
 static void add_accessors(gltf_writer *w)
@@ -111,6 +127,30 @@ static void add_name(gltf_writer *w, uint32_t mesh)
     ffd_free(name);
 }
 
+static void add_target(gltf_writer *w, const glb_primitive *primitive)
+{
+    ffd_json_array(&w->json, "targets", true);
+    ffd_json_object(&w->json, NULL, true);
+    ffd_json_count(&w->json, "POSITION", w->accessors++);
+    if (primitive->normals)
+        ffd_json_count(&w->json, "NORMAL", w->accessors++);
+    ffd_json_end(&w->json, '}');
+    ffd_json_end(&w->json, ']');
+}
+
+/* The target's weight and name. */
+static void add_morph(gltf_writer *w)
+{
+    ffd_json_array(&w->json, "weights", true);
+    ffd_json_count(&w->json, NULL, 0);
+    ffd_json_end(&w->json, ']');
+    ffd_json_object(&w->json, "extras", true);
+    ffd_json_array(&w->json, "targetNames", true);
+    ffd_json_string(&w->json, NULL, w->model->morph_name);
+    ffd_json_end(&w->json, ']');
+    ffd_json_end(&w->json, '}');
+}
+
 static void add_primitive(gltf_writer *w, const glb_primitive *primitive)
 {
     static const unsigned modes[MODEL_KINDS] = {4, 1, 0};
@@ -129,6 +169,8 @@ static void add_primitive(gltf_writer *w, const glb_primitive *primitive)
     if (primitive->material != MODEL_NONE)
         ffd_json_count(&w->json, "material", primitive->material);
     ffd_json_count(&w->json, "mode", modes[primitive->kind]);
+    if (primitive->morphs)
+        add_target(w, primitive);
     ffd_json_end(&w->json, '}');
 }
 
@@ -140,10 +182,15 @@ static void add_meshes(gltf_writer *w)
     for (uint32_t m = 0; m < plan->meshes.count; m++) {
         ffd_json_object(&w->json, NULL, false);
         add_name(w, m);
+        bool morphs = false;
         ffd_json_array(&w->json, "primitives", false);
-        for (; i < plan->primitive_count && plan->primitives[plan->by_mesh[i]].mesh == m; i++)
+        for (; i < plan->primitive_count && plan->primitives[plan->by_mesh[i]].mesh == m; i++) {
             add_primitive(w, &plan->primitives[plan->by_mesh[i]]);
+            morphs = plan->primitives[plan->by_mesh[i]].morphs;
+        }
         ffd_json_end(&w->json, ']');
+        if (morphs)
+            add_morph(w);
         ffd_json_end(&w->json, '}');
     }
     ffd_json_end(&w->json, ']');

@@ -1,6 +1,5 @@
 #include "io/write/glb_plan.h"
 #include "base/memory.h"
-#include "base/vec.h"
 #include "io/write/triangles.h"
 #include <float.h>
 #include <stdlib.h>
@@ -25,32 +24,18 @@ typedef struct primitive_key {
     uint32_t mesh, material, kind, normals, texcoords;
 } primitive_key;
 
-static float finite_float(double value)
-{
-    return fabs(value) <= (double)FLT_MAX ? (float)value + 0.0f : 0.0f; /* -0 becomes 0 */
-}
-
-void ffd_glb_texcoord(const mesh_model *model, uint32_t number, float values[2])
-{
-    values[0] = finite_float(model->texcoords[2 * (size_t)number]);
-    values[1] = finite_float(1 - model->texcoords[2 * (size_t)number + 1]); /* glTF's v goes down */
-}
-
-bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3])
-{
-    const double *normal = model->normals + 3 * (size_t)number;
-    const double length = vec_length(normal);
-    if (!(length > 0) || !isfinite(length))
-        return false;
-    for (int a = 0; a < 3; a++)
-        values[a] = finite_float(normal[a] / length);
-    return true;
-}
-
 static bool read_texcoord(const mesh_model *model, uint32_t number, float *values)
 {
     ffd_glb_texcoord(model, number, values);
     return true;
+}
+
+/* With the offset, where there is a morph target. */
+static bool read_normal(const mesh_model *model, uint32_t number, float *values)
+{
+    if (model->morph_normals)
+        ffd_glb_normal_offset(model, number, values + 3);
+    return ffd_glb_normal(model, number, values);
 }
 
 typedef bool value_reader(const mesh_model *model, uint32_t number, float *values);
@@ -66,7 +51,7 @@ static ffd_status join_values(planner *p, size_t count, value_reader *read, size
     if (!*numbers || !first)
         status = ffd_fail_memory(p->error);
     for (size_t i = 0; i < count && status == FFD_OK; i++) {
-        float value[3];
+        float value[6];
         uint32_t number;
         const size_t known = values.count;
         (*numbers)[i] = MODEL_NONE;
@@ -326,13 +311,50 @@ static ffd_status make_vertices(planner *p)
     return FFD_OK;
 }
 
+static bool is_zero(const float values[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (values[a] < 0 || values[a] > 0)
+            return false;
+    return true;
+}
+
+static bool is_moved(const glb_plan *plan, const glb_primitive *primitive)
+{
+    for (size_t i = 0; i < primitive->vertex_count; i++) {
+        const model_corner *vertex = &plan->vertices[primitive->first_vertex + i];
+        float offset[3], turn[3] = {0, 0, 0};
+        ffd_glb_position_offset(plan->model, vertex->position, offset);
+        if (primitive->normals)
+            ffd_glb_normal_offset(plan->model, vertex->normal, turn);
+        if (!is_zero(offset) || !is_zero(turn))
+            return true;
+    }
+    return false;
+}
+
+/* A mesh has the target where something in it moves: then all its primitives have it. */
+static ffd_status mark_morphs(glb_plan *plan, ffd_error *error)
+{
+    bool *meshes = ffd_alloc_zero(plan->meshes.count, sizeof *meshes);
+    if (!meshes)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < plan->primitive_count; i++)
+        meshes[plan->primitives[i].mesh] =
+            meshes[plan->primitives[i].mesh] || is_moved(plan, &plan->primitives[i]);
+    for (size_t i = 0; i < plan->primitive_count; i++)
+        plan->primitives[i].morphs = meshes[plan->primitives[i].mesh];
+    ffd_free(meshes);
+    return FFD_OK;
+}
+
 ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error *error)
 {
     planner p = {.plan = plan, .model = model, .error = error};
     *plan = (glb_plan){.model = model};
     ffd_status status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
     if (status == FFD_OK)
-        status = join_values(&p, model->normal_count, ffd_glb_normal, 3, &p.normals);
+        status = join_values(&p, model->normal_count, read_normal, model->morph_normals ? 6 : 3, &p.normals);
     if (status == FFD_OK)
         status = assign_all(&p);
     if (status == FFD_OK)
@@ -341,6 +363,8 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
         status = sort_primitives(&p);
     if (status == FFD_OK)
         status = make_vertices(&p);
+    if (status == FFD_OK && model->morph_positions)
+        status = mark_morphs(plan, error);
     for (int k = 0; k < MODEL_KINDS; k++) {
         ffd_free(p.primitive_of[k]);
         ffd_free(p.elements[k]);

@@ -9,6 +9,7 @@ typedef struct glb_primitive {
     uint32_t mesh, material; /* material: MODEL_NONE: none */
     model_kind kind;
     bool normals, texcoords;
+    bool morphs;                       /* has a morph target, as all primitives of its mesh */
     size_t first_vertex, vertex_count; /* in plan->vertices */
     size_t first_index, index_count;   /* in plan->indices; points have none */
     size_t elements;                   /* of the model */
@@ -35,5 +36,9 @@ void ffd_glb_free_plan(glb_plan *plan);
 void ffd_glb_texcoord(const mesh_model *model, uint32_t number, float values[2]);
 /* A unit vector; false where the model's normal has no direction. */
 bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3]);
+void ffd_glb_position(const mesh_model *model, uint32_t number, float values[3]);
+/* What the morph target adds to them. */
+void ffd_glb_position_offset(const mesh_model *model, uint32_t number, float values[3]);
+void ffd_glb_normal_offset(const mesh_model *model, uint32_t number, float values[3]);
 
 #endif

@@ -15,6 +15,9 @@ static void measure(gltf_writer *w)
         w->sizes[VIEW_NORMALS] += primitive->normals ? 12 * primitive->vertex_count : 0;
         w->sizes[VIEW_TEXCOORDS] += primitive->texcoords ? 8 * primitive->vertex_count : 0;
         w->sizes[VIEW_COLOURS] += w->model->colours ? glb_colour_size(w) * primitive->vertex_count : 0;
+        w->sizes[VIEW_POSITION_OFFSETS] += primitive->morphs ? 12 * primitive->vertex_count : 0;
+        w->sizes[VIEW_NORMAL_OFFSETS] +=
+            primitive->morphs && primitive->normals ? 12 * primitive->vertex_count : 0;
         if (glb_has_short_indices(primitive))
             w->sizes[VIEW_SHORT] += 2 * primitive->index_count;
         else

@@ -14,7 +14,17 @@
 #define GLB_SHORT_INDEX_VERTICES 65535
 
 /* The bufferViews, in this order; one that is empty is left out. */
-enum { VIEW_POSITIONS, VIEW_NORMALS, VIEW_TEXCOORDS, VIEW_COLOURS, VIEW_SHORT, VIEW_LONG, VIEW_COUNT };
+enum {
+    VIEW_POSITIONS,
+    VIEW_NORMALS,
+    VIEW_TEXCOORDS,
+    VIEW_COLOURS,
+    VIEW_POSITION_OFFSETS, /* of the morph target */
+    VIEW_NORMAL_OFFSETS,
+    VIEW_SHORT,
+    VIEW_LONG,
+    VIEW_COUNT
+};
 
 typedef struct gltf_writer {
     const mesh_model *model;
