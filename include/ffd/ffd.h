@@ -7,6 +7,7 @@
 #include <ffd/error.h>
 #include <ffd/export.h>
 #include <ffd/fold.h>
+#include <ffd/isa.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <ffd/version.h>

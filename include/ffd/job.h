@@ -5,6 +5,7 @@
 #include <ffd/embedding.h>
 #include <ffd/error.h>
 #include <ffd/export.h>
+#include <ffd/isa.h>
 #include <ffd/fold.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
@@ -97,6 +98,7 @@ typedef struct ffd_deform_desc {
     size_t only_count;
     ffd_resources resources;
     int threads;          /* 0: all cores. Never changes a byte of the output. */
+    ffd_isa isa;          /* nor does this. FFD_E_ARGUMENT for one that is not available. */
     bool force;           /* overwrite an existing output */
     bool in_place;        /* output is the input (output is NULL then) */
     ffd_written *written; /* of the run, or NULL */

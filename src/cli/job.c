@@ -63,6 +63,7 @@ static bool add_gates(void *context, const cli_option *option, const char *value
 /* In the order of the enums. */
 static const char *const outside_names[] = {"keep", "extend", "error", NULL};
 static const char *const normals_names[] = {"transform", "keep", "recompute", NULL};
+static const char *const isa_names[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
 static const char *const space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(cli_job, field)
@@ -93,6 +94,8 @@ const cli_option cli_job_options[] = {
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
     {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),
      NULL},
+    {"isa", 0, "auto|scalar|sse2|avx2|avx512",
+     "instructions of the kernels; never changes a byte; default auto", cli_set_choice, AT(isa), isa_names},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
@@ -197,6 +200,7 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->only = job->only;
     desc->only_count = job->only_count;
     desc->threads = job->threads;
+    desc->isa = (ffd_isa)job->isa;
     desc->written = job->written;
     desc->log = cli_log;
     desc->log_user = &job->talk;

@@ -16,7 +16,7 @@ typedef struct cli_job {
     const char *as_morph;
     unsigned fail_on; /* of ffd_gate */
     const char *report;
-    int threads;
+    int threads, isa;
     ffd_format input_format;
     bool stable;
     ffd_written *written; /* by the jobs so far */

@@ -1,13 +1,53 @@
-/* displacement.h - the displacement by the lattice's own parameters (public: ffd/deform.h). */
+/* displacement.h - the displacement of many points at once, and by the lattice's own parameters (public:
+   ffd/deform.h). */
 #ifndef FFD_DEFORM_DISPLACEMENT_H
 #define FFD_DEFORM_DISPLACEMENT_H
 
+#include "base/isa.h"
+#include "deform/kernel.h"
 #include "lattice/lattice.h"
 #include <ffd/deform.h>
+#include <stdint.h>
 
 /* The displacement at u,v,w as ffd_displacement gives it, and by_uvw[3*r+c] = d delta_r / d uvw_c: right-hand
    at an inner knot, left-hand at the end of the domain. Returns as ffd_displacement. */
 int ffd_displacement_by_uvw(const ffd_lattice *lattice, const double uvw[3], double delta[3],
                             double by_uvw[9]);
+
+/* Most points of a batch. */
+#define DISPLACEMENT_BATCH ((size_t)1024)
+
+/* A cell of a batch, and which of its points lie in it. */
+typedef struct batch_cell {
+    size_t span[3]; /* numbers of its non-empty spans */
+    size_t key;     /* its number in the lattice */
+    uint32_t first, count;
+} batch_cell;
+
+/* What a batch needs beside its results; of one thread. */
+typedef struct displacement_scratch {
+    double uvw[3 * DISPLACEMENT_BATCH], jacobian[9 * DISPLACEMENT_BATCH];
+    double difference[3 * CELL_POINTS], rest[3 * CELL_POINTS]; /* of one cell */
+    batch_cell cells[DISPLACEMENT_BATCH];
+    size_t cell_count;
+    uint16_t cell_of[DISPLACEMENT_BATCH];     /* of each wanted point */
+    uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* cells by their keys */
+    uint32_t sorted[DISPLACEMENT_BATCH];      /* the wanted points' numbers, cell by cell */
+} displacement_scratch;
+
+typedef struct displacement_batch {
+    const double *uvw; /* of point n from uvw[n * stride] on, in the domain */
+    size_t stride;
+    const uint32_t *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted */
+    size_t count;
+    double *delta;    /* 3 for each of them, from delta[3 n] on */
+    double *gradient; /* 9 likewise; or NULL */
+    uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
+} displacement_batch;
+
+/* ffd_displacement for every point of the batch, with the same bits, whatever the instruction set and the
+   order and company of the points. */
+void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
+                       displacement_scratch *scratch);
 
 #endif

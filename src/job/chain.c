@@ -4,7 +4,6 @@
 #include "base/vec.h"
 #include "deform/extension.h"
 #include "lattice/lattice.h"
-#include <ffd/deform.h>
 #include <string.h>
 
 ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside,
@@ -103,63 +102,82 @@ static void note_location(const ffd_lattice *lattice, const ffd_location *locati
     memcpy(point->uvw, location->uvw, sizeof point->uvw);
 }
 
-/* *moves: false where the point stays. gradient may be NULL. */
-static ffd_status find_displacement(const chain_link *link, const ffd_location *location, const double x[3],
-                                    chain_point *point, bool *moves, double delta[3], double *gradient,
-                                    ffd_error *error)
+/* The displacement of a point outside, into where the batch puts those of the others. */
+static ffd_status extend(const chain_link *link, const chain_run *run, size_t i, ffd_error *error)
 {
+    chain_scratch *scratch = run->scratch;
+    chain_point *point = &run->points[i];
     boundary_point nearest;
-    *moves = false;
-    if (has_place(location)) {
-        *moves = ffd_displacement(link->lattice, location->uvw, delta, gradient);
-        return FFD_OK;
-    }
-    if (location->status == FFD_POINT_INVALID || !link->border)
+    scratch->moves[i] = 0;
+    if (scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
-    const ffd_status status = ffd_boundary_find(link->border, x, reach, &nearest, error);
+    const ffd_status status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
     if (status || !nearest.found)
         return status;
     point->extended = point->extended || nearest.distance < reach || !(link->falloff > 0);
-    *moves = ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
+    scratch->moves[i] =
+        (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, scratch->delta + 3 * i,
+                                            run->gradients ? scratch->gradient + 9 * i : NULL);
     return FFD_OK;
 }
 
-static ffd_status displace(const chain_link *link, const ffd_location *location, bool gradients, double x[3],
-                           chain_point *point, ffd_error *error)
+static ffd_status find_displacements(const lattice_chain *chain, const chain_link *link, const chain_run *run,
+                                     ffd_error *error)
 {
-    double delta[3], gradient[9];
-    bool moves;
-    const ffd_status status =
-        find_displacement(link, location, x, point, &moves, delta, gradients ? gradient : NULL, error);
-    if (status || !moves)
-        return status;
+    chain_scratch *scratch = run->scratch;
+    displacement_batch batch = {.uvw = scratch->locations[0].uvw,
+                                .stride = sizeof *scratch->locations / sizeof(double),
+                                .which = scratch->inside,
+                                .delta = scratch->delta,
+                                .gradient = run->gradients ? scratch->gradient : NULL,
+                                .moves = scratch->moves};
+    for (size_t i = 0; i < run->count; i++) {
+        const ffd_status status = has_place(&scratch->locations[i]) ? FFD_OK : extend(link, run, i, error);
+        if (status)
+            return status;
+        if (has_place(&scratch->locations[i]))
+            scratch->inside[batch.count++] = (uint32_t)i;
+    }
+    ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
+    return FFD_OK;
+}
+
+static void displace(const chain_run *run, size_t i)
+{
+    chain_point *point = &run->points[i];
+    const double *delta = run->scratch->delta + 3 * i, *gradient = run->scratch->gradient + 9 * i;
     for (int a = 0; a < 3; a++)
         if (delta[a] != 0) {
-            x[a] += delta[a];
+            run->x[3 * i + (size_t)a] += delta[a];
             point->delta[a] += delta[a];
         }
-    if (gradients)
+    if (run->gradients && point->moved)
         compose(point->gradient, gradient);
-    return FFD_OK;
+    else if (run->gradients)
+        memcpy(point->gradient, gradient, sizeof point->gradient);
+    point->moved = true;
 }
 
 ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error)
 {
+    chain_scratch *scratch = run->scratch;
     memset(run->points, 0, run->count * sizeof *run->points);
     for (size_t l = 0; l < links; l++) {
         const chain_link *link = &chain->links[l];
         const double start = ffd_clock_seconds();
         ffd_status status = FFD_OK;
         if (l > 0 || !run->located)
-            status = ffd_locator_find(link->locator, run->x, run->count, run->locations, error);
+            status = ffd_locator_find(link->locator, run->x, run->count, scratch->locations, error);
         const double middle = ffd_clock_seconds();
         run->embed_seconds += middle - start;
-        for (size_t i = 0; i < run->count && !status; i++) {
-            note_location(link->lattice, &run->locations[i], &run->points[i]);
-            status =
-                displace(link, &run->locations[i], run->gradients, run->x + 3 * i, &run->points[i], error);
-        }
+        for (size_t i = 0; i < run->count && !status; i++)
+            note_location(link->lattice, &scratch->locations[i], &run->points[i]);
+        if (!status)
+            status = find_displacements(chain, link, run, error);
+        for (size_t i = 0; i < run->count && !status; i++)
+            if (scratch->moves[i])
+                displace(run, i);
         run->deform_seconds += ffd_clock_seconds() - middle;
         if (status)
             return status;

@@ -3,6 +3,7 @@
 #define FFD_JOB_CHAIN_H
 
 #include "base/fail.h"
+#include "deform/displacement.h"
 #include "embed/boundary.h"
 #include "embed/box_tree.h"
 #include <ffd/embedding.h>
@@ -27,6 +28,7 @@ typedef struct lattice_chain {
     chain_link *links;
     size_t count;
     chain_outside outside;
+    ffd_isa isa; /* of the kernels; changes no bit */
 } lattice_chain;
 
 ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside,
@@ -48,6 +50,7 @@ typedef struct chain_point {
     double uvw[3];          /* of the last link */
     uint32_t evaluations;
     uint8_t status;  /* ffd_vertex_status, the highest of the links' */
+    bool moved;      /* some link's control points act on it: delta and gradient are more than zeros */
     bool located;    /* has u,v,w in some link */
     bool outside;    /* of some link */
     bool multiple;   /* in some link */
@@ -55,13 +58,25 @@ typedef struct chain_point {
     bool extended;   /* by a link that it is outside of: its border was there, and within the falloff */
 } chain_point;
 
+/* Most points of a run. */
+#define CHAIN_RUN DISPLACEMENT_BATCH
+
+/* What one thread needs to send runs through the chain. */
+typedef struct chain_scratch {
+    ffd_location locations[CHAIN_RUN];
+    double delta[3 * CHAIN_RUN], gradient[9 * CHAIN_RUN];
+    uint32_t inside[CHAIN_RUN]; /* points that have a place */
+    uint8_t moves[CHAIN_RUN];
+    displacement_scratch displacement;
+} chain_scratch;
+
 /* A run of points on its way through the chain. */
 typedef struct chain_run {
-    double *x; /* 3 a point, changed to their new places */
-    size_t count;
+    double *x;                            /* 3 a point, changed to their new places */
+    size_t count;                         /* CHAIN_RUN at most */
     bool gradients;                       /* wanted */
     bool located;                         /* the first link's locations are there already */
-    ffd_location *locations;              /* count; else scratch */
+    chain_scratch *scratch;               /* scratch->locations are they */
     chain_point *points;                  /* count, filled */
     double embed_seconds, deform_seconds; /* the time taken is added */
 } chain_run;

@@ -48,6 +48,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is no length", desc->falloff);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "a falloff has a meaning only where the outside is extended");
+    if (!ffd_isa_available(desc->isa))
+        return ffd_fail(error, FFD_E_ARGUMENT, "this processor does not have the instruction set asked for");
     return check_embedding(desc, error);
 }
 
@@ -73,6 +75,7 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
     ffd_status status = ffd_chain_load(desc->lattices, desc->lattice_count, &outside, &job->chain, error);
+    job->chain.isa = desc->isa;
     if (!status)
         status = ffd_source_open(&desc->input, &job->document, error);
     if (!status)

@@ -282,7 +282,7 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
         return false;
     for (size_t i = 0; i < scratch->chosen_count; i++)
         ffd_embedding_locate(pass->embedding, (size_t)work->first_vertex + first + scratch->chosen[i],
-                             pass->chain->links[0].lattice, scratch->place + 3 * i, &scratch->locations[i]);
+                             pass->chain->links[0].lattice, scratch->place + 3 * i, &scratch->chain.locations[i]);
     return true;
 }
 
@@ -338,7 +338,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
                      .count = scratch->chosen_count,
                      .gradients = gradients,
                      .located = recall(work, scratch, first),
-                     .locations = scratch->locations,
+                     .scratch = &scratch->chain,
                      .points = scratch->points};
     scratch->status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
     totals->embed_seconds = run.embed_seconds;

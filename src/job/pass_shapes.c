@@ -81,7 +81,7 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
     chain_run run = {.x = s->place,
                      .count = s->moved_count,
                      .gradients = gradients,
-                     .locations = s->locations,
+                     .scratch = &work->tile->chain,
                      .points = s->moved_points};
     const ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, error);
     work->totals->embed_seconds += run.embed_seconds;

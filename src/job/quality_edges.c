@@ -53,7 +53,7 @@ typedef struct edge_scratch {
     sample_request requests[BATCH];
     double x[3 * BATCH], delta[3 * BATCH];
     chain_point points[BATCH];
-    ffd_location locations[BATCH];
+    chain_scratch chain;
 } edge_scratch;
 
 typedef struct edge_tile {
@@ -231,10 +231,10 @@ static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
 {
     memset(scratch->delta, 0, 3 * scratch->requested * sizeof(double));
     for (size_t k = 0; k < work->chain->count; k++) {
-        const lattice_chain link = {&work->chain->links[k], 1, work->chain->outside};
+        const lattice_chain link = {&work->chain->links[k], 1, work->chain->outside, work->chain->isa};
         chain_run run = {.x = scratch->x,
                          .count = scratch->requested,
-                         .locations = scratch->locations,
+                         .scratch = &scratch->chain,
                          .points = scratch->points};
         const ffd_status status = ffd_chain_apply(&link, 1, &run, NULL);
         if (status)

@@ -8,14 +8,13 @@
 
 #define PASS_TILE VERTEX_PLACES
 
-/* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place,
-   locations and points stand one behind the other. */
+/* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place and
+   points stand one behind the other. */
 typedef struct shape_scratch {
     double offsets[3 * PASS_TILE]; /* as the file has them, then what becomes of them */
     double place[3 * PASS_TILE];
     size_t moved[PASS_TILE];
     size_t moved_count;
-    ffd_location locations[PASS_TILE];
     chain_point moved_points[PASS_TILE];
     const chain_point *points[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
     double base[3 * PASS_TILE];           /* positions or directions without the target */
@@ -31,7 +30,7 @@ typedef struct tile_scratch {
     double before[3 * PASS_TILE];
     size_t chosen[PASS_TILE]; /* vertices of the tile that are selected */
     size_t chosen_count;
-    ffd_location locations[PASS_TILE]; /* of the chosen ones */
+    chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
     chain_point points[PASS_TILE];
     uint8_t changed[PASS_TILE];
     vertex_places places;

@@ -1,6 +1,7 @@
 #include "lattice/lattice.h"
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/vec.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -104,6 +105,17 @@ static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
+/* d uvw / d t times the inverse of d p / d t. */
+static void make_inverse(ffd_lattice *lattice)
+{
+    lattice->has_uvw_by_p = lattice->form == REST_BOX_AFFINE && mat_invert(lattice->frame, lattice->uvw_by_p);
+    for (int a = 0; a < 3 && lattice->has_uvw_by_p; a++) {
+        const double side = ffd_knots_last(&lattice->knots[a]) - ffd_knots_first(&lattice->knots[a]);
+        for (int c = 0; c < 3; c++)
+            lattice->uvw_by_p[3 * a + c] *= side;
+    }
+}
+
 ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error)
 {
     ffd_status status = check_points(lattice, error);
@@ -118,6 +130,7 @@ ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error)
     if (!lattice->difference || !lattice->moved)
         return ffd_fail_memory(error);
     lattice->weights_moved = false;
+    make_inverse(lattice);
     return make_difference(lattice, error);
 }
 

@@ -31,6 +31,8 @@ struct ffd_lattice {
     rest_form form;
     double origin[3]; /* REST_BOX_AFFINE: C at the domain's lower corner */
     double frame[9];  /* REST_BOX_AFFINE: columns are the box's sides */
+    double uvw_by_p[9]; /* REST_BOX_AFFINE: d uvw_r / d p_c, the same everywhere */
+    bool has_uvw_by_p;  /* false where the box is too flat for it, and in the other form */
 
     /* The displacement of the control points, made once when the lattice is built. */
     double *difference;   /* Q - P, 3*count */

@@ -1,6 +1,7 @@
 #include "spline/knots.h"
 #include "base/memory.h"
 #include "base/number.h"
+#include "spline/basis.h"
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -251,8 +252,12 @@ ffd_status ffd_knots_make(knot_kind kind, int degree, size_t points, const doubl
     fill_knots(knots, list);
     find_spans(knots);
     status = check_widths(knots, direction, error);
-    if (!status)
+    if (status)
+        goto fail;
+    knots->extractions = ffd_bezier_extractions(knots);
+    if (knots->extractions)
         return FFD_OK;
+    status = ffd_fail_memory(error);
 fail:
     ffd_knots_free(knots);
     return status;
@@ -262,6 +267,7 @@ void ffd_knots_free(knot_vector *knots)
 {
     ffd_free(knots->t);
     ffd_free(knots->spans);
+    ffd_free(knots->extractions);
     *knots = (knot_vector){0};
 }
 
@@ -295,7 +301,7 @@ double ffd_knots_wrap(const knot_vector *knots, double u)
     return u > last ? last : u;
 }
 
-int ffd_knots_span(const knot_vector *knots, double u)
+size_t ffd_knots_span_number(const knot_vector *knots, double u)
 {
     size_t low = 0, high = knots->span_count;
     while (high - low > 1) {
@@ -305,7 +311,12 @@ int ffd_knots_span(const knot_vector *knots, double u)
         else
             high = middle;
     }
-    return knots->spans[low];
+    return low;
+}
+
+int ffd_knots_span(const knot_vector *knots, double u)
+{
+    return knots->spans[ffd_knots_span_number(knots, u)];
 }
 
 double ffd_knots_greville(const knot_vector *knots, size_t function)

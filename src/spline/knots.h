@@ -30,6 +30,7 @@ typedef struct knot_vector {
     double *t;        /* functions + degree + 1 knots */
     int *spans;       /* the non-empty spans of the domain, ascending: indices s with t_s < t_{s+1} */
     size_t span_count;
+    double *extractions; /* the Bezier form of each non-empty span (basis.h), (degree + 1)^2 numbers each */
 } knot_vector;
 
 /* Makes the knots of a kind; list holds the knots or breakpoints of the two list kinds (list_count of them),
@@ -54,6 +55,8 @@ double ffd_knots_wrap(const knot_vector *knots, double u);
 /* The span s of the domain with t_s <= u < t_{s+1}, clipped to the first and last non-empty one (P&T A2.1).
  */
 int ffd_knots_span(const knot_vector *knots, double u);
+/* Its place among the non-empty ones. */
+size_t ffd_knots_span_number(const knot_vector *knots, double u);
 
 /* The control point of basis function i. */
 static inline size_t ffd_knots_point(const knot_vector *knots, size_t function)

@@ -1,0 +1,10 @@
+/* isa.h - the instruction sets that kernels are compiled for, and which of them this processor has. */
+#ifndef FFD_BASE_ISA_H
+#define FFD_BASE_ISA_H
+
+#include <ffd/isa.h>
+
+/* The best of this processor. Never FFD_ISA_AUTO. */
+ffd_isa ffd_isa_best(void);
+
+#endif

@@ -1,0 +1,229 @@
+/* kernel.c - compiled once for each instruction set: FFD_KERNEL is the function's name, FFD_LANES the number
+   of points that it has in hand at a time.
+
+   The basis functions of a span are those of its Bezier form: N_j = sum_r E_rj B_r(t), all terms >= 0, and
+   exact at both ends of the span (P&T 1.4, 5.3). The tensor product is summed u first, then v, then w, each
+   in ascending index (P&T A4.3's order by separation). */
+#include "deform/kernel.h"
+#include <stdbool.h>
+
+#if FFD_LANES == 1
+typedef double lanes;
+#else
+typedef double lanes __attribute__((vector_size(8 * FFD_LANES)));
+#endif
+
+/* The d+1 functions of a span and their derivatives by the knots' parameter. */
+typedef struct span_basis {
+    lanes value[MAX_ORDER], derivative[MAX_ORDER];
+} span_basis;
+
+/* A sum over control points (part 0) and its derivatives by u, v, w (parts 1 to 3) as far as they are there.
+ */
+typedef struct field_sum {
+    lanes part[4][3];
+} field_sum;
+
+/* From the Bernstein polynomials of degree - 1 to those of this degree, in place (P&T A1.3). */
+static inline void raise_bernstein(int degree, lanes t, lanes rest, lanes *value)
+{
+    lanes from_left = value[0] * t;
+    value[0] = value[0] * rest;
+    for (int r = 1; r < degree; r++) {
+        const lanes lower = value[r];
+        value[r] = from_left + lower * rest;
+        from_left = lower * t;
+    }
+    value[degree] = from_left;
+}
+
+/* sum_r E_rj b_r for every j. */
+static inline void extract(int degree, const double *extraction, const lanes *bernstein, lanes *value)
+{
+    for (int j = 0; j <= degree; j++) {
+        lanes sum = extraction[j] * bernstein[0];
+        for (int r = 1; r <= degree; r++)
+            sum += extraction[r * (degree + 1) + j] * bernstein[r];
+        value[j] = sum;
+    }
+}
+
+static inline void find_basis(const kernel_cell *cell, int a, int degree, lanes u, bool derivatives,
+                              span_basis *basis)
+{
+    const lanes t = (u - cell->first[a]) / cell->width[a], rest = 1.0 - t;
+    lanes bernstein[MAX_ORDER], slope[MAX_ORDER];
+    bernstein[0] = rest;
+    bernstein[1] = t;
+    for (int d = 2; d < degree; d++)
+        raise_bernstein(d, t, rest, bernstein);
+    if (derivatives) {
+        /* B'_r = d (B_{r-1} - B_r), these of degree d - 1 (P&T 1.4). */
+        const double factor = degree / cell->width[a];
+        if (degree == 1) {
+            slope[0] = t * 0.0 - factor;
+            slope[1] = t * 0.0 + factor;
+        } else {
+            slope[0] = -factor * bernstein[0];
+            for (int r = 1; r < degree; r++)
+                slope[r] = factor * (bernstein[r - 1] - bernstein[r]);
+            slope[degree] = factor * bernstein[degree - 1];
+        }
+        extract(degree, cell->extraction[a], slope, basis->derivative);
+    }
+    if (degree > 1)
+        raise_bernstein(degree, t, rest, bernstein);
+    extract(degree, cell->extraction[a], bernstein, basis->value);
+}
+
+/* The basis function's share in a sum of the next direction; parts are those that term has. */
+static inline field_sum share(const span_basis *basis, int function, const field_sum *term, int parts,
+                              bool derivatives)
+{
+    field_sum result = {0};
+    for (int c = 0; c < 3; c++) {
+        for (int p = 0; p < parts; p++)
+            result.part[p][c] = basis->value[function] * term->part[p][c];
+        if (derivatives)
+            result.part[parts][c] = basis->derivative[function] * term->part[0][c];
+    }
+    return result;
+}
+
+static inline void add(field_sum *sum, const field_sum *term, int parts)
+{
+    for (int p = 0; p < parts; p++)
+        for (int c = 0; c < 3; c++)
+            sum->part[p][c] += term->part[p][c];
+}
+
+static inline field_sum sum_row(const span_basis *basis, int degree, const double *row, bool derivatives)
+{
+    field_sum sum = {0};
+    for (int i = 0; i <= degree; i++)
+        for (int c = 0; c < 3; c++) {
+            const lanes value = basis->value[i] * row[3 * i + c];
+            sum.part[0][c] = i == 0 ? value : sum.part[0][c] + value;
+            if (derivatives) {
+                const lanes slope = basis->derivative[i] * row[3 * i + c];
+                sum.part[1][c] = i == 0 ? slope : sum.part[1][c] + slope;
+            }
+        }
+    return sum;
+}
+
+static inline field_sum sum_plane(const int degree[3], const span_basis basis[3], const double *plane,
+                                  bool derivatives)
+{
+    const int parts = derivatives ? 2 : 1;
+    field_sum sum = {0};
+    for (int j = 0; j <= degree[1]; j++) {
+        const field_sum row = sum_row(&basis[0], degree[0], plane + 3 * (degree[0] + 1) * j, derivatives);
+        const field_sum term = share(&basis[1], j, &row, parts, derivatives);
+        if (j == 0)
+            sum = term;
+        else
+            add(&sum, &term, parts + derivatives);
+    }
+    return sum;
+}
+
+static inline field_sum sum_cell(const int degree[3], const span_basis basis[3], const double *field,
+                                 bool derivatives)
+{
+    const int parts = derivatives ? 3 : 1;
+    field_sum sum = {0};
+    for (int k = 0; k <= degree[2]; k++) {
+        const field_sum plane =
+            sum_plane(degree, basis, field + 3 * (degree[0] + 1) * (degree[1] + 1) * k, derivatives);
+        const field_sum term = share(&basis[2], k, &plane, parts, derivatives);
+        if (k == 0)
+            sum = term;
+        else
+            add(&sum, &term, parts + derivatives);
+    }
+    return sum;
+}
+
+static inline lanes take(const double *first, size_t stride, const uint32_t *which)
+{
+#if FFD_LANES == 1
+    return first[which[0] * stride];
+#else
+    lanes taken;
+    for (int l = 0; l < FFD_LANES; l++)
+        taken[l] = first[which[l] * stride];
+    return taken;
+#endif
+}
+
+/* To `to` + step * number of each point; lanes behind the last point repeat it. */
+static inline void put(lanes values, double *to, size_t step, const uint32_t *which)
+{
+#if FFD_LANES == 1
+    to[which[0] * step] = values;
+#else
+    for (int l = 0; l < FFD_LANES; l++)
+        to[which[l] * step] = values[l];
+#endif
+}
+
+/* The derivatives are the columns. */
+static inline void put_matrix(const field_sum *sum, double *to, const uint32_t *which)
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            put(sum->part[1 + c][r], to + 3 * r + c, 9, which);
+}
+
+/* That matrix times m. */
+static inline void put_product(const field_sum *sum, const double m[9], double *to, const uint32_t *which)
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            put(sum->part[1][r] * m[c] + sum->part[2][r] * m[3 + c] + sum->part[3][r] * m[6 + c],
+                to + 3 * r + c, 9, which);
+}
+
+static inline void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
+                            const uint32_t *which)
+{
+    const bool derivatives = points->gradient;
+    span_basis basis[3];
+    for (int a = 0; a < 3; a++)
+        find_basis(cell, a, degree[a], take(points->uvw + a, points->stride, which), derivatives, &basis[a]);
+    const field_sum sum = sum_cell(degree, basis, cell->difference, derivatives);
+    for (int c = 0; c < 3; c++)
+        put(sum.part[0][c], points->delta + c, 3, which);
+    if (derivatives && cell->inverse)
+        put_product(&sum, cell->inverse, points->gradient, which);
+    else if (derivatives)
+        put_matrix(&sum, points->gradient, which);
+    if (points->jacobian) {
+        const field_sum rest = sum_cell(degree, basis, cell->rest, true);
+        put_matrix(&rest, points->jacobian, which);
+    }
+}
+
+static inline void displace_all(const kernel_cell *cell, const int degree[3], const kernel_points *points)
+{
+    size_t first = 0;
+    for (; first + FFD_LANES <= points->count; first += FFD_LANES)
+        displace(cell, degree, points, points->which + first);
+    if (first == points->count)
+        return;
+    uint32_t rest[FFD_LANES];
+    for (size_t l = 0; l < FFD_LANES; l++)
+        rest[l] = points->which[first + l < points->count ? first + l : points->count - 1];
+    displace(cell, degree, points, rest);
+}
+
+void FFD_KERNEL(const kernel_cell *cell, const kernel_points *points)
+{
+    static const int cubic[3] = {3, 3, 3};
+    /* What the compiler knows it unrolls. */
+    if (cell->degree[0] == 3 && cell->degree[1] == 3 && cell->degree[2] == 3)
+        displace_all(cell, cubic, points);
+    else
+        displace_all(cell, cell->degree, points);
+}

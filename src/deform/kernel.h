@@ -1,0 +1,42 @@
+/* kernel.h - the displacement of many points of one cell, several at a time. */
+#ifndef FFD_DEFORM_KERNEL_H
+#define FFD_DEFORM_KERNEL_H
+
+#include "spline/knots.h"
+#include <stdint.h>
+
+/* Control points in a cell of the highest degree. */
+#define CELL_POINTS (MAX_ORDER * MAX_ORDER * MAX_ORDER)
+
+/* One cell of a lattice without weights. */
+typedef struct kernel_cell {
+    int degree[3];
+    double first[3], width[3];   /* the span's first knot and length */
+    const double *extraction[3]; /* the span's Bezier form (basis.h) */
+    const double *difference;    /* Q - P of the cell's control points, u fastest, 3 numbers each */
+    const double *rest;          /* P likewise; needed for the Jacobian */
+    const double *inverse;       /* d uvw / d p, 3 x 3, where it is the same everywhere; else NULL */
+} kernel_cell;
+
+/* Points of the cell, and where their results go. */
+typedef struct kernel_points {
+    const double *uvw;     /* in the cell, of point n from uvw[n * stride] on */
+    size_t stride;         /* 3 or more */
+    const uint32_t *which; /* the numbers n of the points that are wanted */
+    size_t count;          /* of them, 1 or more */
+    double *delta;         /* 3 for each n: sum (Q - P) N N N */
+    double *gradient; /* 9 for each n or NULL: d delta_r / d p_c is gradient[9 n + 3 r + c] where the cell has
+                         the inverse; else it is d delta_r / d uvw_c */
+    double *jacobian; /* 9 for each n, d p_r / d uvw_c; or NULL. Not without the gradient. */
+} kernel_points;
+
+/* One function for each instruction set, all of the same source: a point is a lane, and its operations are
+   the same ones in the same order, so that all give the same bits. */
+typedef void displacement_kernel(const kernel_cell *cell, const kernel_points *points);
+
+displacement_kernel ffd_kernel_scalar;
+#ifdef FFD_X86
+displacement_kernel ffd_kernel_sse2, ffd_kernel_avx2, ffd_kernel_avx512;
+#endif
+
+#endif
