@@ -5,8 +5,8 @@
 #include <ffd/embedding.h>
 #include <ffd/error.h>
 #include <ffd/export.h>
-#include <ffd/isa.h>
 #include <ffd/fold.h>
+#include <ffd/isa.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
 #include <stddef.h>

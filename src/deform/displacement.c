@@ -48,53 +48,32 @@ static void wrap(const ffd_lattice *lattice, const double uvw[3], double inside[
         inside[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);
 }
 
-/* The basis is that of u,v,w taken to the domain; by_uvw may be NULL. */
-static int displace(const ffd_lattice *lattice, const double uvw[3], lattice_basis *basis, double delta[3],
-                    double *by_uvw)
+/* From derivatives by u,v,w to those by the point: times the Jacobian's inverse; 0 where it has none. */
+static void bring_to_space(const double jacobian[9], double gradient[9])
 {
-    double inside[3];
-    wrap(lattice, uvw, inside);
-    ffd_lattice_basis(lattice, inside, basis);
-    memset(delta, 0, 3 * sizeof *delta);
-    if (by_uvw)
-        memset(by_uvw, 0, 9 * sizeof *by_uvw);
-    if (!is_reached(lattice, basis->span))
-        return 0;
-    sum_differences(lattice, basis, delta, by_uvw);
-    return 1;
-}
-
-int ffd_displacement_by_uvw(const ffd_lattice *lattice, const double uvw[3], double delta[3],
-                            double by_uvw[9])
-{
-    lattice_basis basis;
-    return displace(lattice, uvw, &basis, delta, by_uvw);
-}
-
-/* by_uvw times the inverse of the Jacobian; 0 where it has none. */
-static void make_gradient(const double by_uvw[9], const double jacobian[9], double gradient[9])
-{
-    double inverse[9];
+    double inverse[9], by_uvw[9];
+    memcpy(by_uvw, gradient, sizeof by_uvw);
     if (mat_invert(jacobian, inverse))
         mat_multiply(by_uvw, inverse, gradient);
     else
         memset(gradient, 0, 9 * sizeof *gradient);
 }
 
-/* With weights: one point after the other. */
-static int displace_rational(const ffd_lattice *lattice, const double uvw[3], double delta[3],
-                             double *gradient)
+/* The displacement of one point; by_uvw and jacobian are both there or both NULL. Returns whether a moved
+   control point acts on it; else nothing is written. */
+static bool displace_rational(const ffd_lattice *lattice, const double uvw[3], double delta[3],
+                              double *by_uvw, double *jacobian)
 {
     lattice_basis basis;
-    double by_uvw[9], point[3], jacobian[9];
-    const int moved = displace(lattice, uvw, &basis, delta, gradient ? by_uvw : NULL);
-    if (gradient && !moved)
-        memset(gradient, 0, 9 * sizeof *gradient);
-    if (!gradient || !moved)
-        return moved;
-    ffd_lattice_sum_rational(lattice, &basis, lattice->rest, lattice->rest_weights, point, jacobian);
-    make_gradient(by_uvw, jacobian, gradient);
-    return 1;
+    double inside[3], point[3];
+    wrap(lattice, uvw, inside);
+    ffd_lattice_basis(lattice, inside, &basis);
+    if (!is_reached(lattice, basis.span))
+        return false;
+    sum_differences(lattice, &basis, delta, by_uvw);
+    if (jacobian)
+        ffd_lattice_sum_rational(lattice, &basis, lattice->rest, lattice->rest_weights, point, jacobian);
+    return true;
 }
 
 /* Fills the cell and the buffers that it points to. Returns whether a moved control point acts in it. */
@@ -140,33 +119,53 @@ static displacement_kernel *kernel_of(ffd_isa isa)
     }
 }
 
-int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9])
+/* As displace_rational. Where the lattice knows d uvw / d p, by_uvw is the gradient and jacobian NULL. */
+static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inverse, double delta[3],
+                     double *by_uvw, double *jacobian)
 {
     static const uint32_t which[1] = {0};
-    double inside[3], by_uvw[9], jacobian[9], difference[3 * CELL_POINTS], rest[3 * CELL_POINTS];
+    double inside[3], difference[3 * CELL_POINTS], rest[3 * CELL_POINTS];
     size_t number[3];
     kernel_cell cell;
     if (lattice->rest_weights)
-        return displace_rational(lattice, uvw, delta, gradient);
+        return displace_rational(lattice, uvw, delta, by_uvw, jacobian);
     wrap(lattice, uvw, inside);
     for (int a = 0; a < 3; a++)
         number[a] = ffd_knots_span_number(&lattice->knots[a], inside[a]);
-    memset(delta, 0, 3 * sizeof *delta);
-    if (gradient)
-        memset(gradient, 0, 9 * sizeof *gradient);
-    if (!load_cell(lattice, number, gradient, difference, rest, &cell))
-        return 0;
-    const bool constant = cell.inverse;
+    if (!load_cell(lattice, number, jacobian, difference, rest, &cell))
+        return false;
+    cell.inverse = inverse ? cell.inverse : NULL;
     const kernel_points points = {.uvw = inside,
                                   .stride = 3,
                                   .which = which,
                                   .count = 1,
                                   .delta = delta,
-                                  .gradient = gradient ? constant ? gradient : by_uvw : NULL,
-                                  .jacobian = gradient && !constant ? jacobian : NULL};
+                                  .gradient = by_uvw,
+                                  .jacobian = jacobian};
     ffd_kernel_scalar(&cell, &points);
-    if (gradient && !constant)
-        make_gradient(by_uvw, jacobian, gradient);
+    return true;
+}
+
+int ffd_displacement_by_uvw(const ffd_lattice *lattice, const double uvw[3], double delta[3],
+                            double by_uvw[9])
+{
+    memset(delta, 0, 3 * sizeof *delta);
+    if (by_uvw)
+        memset(by_uvw, 0, 9 * sizeof *by_uvw);
+    return displace(lattice, uvw, false, delta, by_uvw, NULL);
+}
+
+int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3], double gradient[9])
+{
+    const bool general = gradient && !lattice->has_uvw_by_p;
+    double jacobian[9];
+    memset(delta, 0, 3 * sizeof *delta);
+    if (gradient)
+        memset(gradient, 0, 9 * sizeof *gradient);
+    if (!displace(lattice, uvw, true, delta, gradient, general ? jacobian : NULL))
+        return 0;
+    if (general)
+        bring_to_space(jacobian, gradient);
     return 1;
 }
 
@@ -261,12 +260,9 @@ static void displace_cell(const ffd_lattice *lattice, displacement_kernel *kerne
                                   .jacobian = cell.rest ? scratch->jacobian : NULL};
     kernel(&cell, &points);
     for (size_t k = 0; k < of->count; k++) {
-        double by_uvw[9], *const gradient = batch->gradient + 9 * which[k];
         batch->moves[which[k]] = 1;
-        if (cell.rest) {
-            memcpy(by_uvw, gradient, sizeof by_uvw);
-            make_gradient(by_uvw, scratch->jacobian + 9 * which[k], gradient);
-        }
+        if (cell.rest)
+            bring_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
     }
 }
 
@@ -277,8 +273,8 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
         for (size_t k = 0; k < batch->count; k++) {
             const size_t n = batch->which[k];
             batch->moves[n] =
-                (uint8_t)displace_rational(lattice, batch->uvw + n * batch->stride, batch->delta + 3 * n,
-                                           batch->gradient ? batch->gradient + 9 * n : NULL);
+                (uint8_t)ffd_displacement(lattice, batch->uvw + n * batch->stride, batch->delta + 3 * n,
+                                          batch->gradient ? batch->gradient + 9 * n : NULL);
         }
         return;
     }

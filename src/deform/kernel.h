@@ -2,7 +2,7 @@
 #ifndef FFD_DEFORM_KERNEL_H
 #define FFD_DEFORM_KERNEL_H
 
-#include "spline/knots.h"
+#include "lattice/lattice.h"
 #include <stdint.h>
 
 /* Control points in a cell of the highest degree. */

@@ -282,7 +282,8 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
         return false;
     for (size_t i = 0; i < scratch->chosen_count; i++)
         ffd_embedding_locate(pass->embedding, (size_t)work->first_vertex + first + scratch->chosen[i],
-                             pass->chain->links[0].lattice, scratch->place + 3 * i, &scratch->chain.locations[i]);
+                             pass->chain->links[0].lattice, scratch->place + 3 * i,
+                             &scratch->chain.locations[i]);
     return true;
 }
 

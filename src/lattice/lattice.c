@@ -108,7 +108,8 @@ static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
 /* d uvw / d t times the inverse of d p / d t. */
 static void make_inverse(ffd_lattice *lattice)
 {
-    lattice->has_uvw_by_p = lattice->form == REST_BOX_AFFINE && mat_invert(lattice->frame, lattice->uvw_by_p);
+    lattice->has_uvw_by_p = lattice->form == REST_BOX_AFFINE && !lattice->rest_weights &&
+                            mat_invert(lattice->frame, lattice->uvw_by_p);
     for (int a = 0; a < 3 && lattice->has_uvw_by_p; a++) {
         const double side = ffd_knots_last(&lattice->knots[a]) - ffd_knots_first(&lattice->knots[a]);
         for (int c = 0; c < 3; c++)

@@ -29,9 +29,9 @@ struct ffd_lattice {
     bool weights_moved;                      /* some deformed weight differs from its rest weight */
 
     rest_form form;
-    double origin[3]; /* REST_BOX_AFFINE: C at the domain's lower corner */
-    double frame[9];  /* REST_BOX_AFFINE: columns are the box's sides */
-    double uvw_by_p[9]; /* REST_BOX_AFFINE: d uvw_r / d p_c, the same everywhere */
+    double origin[3];   /* REST_BOX_AFFINE: C at the domain's lower corner */
+    double frame[9];    /* REST_BOX_AFFINE: columns are the box's sides */
+    double uvw_by_p[9]; /* REST_BOX_AFFINE without weights: d uvw_r / d p_c, the same everywhere */
     bool has_uvw_by_p;  /* false where the box is too flat for it, and in the other form */
 
     /* The displacement of the control points, made once when the lattice is built. */

@@ -13,6 +13,14 @@ from harness import (MODELS, OK, UNSUPPORTED, INVALID, case, check, equal, glb, 
                      lattice, main, near, obj_vertices)
 
 SEED = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
+# The instruction sets that kernels are compiled for, as far as this processor has them.
+try:
+    with open("/proc/cpuinfo", encoding="ascii", errors="replace") as cpuinfo:
+        FLAGS = set(next((line for line in cpuinfo if line.startswith("flags")), "").split())
+except OSError:
+    FLAGS = set()
+ISAS = ["auto", "scalar"] + [name for name, flag in (("sse2", "sse2"), ("avx2", "avx2"), ("avx512", "avx512vl"))
+                             if flag in FLAGS]
 FLOAT_EPS = 2.0 ** -23
 # A node with two parents; a corner of a face that is named 0.
 NOT_VALID = {"cube_att.gltf", "unassigned-skeleton.gltf", "synthetic_partial_attrib_0_obj.obj"}
@@ -162,6 +170,9 @@ def order_company_threads_and_format_change_nothing(run):
         run.ffd("deform", "a.obj", "one.obj", "-l", "l.json", "--force", "-q", "-j", "1")
         run.ffd("deform", "a.obj", "many.obj", "-l", "l.json", "--force", "-q", "-j", "5")
         equal(run.read("many.obj"), run.read("one.obj"), kind)
+        for isa in ISAS:
+            run.ffd("deform", "a.obj", "isa.obj", "-l", "l.json", "--force", "-q", "--isa", isa)
+            equal(run.read("isa.obj"), run.read("one.obj"), f"{kind}, {isa}")
         straight = obj_vertices(run.text("one.obj"))
         numbers = draw.sample(range(len(points)), 700)
         run.write("part.obj", obj(points[n] for n in numbers))

@@ -7,10 +7,10 @@ from harness import CUBE, USAGE, case, check, equal, lattice, main
 COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new"]
 OPTIONS = {
     "deform": {"--lattice", "--out-dir", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
-               "--resources", "--report", "--report-stable", "--threads", "--in-place", "--force", "--input-format",
+               "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format",
                "--output-format"},
     "check": {"--lattice", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
-              "--report", "--report-stable", "--threads", "--in-place", "--force", "--input-format"},
+              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format"},
     "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format"},
     "compare": {"--tolerance", "--input-format"},
     "info": {"--json", "--input-format"},
@@ -106,7 +106,7 @@ def unknown_options(run):
 @case
 def options_of_later_versions_are_absent(run):
     work = files(run)
-    for option in ("--refine=0.1", "--seam=C1", "--isa=auto", "--depfile=d"):
+    for option in ("--refine=0.1", "--seam=C1", "--depfile=d"):
         refused(run, *work, option, says="unknown option")
 
 

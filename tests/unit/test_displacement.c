@@ -1,0 +1,189 @@
+/* test_displacement.c - batches of points give every point what it gets alone, to the bit, with each
+   instruction set that this processor has. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/draw.h"
+#include "../support/lattice_by_hand.h"
+#include "deform/displacement.h"
+#include <stdio.h>
+
+#define LATTICES 60
+#define ROUNDS 6
+
+static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
+
+/* Degrees 1 to 9 (mostly 3), all kinds of knots; some control points stay. */
+static ffd_lattice *random_lattice(draw *d, int number)
+{
+    static const knot_kind kinds[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLOSED};
+    knot_vector knots[3];
+    for (int a = 0; a < 3; a++) {
+        const int degree = number % 2 ? draw_int(d, 1, number % 5 ? 4 : 9) : 3;
+        const size_t points = (size_t)(degree + 2 + draw_int(d, 0, 6));
+        const knot_kind kind = kinds[draw_int(d, 0, 3)];
+        assert_int_equal(ffd_knots_make(kind, degree, points, NULL, 0, "uvw"[a], &knots[a], NULL), FFD_OK);
+    }
+    ffd_lattice *lattice = lattice_of_knots(knots);
+    const double still = draw_unit(d);
+    for (size_t n = 0; n < lattice->count; n++) {
+        const bool moves = draw_unit(d) > still;
+        const size_t index[3] = {n % lattice->size[0], n / lattice->size[0] % lattice->size[1],
+                                 n / lattice->size[0] / lattice->size[1]};
+        for (size_t a = 0; a < 3; a++) {
+            double *const p = lattice->rest + 3 * n + a;
+            *p = (double)index[a] + draw_between(d, -0.2, 0.2);
+            lattice->deformed[3 * n + a] = *p + (moves ? draw_between(d, -2, 2) : 0);
+        }
+    }
+    if (number % 7 == 0) {
+        /* With weights points go one by one. */
+        lattice->rest_weights = malloc(lattice->count * sizeof(double));
+        lattice->deformed_weights = malloc(lattice->count * sizeof(double));
+        assert_true(lattice->rest_weights && lattice->deformed_weights);
+        for (size_t n = 0; n < lattice->count; n++)
+            lattice->rest_weights[n] = lattice->deformed_weights[n] = draw_between(d, 0.5, 2);
+    }
+    if (number % 3 == 0) {
+        /* As if it were a box: d uvw / d p is taken from here. */
+        lattice->form = REST_BOX_AFFINE;
+        for (int i = 0; i < 9; i++)
+            lattice->frame[i] = draw_between(d, -1, 1) + (i % 4 == 0 ? 4 : 0);
+    }
+    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    return lattice;
+}
+
+/* Some parameters are knots, some the domain's ends. */
+static void random_uvw(draw *d, const ffd_lattice *lattice, double uvw[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &lattice->knots[a];
+        const int span = knots->spans[draw_int(d, 0, (int)knots->span_count - 1)];
+        const int choice = draw_int(d, 0, 9);
+        uvw[a] = choice == 0   ? knots->t[span]
+                 : choice == 1 ? ffd_knots_last(knots)
+                               : draw_between(d, ffd_knots_first(knots), ffd_knots_last(knots));
+    }
+}
+
+typedef struct sample {
+    double uvw[4 * DISPLACEMENT_BATCH + 1], delta[3 * DISPLACEMENT_BATCH + 1],
+        gradient[9 * DISPLACEMENT_BATCH + 1];
+    uint8_t moves[DISPLACEMENT_BATCH];
+    uint32_t which[DISPLACEMENT_BATCH];
+    displacement_scratch scratch;
+} sample;
+
+static void check_point(const ffd_lattice *lattice, const displacement_batch *batch, size_t n,
+                        const char *isa)
+{
+    double delta[3], gradient[9];
+    const int moves =
+        ffd_displacement(lattice, batch->uvw + n * batch->stride, delta, batch->gradient ? gradient : NULL);
+    if (moves != batch->moves[n] || memcmp(delta, batch->delta + 3 * n, sizeof delta) != 0 ||
+        (batch->gradient && memcmp(gradient, batch->gradient + 9 * n, sizeof gradient) != 0))
+        fail_msg("%s: point %zu of %zu has another displacement than alone: %.17g %.17g", isa, n,
+                 batch->count, batch->delta[3 * n], delta[0]);
+}
+
+/* Whole groups of every width and what is left over, at addresses of every kind. */
+static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
+{
+    static const size_t counts[] = {0, 1, 2, 3, 5, 7, 8, 9, 17, 64, 333, DISPLACEMENT_BATCH};
+    const size_t wanted = counts[draw_int(d, 0, 11)];
+    const size_t odd = (size_t)draw_int(d, 0, 1);
+    displacement_batch batch = {.uvw = s->uvw + odd,
+                                .stride = 3 + (size_t)draw_int(d, 0, 1),
+                                .which = s->which,
+                                .delta = s->delta + odd,
+                                .gradient = draw_int(d, 0, 2) ? s->gradient + 1 - odd : NULL,
+                                .moves = s->moves};
+    for (size_t n = 0; n < DISPLACEMENT_BATCH; n++) {
+        random_uvw(d, lattice, s->uvw + odd + n * batch.stride);
+        /* Neighbours are most often in one cell. */
+        if (n > 0 && draw_int(d, 0, 3))
+            memcpy(s->uvw + odd + n * batch.stride, s->uvw + odd + (n - 1) * batch.stride,
+                   2 * sizeof(double));
+        if (batch.count < wanted && (wanted == DISPLACEMENT_BATCH || draw_int(d, 0, 4)))
+            s->which[batch.count++] = (uint32_t)n;
+    }
+    for (ffd_isa isa = FFD_ISA_AUTO; isa <= FFD_ISA_AVX512; isa++) {
+        if (!ffd_isa_available(isa))
+            continue;
+        memset(s->delta, 0xff, sizeof s->delta);
+        memset(s->gradient, 0xff, sizeof s->gradient);
+        ffd_displacements(lattice, isa, &batch, &s->scratch);
+        for (size_t k = 0; k < batch.count; k++)
+            check_point(lattice, &batch, s->which[k], names[isa]);
+    }
+}
+
+static void batches_give_what_points_get_alone(void **state)
+{
+    draw d = {draw_seed()};
+    sample *s = malloc(sizeof *s);
+    assert_non_null(s);
+    for (int i = 0; i < LATTICES; i++) {
+        ffd_lattice *lattice = random_lattice(&d, i);
+        for (int round = 0; round < ROUNDS; round++)
+            check_batch(&d, lattice, s);
+        ffd_lattice_destroy(&lattice);
+    }
+    free(s);
+    (void)state;
+}
+
+/* At the ends of a clamped direction the corner control points are met to the bit. */
+static void corners_are_exact(void **state)
+{
+    draw d = {draw_seed()};
+    for (int round = 0; round < 50; round++) {
+        knot_vector knots[3];
+        for (int a = 0; a < 3; a++) {
+            const int degree = draw_int(&d, 1, 9);
+            assert_int_equal(ffd_knots_make(KNOTS_CLAMPED, degree, (size_t)(degree + 1 + draw_int(&d, 0, 9)),
+                                            NULL, 0, "uvw"[a], &knots[a], NULL),
+                             FFD_OK);
+        }
+        ffd_lattice *lattice = lattice_of_knots(knots);
+        for (size_t i = 0; i < 3 * lattice->count; i++) {
+            lattice->rest[i] = draw_between(&d, -1, 1);
+            lattice->deformed[i] = draw_between(&d, -1, 1);
+        }
+        assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+        for (int corner = 0; corner < 8; corner++) {
+            size_t n = 0;
+            double uvw[3], delta[3];
+            for (size_t a = 3; a-- > 0;) {
+                uvw[a] = corner >> a & 1;
+                n = n * lattice->size[a] + (corner >> a & 1 ? lattice->size[a] - 1 : 0);
+            }
+            assert_int_equal(ffd_displacement(lattice, uvw, delta, NULL), 1);
+            assert_memory_equal(delta, lattice->difference + 3 * n, sizeof delta);
+        }
+        ffd_lattice_destroy(&lattice);
+    }
+    (void)state;
+}
+
+static void what_is_not_there_is_not_available(void **state)
+{
+    assert_true(ffd_isa_available(FFD_ISA_AUTO) && ffd_isa_available(FFD_ISA_SCALAR));
+    assert_true(ffd_isa_available(ffd_isa_best()) && ffd_isa_best() != FFD_ISA_AUTO);
+    assert_false(ffd_isa_available((ffd_isa)(FFD_ISA_AVX512 + 1)));
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(batches_give_what_points_get_alone),
+        cmocka_unit_test(corners_are_exact),
+        cmocka_unit_test(what_is_not_there_is_not_available),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
