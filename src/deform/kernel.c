@@ -13,6 +13,9 @@ typedef double lanes;
 typedef double lanes __attribute__((vector_size(8 * FFD_LANES)));
 #endif
 
+/* Only where it knows degrees and wishes can the compiler keep the sums in registers. */
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
 /* The d+1 functions of a span and their derivatives by the knots' parameter. */
 typedef struct span_basis {
     lanes value[MAX_ORDER], derivative[MAX_ORDER];
@@ -25,7 +28,7 @@ typedef struct field_sum {
 } field_sum;
 
 /* From the Bernstein polynomials of degree - 1 to those of this degree, in place (P&T A1.3). */
-static inline void raise_bernstein(int degree, lanes t, lanes rest, lanes *value)
+static ALWAYS_INLINE void raise_bernstein(int degree, lanes t, lanes rest, lanes *value)
 {
     lanes from_left = value[0] * t;
     value[0] = value[0] * rest;
@@ -38,7 +41,7 @@ static inline void raise_bernstein(int degree, lanes t, lanes rest, lanes *value
 }
 
 /* sum_r E_rj b_r for every j. */
-static inline void extract(int degree, const double *extraction, const lanes *bernstein, lanes *value)
+static ALWAYS_INLINE void extract(int degree, const double *extraction, const lanes *bernstein, lanes *value)
 {
     for (int j = 0; j <= degree; j++) {
         lanes sum = extraction[j] * bernstein[0];
@@ -48,8 +51,8 @@ static inline void extract(int degree, const double *extraction, const lanes *be
     }
 }
 
-static inline void find_basis(const kernel_cell *cell, int a, int degree, lanes u, bool derivatives,
-                              span_basis *basis)
+static ALWAYS_INLINE void find_basis(const kernel_cell *cell, int a, int degree, lanes u, bool derivatives,
+                                     span_basis *basis)
 {
     const lanes t = (u - cell->first[a]) / cell->width[a], rest = 1.0 - t;
     lanes bernstein[MAX_ORDER], slope[MAX_ORDER];
@@ -77,8 +80,8 @@ static inline void find_basis(const kernel_cell *cell, int a, int degree, lanes 
 }
 
 /* The basis function's share in a sum of the next direction; parts are those that term has. */
-static inline field_sum share(const span_basis *basis, int function, const field_sum *term, int parts,
-                              bool derivatives)
+static ALWAYS_INLINE field_sum share(const span_basis *basis, int function, const field_sum *term, int parts,
+                                     bool derivatives)
 {
     field_sum result = {0};
     for (int c = 0; c < 3; c++) {
@@ -90,14 +93,15 @@ static inline field_sum share(const span_basis *basis, int function, const field
     return result;
 }
 
-static inline void add(field_sum *sum, const field_sum *term, int parts)
+static ALWAYS_INLINE void add(field_sum *sum, const field_sum *term, int parts)
 {
     for (int p = 0; p < parts; p++)
         for (int c = 0; c < 3; c++)
             sum->part[p][c] += term->part[p][c];
 }
 
-static inline field_sum sum_row(const span_basis *basis, int degree, const double *row, bool derivatives)
+static ALWAYS_INLINE field_sum sum_row(const span_basis *basis, int degree, const double *row,
+                                       bool derivatives)
 {
     field_sum sum = {0};
     for (int i = 0; i <= degree; i++)
@@ -112,8 +116,8 @@ static inline field_sum sum_row(const span_basis *basis, int degree, const doubl
     return sum;
 }
 
-static inline field_sum sum_plane(const int degree[3], const span_basis basis[3], const double *plane,
-                                  bool derivatives)
+static ALWAYS_INLINE field_sum sum_plane(const int degree[3], const span_basis basis[3], const double *plane,
+                                         bool derivatives)
 {
     const int parts = derivatives ? 2 : 1;
     field_sum sum = {0};
@@ -128,8 +132,8 @@ static inline field_sum sum_plane(const int degree[3], const span_basis basis[3]
     return sum;
 }
 
-static inline field_sum sum_cell(const int degree[3], const span_basis basis[3], const double *field,
-                                 bool derivatives)
+static ALWAYS_INLINE field_sum sum_cell(const int degree[3], const span_basis basis[3], const double *field,
+                                        bool derivatives)
 {
     const int parts = derivatives ? 3 : 1;
     field_sum sum = {0};
@@ -145,7 +149,7 @@ static inline field_sum sum_cell(const int degree[3], const span_basis basis[3],
     return sum;
 }
 
-static inline lanes take(const double *first, size_t stride, const uint32_t *which)
+static ALWAYS_INLINE lanes take(const double *first, size_t stride, const uint32_t *which)
 {
 #if FFD_LANES == 1
     return first[which[0] * stride];
@@ -158,7 +162,7 @@ static inline lanes take(const double *first, size_t stride, const uint32_t *whi
 }
 
 /* To `to` + step * number of each point; lanes behind the last point repeat it. */
-static inline void put(lanes values, double *to, size_t step, const uint32_t *which)
+static ALWAYS_INLINE void put(lanes values, double *to, size_t step, const uint32_t *which)
 {
 #if FFD_LANES == 1
     to[which[0] * step] = values;
@@ -169,7 +173,7 @@ static inline void put(lanes values, double *to, size_t step, const uint32_t *wh
 }
 
 /* The derivatives are the columns. */
-static inline void put_matrix(const field_sum *sum, double *to, const uint32_t *which)
+static ALWAYS_INLINE void put_matrix(const field_sum *sum, double *to, const uint32_t *which)
 {
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
@@ -177,7 +181,8 @@ static inline void put_matrix(const field_sum *sum, double *to, const uint32_t *
 }
 
 /* That matrix times m. */
-static inline void put_product(const field_sum *sum, const double m[9], double *to, const uint32_t *which)
+static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], double *to,
+                                      const uint32_t *which)
 {
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
@@ -185,10 +190,9 @@ static inline void put_product(const field_sum *sum, const double m[9], double *
                 to + 3 * r + c, 9, which);
 }
 
-static inline void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
-                            const uint32_t *which)
+static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
+                                   const uint32_t *which, bool derivatives, bool jacobian)
 {
-    const bool derivatives = points->gradient;
     span_basis basis[3];
     for (int a = 0; a < 3; a++)
         find_basis(cell, a, degree[a], take(points->uvw + a, points->stride, which), derivatives, &basis[a]);
@@ -199,31 +203,36 @@ static inline void displace(const kernel_cell *cell, const int degree[3], const 
         put_product(&sum, cell->inverse, points->gradient, which);
     else if (derivatives)
         put_matrix(&sum, points->gradient, which);
-    if (points->jacobian) {
+    if (jacobian) {
         const field_sum rest = sum_cell(degree, basis, cell->rest, true);
         put_matrix(&rest, points->jacobian, which);
     }
 }
 
-static inline void displace_all(const kernel_cell *cell, const int degree[3], const kernel_points *points)
+static ALWAYS_INLINE void displace_all(const kernel_cell *cell, const int degree[3],
+                                       const kernel_points *points, bool derivatives, bool jacobian)
 {
     size_t first = 0;
     for (; first + FFD_LANES <= points->count; first += FFD_LANES)
-        displace(cell, degree, points, points->which + first);
+        displace(cell, degree, points, points->which + first, derivatives, jacobian);
     if (first == points->count)
         return;
     uint32_t rest[FFD_LANES];
     for (size_t l = 0; l < FFD_LANES; l++)
         rest[l] = points->which[first + l < points->count ? first + l : points->count - 1];
-    displace(cell, degree, points, rest);
+    displace(cell, degree, points, rest, derivatives, jacobian);
 }
 
 void FFD_KERNEL(const kernel_cell *cell, const kernel_points *points)
 {
     static const int cubic[3] = {3, 3, 3};
     /* What the compiler knows it unrolls. */
-    if (cell->degree[0] == 3 && cell->degree[1] == 3 && cell->degree[2] == 3)
-        displace_all(cell, cubic, points);
+    if (cell->degree[0] != 3 || cell->degree[1] != 3 || cell->degree[2] != 3)
+        displace_all(cell, cell->degree, points, points->gradient, points->jacobian);
+    else if (points->jacobian)
+        displace_all(cell, cubic, points, true, true);
+    else if (points->gradient)
+        displace_all(cell, cubic, points, true, false);
     else
-        displace_all(cell, cell->degree, points);
+        displace_all(cell, cubic, points, false, false);
 }

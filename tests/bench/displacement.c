@@ -1,0 +1,141 @@
+/* How many points a second are displaced, with each instruction set of this processor, beside a plain copy of
+   as many float positions.
+
+     displacement [RUNS] [POINTS]     default 7 runs of 1,000,000 points, one thread
+
+   kernel    points whose u,v,w and cells are known: delta, in millions a second: median (least to greatest)
+   gradient  and its gradient too, for a box (one Jacobian for all), and for a lattice that is none
+   batch     with the finding of the cells and the bringing together of their points: what a tile of a mesh costs
+   The points lie on a wavy surface through the lattice, row by row. */
+#include "../support/draw.h"
+#include "../support/lattice_by_hand.h"
+#include "base/clock.h"
+#include "deform/displacement.h"
+#include <math.h>
+
+#define MOST_RUNS 99
+
+static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
+
+typedef struct sample {
+    ffd_lattice *lattice;
+    size_t count;
+    double *uvw;
+    displacement_scratch scratch;
+    double delta[3 * DISPLACEMENT_BATCH], gradient[9 * DISPLACEMENT_BATCH];
+    uint8_t moves[DISPLACEMENT_BATCH];
+    uint32_t which[DISPLACEMENT_BATCH];
+    ffd_isa isa;
+    bool gradients;
+} sample;
+
+static ffd_lattice *make_lattice(size_t size, bool is_box)
+{
+    draw d = {7};
+    knot_vector knots[3];
+    for (int a = 0; a < 3; a++)
+        if (ffd_knots_make(KNOTS_CLAMPED, 3, size, NULL, 0, "uvw"[a], &knots[a], NULL))
+            abort();
+    ffd_lattice *lattice = lattice_of_knots(knots);
+    for (size_t n = 0; n < lattice->count; n++) {
+        const size_t index[3] = {n % size, n / size % size, n / size / size};
+        for (size_t a = 0; a < 3; a++) {
+            lattice->rest[3 * n + a] = ffd_knots_greville(&lattice->knots[a], index[a]);
+            lattice->deformed[3 * n + a] = lattice->rest[3 * n + a] + draw_between(&d, -0.1, 0.1);
+        }
+    }
+    if (is_box) {
+        lattice->form = REST_BOX_AFFINE;
+        for (int i = 0; i < 9; i += 4)
+            lattice->frame[i] = 1;
+    }
+    if (ffd_lattice_finish(lattice, NULL))
+        abort();
+    return lattice;
+}
+
+static void place_points(sample *s)
+{
+    const size_t side = (size_t)sqrt((double)s->count);
+    for (size_t n = 0; n < s->count; n++) {
+        const double x = (double)(n % side) / (double)side, y = (double)(n / side) / (double)(s->count / side + 1);
+        s->uvw[3 * n] = x;
+        s->uvw[3 * n + 1] = y;
+        s->uvw[3 * n + 2] = 0.5 + 0.4 * sin(20 * x) * cos(20 * y);
+    }
+}
+
+static void run_batches(sample *s)
+{
+    for (size_t first = 0; first < s->count; first += DISPLACEMENT_BATCH) {
+        const size_t rest = s->count - first;
+        const displacement_batch batch = {.uvw = s->uvw + 3 * first,
+                                          .stride = 3,
+                                          .which = s->which,
+                                          .count = rest < DISPLACEMENT_BATCH ? rest : DISPLACEMENT_BATCH,
+                                          .delta = s->delta,
+                                          .gradient = s->gradients ? s->gradient : NULL,
+                                          .moves = s->moves};
+        ffd_displacements(s->lattice, s->isa, &batch, &s->scratch);
+    }
+}
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void print_rate(size_t count, double *seconds, int runs)
+{
+    qsort(seconds, (size_t)runs, sizeof *seconds, compare);
+    const double millions = (double)count / 1e6;
+    printf(" %7.1f (%.1f to %.1f)", millions / seconds[runs / 2], millions / seconds[runs - 1],
+           millions / seconds[0]);
+}
+
+static void measure(sample *s, void (*run)(sample *), int runs)
+{
+    double seconds[MOST_RUNS];
+    run(s);
+    for (int r = 0; r < runs; r++) {
+        const double start = ffd_clock_seconds();
+        run(s);
+        seconds[r] = ffd_clock_seconds() - start;
+    }
+    print_rate(s->count, seconds, runs);
+}
+
+int main(int count, char **arguments)
+{
+    const int runs = count > 1 ? atoi(arguments[1]) : 7;
+    sample *s = calloc(1, sizeof *s);
+    if (!s || runs < 1 || runs > MOST_RUNS)
+        return 2;
+    s->count = count > 2 ? (size_t)strtoull(arguments[2], NULL, 10) : 1000000;
+    s->uvw = malloc(s->count * 3 * sizeof(double));
+    if (!s->uvw)
+        return 2;
+    for (uint32_t n = 0; n < DISPLACEMENT_BATCH; n++)
+        s->which[n] = n;
+    place_points(s);
+    for (size_t size = 8; size <= 64; size *= 8)
+        for (int box = 1; box >= 0; box--) {
+            s->lattice = make_lattice(size, box);
+            printf("%zu^3 %s, millions a second\n", size, box ? "box" : "general");
+            for (s->isa = FFD_ISA_SCALAR; s->isa <= FFD_ISA_AVX512; s->isa++) {
+                if (!ffd_isa_available(s->isa))
+                    continue;
+                printf("  %-7s", names[s->isa]);
+                for (int gradients = 0; gradients < 2; gradients++) {
+                    s->gradients = gradients;
+                    measure(s, run_batches, runs);
+                }
+                printf("\n");
+            }
+            ffd_lattice_destroy(&s->lattice);
+        }
+    free(s->uvw);
+    free(s);
+    return 0;
+}
