@@ -221,14 +221,12 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     return FFD_OK;
 }
 
-static ffd_status flush(file_output *output, ffd_error *error)
+static ffd_status write_all(const output_file *file, const unsigned char *bytes, size_t size,
+                            ffd_error *error)
 {
-    if (output->count == 0)
-        return FFD_OK;
-    const output_file *file = &output->files[output->count - 1];
     size_t done = 0;
-    while (done < output->filled) {
-        const ssize_t written = write(file->fd, output->block + done, output->filled - done);
+    while (done < size) {
+        const ssize_t written = write(file->fd, bytes + done, size - done);
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
@@ -236,8 +234,18 @@ static ffd_status flush(file_output *output, ffd_error *error)
                               "cannot be written");
         done += (size_t)written;
     }
-    output->filled = 0;
     return FFD_OK;
+}
+
+static ffd_status flush(file_output *output, ffd_error *error)
+{
+    if (output->count == 0)
+        return FFD_OK;
+    const ffd_status status =
+        write_all(&output->files[output->count - 1], output->block, output->filled, error);
+    if (!status)
+        output->filled = 0;
+    return status;
 }
 
 ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error)
@@ -295,6 +303,15 @@ ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size,
 {
     const unsigned char *from = bytes;
     while (size > 0) {
+        if (output->filled == 0 && size >= BLOCK) {
+            const size_t whole = size - size % BLOCK;
+            const ffd_status status = write_all(&output->files[output->count - 1], from, whole, error);
+            if (status)
+                return status;
+            from += whole;
+            size -= whole;
+            continue;
+        }
         const size_t room = BLOCK - output->filled, part = size < room ? size : room;
         memcpy(output->block + output->filled, from, part);
         output->filled += part;

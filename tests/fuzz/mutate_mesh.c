@@ -1,6 +1,7 @@
 /* mutate_mesh.c - changes of mesh files: numbers and lines of the text, bytes of what follows it. A GLB's
    lengths are mostly set right again, so that what its JSON says is looked at. */
 #include "fuzz_target.h"
+#include "base/little_endian.h"
 #include "io/gltf/glb.h"
 #include "mutate_text.h"
 #include <stdbool.h>
@@ -97,7 +98,7 @@ static bool is_whole_glb(const uint8_t *data, size_t size, size_t *json)
 {
     if (size < GLB_HEADERS || !ffd_glb_is(data, size))
         return false;
-    *json = ffd_glb_read_u32(data + GLB_HEADER_SIZE);
+    *json = load_u32(data + GLB_HEADER_SIZE);
     return *json > 0 && *json <= size - GLB_HEADERS;
 }
 
@@ -124,10 +125,10 @@ static size_t change_glb(mutant m, size_t json)
     const size_t size = GLB_HEADERS + body.size;
     if (!repairs)
         return size;
-    ffd_glb_write_u32(file + 8, (uint32_t)size);
-    ffd_glb_write_u32(file + GLB_HEADER_SIZE, (uint32_t)json);
+    store_u32(file + 8, (uint32_t)size);
+    store_u32(file + GLB_HEADER_SIZE, (uint32_t)json);
     if (body.size >= json + GLB_CHUNK_HEADER_SIZE)
-        ffd_glb_write_u32(body.data + json, (uint32_t)(body.size - json - GLB_CHUNK_HEADER_SIZE));
+        store_u32(body.data + json, (uint32_t)(body.size - json - GLB_CHUNK_HEADER_SIZE));
     return size;
 }
 

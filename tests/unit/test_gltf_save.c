@@ -8,6 +8,7 @@
 
 #include "../support/gltf_file.h"
 #include "../support/test_folder.h"
+#include "base/little_endian.h"
 #include "io/gltf/glb.h"
 #include <sys/stat.h>
 #include <unistd.h>
@@ -298,12 +299,12 @@ static size_t make_glb(unsigned char *glb, const char *json, const void *bin, si
     const size_t length = strlen(json), tail_size = strlen(tail);
     const size_t total = 12 + 8 + length + 8 + bin_size;
     memcpy(glb, "glTF\2\0\0\0", 8);
-    ffd_glb_write_u32(glb + 8, (uint32_t)total);
-    ffd_glb_write_u32(glb + 12, (uint32_t)length);
-    ffd_glb_write_u32(glb + 16, GLB_CHUNK_JSON);
+    store_u32(glb + 8, (uint32_t)total);
+    store_u32(glb + 12, (uint32_t)length);
+    store_u32(glb + 16, GLB_CHUNK_JSON);
     memcpy(glb + 20, json, length);
-    ffd_glb_write_u32(glb + 20 + length, (uint32_t)bin_size);
-    ffd_glb_write_u32(glb + 24 + length, GLB_CHUNK_BIN);
+    store_u32(glb + 20 + length, (uint32_t)bin_size);
+    store_u32(glb + 24 + length, GLB_CHUNK_BIN);
     memcpy(glb + 28 + length, bin, bin_size);
     memcpy(glb + total, tail, tail_size);
     return total + tail_size;

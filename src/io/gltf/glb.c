@@ -1,19 +1,9 @@
 #include "io/gltf/glb.h"
-
-uint32_t ffd_glb_read_u32(const unsigned char *bytes)
-{
-    return bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
-void ffd_glb_write_u32(unsigned char *bytes, uint32_t value)
-{
-    for (int i = 0; i < 4; i++)
-        bytes[i] = (unsigned char)(value >> 8 * i);
-}
+#include "base/little_endian.h"
 
 bool ffd_glb_is(const unsigned char *data, size_t size)
 {
-    return size >= 4 && ffd_glb_read_u32(data) == GLB_MAGIC;
+    return size >= 4 && load_u32(data) == GLB_MAGIC;
 }
 
 typedef struct glb_chunk {
@@ -29,8 +19,8 @@ static ffd_status read_chunk(const unsigned char *data, size_t end, const char *
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "GLB: the header of the chunk at byte %zu is cut off", *at);
     chunk->begin = *at + GLB_CHUNK_HEADER_SIZE;
-    chunk->size = ffd_glb_read_u32(data + *at);
-    chunk->type = ffd_glb_read_u32(data + *at + 4);
+    chunk->size = load_u32(data + *at);
+    chunk->type = load_u32(data + *at + 4);
     if (chunk->size > end - chunk->begin)
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "GLB: the chunk at byte %zu states %zu bytes, but only %zu follow", *at,
@@ -49,11 +39,11 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
     if (size < GLB_HEADER_SIZE)
         return ffd_fail_file(error, FFD_E_INVALID, name, "GLB: the file has %zu bytes, less than its header",
                              size);
-    const uint32_t version = ffd_glb_read_u32(data + 4);
+    const uint32_t version = load_u32(data + 4);
     if (version != GLB_VERSION)
         return ffd_fail_file(error, FFD_E_UNSUPPORTED, name, "GLB: the version is %lu, only 2 is known",
                              (unsigned long)version);
-    layout->end = ffd_glb_read_u32(data + 8);
+    layout->end = load_u32(data + 8);
     if (layout->end > size || layout->end < GLB_HEADER_SIZE)
         return ffd_fail_file(error, FFD_E_INVALID, name, "GLB: the header states %zu bytes, the file has %zu",
                              layout->end, size);

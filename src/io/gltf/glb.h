@@ -28,7 +28,4 @@ bool ffd_glb_is(const unsigned char *data, size_t size);
 ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *name, glb_layout *layout,
                          ffd_error *error);
 
-uint32_t ffd_glb_read_u32(const unsigned char *bytes);
-void ffd_glb_write_u32(unsigned char *bytes, uint32_t value);
-
 #endif

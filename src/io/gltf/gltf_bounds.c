@@ -9,6 +9,23 @@ typedef struct stored_bounds {
     double least[4], largest[4];
 } stored_bounds;
 
+/* Floats go to the file as they are. */
+static stored_bounds find_float_bounds(const float *xyz, size_t count)
+{
+    stored_bounds bounds = {{0}, {0}};
+    for (size_t c = 0; c < 3 && count > 0; c++)
+        bounds.least[c] = bounds.largest[c] = xyz[c];
+    for (size_t i = 1; i < count; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const double value = xyz[3 * i + c];
+            if (value < bounds.least[c])
+                bounds.least[c] = value;
+            if (value > bounds.largest[c])
+                bounds.largest[c] = value;
+        }
+    return bounds;
+}
+
 /* version NULL: those of the original content. */
 static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_version *version)
 {
@@ -16,6 +33,8 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
     const int component = version ? version->component : accessor->component;
     const size_t size = ffd_gltf_component_size(component);
     stored_bounds bounds = {{0}, {0}};
+    if (version && component == GLTF_FLOAT && accessor->rows == 3)
+        return find_float_bounds(version->values, (size_t)accessor->count);
     for (size_t i = 0; i < accessor->count; i++) {
         unsigned char encoded[GLTF_LARGEST_VECTOR];
         const unsigned char *element = ffd_gltf_element(d, a, i);

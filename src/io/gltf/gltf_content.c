@@ -1,3 +1,4 @@
+#include "base/little_endian.h"
 #include "base/memory.h"
 #include "io/gltf/gltf_encode.h"
 #include "io/gltf/gltf_saver.h"
@@ -220,16 +221,30 @@ static void copy_common(const unsigned char *from, size_t at, size_t size, size_
         memcpy(bytes + (begin - offset), from + (begin - at), end - begin);
 }
 
+static void put_vector(const float *xyz, unsigned char *bytes)
+{
+    for (size_t c = 0; c < 3; c++) {
+        uint32_t bits;
+        memcpy(&bits, xyz + c, sizeof bits);
+        store_u32(bytes + 4 * c, bits);
+    }
+}
+
 static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwrite, size_t offset,
                             size_t size, unsigned char *bytes)
 {
     const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];
     const size_t element = d->layouts[overwrite->accessor].element_size;
+    const bool is_vector = accessor->component == GLTF_FLOAT && accessor->rows == 3;
     size_t i =
         offset > overwrite->begin + element ? (offset - overwrite->begin - element) / overwrite->stride : 0;
     for (size_t at = overwrite->begin + i * overwrite->stride; at < offset + size && at < overwrite->end;
          i++, at += overwrite->stride) {
         unsigned char encoded[GLTF_LARGEST_VECTOR];
+        if (is_vector && at >= offset && at + element <= offset + size) {
+            put_vector(overwrite->values + 3 * i, bytes + (at - offset));
+            continue;
+        }
         ffd_gltf_encode(accessor, accessor->component, ffd_gltf_element(d, overwrite->accessor, i),
                         overwrite->values + 3 * i, encoded);
         copy_common(encoded, at, element, offset, size, bytes);
@@ -294,8 +309,9 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, siz
     const gltf_buffer *old = made->old;
     /* Bytes behind the old byteLength are no content: a buffer that grows does so from there. */
     const size_t kept = made->append_count > 0 ? old->length : old->size;
-    memset(bytes, 0, size);
+    const size_t held = kept <= offset ? 0 : kept - offset < size ? kept - offset : size;
     copy_common(old->data, 0, kept, offset, size, bytes);
+    memset(bytes + held, 0, size - held);
     apply_appends(saver, made, offset, size, bytes);
     /* Last: what was compressed is appended as it was and changed there. */
     apply_overwrites(saver->document, made, offset, size, bytes);

@@ -1,4 +1,5 @@
 #include "io/gltf/gltf_encode.h"
+#include "base/little_endian.h"
 #include "io/gltf/gltf_document.h"
 #include <math.h>
 #include <string.h>
@@ -59,7 +60,7 @@ static void put_float(float value, unsigned char *bytes)
 {
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    ffd_glb_write_u32(bytes, bits);
+    store_u32(bytes, bits);
 }
 
 static void put_integer(double integer, size_t size, unsigned char *bytes)

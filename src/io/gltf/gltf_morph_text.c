@@ -1,3 +1,4 @@
+#include "base/little_endian.h"
 #include "base/memory.h"
 #include "io/gltf/base64.h"
 #include "io/gltf/gltf_morph.h"
@@ -240,7 +241,7 @@ static void add_bytes(morph_writer *w)
 static void put_u32(byte_buffer *out, size_t number)
 {
     unsigned char bytes[4];
-    ffd_glb_write_u32(bytes, (uint32_t)number);
+    store_u32(bytes, (uint32_t)number);
     ffd_buffer_append(out, bytes, sizeof bytes);
 }
 
@@ -275,7 +276,7 @@ static void write_glb(const morph_writer *w, byte_buffer *json, byte_buffer *out
     }
     ffd_buffer_append(out, d->input.data + d->glb.rest_begin, d->glb.end - d->glb.rest_begin);
     if (!out->failed)
-        ffd_glb_write_u32((unsigned char *)out->data + 8, (uint32_t)out->size);
+        store_u32((unsigned char *)out->data + 8, (uint32_t)out->size);
 }
 
 static ffd_status write_file(morph_writer *w, file_input *made, ffd_error *error)

@@ -1,3 +1,4 @@
+#include "base/little_endian.h"
 #include "base/memory.h"
 #include "io/gltf/gltf_morph.h"
 #include <math.h>
@@ -89,7 +90,7 @@ static void put_float(float value, byte_buffer *out)
     unsigned char bytes[4];
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
-    ffd_glb_write_u32(bytes, bits);
+    store_u32(bytes, bits);
     ffd_buffer_append(out, bytes, sizeof bytes);
 }
 

@@ -147,7 +147,7 @@ static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user
     const gltf_accessor *first = &d->model.accessors[x->accessor], *second = &d->model.accessors[y->accessor];
     const size_t values = 3 * (size_t)first->count;
     return first->component == second->component && first->normalized == second->normalized &&
-           first->rows == second->rows && first->count == second->count && a->hash == b->hash &&
+           first->rows == second->rows && first->count == second->count &&
            memcmp(a->values, b->values, values * sizeof *a->values) == 0;
 }
 

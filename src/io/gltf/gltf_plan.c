@@ -65,12 +65,19 @@ static size_t list_candidates(const gltf_document *d, candidate *candidates)
             const size_t values = 3 * d->mesh_parts[i].vertex_count;
             if (!stream->result || !is_changed(d, i, stream))
                 continue;
-            candidates[count++] =
-                (candidate){stream->accessor, i * GLTF_DEFORMED + s, hash_words(stream->result, values),
-                            stream->result, values * sizeof *stream->result};
+            candidates[count++] = (candidate){stream->accessor, i * GLTF_DEFORMED + s, 0, stream->result,
+                                              values * sizeof *stream->result};
         }
-    if (count > 0)
-        qsort(candidates, count, sizeof *candidates, compare_candidates);
+    if (count == 0)
+        return 0;
+    /* Most accessors have one, which needs no hash. */
+    qsort(candidates, count, sizeof *candidates, compare_candidates);
+    for (size_t i = 0; i < count; i++)
+        if ((i > 0 && candidates[i - 1].accessor == candidates[i].accessor) ||
+            (i + 1 < count && candidates[i + 1].accessor == candidates[i].accessor))
+            candidates[i].hash =
+                hash_words(candidates[i].values, candidates[i].size / sizeof *candidates[i].values);
+    qsort(candidates, count, sizeof *candidates, compare_candidates);
     return count;
 }
 
@@ -80,14 +87,11 @@ static void join_candidates(const candidate *candidates, size_t count, gltf_plan
     for (size_t i = 0; i < count; i++) {
         const candidate *c = &candidates[i];
         gltf_version *last = plan->version_count ? &plan->versions[plan->version_count - 1] : NULL;
-        const bool same = last && last->accessor == c->accessor && last->hash == c->hash &&
-                          memcmp(last->values, c->values, c->size) == 0;
+        const bool same =
+            last && last->accessor == c->accessor && memcmp(last->values, c->values, c->size) == 0;
         if (!same)
-            plan->versions[plan->version_count++] = (gltf_version){.accessor = c->accessor,
-                                                                   .values = c->values,
-                                                                   .hash = c->hash,
-                                                                   .order = c->order,
-                                                                   .output = GLTF_NONE};
+            plan->versions[plan->version_count++] = (gltf_version){
+                .accessor = c->accessor, .values = c->values, .order = c->order, .output = GLTF_NONE};
         /* For now by the order that its version has, which sorting does not change. */
         plan->part_versions[c->order] = plan->versions[plan->version_count - 1].order;
     }

@@ -9,8 +9,7 @@
 typedef struct gltf_version {
     size_t accessor;
     const float *values; /* 3 * count, lent by a part */
-    uint64_t hash;
-    size_t order; /* of the first part and attribute that has it */
+    size_t order;        /* of the first part and attribute that has it */
     bool needed;
     int component; /* of its numbers: the accessor's, or GLTF_FLOAT where that does not hold them */
     size_t output; /* the accessor that holds it in the output; GLTF_NONE: none yet */

@@ -1,3 +1,4 @@
+#include "base/little_endian.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 
@@ -23,12 +24,12 @@ uint32_t ffd_gltf_read_index(const unsigned char *at, int component)
         return at[0];
     if (component == GLTF_U16)
         return at[0] | (uint32_t)at[1] << 8;
-    return ffd_glb_read_u32(at);
+    return load_u32(at);
 }
 
 static double read_float(const unsigned char *at)
 {
-    const uint32_t bits = ffd_glb_read_u32(at);
+    const uint32_t bits = load_u32(at);
     float value;
     memcpy(&value, &bits, sizeof value);
     return value;
@@ -56,7 +57,7 @@ double ffd_gltf_read_number(const unsigned char *at, int component, bool normali
         scale = 65535;
         break;
     case GLTF_U32:
-        return ffd_glb_read_u32(at);
+        return load_u32(at);
     default:
         return read_float(at);
     }
@@ -113,13 +114,30 @@ const unsigned char *ffd_gltf_element(const gltf_document *d, size_t a, size_t i
     return layout->data ? layout->data + i * layout->stride : zeros;
 }
 
+void ffd_gltf_originals(const gltf_document *d, size_t a, size_t count, float *values)
+{
+    const gltf_layout *layout = &d->layouts[a];
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    if (accessor->component != GLTF_FLOAT || accessor->sparse.present || !layout->data) {
+        for (size_t i = 0; i < count; i++)
+            ffd_gltf_original(d, a, i, values + 3 * i);
+        return;
+    }
+    const unsigned char *at = layout->data;
+    for (size_t i = 0; i < count; i++, at += layout->stride)
+        for (size_t c = 0; c < 3; c++) {
+            const uint32_t bits = load_u32(at + 4 * c);
+            memcpy(values + 3 * i + c, &bits, sizeof bits);
+        }
+}
+
 void ffd_gltf_original(const gltf_document *d, size_t a, size_t i, float values[3])
 {
     const gltf_accessor *accessor = &d->model.accessors[a];
     const unsigned char *element = ffd_gltf_element(d, a, i);
     if (accessor->component == GLTF_FLOAT) {
         for (size_t c = 0; c < 3; c++) {
-            const uint32_t bits = ffd_glb_read_u32(element + 4 * c);
+            const uint32_t bits = load_u32(element + 4 * c);
             memcpy(values + c, &bits, sizeof bits);
         }
         return;
@@ -145,6 +163,16 @@ static void read_sparse(const gltf_document *d, const gltf_accessor *accessor, s
     }
 }
 
+/* The commonest: vectors of floats. */
+static void read_vectors(const unsigned char *at, size_t stride, size_t count, double *xyz)
+{
+    for (size_t i = 0; i < count; i++, at += stride, xyz += 3) {
+        xyz[0] = read_float(at);
+        xyz[1] = read_float(at + 4);
+        xyz[2] = read_float(at + 8);
+    }
+}
+
 void ffd_gltf_read(const gltf_document *d, size_t a, size_t first, size_t count, size_t components,
                    double *values)
 {
@@ -152,6 +180,8 @@ void ffd_gltf_read(const gltf_document *d, size_t a, size_t first, size_t count,
     const gltf_layout *layout = &d->layouts[a];
     if (!layout->data) {
         memset(values, 0, count * components * sizeof *values);
+    } else if (accessor->component == GLTF_FLOAT && components == 3) {
+        read_vectors(layout->data + first * layout->stride, layout->stride, count, values);
     } else if (accessor->component == GLTF_FLOAT) {
         for (size_t i = 0; i < count; i++)
             for (size_t c = 0; c < components; c++)

@@ -11,8 +11,8 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
     if (!stream->result)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < count && !d->morph_name; i++)
-        ffd_gltf_original(d, stream->accessor, i, stream->result + 3 * i);
+    if (!d->morph_name)
+        ffd_gltf_originals(d, stream->accessor, count, stream->result);
     return FFD_OK;
 }
 

@@ -1,3 +1,4 @@
+#include "base/little_endian.h"
 #include "base/memory.h"
 #include "io/gltf/base64.h"
 #include "io/gltf/gltf_morph.h"
@@ -117,8 +118,8 @@ static size_t padded(size_t size)
 static ffd_status put_chunk_header(const gltf_saver *saver, size_t size, uint32_t type, ffd_error *error)
 {
     unsigned char header[GLB_CHUNK_HEADER_SIZE];
-    ffd_glb_write_u32(header, (uint32_t)size);
-    ffd_glb_write_u32(header + 4, type);
+    store_u32(header, (uint32_t)size);
+    store_u32(header + 4, type);
     return put(saver, header, sizeof header, error);
 }
 
@@ -164,9 +165,9 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
         return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
                              "would have %zu bytes, more than a GLB's 4294967295", sizes.total);
     unsigned char header[GLB_HEADER_SIZE];
-    ffd_glb_write_u32(header, GLB_MAGIC);
-    ffd_glb_write_u32(header + 4, GLB_VERSION);
-    ffd_glb_write_u32(header + 8, (uint32_t)sizes.total);
+    store_u32(header, GLB_MAGIC);
+    store_u32(header + 4, GLB_VERSION);
+    store_u32(header + 8, (uint32_t)sizes.total);
     ffd_status status = put(saver, header, sizeof header, error);
     if (status == FFD_OK)
         status = put_chunk_header(saver, sizes.json_chunk, GLB_CHUNK_JSON, error);

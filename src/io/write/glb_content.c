@@ -1,3 +1,4 @@
+#include "base/little_endian.h"
 #include "io/gltf/base64.h"
 #include "io/gltf/glb.h"
 #include "io/write/glb_writer.h"
@@ -29,7 +30,7 @@ static void put_bytes(gltf_writer *w, const unsigned char *bytes, size_t size)
 static void put_u32(gltf_writer *w, uint32_t value)
 {
     unsigned char bytes[4];
-    ffd_glb_write_u32(bytes, value);
+    store_u32(bytes, value);
     put_bytes(w, bytes, sizeof bytes);
 }
 
@@ -86,7 +87,7 @@ static void put_indices(gltf_writer *w, const glb_primitive *primitive)
     const uint32_t *indices = w->plan.indices + primitive->first_index;
     for (size_t i = 0; i < primitive->index_count; i++) {
         unsigned char bytes[4];
-        ffd_glb_write_u32(bytes, indices[i]);
+        store_u32(bytes, indices[i]);
         put_bytes(w, bytes, glb_has_short_indices(primitive) ? 2 : 4);
     }
 }
