@@ -5,12 +5,12 @@
 
    kernel    points whose u,v,w and cells are known: delta, in millions a second: median (least to greatest)
    gradient  and its gradient too, for a box (one Jacobian for all), and for a lattice that is none
-   batch     with the finding of the cells and the bringing together of their points: what a tile of a mesh costs
-   The points lie on a wavy surface through the lattice, row by row. */
+   batch     with the finding of the cells and the bringing together of their points: what a tile of a mesh
+   costs The points lie on a wavy surface through the lattice, row by row. */
+#include "deform/displacement.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "base/clock.h"
-#include "deform/displacement.h"
 #include <math.h>
 
 #define MOST_RUNS 99
@@ -58,7 +58,8 @@ static void place_points(sample *s)
 {
     const size_t side = (size_t)sqrt((double)s->count);
     for (size_t n = 0; n < s->count; n++) {
-        const double x = (double)(n % side) / (double)side, y = (double)(n / side) / (double)(s->count / side + 1);
+        const double x = (double)(n % side) / (double)side,
+                     y = (double)(n / side) / (double)(s->count / side + 1);
         s->uvw[3 * n] = x;
         s->uvw[3 * n + 1] = y;
         s->uvw[3 * n + 2] = 0.5 + 0.4 * sin(20 * x) * cos(20 * y);

@@ -1,7 +1,7 @@
 /* mutate_mesh.c - changes of mesh files: numbers and lines of the text, bytes of what follows it. A GLB's
    lengths are mostly set right again, so that what its JSON says is looked at. */
-#include "fuzz_target.h"
 #include "base/little_endian.h"
+#include "fuzz_target.h"
 #include "io/gltf/glb.h"
 #include "mutate_text.h"
 #include <stdbool.h>
