@@ -4,6 +4,17 @@
 #include <math.h>
 #include <string.h>
 
+/* Of the greatest weight to the least; NULL: all are 1. */
+static double ratio_of(const double *weights, size_t count, double *greatest)
+{
+    double least = *greatest = weights ? weights[0] : 1;
+    for (size_t i = 1; weights && i < count; i++) {
+        least = fmin(least, weights[i]);
+        *greatest = fmax(*greatest, weights[i]);
+    }
+    return *greatest / least;
+}
+
 static void measure_points(probe *made)
 {
     const ffd_lattice *const lattice = made->lattice;
@@ -17,12 +28,16 @@ static void measure_points(probe *made)
         made->extent[a] = fmax(hi - made->centre[a], made->centre[a] - lo);
         made->magnitude[a] = fmax(fabs(lo), fabs(hi));
     }
-    double least = 1, greatest = 1;
-    for (size_t i = 0; lattice->rest_weights && i < lattice->count; i++) {
-        least = i > 0 ? fmin(least, lattice->rest_weights[i]) : lattice->rest_weights[i];
-        greatest = i > 0 ? fmax(greatest, lattice->rest_weights[i]) : least;
-    }
-    made->weight_ratio = greatest / least;
+    double greatest;
+    made->weight_ratio = ratio_of(lattice->rest_weights, lattice->count, &greatest);
+}
+
+/* Weights that are far apart, or whose multiples leave the range of doubles, are beyond reason. */
+static bool weights_are_ordinary(const ffd_lattice *lattice)
+{
+    double rest, deformed;
+    return ratio_of(lattice->rest_weights, lattice->count, &rest) < 1e9 && rest < 1e280 &&
+           ratio_of(lattice->deformed_weights, lattice->count, &deformed) < 1e9 && deformed < 1e280;
 }
 
 static double greatest_deformed(const ffd_lattice *lattice)
@@ -46,7 +61,7 @@ void probe_measure(const ffd_lattice *lattice, probe *made)
     *made = (probe){.lattice = lattice, .is_resolved = true};
     ffd_lattice_get_domain(lattice, made->lo, made->hi);
     measure_points(made);
-    made->is_ordinary = made->weight_ratio < 1e9 && greatest_deformed(lattice) < 1e280;
+    made->is_ordinary = weights_are_ordinary(lattice) && greatest_deformed(lattice) < 1e280;
     for (int a = 0; a < 3; a++) {
         made->u_error[a] = 4 * DBL_EPSILON * fmax(fabs(made->lo[a]), fabs(made->hi[a])) + DBL_TRUE_MIN;
         made->is_resolved = made->is_resolved && narrowest_span(&lattice->knots[a]) > 64 * made->u_error[a];
