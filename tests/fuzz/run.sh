@@ -1,15 +1,16 @@
 #!/bin/sh
 # Fuzzes lattice files or a reader of meshes with clang's libFuzzer under the address and undefined-behaviour
 # sanitizers.
-#     sh tests/fuzz/run.sh [-t TARGET] SECONDS [FOLDER]
-# TARGET: lattice (default), obj, gltf, glb, ply, off, stl. Builds in FOLDER (default .build-test/fuzz). What is found new
+#     sh tests/fuzz/run.sh [-t TARGET] [-n RUNS] SECONDS [FOLDER]
+# TARGET: lattice (default), obj, gltf, glb, ply, off, stl. With -n it ends after so many runs, the same ones every
+# time as far as the machine allows, or after the seconds. Builds in FOLDER (default .build-test/fuzz). What is found new
 # goes to FOLDER/TARGET/corpus, which the next run goes on with; inputs that end in a finding go to
 # FOLDER/TARGET/findings. Meshes start from the small ones of the folder FFD_MODELS too, where that is set. Ends
 # with 0 when there was no finding.
 set -eu
 
 usage() {
-    echo "usage: sh tests/fuzz/run.sh [-t lattice|obj|gltf|glb|ply|off|stl] SECONDS [FOLDER]" >&2
+    echo "usage: sh tests/fuzz/run.sh [-t lattice|obj|gltf|glb|ply|off|stl] [-n RUNS] SECONDS [FOLDER]" >&2
     exit 2
 }
 
@@ -17,6 +18,12 @@ target=lattice
 if [ "${1-}" = -t ]; then
     [ $# -ge 2 ] || usage
     target=$2
+    shift 2
+fi
+same=
+if [ "${1-}" = -n ]; then
+    [ $# -ge 2 ] || usage
+    same="-runs=$2 -seed=1"
     shift 2
 fi
 [ $# -ge 1 ] && [ $# -le 2 ] || usage
@@ -53,6 +60,7 @@ if [ -z "${TMPDIR-}" ] && [ -w /dev/shm ]; then
 fi
 export ASAN_OPTIONS="halt_on_error=1:detect_leaks=1:allocator_may_return_null=1"
 export UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1"
-exec "$work/tests/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len="$length" -timeout=20 -rss_limit_mb=2048 \
+# shellcheck disable=SC2086 # two options or nothing
+exec "$work/tests/fuzz/fuzz_$target" $same -max_total_time="$seconds" -max_len="$length" -timeout=20 -rss_limit_mb=2048 \
     -dict="$here/$dictionary" -artifact_prefix="$work/$target/findings/" -print_final_stats=1 \
     "$work/$target/corpus" "$here/corpus/$target" ${seeds:+"$seeds"}
