@@ -108,46 +108,58 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
     result->weight_ratio = result->greatest_weight / least;
 }
 
+/* Finds where the rows of a cell's control points along u stand: where u goes round, in own. */
+static void find_rows(const ffd_locator *locator, const int span[3], cell_rows rows, double *own)
+{
+    const int *const order = locator->cells->order;
+    size_t first[3], function[3];
+    for (int a = 0; a < 3; a++)
+        first[a] = (size_t)(span[a] - order[a] + 1);
+    const bool turns = first[0] + (size_t)order[0] > locator->lattice->size[0];
+    for (int k = 0; k < order[2]; k++)
+        for (int j = 0; j < order[1]; j++) {
+            function[0] = first[0];
+            function[1] = first[1] + (size_t)j;
+            function[2] = first[2] + (size_t)k;
+            rows[k][j] = turns ? own : ffd_cells_point(locator, function);
+            for (int i = 0; i < order[0] && turns; i++, own += N) {
+                function[0] = first[0] + (size_t)i;
+                memcpy(own, ffd_cells_point(locator, function), N * sizeof *own);
+            }
+        }
+}
+
 void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double offset[3],
                         homogeneous *result)
 {
     const cell_search *cells = locator->cells;
-    double value[3][MAX_ORDER], slope[3][MAX_ORDER];
+    cell_basis basis;
+    cell_rows rows;
+    double own[MAX_ORDER * MAX_ORDER * MAX_ORDER * N];
     for (int a = 0; a < 3; a++)
-        ffd_basis_derivatives_in(&locator->knots[a], span[a], offset[a], value[a], slope[a]);
-    memset(result, 0, sizeof *result);
-    size_t function[3];
-    for (int k = 0; k < cells->order[2]; k++) {
-        double plane[N] = {0}, plane_u[N] = {0}, plane_v[N] = {0};
-        function[2] = (size_t)(span[2] - cells->order[2] + 1 + k);
-        for (int j = 0; j < cells->order[1]; j++) {
-            double line[N] = {0}, line_u[N] = {0};
-            function[1] = (size_t)(span[1] - cells->order[1] + 1 + j);
-            for (int i = 0; i < cells->order[0]; i++) {
-                function[0] = (size_t)(span[0] - cells->order[0] + 1 + i);
-                const double *point = ffd_cells_point(locator, function);
-                for (int c = 0; c < N; c++) {
-                    line[c] += value[0][i] * point[c];
-                    line_u[c] += slope[0][i] * point[c];
-                }
-            }
-            for (int c = 0; c < N; c++) {
-                plane[c] += value[1][j] * line[c];
-                plane_u[c] += value[1][j] * line_u[c];
-                plane_v[c] += slope[1][j] * line[c];
-            }
-        }
-        for (int c = 0; c < N; c++) {
-            result->value[c] += value[2][k] * plane[c];
-            result->derivative[0][c] += value[2][k] * plane_u[c];
-            result->derivative[1][c] += value[2][k] * plane_v[c];
-            result->derivative[2][c] += slope[2][k] * plane[c];
-        }
-    }
+        ffd_basis_derivatives_in(&locator->knots[a], span[a], offset[a], basis.value[a], basis.slope[a]);
+    find_rows(locator, span, rows, own);
+    cells->kernel(&basis, cells->order, (const cell_rows *)&rows, result);
     if (!cells->rational) {
         result->value[3] = 1;
         for (int a = 0; a < 3; a++)
             result->derivative[a][3] = 0;
+    }
+}
+
+static cell_kernel *kernel_of(ffd_isa isa)
+{
+    switch (isa == FFD_ISA_AUTO ? ffd_isa_best() : isa) {
+#ifdef FFD_X86
+    case FFD_ISA_SSE2:
+        return ffd_cell_kernel_sse2;
+    case FFD_ISA_AVX2:
+        return ffd_cell_kernel_avx2;
+    case FFD_ISA_AVX512:
+        return ffd_cell_kernel_avx512;
+#endif
+    default:
+        return ffd_cell_kernel_scalar;
     }
 }
 
@@ -168,6 +180,7 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     if (!cells)
         return ffd_fail_memory(error);
     locator->cells = cells;
+    cells->kernel = kernel_of(locator->isa);
     cells->rational = lattice->rest_weights != NULL;
     for (int a = 0; a < 3; a++) {
         cells->order[a] = lattice->knots[a].degree + 1;

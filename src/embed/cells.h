@@ -5,6 +5,7 @@
 #define FFD_EMBED_CELLS_H
 
 #include "embed/bezier_box.h"
+#include "embed/cell_kernel.h"
 #include "embed/collapse.h"
 #include "embed/locator.h"
 #include <math.h>
@@ -63,6 +64,7 @@ typedef struct cell_search {
     size_t cells[3]; /* non-empty spans */
     size_t bricks[3];
     bool rational;
+    cell_kernel *kernel;
     /* The search's units: powers of two that bring the lattice and its weights to size 1, so that products of
        three derivatives stay in the range of doubles. x = (P - origin) scale. */
     double scale;
@@ -109,12 +111,7 @@ void ffd_cells_centre(const ffd_locator *locator, cell_region *region);
 ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bricks *own,
                            const cell_brick **brick, ffd_error *error);
 
-/* A and W at u = t_span + offset, with their derivatives, from the polynomial of the given span (also at its
-   ends). */
-typedef struct homogeneous {
-    double value[BEZIER_COMPONENTS];
-    double derivative[3][BEZIER_COMPONENTS]; /* by u, v, w */
-} homogeneous;
+/* At u = t_span + offset. */
 void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double offset[3],
                         homogeneous *result);
 

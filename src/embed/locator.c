@@ -39,6 +39,12 @@ static bool shift_knots(ffd_locator *locator)
 
 ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator, ffd_error *error)
 {
+    return ffd_locator_create_for(lattice, FFD_ISA_AUTO, locator, error);
+}
+
+ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_locator **locator,
+                                  ffd_error *error)
+{
     *locator = NULL;
     if (!lattice->rest)
         return ffd_fail(error, FFD_E_ARGUMENT, "the lattice has no place yet: its box is that of a mesh");
@@ -46,6 +52,7 @@ ffd_status ffd_locator_create(const ffd_lattice *lattice, ffd_locator **locator,
     if (!made)
         return ffd_fail_memory(error);
     made->lattice = lattice;
+    made->isa = isa;
     if (!shift_knots(made)) {
         ffd_locator_destroy(&made);
         return ffd_fail_memory(error);

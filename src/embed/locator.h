@@ -3,6 +3,7 @@
 #define FFD_EMBED_LOCATOR_H
 
 #include "base/fail.h"
+#include "base/isa.h"
 #include "embed/box_tree.h"
 #include "lattice/lattice.h"
 #include <ffd/embedding.h>
@@ -24,6 +25,7 @@ typedef struct monotone_curve {
 
 struct ffd_locator {
     const ffd_lattice *lattice;
+    ffd_isa isa;
     locator_method method;
     /* The lattice's knots with the domain's start subtracted, times a power of two that brings the domain's
        side to size 1: far from 0 a parameter would be too coarse to meet the tolerance, and derivatives by
@@ -37,6 +39,10 @@ struct ffd_locator {
     monotone_curve curves[3];
     struct cell_search *cells;
 };
+
+/* ffd_locator_create with the instructions of the kernels; they change no bit. */
+ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_locator **locator,
+                                  ffd_error *error);
 
 /* tol_a = 16 eps (max|P_a| + |p_a|), p with the origin subtracted (maths.md 6.6). */
 static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])

@@ -3,13 +3,14 @@
 #include "base/memory.h"
 #include "base/vec.h"
 #include "deform/extension.h"
+#include "embed/locator.h"
 #include "lattice/lattice.h"
 #include <string.h>
 
-ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside,
+ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside, ffd_isa isa,
                           lattice_chain *chain, ffd_error *error)
 {
-    *chain = (lattice_chain){.outside = *outside};
+    *chain = (lattice_chain){.outside = *outside, .isa = isa};
     if (count == 0)
         return ffd_fail(error, FFD_E_ARGUMENT, "no lattice is given");
     chain->links = ffd_alloc_zero(count, sizeof *chain->links);
@@ -44,7 +45,7 @@ void ffd_chain_free(lattice_chain *chain)
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error)
 {
     chain_link *made = &chain->links[link];
-    const ffd_status status = ffd_locator_create(made->lattice, &made->locator, error);
+    const ffd_status status = ffd_locator_create_for(made->lattice, chain->isa, &made->locator, error);
     if (status || !chain->outside.extend)
         return status;
     made->falloff = chain->outside.falloff;

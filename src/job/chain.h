@@ -31,7 +31,7 @@ typedef struct lattice_chain {
     ffd_isa isa; /* of the kernels; changes no bit */
 } lattice_chain;
 
-ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside,
+ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside, ffd_isa isa,
                           lattice_chain *chain, ffd_error *error);
 void ffd_chain_free(lattice_chain *chain);
 

@@ -74,8 +74,8 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     if (desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
-    ffd_status status = ffd_chain_load(desc->lattices, desc->lattice_count, &outside, &job->chain, error);
-    job->chain.isa = desc->isa;
+    ffd_status status =
+        ffd_chain_load(desc->lattices, desc->lattice_count, &outside, desc->isa, &job->chain, error);
     if (!status)
         status = ffd_source_open(&desc->input, &job->document, error);
     if (!status)

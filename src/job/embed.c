@@ -159,7 +159,7 @@ static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_er
     embedding made = {0};
     ffd_status status = check_outputs(desc, error);
     if (!status)
-        status = ffd_chain_load(&desc->lattice, 1, &outside, &made.chain, error);
+        status = ffd_chain_load(&desc->lattice, 1, &outside, FFD_ISA_AUTO, &made.chain, error);
     if (status)
         return status;
     status = embed(desc, &made, start, result, error);
