@@ -4,12 +4,22 @@
 #include "io/formats.h"
 #include <inttypes.h>
 
-void ffd_obj_document_walk(const obj_document *d, obj_walk *walk)
+static void set_totals(const obj_document *d, obj_walk *walk)
 {
-    ffd_obj_walk_begin(walk, d->input.data, d->input.size);
     walk->vertices.total = d->vertices;
     walk->texcoords.total = d->texcoords;
     walk->normals.total = d->normals;
+}
+
+void ffd_obj_document_walk(const obj_document *d, obj_walk *walk)
+{
+    ffd_obj_walk_begin(walk, d->input.data, d->input.size);
+    set_totals(d, walk);
+}
+
+void ffd_obj_document_walk_users(const obj_document *d, obj_walk *walk)
+{
+    *walk = d->users;
 }
 
 /* Elements of 3 numbers while they are being read. */
@@ -47,23 +57,40 @@ static double *trimmed(vectors *list)
     return block ? block : list->xyz;
 }
 
+/* Whether a statement may name elements by their numbers. */
+static bool may_name_elements(obj_keyword keyword)
+{
+    return keyword == OBJ_FACE || keyword == OBJ_LINE || keyword == OBJ_POINT || keyword == OBJ_OTHER;
+}
+
 static ffd_status read_vectors(obj_document *d, ffd_error *error)
 {
     vectors positions = {0}, directions = {0};
     obj_walk walk;
+    bool before_users = true;
     ffd_status status = FFD_OK;
     ffd_obj_document_walk(d, &walk);
+    d->users = walk;
     while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
         if (walk.scan.keyword == OBJ_VERTEX)
             status = read_vector(d, &walk.scan, "vertex", &positions, error);
         else if (walk.scan.keyword == OBJ_NORMAL)
             status = read_vector(d, &walk.scan, "normal", &directions, error);
+        before_users = before_users && !may_name_elements(walk.scan.keyword);
+        if (!before_users)
+            continue;
+        if (walk.scan.keyword == OBJ_NORMAL) {
+            ffd_obj_scan_finish(&walk.scan);
+            d->addition = (size_t)(walk.scan.at - (const char *)d->input.data);
+        }
+        d->users = walk;
     }
     d->vertices = positions.count;
     d->normals = directions.count;
     d->texcoords = walk.texcoords.seen;
     d->positions = trimmed(&positions);
     d->directions = trimmed(&directions);
+    set_totals(d, &d->users);
     return status;
 }
 

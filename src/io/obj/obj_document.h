@@ -27,6 +27,7 @@ typedef struct obj_document {
     uint32_t *pair_start, *pair_normal;
     /* Where `vn` can be added so that every index keeps its meaning: an offset into the file. */
     size_t addition;
+    obj_walk users; /* before the first statement that may name elements; totals set */
     /* What ffd_obj_select left: bytes of vertices, faces, pairs; and of `vn` that a corner of a face uses
        which is not selected, so that they must stay. NULL: all is selected. */
     uint8_t *selected_vertices, *selected_faces, *selected_pairs, *held_normals;
@@ -41,6 +42,9 @@ static inline const obj_document *ffd_obj_of(const mesh_document *document)
 
 /* A walk over the document's file, totals set. */
 void ffd_obj_document_walk(const obj_document *document, obj_walk *walk);
+/* The same from the first statement on that may name elements: faces, lines, points, and what is not known.
+ */
+void ffd_obj_document_walk_users(const obj_document *document, obj_walk *walk);
 /* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
 ffd_status ffd_obj_read_faces(obj_document *document, ffd_error *error);
 

@@ -78,7 +78,7 @@ static ffd_status check_statements(obj_document *d, uint64_t *with_normal, ffd_e
 {
     obj_walk walk;
     ffd_status status = FFD_OK;
-    ffd_obj_document_walk(d, &walk);
+    ffd_obj_document_walk_users(d, &walk);
     while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
         switch (walk.scan.keyword) {
         case OBJ_NORMAL:
@@ -141,7 +141,7 @@ static void collect_normals(obj_document *d)
 {
     obj_walk walk;
     obj_face_corner corner;
-    ffd_obj_document_walk(d, &walk);
+    ffd_obj_document_walk_users(d, &walk);
     while (ffd_obj_walk_next(&walk)) {
         if (walk.scan.keyword != OBJ_FACE)
             continue;
@@ -211,7 +211,7 @@ static void fill_faces(const obj_document *d, mesh_faces *faces)
     obj_walk walk;
     obj_face_corner corner;
     size_t face = 0, count = 0;
-    ffd_obj_document_walk(d, &walk);
+    ffd_obj_document_walk_users(d, &walk);
     while (ffd_obj_walk_next(&walk)) {
         if (walk.scan.keyword != OBJ_FACE)
             continue;
@@ -243,7 +243,7 @@ ffd_status ffd_obj_corner_normals(const mesh_document *document, const mesh_face
     obj_face_corner corner;
     (void)faces; /* they are read again, in the same order */
     (void)error;
-    ffd_obj_document_walk(d, &walk);
+    ffd_obj_document_walk_users(d, &walk);
     while (ffd_obj_walk_next(&walk))
         while (walk.scan.keyword == OBJ_FACE && ffd_obj_walk_corner(&walk, &corner))
             *normals++ = corner.has_normal ? (uint32_t)ffd_obj_find_pair(d, &corner) : MESH_NO_NORMAL;

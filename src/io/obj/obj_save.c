@@ -105,13 +105,20 @@ static void replace_normal(saver *s, obj_walk *walk)
         add_normals(s);
 }
 
+/* Whether no statement behind the walk's place can change. */
+static bool is_done(const saver *s, const obj_walk *walk)
+{
+    return walk->vertices.seen == s->document->vertices && !s->split.target &&
+           (!s->split.keeper || walk->normals.seen == s->document->normals);
+}
+
 static void write_statements(saver *s)
 {
     const obj_document *d = s->document;
     obj_walk walk;
     size_t faces = 0;
     ffd_obj_document_walk(d, &walk);
-    while (s->splice.status == FFD_OK && ffd_obj_walk_next(&walk)) {
+    while (s->splice.status == FFD_OK && !is_done(s, &walk) && ffd_obj_walk_next(&walk)) {
         faces += walk.scan.keyword == OBJ_FACE;
         const size_t v = walk.vertices.seen - 1;
         if (walk.scan.keyword == OBJ_VERTEX)
