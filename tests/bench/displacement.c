@@ -1,12 +1,12 @@
 /* How many points a second are displaced, with each instruction set of this processor, beside a plain copy of
-   as many float positions.
+   as many positions as floats.
 
      displacement [RUNS] [POINTS]     default 7 runs of 1,000,000 points, one thread
 
-   kernel    points whose u,v,w and cells are known: delta, in millions a second: median (least to greatest)
-   gradient  and its gradient too, for a box (one Jacobian for all), and for a lattice that is none
-   batch     with the finding of the cells and the bringing together of their points: what a tile of a mesh
-   costs The points lie on a wavy surface through the lattice, row by row. */
+   Millions a second: median (least to greatest), of the displacement alone and with its gradient, for a box,
+   where d uvw / d p is one for all, and for a lattice in general. It takes in what a tile of a mesh costs
+   beside the kernel: the cells of the points are found, and the points of each brought together. They lie on
+   a wavy surface through the lattice, row by row. */
 #include "deform/displacement.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
@@ -21,6 +21,7 @@ typedef struct sample {
     ffd_lattice *lattice;
     size_t count;
     double *uvw;
+    float *from, *to; /* 3 a point */
     displacement_scratch scratch;
     double delta[3 * DISPLACEMENT_BATCH], gradient[9 * DISPLACEMENT_BATCH];
     uint8_t moves[DISPLACEMENT_BATCH];
@@ -81,6 +82,11 @@ static void run_batches(sample *s)
     }
 }
 
+static void copy(sample *s)
+{
+    memcpy(s->to, s->from, 3 * s->count * sizeof *s->to);
+}
+
 static int compare(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -114,12 +120,17 @@ int main(int count, char **arguments)
     if (!s || runs < 1 || runs > MOST_RUNS)
         return 2;
     s->count = count > 2 ? (size_t)strtoull(arguments[2], NULL, 10) : 1000000;
-    s->uvw = malloc(s->count * 3 * sizeof(double));
-    if (!s->uvw)
+    s->uvw = malloc(s->count * 3 * sizeof *s->uvw);
+    s->from = calloc(s->count, 3 * sizeof *s->from);
+    s->to = calloc(s->count, 3 * sizeof *s->to);
+    if (!s->uvw || !s->from || !s->to)
         return 2;
     for (uint32_t n = 0; n < DISPLACEMENT_BATCH; n++)
         s->which[n] = n;
     place_points(s);
+    printf("copy     ");
+    measure(s, copy, runs);
+    printf("\n");
     for (size_t size = 8; size <= 64; size *= 8)
         for (int box = 1; box >= 0; box--) {
             s->lattice = make_lattice(size, box);
@@ -137,6 +148,8 @@ int main(int count, char **arguments)
             ffd_lattice_destroy(&s->lattice);
         }
     free(s->uvw);
+    free(s->from);
+    free(s->to);
     free(s);
     return 0;
 }
