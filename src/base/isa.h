@@ -7,4 +7,10 @@
 /* The best of this processor. Never FFD_ISA_AUTO. */
 ffd_isa ffd_isa_best(void);
 
+/* What an available one stands for: the best in place of FFD_ISA_AUTO. */
+static inline ffd_isa ffd_isa_resolve(ffd_isa isa)
+{
+    return isa == FFD_ISA_AUTO ? ffd_isa_best() : isa;
+}
+
 #endif

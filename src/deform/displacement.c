@@ -103,21 +103,14 @@ static bool load_cell(const ffd_lattice *lattice, const size_t number[3], bool g
     return true;
 }
 
-static displacement_kernel *kernel_of(ffd_isa isa)
-{
-    switch (isa == FFD_ISA_AUTO ? ffd_isa_best() : isa) {
+static displacement_kernel *const kernels[] = {
+    [FFD_ISA_SCALAR] = ffd_kernel_scalar,
 #ifdef FFD_X86
-    case FFD_ISA_SSE2:
-        return ffd_kernel_sse2;
-    case FFD_ISA_AVX2:
-        return ffd_kernel_avx2;
-    case FFD_ISA_AVX512:
-        return ffd_kernel_avx512;
+    [FFD_ISA_SSE2] = ffd_kernel_sse2,
+    [FFD_ISA_AVX2] = ffd_kernel_avx2,
+    [FFD_ISA_AVX512] = ffd_kernel_avx512,
 #endif
-    default:
-        return ffd_kernel_scalar;
-    }
-}
+};
 
 /* As displace_rational. Where the lattice knows d uvw / d p, by_uvw is the gradient and jacobian NULL. */
 static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inverse, double delta[3],
@@ -278,7 +271,7 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
         }
         return;
     }
-    displacement_kernel *const kernel = kernel_of(isa);
+    displacement_kernel *const kernel = kernels[ffd_isa_resolve(isa)];
     find_cells(lattice, batch, scratch);
     sort_points(batch, scratch);
     for (size_t c = 0; c < scratch->cell_count; c++)

@@ -147,21 +147,14 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
     }
 }
 
-static cell_kernel *kernel_of(ffd_isa isa)
-{
-    switch (isa == FFD_ISA_AUTO ? ffd_isa_best() : isa) {
+static cell_kernel *const kernels[] = {
+    [FFD_ISA_SCALAR] = ffd_cell_kernel_scalar,
 #ifdef FFD_X86
-    case FFD_ISA_SSE2:
-        return ffd_cell_kernel_sse2;
-    case FFD_ISA_AVX2:
-        return ffd_cell_kernel_avx2;
-    case FFD_ISA_AVX512:
-        return ffd_cell_kernel_avx512;
+    [FFD_ISA_SSE2] = ffd_cell_kernel_sse2,
+    [FFD_ISA_AVX2] = ffd_cell_kernel_avx2,
+    [FFD_ISA_AVX512] = ffd_cell_kernel_avx512,
 #endif
-    default:
-        return ffd_cell_kernel_scalar;
-    }
-}
+};
 
 void ffd_cells_centre(const ffd_locator *locator, cell_region *region)
 {
@@ -180,7 +173,7 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     if (!cells)
         return ffd_fail_memory(error);
     locator->cells = cells;
-    cells->kernel = kernel_of(locator->isa);
+    cells->kernel = kernels[ffd_isa_resolve(locator->isa)];
     cells->rational = lattice->rest_weights != NULL;
     for (int a = 0; a < 3; a++) {
         cells->order[a] = lattice->knots[a].degree + 1;
