@@ -8,6 +8,7 @@
 /* Looks at reflex corners that finding ears may take: more than any polygon of reason needs. */
 #define LOOKS_FIRST ((uint64_t)1 << 20)
 #define LOOKS_PER_CORNER 4096
+#define MOST_LOOKS ((uint64_t)1 << 30)
 
 /* How much is asked of an ear. Each step is taken when a whole round has found none. */
 enum { EAR_CLEAR, EAR_TOUCHED, EAR_FLAT, EAR_ANY };
@@ -156,7 +157,8 @@ static void unlink_corner(polygon_cutter *cutter, uint32_t i)
 
 static void cut_ears(polygon_cutter *cutter, uint32_t count, uint32_t *triangles)
 {
-    const uint64_t most_looks = LOOKS_FIRST + (uint64_t)count * LOOKS_PER_CORNER;
+    const uint64_t wanted = LOOKS_FIRST + (uint64_t)count * LOOKS_PER_CORNER;
+    const uint64_t most_looks = wanted < MOST_LOOKS ? wanted : MOST_LOOKS;
     uint64_t looks = 0;
     uint32_t i = 0, left = count, tried = 0;
     int demand = EAR_CLEAR;
