@@ -58,6 +58,10 @@ typedef struct ffd_source {
     const char *path;  /* "-": standard input */
     ffd_format format; /* AUTO is not possible for "-" */
     ffd_space space;   /* glTF: where the lattice stands */
+    /* Bytes of memory that the mesh may take; 0, or less than that: 100 MB and 20 times the size of its
+       files. What asks for more (a short file can show or unpack any number of vertices) is refused with
+       FFD_E_LIMIT. Estimated, and without that of the lattice. */
+    uint64_t memory;
 } ffd_source;
 
 /* Whether text is a selector as ffd_deform_desc's only takes it. Errors: FFD_E_ARGUMENT, with the nearest

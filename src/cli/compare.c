@@ -7,6 +7,7 @@
 typedef struct settings {
     double tolerance;
     ffd_format input_format;
+    uint64_t memory;
     bool help;
     cli_talk talk;
 } settings;
@@ -24,6 +25,7 @@ static bool set_tolerance(void *context, const cli_option *option, const char *v
 static const cli_option options[] = {
     {"tolerance", 0, "T", "positions may differ by this much in a coordinate; default 0", set_tolerance, 0,
      NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; of - where one of them is, else of both", cli_set_format,
      AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors and the exit code", cli_set_flag, AT(talk.quiet), NULL},
@@ -36,7 +38,8 @@ static const cli_option options[] = {
 static ffd_source source(const settings *s, const char *file, const char *other)
 {
     const bool other_only = strcmp(other, "-") == 0 && strcmp(file, "-") != 0;
-    return (ffd_source){file, other_only ? FFD_FORMAT_AUTO : s->input_format, FFD_SPACE_SCENE};
+    const ffd_format format = other_only ? FFD_FORMAT_AUTO : s->input_format;
+    return (ffd_source){file, format, FFD_SPACE_SCENE, s->memory};
 }
 
 static int compare(const settings *s, const char *a, const char *b)

@@ -7,6 +7,7 @@ typedef struct settings {
     const char *lattice, *output, *status;
     int threads, space;
     ffd_format input_format;
+    uint64_t memory;
     bool force, help;
     cli_talk talk;
 } settings;
@@ -25,6 +26,7 @@ static const cli_option options[] = {
     {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),
      NULL},
     {"force", 0, NULL, "overwrite existing outputs", cli_set_flag, AT(force), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
@@ -38,7 +40,7 @@ static int embed(settings *s, const char *input)
     ffd_job_result result;
     ffd_error error;
     ffd_embed_desc_init(&desc);
-    desc.input = (ffd_source){input, s->input_format, (ffd_space)s->space};
+    desc.input = (ffd_source){input, s->input_format, (ffd_space)s->space, s->memory};
     desc.lattice = s->lattice;
     desc.output = s->output;
     desc.status_output = s->status;

@@ -5,6 +5,7 @@
 
 typedef struct settings {
     ffd_format input_format;
+    uint64_t memory;
     bool json, help;
     cli_talk talk; /* the text itself is data: nothing is left to be silent about, or to add */
 } settings;
@@ -12,6 +13,7 @@ typedef struct settings {
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"json", 0, NULL, "as JSON", cli_set_flag, AT(json), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors beside the text", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
@@ -21,7 +23,7 @@ static const cli_option options[] = {
 
 static int describe(const settings *s, const char *file)
 {
-    const ffd_source source = {file, s->input_format, FFD_SPACE_SCENE};
+    const ffd_source source = {file, s->input_format, FFD_SPACE_SCENE, s->memory};
     ffd_error error;
     char *text;
     if (ffd_info_run(&source, s->json, &text, &error))

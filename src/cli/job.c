@@ -96,6 +96,7 @@ const cli_option cli_job_options[] = {
      NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512",
      "instructions of the kernels; never changes a byte; default auto", cli_set_choice, AT(isa), isa_names},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
@@ -187,7 +188,7 @@ bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t in
 void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
 {
     ffd_deform_desc_init(desc);
-    desc->input = (ffd_source){input, job->input_format, (ffd_space)job->space};
+    desc->input = (ffd_source){input, job->input_format, (ffd_space)job->space, job->memory};
     desc->lattices = job->lattices;
     desc->lattice_count = job->lattice_count;
     desc->outside = (ffd_outside)job->outside;

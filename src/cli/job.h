@@ -18,6 +18,7 @@ typedef struct cli_job {
     const char *report;
     int threads, isa;
     ffd_format input_format;
+    uint64_t memory;
     bool stable;
     ffd_written *written; /* by the jobs so far */
     cli_talk talk;

@@ -9,6 +9,7 @@ typedef struct settings {
     const char *output;
     int shape, spacing;
     ffd_format input_format;
+    uint64_t memory;
     bool force, help;
     bool has_axis;
     cli_talk talk;
@@ -152,6 +153,7 @@ static const cli_option options[] = {
     {"axis", 0, "x|y|z|X,Y,Z", "of a cylinder; default z", set_axis, 0, NULL},
     {"axes", 0, "principal", "a box along the mesh's principal axes", set_axes, 0, NULL},
     {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
+    {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
@@ -161,7 +163,7 @@ static const cli_option options[] = {
 
 static int create(settings *s, const char *mesh)
 {
-    const ffd_source source = {mesh, s->input_format, FFD_SPACE_SCENE};
+    const ffd_source source = {mesh, s->input_format, FFD_SPACE_SCENE, s->memory};
     ffd_error error;
     s->desc.shape = (ffd_lattice_shape)s->shape;
     s->desc.spacing = (ffd_spacing)s->spacing;

@@ -73,6 +73,25 @@ bool cli_set_count(void *settings, const cli_option *option, const char *value)
     return true;
 }
 
+bool cli_set_bytes(void *settings, const cli_option *option, const char *value)
+{
+    static const char units[] = "KMG";
+    double number = 0, unit = 1;
+    char digits[32] = "";
+    const size_t length = strlen(value);
+    const char *letter = length > 1 ? strchr(units, value[length - 1]) : NULL;
+    for (const char *u = units; letter && u <= letter; u++)
+        unit *= 1000;
+    if (length < sizeof digits)
+        memcpy(digits, value, length - (letter != NULL));
+    if (!cli_parse_number(digits, &number) || !(number * unit >= 1 && number * unit < 0x1p63)) {
+        cli_complain("--%s: \"%s\" is not a size in bytes, as 700M or 4G", option->name, value);
+        return false;
+    }
+    *(uint64_t *)field(settings, option) = (uint64_t)(number * unit);
+    return true;
+}
+
 bool cli_set_choice(void *settings, const cli_option *option, const char *value)
 {
     char known[200] = "";

@@ -8,6 +8,9 @@
 /* The mesh formats, for help and complaints. */
 #define CLI_FORMATS "obj, gltf, glb, ply, off or stl"
 
+/* What --memory does. */
+#define CLI_MEMORY "memory that a mesh may take, as 700M or 4G; default 100M and 20 times its files"
+
 typedef struct cli_option cli_option;
 
 /* Takes the option's value (NULL where it has none) into the command's settings. Returns false after having
@@ -36,13 +39,15 @@ typedef struct cli_words {
 } cli_words;
 
 /* Common setters. The field at offset is a bool; const char *, given once and not empty; int (a
-   number of threads); int (index into choices); ffd_format; double, positive and finite. */
+   number of threads); int (index into choices); ffd_format; double, positive and finite; uint64_t (bytes, as
+   700M or 4G). */
 bool cli_set_flag(void *settings, const cli_option *option, const char *value);
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
 bool cli_set_format(void *settings, const cli_option *option, const char *value);
 bool cli_set_positive(void *settings, const cli_option *option, const char *value);
+bool cli_set_bytes(void *settings, const cli_option *option, const char *value);
 
 /* The whole text as a number. */
 bool cli_parse_number(const char *text, double *value);

@@ -52,13 +52,15 @@ static void warn(const mesh_model *model, const conversion_morph *morph, const m
         ffd_log_line(log, FFD_LOG_WARNING, "nothing moves: no morph target is added");
 }
 
-/* The model as it is to be written. */
-static ffd_status make_model(const mesh_document *document, const conversion_morph *morph, mesh_model *model,
-                             ffd_error *error)
+/* The model as it is to be written; models take what they need out of room. */
+static ffd_status make_model(const mesh_document *document, const conversion_morph *morph, mesh_room *room,
+                             mesh_model *model, ffd_error *error)
 {
-    mesh_model after = {0};
-    if (!morph)
+    mesh_model after = {.room = room};
+    if (!morph) {
+        model->room = room;
         return document->format->model(document, model, error);
+    }
     *model = *morph->base;
     *morph->base = (mesh_model){0};
     ffd_status status = document->format->model(document, &after, error);
@@ -74,7 +76,8 @@ ffd_status ffd_conversion_save(const mesh_document *document, const conversion_m
 {
     const model_target *target = ffd_model_target(options->format);
     mesh_model model = {0};
-    ffd_status status = make_model(document, morph, &model, error);
+    mesh_room room = document->room;
+    ffd_status status = make_model(document, morph, &room, &model, error);
     if (status == FFD_OK)
         status = check_range(&model, target, options->path, error);
     if (status == FFD_OK)

@@ -134,7 +134,8 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .attributes = job->desc->normals != FFD_NORMALS_KEEP,
                             .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE,
                             .deformed = arrays->deformed,
-                            .gradients = arrays->gradients};
+                            .gradients = arrays->gradients,
+                            .determinants = wants_figures(job)};
     recompute_counts counts = {0};
     ffd_status status = ffd_pass_run(&pass, &job->totals, error);
     if (!status && job->recomputes && job->totals.moved)

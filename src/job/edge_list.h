@@ -11,6 +11,9 @@ typedef struct edge_list {
     size_t count;
 } edge_list;
 
+/* Bytes of memory that the list needs for each corner of the faces, at the most. */
+#define EDGE_LIST_BYTES 16
+
 /* Errors: FFD_E_MEMORY; *edges is then empty. */
 ffd_status ffd_edges_collect(const mesh_faces *faces, edge_list *edges, ffd_error *error);
 void ffd_edges_free(edge_list *edges);

@@ -108,6 +108,10 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
 static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
 {
     made->count = (size_t)ffd_pass_vertex_count(made->document);
+    const ffd_status status = ffd_room_check(&made->document->room, made->count,
+                                             3 * sizeof *made->uvw + sizeof *made->statuses, error);
+    if (status)
+        return status;
     made->uvw = ffd_alloc(made->count, 3 * sizeof *made->uvw);
     made->statuses = ffd_alloc(made->count, sizeof *made->statuses);
     if (!made->uvw || !made->statuses)

@@ -1,19 +1,46 @@
 #include "job/figures.h"
 #include "base/memory.h"
+#include "io/openmesh/half_edges.h"
+#include "job/edge_list.h"
 #include "job/quality.h"
 #include "job/selection.h"
 #include "job/source.h"
 #include <inttypes.h>
 #include <stdio.h>
 
+/* What figures and normals from faces may take in any case, as they are asked for: scenes are found that show
+   a million triangles with a file of 300 kB. */
+#define FIGURES_ROOM ((uint64_t)500000000)
+
+/* Of a vertex, in the arrays. */
+#define ARRAY_BYTES (12 * sizeof(double))
+
+/* Whether there is memory for all that figures and normals from faces need, with the faces that are there. */
+static ffd_status check_room(const deform_job *job, const mesh_faces *faces, ffd_error *error)
+{
+    mesh_room room = ffd_room_at_least(&job->document->room, FIGURES_ROOM);
+    const size_t corners = faces->start[faces->face_count];
+    ffd_status status = ffd_room_take(&room, ffd_pass_vertex_count(job->document), ARRAY_BYTES, error);
+    if (status == FFD_OK)
+        status = ffd_mesh_faces_take(faces, corners, &room, error);
+    if (status == FFD_OK && job->check)
+        status = ffd_room_check(&room, corners, EDGE_LIST_BYTES, error);
+    if (status == FFD_OK && job->recomputes)
+        status = ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
+    return status;
+}
+
 static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     ffd_error own;
     char line[1024];
-    const ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
+    ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
+    if (status == FFD_OK)
+        status = check_room(job, &arrays->faces, &own);
     arrays->has_faces = status == FFD_OK;
     if (!status)
         return FFD_OK;
+    ffd_mesh_faces_free(&arrays->faces);
     if (job->check || job->recomputes || status == FFD_E_MEMORY) {
         if (error)
             *error = own;
@@ -28,7 +55,7 @@ ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, f
 {
     const size_t count = (size_t)ffd_pass_vertex_count(job->document);
     const ffd_status status = read_faces(job, arrays, error);
-    if (status)
+    if (status || !arrays->has_faces)
         return status;
     arrays->deformed = ffd_alloc(count, 3 * sizeof *arrays->deformed);
     arrays->gradients = ffd_alloc(count, 9 * sizeof *arrays->gradients);

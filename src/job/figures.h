@@ -13,9 +13,9 @@ typedef struct figure_arrays {
     double *deformed, *gradients; /* see mesh_pass */
 } figure_arrays;
 
-/* Reads the mesh's faces (at rest: before the pass) and makes room for the pass. Faces that are not valid
-   refuse a check and normals that are to be computed from them; else a deformation goes on without their
-   figures after a warning. */
+/* Reads the mesh's faces (at rest: before the pass) and makes room for the pass. Faces that are not valid, or
+   that the document has no room for, refuse a check and normals that are to be computed from them; else a
+   deformation goes on without their figures after a warning. */
 ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, ffd_error *error);
 void ffd_figures_free(figure_arrays *arrays);
 

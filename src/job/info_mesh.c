@@ -1,4 +1,5 @@
 #include "base/vec.h"
+#include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
 #include "job/info.h"
 #include "job/source.h"
@@ -66,6 +67,14 @@ static void write_topology(const mesh_faces *faces, const mesh_topology *topolog
     ffd_json_end(json, '}');
 }
 
+static ffd_status check_room(const mesh_document *document, const mesh_faces *faces, ffd_error *error)
+{
+    mesh_room room = document->room;
+    const size_t corners = faces->start[faces->face_count];
+    const ffd_status status = ffd_mesh_faces_take(faces, corners, &room, error);
+    return status ? status : ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
+}
+
 /* Faces that this build cannot show do not keep the rest from being told. */
 static ffd_status survey_faces(const mesh_document *document, json_text *json, ffd_error *error)
 {
@@ -73,6 +82,8 @@ static ffd_status survey_faces(const mesh_document *document, json_text *json, f
     mesh_topology topology;
     ffd_error reason = {0};
     ffd_status status = document->format->faces(document, &faces, &reason);
+    if (status == FFD_OK)
+        status = check_room(document, &faces, &reason);
     if (status == FFD_OK)
         status = ffd_topology_compute(&faces, &topology, &reason);
     if (status == FFD_OK)

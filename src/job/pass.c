@@ -169,12 +169,13 @@ static void fill_arrays(const mesh_pass *pass, bool singular, const chain_point 
         if (singular)
             fill_nan(pass->deformed + 3 * number, 3);
     }
-    if (!pass->gradients)
-        return;
-    memcpy(pass->gradients + 9 * number, point->gradient, sizeof point->gradient);
-    if (singular)
-        fill_nan(pass->gradients + 9 * number, 9);
-    else if (point->status != FFD_SINGULAR && (point->located || point->extended))
+    if (pass->gradients) {
+        memcpy(pass->gradients + 9 * number, point->gradient, sizeof point->gradient);
+        if (singular)
+            fill_nan(pass->gradients + 9 * number, 9);
+    }
+    if (pass->determinants && !singular && point->status != FFD_SINGULAR &&
+        (point->located || point->extended))
         note_determinant(point, totals);
 }
 
@@ -331,7 +332,8 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     const size_t count = last - first;
     const bool wanted = pass->attributes && (!pass->only_offsets || part->shape_count);
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
-    const bool gradients = attributes || (pass->gradients && !part->repeats_positions);
+    const bool gradients =
+        attributes || ((pass->gradients || pass->determinants) && !part->repeats_positions);
 
     clear_totals(totals);
     if (atomic_load(&work->stopped))

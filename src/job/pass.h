@@ -25,8 +25,8 @@ typedef struct pass_totals {
     uint64_t extended; /* of those with status outside: displaced as the border is */
     uint64_t normals_collapsed, transforms_singular;
     uint64_t normals_carried; /* not by a pass: see ffd_job_result */
-    double det_min,
-        det_max; /* of F, where gradients are asked for, a link acts and none is singular; else min > max */
+    double det_min, det_max;  /* of F, where it is asked for, a link acts and none is singular; else min > max
+                               */
     double embed_seconds, deform_seconds; /* summed over threads */
 } pass_totals;
 
@@ -44,7 +44,8 @@ typedef struct mesh_pass {
     double *deformed;  /* 3 a vertex, or NULL: where the chain brings it, in the lattice's space, unrounded;
                           NaN where the transform is singular */
     double *gradients; /* 9 a vertex, or NULL: F - I of the whole chain, row by row, in the lattice's space;
-                          NaN likewise. The totals have the range of det F only with these. */
+                          NaN likewise */
+    bool determinants; /* the totals are to have the range of det F */
 } mesh_pass;
 
 /* Vertices of the document in the order of `ffd embed`, which is that of all arrays above and of mesh_faces:

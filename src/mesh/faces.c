@@ -2,15 +2,29 @@
 #include "mesh/mesh.h"
 #include <string.h>
 
-ffd_status ffd_mesh_faces_make(mesh_faces *faces, size_t corners, ffd_error *error)
+ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, mesh_room *room, ffd_error *error)
 {
-    faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
-    faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
-    faces->corners = ffd_alloc(corners, sizeof *faces->corners);
-    if (faces->positions && faces->start && faces->corners)
-        return FFD_OK;
+    ffd_status status = ffd_room_take(room, faces->vertex_count, 3 * sizeof *faces->positions, error);
+    if (status == FFD_OK)
+        status = ffd_room_take(room, faces->face_count, sizeof *faces->start, error);
+    return status == FFD_OK ? ffd_room_take(room, corners, sizeof *faces->corners, error) : status;
+}
+
+ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces, size_t corners,
+                               ffd_error *error)
+{
+    mesh_room room = document->room;
+    ffd_status status = ffd_mesh_faces_take(faces, corners, &room, error);
+    if (status == FFD_OK) {
+        faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
+        faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);
+        faces->corners = ffd_alloc(corners, sizeof *faces->corners);
+        if (faces->positions && faces->start && faces->corners)
+            return FFD_OK;
+        status = ffd_fail_memory(error);
+    }
     ffd_mesh_faces_free(faces);
-    return ffd_fail_memory(error);
+    return status;
 }
 
 void ffd_mesh_faces_free(mesh_faces *faces)

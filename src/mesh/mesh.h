@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "mesh/model.h"
+#include "mesh/room.h"
 #include "mesh/selector.h"
 #include <ffd/job.h>
 #include <stdbool.h>
@@ -74,9 +75,14 @@ typedef struct mesh_faces {
     size_t repeated;
 } mesh_faces;
 
-/* Makes room for the vertices and faces that are counted, and for their corners. A failure leaves nothing to
-   be freed. Errors: FFD_E_MEMORY. */
-ffd_status ffd_mesh_faces_make(mesh_faces *faces, size_t corners, ffd_error *error);
+typedef struct mesh_document mesh_document;
+
+/* Makes arrays for the vertices and faces that are counted, and for their corners. A failure leaves nothing
+   to be freed. Errors: FFD_E_MEMORY, FFD_E_LIMIT: the document has no room for them. */
+ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces, size_t corners,
+                               ffd_error *error);
+/* Takes what these arrays need out of room. */
+ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, mesh_room *room, ffd_error *error);
 void ffd_mesh_faces_free(mesh_faces *faces);
 
 /* A corner that has no normal. */
@@ -94,8 +100,6 @@ typedef struct mesh_log {
     ffd_log_function function; /* may be NULL */
     void *user;
 } mesh_log;
-
-typedef struct mesh_document mesh_document;
 
 /* Takes the positions of a part's vertices [first, first + count) (3 doubles each) from the file's space to
    the lattice's: x = linear p + offset. Any thread. */
@@ -209,6 +213,7 @@ struct mesh_document {
     const mesh_part *parts; /* part_count, lent */
     size_t part_count;
     double largest_coordinate; /* that the file's numbers can hold; 0: that of the format */
+    mesh_room room;
     /* Set before results: they are for another format (model), not for the file, and so not rounded to the
        steps of its integers. */
     bool converted;

@@ -20,13 +20,23 @@ void ffd_model_free(mesh_model *model)
     *model = (mesh_model){0};
 }
 
-static ffd_status make(double **values, size_t count, size_t numbers, ffd_error *error)
+/* What is made for a corner, with its part in a face's place, and for a run with its names. */
+#define CORNER_BYTES (sizeof(model_corner) + sizeof(size_t) / 3 + 1)
+#define RUN_BYTES 96
+
+ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_error *error)
+{
+    return model->room ? ffd_room_take(model->room, count, size, error) : FFD_OK;
+}
+
+static ffd_status make(mesh_model *model, double **values, size_t count, size_t numbers, ffd_error *error)
 {
     if (count > MODEL_VALUES_MAX)
         return ffd_fail(error, FFD_E_LIMIT, "a conversion takes at most %" PRIu32 " vertices or normals",
                         MODEL_VALUES_MAX);
-    if (count == 0)
-        return FFD_OK;
+    const ffd_status status = ffd_model_take(model, count, numbers * sizeof **values, error);
+    if (count == 0 || status)
+        return status;
     *values = ffd_alloc_zero(count, numbers * sizeof **values);
     return *values ? FFD_OK : ffd_fail_memory(error);
 }
@@ -34,11 +44,11 @@ static ffd_status make(double **values, size_t count, size_t numbers, ffd_error 
 ffd_status ffd_model_make_values(mesh_model *model, size_t positions, size_t texcoords, size_t normals,
                                  ffd_error *error)
 {
-    ffd_status status = make(&model->positions, positions, 3, error);
+    ffd_status status = make(model, &model->positions, positions, 3, error);
     if (status == FFD_OK)
-        status = make(&model->texcoords, texcoords, 2, error);
+        status = make(model, &model->texcoords, texcoords, 2, error);
     if (status == FFD_OK)
-        status = make(&model->normals, normals, 3, error);
+        status = make(model, &model->normals, normals, 3, error);
     if (status)
         return status;
     model->position_count = positions;
@@ -51,6 +61,9 @@ ffd_status ffd_model_make_colours(mesh_model *model, ffd_error *error)
 {
     if (model->colours)
         return FFD_OK;
+    const ffd_status status = ffd_model_take(model, model->position_count, 4 * sizeof *model->colours, error);
+    if (status)
+        return status;
     model->colours = ffd_alloc(model->position_count, 4 * sizeof *model->colours);
     if (!model->colours)
         return ffd_fail_memory(error);
@@ -69,6 +82,7 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
                                ffd_error *error)
 {
     model_run run;
+    ffd_status status = FFD_OK;
     if (!find_name(model, object, &run.object) || !find_name(model, group, &run.group) ||
         !find_name(model, material, &run.material))
         return ffd_fail_memory(error);
@@ -79,6 +93,10 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
         run.first[k] = model->lists[k].count;
     if (last && memcmp(last->first, run.first, sizeof run.first) == 0)
         model->run_count--; /* nothing was added to it */
+    else
+        status = ffd_model_take(model, 1, RUN_BYTES, error);
+    if (status)
+        return status;
     if (!ffd_grow((void **)&model->runs, &model->run_capacity, model->run_count + 1, sizeof *model->runs))
         return ffd_fail_memory(error);
     model->runs[model->run_count++] = run;
@@ -101,13 +119,29 @@ static ffd_status append(model_list *list, const model_corner *corners, size_t c
 ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner *corners, size_t count,
                          ffd_error *error)
 {
-    ffd_status status = FFD_OK;
+    ffd_status status = ffd_model_take(model, count, CORNER_BYTES, error);
     if (kind == MODEL_POINTS || count == 1) {
         for (size_t i = 0; i < count && status == FFD_OK; i++)
             status = append(&model->lists[MODEL_POINTS], corners + i, 1, error);
         return status;
     }
-    if (count == 0)
-        return FFD_OK;
+    if (count == 0 || status)
+        return status;
     return append(&model->lists[count == 2 ? MODEL_LINES : kind], corners, count, error);
+}
+
+ffd_status ffd_model_check_room(const mesh_model *model, size_t corner_bytes, size_t run_bytes,
+                                ffd_error *error)
+{
+    if (!model->room)
+        return FFD_OK;
+    mesh_room room = *model->room;
+    ffd_status status = ffd_room_take(&room, model->run_count, run_bytes, error);
+    for (int k = 0; k < MODEL_KINDS && status == FFD_OK; k++) {
+        const model_list *list = &model->lists[k];
+        const size_t corners = list->corner_count; /* of faces at least 3 each */
+        status = ffd_room_take(&room, k == MODEL_FACES ? 3 * (corners - 2 * list->count) : corners,
+                               corner_bytes, error);
+    }
+    return status;
 }

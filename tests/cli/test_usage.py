@@ -7,15 +7,15 @@ from harness import CUBE, USAGE, case, check, equal, lattice, main
 COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new"]
 OPTIONS = {
     "deform": {"--lattice", "--out-dir", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
-               "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format",
+               "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format", "--memory",
                "--output-format"},
     "check": {"--lattice", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
-              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format"},
-    "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format"},
-    "compare": {"--tolerance", "--input-format"},
-    "info": {"--json", "--input-format"},
+              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format", "--memory"},
+    "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format", "--memory"},
+    "compare": {"--tolerance", "--input-format", "--memory"},
+    "info": {"--json", "--input-format", "--memory"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes",
-                    "--force", "--input-format"},
+                    "--force", "--input-format", "--memory"},
 }
 COMMON = {"--quiet", "--verbose", "--help"}
 
@@ -114,7 +114,9 @@ def options_of_later_versions_are_absent(run):
 def values(run):
     work = files(run)
     for option, value in (("--outside", "kep"), ("--outside", "KEEP"), ("--normals", ""), ("--space", "world"),
-                          ("--resources", "move"), ("--input-format", "fbx"), ("--output-format", ""),
+                          ("--resources", "move"), ("--memory", ""), ("--memory", "0"), ("--memory", "M"),
+                          ("--memory", "4T"), ("--memory", "-1G"), ("--memory", "1e30"), ("--memory", "4 G"), ("--memory", "nan"),
+                          ("--memory", "1" * 5000), ("--input-format", "fbx"), ("--output-format", ""),
                           ("--threads", "0"), ("--threads", "-1"), ("--threads", "two"), ("--threads", "2x"),
                           ("--falloff", "0"), ("--falloff", "-1"), ("--falloff", "inf"), ("--falloff", "nan"),
                           ("--falloff", "1m"), ("--falloff", ""), ("--embedding", ""), ("--fail-on", ""),

@@ -119,7 +119,8 @@ static outcome *run(const lattice_chain *chain, const embedding_file *embedding,
                             .uvw = made->uvw,
                             .statuses = made->statuses,
                             .deformed = made->deformed,
-                            .gradients = made->gradients};
+                            .gradients = made->gradients,
+                            .determinants = true};
     assert_int_equal(ffd_pass_run(&pass, &made->totals, NULL), FFD_OK);
     made->totals.embed_seconds = made->totals.deform_seconds = 0;
     return made;

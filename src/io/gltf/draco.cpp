@@ -18,13 +18,9 @@ struct draco_mesh {
 namespace
 {
 
-/* Working memory: this much for any data, and so much more for each byte of it. Large regular meshes have
-   half a byte for a triangle. */
-constexpr uint64_t FREE_MEMORY = uint64_t(1) << 26;
-constexpr uint64_t MEMORY_PER_BYTE = 256;
 /* What the library needs about at most for a triangle, for each set of attribute seams of it, and for a
    number of an attribute beside the number itself. */
-constexpr uint64_t TRIANGLE_MEMORY = 96;
+constexpr uint64_t TRIANGLE_MEMORY = 64;
 constexpr uint64_t SEAMS_MEMORY = 24;
 constexpr uint64_t POINT_MEMORY = 8;
 constexpr uint64_t NUMBER_MEMORY = 4;
@@ -74,10 +70,7 @@ bool read_head(const draco::MeshSequentialDecoder &, draco::DecoderBuffer buffer
 template <class Decoder> class careful : public Decoder
 {
   public:
-    careful(const draco_claim &stated, size_t size)
-        : claim(stated), room(FREE_MEMORY + MEMORY_PER_BYTE * size)
-    {
-    }
+    careful(const draco_claim &stated, const mesh_room &left) : claim(stated), room(left) {}
 
     finding found;
 
@@ -133,17 +126,14 @@ template <class Decoder> class careful : public Decoder
                       static_cast<unsigned long long>(points), static_cast<unsigned long long>(claim.points));
     }
 
-    /* count is below 2^53, size below 2^16 * 2^11. */
     bool fits(uint64_t count, uint64_t size)
     {
-        if (count <= room / size)
-            return true;
-        return refuse(FFD_E_LIMIT, "the Draco data needs more than %llu bytes of memory",
-                      static_cast<unsigned long long>(room));
+        found.status = ffd_room_take(&room, count, size, &found.error);
+        return found.status == FFD_OK;
     }
 
     const draco_claim claim;
-    const uint64_t room;
+    mesh_room room;
 };
 
 bool skip_name(draco::DecoderBuffer &buffer)
@@ -208,7 +198,7 @@ std::vector<char> without_metadata(const unsigned char *bytes, size_t size, uint
 
 template <class Decoder>
 ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const draco_claim &claim,
-               draco::Mesh &mesh, ffd_error *error)
+               const mesh_room &room, draco::Mesh &mesh, ffd_error *error)
 {
     std::vector<char> kept;
     draco::DecoderBuffer buffer;
@@ -220,7 +210,7 @@ ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const 
         buffer.Init(kept.data(), kept.size());
     }
     const draco::DecoderOptions options;
-    careful<Decoder> decoder(claim, size);
+    careful<Decoder> decoder(claim, room);
     const draco::Status status = decoder.Decode(options, &buffer, &mesh);
     if (decoder.found.status)
         return ffd_fail(error, decoder.found.status, "%s", decoder.found.error.message);
@@ -229,8 +219,8 @@ ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const 
     return ffd_fail(error, FFD_E_INVALID, "the Draco data is broken: %s", status.error_msg());
 }
 
-ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &claim, draco::Mesh &mesh,
-                  ffd_error *error)
+ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &claim, const mesh_room &room,
+                  draco::Mesh &mesh, ffd_error *error)
 {
     draco::DecoderBuffer buffer;
     draco::DracoHeader header;
@@ -249,9 +239,9 @@ ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &cl
                         header.version_minor, draco::kDracoMeshBitstreamVersionMajor,
                         draco::kDracoMeshBitstreamVersionMinor);
     if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
-        return run<draco::MeshSequentialDecoder>(bytes, size, version, claim, mesh, error);
+        return run<draco::MeshSequentialDecoder>(bytes, size, version, claim, room, mesh, error);
     if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING)
-        return run<draco::MeshEdgebreakerDecoder>(bytes, size, version, claim, mesh, error);
+        return run<draco::MeshEdgebreakerDecoder>(bytes, size, version, claim, room, mesh, error);
     return ffd_fail(error, FFD_E_UNSUPPORTED, "Draco encoding method %d is not known", header.encoder_method);
 }
 
@@ -339,13 +329,13 @@ ffd_status read_attribute(const draco::Mesh &mesh, uint32_t id, int component, i
 } // namespace
 
 extern "C" ffd_status ffd_draco_decode(const unsigned char *bytes, size_t size, const draco_claim *claim,
-                                       draco_mesh **mesh, ffd_error *error)
+                                       const mesh_room *room, draco_mesh **mesh, ffd_error *error)
 {
     *mesh = nullptr;
     ffd_status status;
     try {
         std::unique_ptr<draco_mesh> decoded(new draco_mesh);
-        status = decode(bytes, size, *claim, decoded->mesh, error);
+        status = decode(bytes, size, *claim, *room, decoded->mesh, error);
         if (status == FFD_OK)
             *mesh = decoded.release();
     } catch (const std::bad_alloc &) {

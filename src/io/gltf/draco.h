@@ -4,6 +4,7 @@
 #define FFD_IO_GLTF_DRACO_H
 
 #include "base/fail.h"
+#include "mesh/room.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -21,11 +22,11 @@ typedef struct draco_claim {
 
 typedef struct draco_mesh draco_mesh;
 
-/* Decodes size bytes; free the mesh with ffd_draco_free. Working memory is limited by the size. Errors,
-   without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version, no mesh), FFD_E_LIMIT,
-   FFD_E_MEMORY. */
+/* Decodes size bytes; free the mesh with ffd_draco_free. Working memory must fit into room, from which
+   nothing is taken. Errors, without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version, no
+   mesh), FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_draco_decode(const unsigned char *bytes, size_t size, const draco_claim *claim,
-                            draco_mesh **mesh, ffd_error *error);
+                            const mesh_room *room, draco_mesh **mesh, ffd_error *error);
 void ffd_draco_free(draco_mesh *mesh); /* NULL allowed */
 
 size_t ffd_draco_point_count(const draco_mesh *mesh);

@@ -79,12 +79,16 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
                                    const mesh_save_options *options, file_output *output, const mesh_log *log,
                                    ffd_error *error)
 {
-    const ffd_source source = {d->path, d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF, d->space};
+    const ffd_format format = d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF;
+    const ffd_source source = {.path = d->path, .format = format, .space = d->space};
+    mesh_room room = d->base.room;
     mesh_document *other = NULL;
     file_input file = {0};
     ffd_status status = ffd_gltf_add_target(d, meshes, log, &file, error);
     if (status == FFD_OK)
-        status = ffd_gltf_format.open(&file, &source, &other, error);
+        status = ffd_room_take(&room, file.size, 1, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_open_within(&file, &source, &room, &other, error);
     if (status == FFD_OK) {
         ((gltf_document *)other)->own_accessors =
             ffd_gltf_of(other)->model.accessor_count - d->model.accessor_count;

@@ -4,8 +4,8 @@
 
 /* Zeros need no bytes in the file: without a limit a few characters could ask for any amount of memory.
    Elements without bytes, of all accessors: so many, and so many more for a byte of a buffer. */
-#define MOST_ZEROS ((uint64_t)1 << 19)
-#define MOST_ZEROS_A_BYTE 4
+/* How an element without bytes counts. */
+#define ZERO_BYTES 4
 
 /* A failure at a member of a value, or at the value where the member is absent. */
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
@@ -266,22 +266,22 @@ static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t va
         d->layouts[primitive->indices].readable = false;
 }
 
+/* A few bytes can state any number of elements without bytes of their own, and going over them takes time. */
 static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
 {
-    uint64_t left = MOST_ZEROS;
-    for (size_t b = 0; b < d->buffer_values.count; b++)
-        left += MOST_ZEROS_A_BYTE * (uint64_t)d->buffers[b].size;
-    for (size_t i = 0; i < d->model.accessor_count; i++) {
+    mesh_room room = d->base.room;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->model.accessor_count && status == FFD_OK; i++) {
         const gltf_accessor *accessor = &d->model.accessors[i];
+        ffd_error problem = {0};
         if (accessor->view >= 0 || d->layouts[i].data || !d->layouts[i].readable)
             continue;
-        if (accessor->count > left)
-            return ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, FFD_E_LIMIT, error,
-                                      "%llu elements without bytes are more than the %llu allowed here",
-                                      (unsigned long long)accessor->count, (unsigned long long)left);
-        left -= accessor->count;
+        status = ffd_room_take(&room, accessor->count, ZERO_BYTES, &problem);
+        if (status)
+            ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, status, error, "%s",
+                               problem.message);
     }
-    return FFD_OK;
+    return status;
 }
 
 static ffd_status check_mesh(gltf_document *d, size_t m, ffd_error *error)

@@ -5,8 +5,12 @@
 #include "io/gltf/gltf_schema.h"
 #include <float.h>
 
-#define MOST_OBJECTS ((uint64_t)1 << 16)
-#define MOST_OBJECTS_A_BYTE (1.0 / 32)
+/* What the JSON library and tinygltf need at most for one object of a list; the model keeps less of it. */
+#define OBJECT_BYTES 1024
+#define KEPT_OBJECT_BYTES 256
+
+/* Of a file's byte: itself, as it is mapped. */
+#define KEPT_PER_BYTE 1
 
 const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};
 
@@ -82,6 +86,7 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
         status = ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
                                       bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size, d->path,
                                       d->name, &d->buffers[i], error);
+        ffd_room_add_file(&d->base.room, d->buffers[i].file.size, KEPT_PER_BYTE);
     }
     return status;
 }
@@ -106,21 +111,15 @@ static ffd_status list_primitives(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* An object takes about 1 kB, and a file 3 bytes to state it: so many are allowed, and more where the file is
-   as long as objects are that say something. */
-static ffd_status limit_objects(const gltf_document *d, ffd_error *error)
+/* A file needs 3 bytes to state an object. */
+static ffd_status limit_objects(gltf_document *d, ffd_error *error)
 {
-    const uint64_t most = ffd_gltf_allowance(d, MOST_OBJECTS, MOST_OBJECTS_A_BYTE);
     const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
     const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
                            d->accessor_values.count + d->mesh_values.count + d->primitive_values.count +
                            d->node_values.count + (scenes == JSON_NONE ? 0 : d->tree.values[scenes].count);
-    if (count <= most)
-        return FFD_OK;
-    return ffd_fail_file(error, FFD_E_LIMIT, d->name,
-                         "%llu buffers, views, accessors, meshes, primitives, nodes and scenes are more than "
-                         "the %llu allowed for its size",
-                         (unsigned long long)count, (unsigned long long)most);
+    const ffd_status status = ffd_room_check(&d->base.room, count, OBJECT_BYTES, error);
+    return status ? status : ffd_room_take(&d->base.room, count, KEPT_OBJECT_BYTES, error);
 }
 
 /* tinygltf refuses indices without a bufferView, which compressed and sparse ones have: it is not shown them.
@@ -295,14 +294,15 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
 }
 
-static ffd_status open_document(file_input *input, const ffd_source *source, mesh_document **document,
-                                ffd_error *error)
+ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const mesh_room *room,
+                                mesh_document **document, ffd_error *error)
 {
     *document = NULL;
     gltf_document *d = ffd_alloc_zero(1, sizeof *d);
     if (!d)
         return ffd_fail_memory(error);
     d->base.format = &ffd_gltf_format;
+    d->base.room = *room;
     d->space = source->space;
     d->input = *input; /* borrowed until all is well */
     const ffd_status status = read_document(d, source, error);
@@ -315,6 +315,14 @@ static ffd_status open_document(file_input *input, const ffd_source *source, mes
     *input = (file_input){0};
     *document = &d->base;
     return FFD_OK;
+}
+
+static ffd_status open_document(file_input *input, const ffd_source *source, mesh_document **document,
+                                ffd_error *error)
+{
+    mesh_room room = ffd_room_make(source->memory);
+    ffd_room_add_file(&room, input->size, KEPT_PER_BYTE);
+    return ffd_gltf_open_within(input, source, &room, document, error);
 }
 
 static void close_document(mesh_document *document)

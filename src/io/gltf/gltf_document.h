@@ -115,7 +115,7 @@ typedef struct gltf_document {
     unsigned char **decoded_views; /* model.view_count; NULL: not compressed, or not supported */
     gltf_unpacked *unpacked;       /* model.accessor_count */
     char **draco_problems;         /* primitive_values.count; NULL: none */
-    uint64_t decoded_bytes;        /* of all of it */
+    uint64_t draco_decoded;        /* points and corners of all decodings */
 
     double *world;  /* 12 a node: linear row by row, offset */
     bool *is_shown; /* a node */
@@ -143,9 +143,9 @@ typedef struct gltf_document {
                         that is deformed */
 } gltf_document;
 
-/* How much of something that may be stated again and again is allowed: a number for every file, and more for
-   each of its bytes. */
-uint64_t ffd_gltf_allowance(const gltf_document *document, uint64_t at_least, double a_byte);
+/* The format's open function, with the room that the document has: another one may be in memory too. */
+ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const mesh_room *room,
+                                mesh_document **document, ffd_error *error);
 
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {
@@ -173,10 +173,6 @@ const unsigned char *ffd_gltf_view_bytes(const gltf_document *document, size_t v
 const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *document, size_t view, size_t *size);
 /* Says why a compressed view was left out. */
 ffd_status ffd_gltf_refuse_view(const gltf_document *document, size_t view, ffd_error *error);
-/* Counts bytes of memory that compressed data takes; FFD_E_LIMIT at value where they are more than
-   bytes_per_byte for each byte of the files, and many. */
-ffd_status ffd_gltf_reserve(gltf_document *document, uint32_t value, uint64_t bytes, uint64_t bytes_per_byte,
-                            ffd_error *error);
 /* gltf_draco.c: likewise for the primitives that are compressed, of meshes that are checked. */
 ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
 uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);

@@ -8,14 +8,9 @@
 #define MODE_TRIANGLES 4
 #define INDICES_SOURCE UINT64_MAX
 
-/* Decoded bytes of a document for each byte of its files, at the most; large regular meshes at half a byte
-   for a triangle become 75. */
-#define BYTES_PER_BYTE 128
-
-/* What the decoder keeps of a point and of a triangle's corner at the least, to count decodings that give
-   nothing new. */
-#define POINT_BYTES 12
-#define CORNER_BYTES 4
+/* Views may name the same data again and again, and decoding it takes time: points and corners of all
+   decodings may be so many for each byte of memory allowed. */
+#define MOST_DECODED_A_BYTE 0.25
 
 /* A primitive whose data stands in a bufferView. */
 typedef struct packed_primitive {
@@ -93,13 +88,13 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
                     "a matrix or a sparse accessor compressed by Draco is not supported");
     if (unpacked->bytes && unpacked->source == source && unpacked->view == u->view)
         return FFD_OK;
-    ffd_status status = ffd_gltf_reserve(d, value, accessor->count * stride, BYTES_PER_BYTE, u->error);
+    ffd_error problem = {0};
+    ffd_status status = ffd_room_take(&d->base.room, accessor->count, stride, &problem);
     if (status)
-        return status;
+        return fail(d, value, status, u->error, problem.message);
     unsigned char *bytes = ffd_alloc_zero((size_t)accessor->count, stride);
     if (!bytes)
         return ffd_fail_memory(u->error);
-    ffd_error problem = {0};
     if (source == INDICES_SOURCE)
         status = ffd_draco_indices(u->mesh, accessor->component, bytes, &problem);
     else
@@ -170,18 +165,17 @@ static ffd_status decode_mesh(gltf_document *d, const packed_primitive *packed, 
 {
     const uint32_t value = ffd_gltf_draco_value(d, packed->mesh, packed->primitive);
     const unsigned char *bytes = ffd_gltf_view_bytes(d, packed->view);
-    ffd_error problem;
+    ffd_error problem = {0};
     if (!bytes)
         return fail(d, value, FFD_E_INVALID, error, "the bufferView has no bytes");
-    ffd_status status =
-        ffd_draco_decode(bytes, (size_t)d->model.views[packed->view].length, claim, mesh, &problem);
+    const ffd_status status = ffd_draco_decode(bytes, (size_t)d->model.views[packed->view].length, claim,
+                                               &d->base.room, mesh, &problem);
     if (status)
         return fail(d, value, status, error, problem.message);
-    status = ffd_gltf_reserve(d, value,
-                              (uint64_t)ffd_draco_point_count(*mesh) * POINT_BYTES +
-                                  (uint64_t)ffd_draco_corner_count(*mesh) * CORNER_BYTES,
-                              BYTES_PER_BYTE, error);
-    return status;
+    d->draco_decoded += (uint64_t)ffd_draco_point_count(*mesh) + ffd_draco_corner_count(*mesh);
+    if ((double)d->draco_decoded > MOST_DECODED_A_BYTE * (double)ffd_room_most(&d->base.room))
+        return fail(d, value, FFD_E_LIMIT, error, "the file has its Draco data decoded too often");
+    return FFD_OK;
 }
 
 static bool same_claim(const draco_claim *a, const draco_claim *b)

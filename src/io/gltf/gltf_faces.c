@@ -1,10 +1,7 @@
 #include "base/memory.h"
 #include "io/gltf/gltf_document.h"
 
-/* Triangles that are shown: as MOST_VERTICES of gltf_parts.c, and no more than have numbers. */
-#define MOST_FACES ((uint64_t)1 << 22)
-#define MOST_FACES_A_BYTE 4
-#define MOST_NUMBERS ((uint64_t)INT32_MAX)
+#define MOST_TRIANGLES INT32_MAX
 
 /* What a primitive of a mesh draws, whatever shows it. */
 typedef struct drawing {
@@ -66,10 +63,7 @@ static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, f
 
 static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error *error)
 {
-    uint64_t triangles = 0, lines = 0, points = 0,
-             most = ffd_gltf_allowance(d, MOST_FACES, MOST_FACES_A_BYTE);
-    if (most > MOST_NUMBERS)
-        most = MOST_NUMBERS;
+    uint64_t triangles = 0, lines = 0, points = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         const size_t nodes = d->showings[m].node_count;
         for (size_t p = 0; p < d->model.meshes[m].primitive_count && nodes > 0; p++) {
@@ -80,10 +74,9 @@ static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error
             triangles += (uint64_t)counted.triangles * nodes; /* both are below 2^32 */
             lines += (uint64_t)counted.lines * nodes;
             points += (uint64_t)counted.points * nodes;
-            if (triangles > most)
-                return ffd_fail_file(error, FFD_E_LIMIT, d->name,
-                                     "its scene shows more than %llu triangles, the limit for its size",
-                                     (unsigned long long)most);
+            if (triangles > MOST_TRIANGLES)
+                return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %d triangles",
+                                     MOST_TRIANGLES);
         }
     }
     faces->face_count = (size_t)triangles;
@@ -192,7 +185,7 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
         return status;
     for (size_t i = 0; i < d->base.part_count; i++)
         faces->vertex_count += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
-    status = ffd_mesh_faces_make(faces, 3 * faces->face_count, error);
+    status = ffd_mesh_faces_make(document, faces, 3 * faces->face_count, error);
     if (status)
         return status;
     size_t *base = ffd_alloc(d->base.part_count, sizeof *base);

@@ -4,14 +4,13 @@
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 
-/* Primitives and vertices that nodes show: some, and more for each byte of the file, so that a short file
-   cannot ask for any amount of memory. */
-#define MOST_INSTANCES ((uint64_t)1 << 18)
-#define MOST_INSTANCES_A_BYTE (1.0 / 32)
-#define MOST_VERTICES ((uint64_t)1 << 24)
-#define MOST_VERTICES_A_BYTE 16
-/* And no more than have numbers. */
-#define MOST_NUMBERS ((uint64_t)UINT32_MAX - 1)
+#define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
+
+/* What is kept of a primitive under a node, and made for it while the parts are made and the file is saved.
+ */
+#define INSTANCE_BYTES                                                                                       \
+    (sizeof(gltf_instance) + sizeof(gltf_part) + sizeof(mesh_part) + 4 * sizeof(size_t) + SAVED_BYTES)
+#define SAVED_BYTES 400
 
 /* Finds the parts of one POSITION accessor under one node and, with a skin, of the same influences. */
 typedef struct part_table {
@@ -20,28 +19,18 @@ typedef struct part_table {
     size_t *next; /* the part's next one with the same positions */
 } part_table;
 
-uint64_t ffd_gltf_allowance(const gltf_document *d, uint64_t at_least, double a_byte)
-{
-    double bytes = (double)d->input.size;
-    for (size_t b = 0; b < d->buffer_values.count; b++)
-        bytes += d->buffers && d->buffers[b].kind == BUFFER_FILE ? (double)d->buffers[b].size : 0;
-    return at_least + (uint64_t)(a_byte * bytes);
-}
-
 static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *error)
 {
-    const uint64_t most = ffd_gltf_allowance(d, MOST_INSTANCES, MOST_INSTANCES_A_BYTE);
+    ffd_status status = FFD_OK;
     *total = 0;
-    for (size_t m = 0; m < d->model.mesh_count; m++) {
-        const size_t primitives = d->model.meshes[m].primitive_count, nodes = d->showings[m].node_count;
+    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
+        const uint64_t shown =
+            (uint64_t)d->model.meshes[m].primitive_count * d->showings[m].node_count; /* below 2^31 each */
         d->showings[m].first_instance = *total;
-        if (nodes > 0 && primitives > (most - *total) / nodes)
-            return ffd_fail_file(error, FFD_E_LIMIT, d->name,
-                                 "its scene shows more than %llu primitives, the limit for its size",
-                                 (unsigned long long)most);
-        *total += primitives * nodes;
+        status = ffd_room_take(&d->base.room, shown, INSTANCE_BYTES, error);
+        *total += (size_t)shown;
     }
-    return FFD_OK;
+    return status;
 }
 
 /* Whether two parts of one node are moved by the same joints. */
@@ -165,17 +154,15 @@ static void add_instance(gltf_document *d, const part_table *table, size_t mesh,
 
 static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
 {
-    uint64_t vertices = 0, most = ffd_gltf_allowance(d, MOST_VERTICES, MOST_VERTICES_A_BYTE);
-    if (most > MOST_NUMBERS)
-        most = MOST_NUMBERS;
+    uint64_t vertices = 0;
     for (size_t i = 0; i < d->base.part_count; i++) {
         vertices += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
-        if (vertices > most)
-            return ffd_fail_file(error, FFD_E_LIMIT, d->name,
-                                 "its scene shows more than %llu vertices, the limit for its size",
-                                 (unsigned long long)most);
+        if (vertices > MOST_VERTICES)
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %llu vertices",
+                                 (unsigned long long)MOST_VERTICES);
     }
-    return FFD_OK;
+    /* Whoever goes over all of them keeps this of each at the least. */
+    return ffd_room_check(&d->base.room, vertices, sizeof(float[3]), error);
 }
 
 ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)

@@ -8,6 +8,9 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     const size_t count = d->mesh_parts[part].vertex_count;
     if (stream->accessor == GLTF_NONE || stream->result)
         return FFD_OK;
+    const ffd_status status = ffd_room_take(&d->base.room, count, 3 * sizeof *stream->result, error);
+    if (status)
+        return status;
     stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
     if (!stream->result)
         return ffd_fail_memory(error);

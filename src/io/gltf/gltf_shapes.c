@@ -4,13 +4,15 @@
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 
-#define MOST_TARGETS ((size_t)1 << 24)
-
 /* A morph target of a part. */
 typedef struct target {
     size_t part;
     size_t accessors[GLTF_DEFORMED]; /* GLTF_NONE: absent */
 } target;
+
+/* What is kept of a target under a node, and made for it on the way (with a table half empty). */
+#define TARGET_BYTES                                                                                         \
+    (sizeof(gltf_part) + sizeof(mesh_part) + sizeof(mesh_shape) + sizeof(target) + 5 * sizeof(size_t))
 
 /* The targets found so far, by content. */
 typedef struct target_table {
@@ -49,9 +51,9 @@ static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *erro
             for (size_t n = 0; n < d->showings[m].node_count; n++) {
                 const size_t count = d->model.meshes[m].primitives[p].target_count;
                 (instance++)->first_target = *total;
-                if (count > MOST_TARGETS - *total)
-                    return ffd_fail_file(error, FFD_E_LIMIT, d->name,
-                                         "its scene shows more than %zu morph targets", MOST_TARGETS);
+                const ffd_status status = ffd_room_take(&d->base.room, count, TARGET_BYTES, error);
+                if (status)
+                    return status;
                 *total += count;
             }
     return FFD_OK;

@@ -106,8 +106,12 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
     return FFD_OK;
 }
 
-static ffd_status place_joints(const gltf_document *d, gltf_skin *skin, ffd_error *error)
+static ffd_status place_joints(gltf_document *d, gltf_skin *skin, ffd_error *error)
 {
+    const ffd_status taken =
+        ffd_room_take(&d->base.room, skin->joint_count, 12 * sizeof *skin->matrices, error);
+    if (taken)
+        return taken;
     skin->matrices = ffd_alloc_zero(skin->joint_count, 12 * sizeof *skin->matrices);
     if (!skin->matrices)
         return ffd_fail_memory(error);

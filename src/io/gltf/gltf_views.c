@@ -3,33 +3,8 @@
 #include "io/gltf/meshopt_view.h"
 #include <string.h>
 
-/* Decoded bytes of one document: this many in any case, and so many for each byte of its files. meshopt of
-   real models stays below 10. */
-#define FREE_BYTES ((uint64_t)1 << 26)
-#define BYTES_PER_BYTE 32
-
 /* A view may be longer than its elements by what aligns the next one. */
 #define ALIGNMENT 4
-
-static uint64_t room_of(const gltf_document *d, uint64_t bytes_per_byte)
-{
-    uint64_t bytes = d->input.size;
-    for (size_t i = 0; i < d->buffer_values.count; i++)
-        bytes += d->buffers[i].file.size;
-    return FREE_BYTES + bytes_per_byte * bytes;
-}
-
-ffd_status ffd_gltf_reserve(gltf_document *d, uint32_t value, uint64_t bytes, uint64_t bytes_per_byte,
-                            ffd_error *error)
-{
-    const uint64_t room = room_of(d, bytes_per_byte);
-    if (d->decoded_bytes > room || bytes > room - d->decoded_bytes)
-        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_LIMIT, error,
-                                  "the compressed data becomes more than %llu bytes",
-                                  (unsigned long long)room);
-    d->decoded_bytes += bytes;
-    return FFD_OK;
-}
 
 uint32_t ffd_gltf_meshopt_value(const gltf_document *d, size_t view)
 {
@@ -146,12 +121,13 @@ static ffd_status decode_view(gltf_document *d, size_t i, ffd_error *error)
 {
     const uint32_t value = ffd_gltf_meshopt_value(d, i);
     meshopt_view view;
-    ffd_error problem;
+    ffd_error problem = {0};
     ffd_status status = read_compression(d, i, &view, error);
-    if (status == FFD_OK)
-        status = ffd_gltf_reserve(d, value, d->model.views[i].length, BYTES_PER_BYTE, error);
     if (status)
         return status;
+    status = ffd_room_take(&d->base.room, d->model.views[i].length, 1, &problem);
+    if (status)
+        return ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     d->decoded_views[i] = ffd_alloc_zero((size_t)d->model.views[i].length, 1);
     if (!d->decoded_views[i])
         return ffd_fail_memory(error);

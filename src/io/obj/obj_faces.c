@@ -227,7 +227,7 @@ ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     const obj_document *d = ffd_obj_of(document);
     *faces = (mesh_faces){
         .vertex_count = d->vertices, .face_count = d->faces, .lines = d->lines, .points = d->points};
-    const ffd_status status = ffd_mesh_faces_make(faces, d->corners, error);
+    const ffd_status status = ffd_mesh_faces_make(document, faces, d->corners, error);
     if (status)
         return status;
     ffd_obj_read_positions(document, 0, 0, d->vertices, faces->positions);

@@ -88,7 +88,7 @@ ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_e
                           .face_count = d->header.faces - d->lines - d->points,
                           .lines = d->lines,
                           .points = d->points};
-    const ffd_status status = ffd_mesh_faces_make(faces, d->corners, error);
+    const ffd_status status = ffd_mesh_faces_make(document, faces, d->corners, error);
     if (status)
         return status;
     ffd_off_read_positions(document, 0, 0, faces->vertex_count, faces->positions);

@@ -107,7 +107,7 @@ ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_e
                           .lines = edges ? (size_t)edges->count : 0};
     ffd_status status = refuse_strips(d, error);
     if (status == FFD_OK)
-        status = ffd_mesh_faces_make(faces, faces->face_count, error);
+        status = ffd_mesh_faces_make(document, faces, faces->face_count, error);
     if (status)
         return status;
     ffd_ply_read_positions(document, 0, 0, faces->vertex_count, faces->positions);

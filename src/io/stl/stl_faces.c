@@ -54,7 +54,7 @@ ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     const stl_document *d = ffd_stl_of(document);
     const size_t vertices = 3 * d->facets;
     *faces = (mesh_faces){.vertex_count = vertices, .face_count = d->facets};
-    const ffd_status status = ffd_mesh_faces_make(faces, vertices, error);
+    const ffd_status status = ffd_mesh_faces_make(document, faces, vertices, error);
     if (status)
         return status;
     stl_key *keys = ffd_alloc(vertices, sizeof *keys);

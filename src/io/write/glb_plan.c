@@ -5,6 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What the plan takes of a corner, and of a run with its mesh and its text. */
+#define CORNER_BYTES 40
+#define RUN_BYTES 700
+
 /* What is needed to make a plan. */
 typedef struct planner {
     glb_plan *plan;
@@ -352,7 +356,9 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
 {
     planner p = {.plan = plan, .model = model, .error = error};
     *plan = (glb_plan){.model = model};
-    ffd_status status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
+    ffd_status status = ffd_model_check_room(model, CORNER_BYTES, RUN_BYTES, error);
+    if (status == FFD_OK)
+        status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
     if (status == FFD_OK)
         status = join_values(&p, model->normal_count, read_normal, model->morph_normals ? 6 : 3, &p.normals);
     if (status == FFD_OK)

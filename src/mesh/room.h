@@ -1,0 +1,41 @@
+/* room.h - the memory that a document may ask for: a short file must not be able to take any amount. */
+#ifndef FFD_MESH_ROOM_H
+#define FFD_MESH_ROOM_H
+
+#include "base/fail.h"
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a document may take, in bytes. */
+typedef struct mesh_room {
+    uint64_t most;
+    uint64_t taken; /* may be more: what is taken for the bytes of files is not refused */
+    uint64_t asked; /* by the user */
+} mesh_room;
+
+/* Room for a document without files: 100 MB, or `asked` where that is more, with the program itself in it. */
+mesh_room ffd_room_make(uint64_t asked);
+/* Adds a file: 20 times its size is allowed, and of that kept_per_byte times its size is taken. */
+void ffd_room_add_file(mesh_room *room, uint64_t size, uint64_t kept_per_byte);
+/* Room for a document of one file, beside whose bytes its numbers are kept, and once more when they have
+ * moved.
+ */
+mesh_room ffd_room_of_file(uint64_t size, uint64_t asked);
+/* The same with at least `most` bytes in all. */
+mesh_room ffd_room_at_least(const mesh_room *room, uint64_t most);
+/* What is allowed in all, and what is left of it. */
+uint64_t ffd_room_most(const mesh_room *room);
+uint64_t ffd_room_left(const mesh_room *room);
+/* Whether count * size bytes fit in. Errors: FFD_E_LIMIT. */
+ffd_status ffd_room_check(const mesh_room *room, uint64_t count, uint64_t size, ffd_error *error);
+/* Takes them, for as long as the document is open. Errors: FFD_E_LIMIT; nothing is taken then. */
+ffd_status ffd_room_take(mesh_room *room, uint64_t count, uint64_t size, ffd_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,224 @@
+#!/usr/bin/env python3
+"""No file takes more memory than 20 times its size and 100 MB, whatever it shows; what needs more is refused
+(exit 7), and --memory allows it. Peaks are measured from outside; argument: the program packed_glb."""
+
+import json
+import os
+import struct
+import subprocess
+import sys
+
+from harness import FFD, LIMIT, OK, case, check, equal, main
+
+PACKED_GLB = os.path.abspath(sys.argv.pop(1))
+MOST, MOST_PER_BYTE = 100e6, 20
+with open(FFD, "rb") as program:
+    CODE = program.read()
+# A sanitizer's own memory is not the program's.
+SANITIZED = b"__asan_" in CODE or b"__tsan_" in CODE
+
+LATTICE = {"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "units": "box",
+           "rest": {"box": "mesh", "margin": 0.1}, "moves": [{"twist": {"axis": [0, 0, 1], "degrees": 40}}]}
+
+
+# Filling what is allocated, as meson asks for, makes memory of what never would be any.
+ENVIRONMENT = {name: value for name, value in os.environ.items() if name != "MALLOC_PERTURB_"}
+
+
+def measure(run, arguments):
+    """Exit code, peak of memory in bytes, and the last line of stderr."""
+    with open(run.path("err"), "wb+") as err, open(run.path("out"), "wb") as out:
+        child = os.fork()
+        if child == 0:
+            os.chdir(run.folder)
+            os.dup2(out.fileno(), 1)
+            os.dup2(err.fileno(), 2)
+            os.execve(FFD, [FFD, *arguments], ENVIRONMENT)
+        _, status, usage = os.wait4(child, 0)
+        err.seek(0)
+        lines = err.read().decode().splitlines()
+    return os.waitstatus_to_exitcode(status), usage.ru_maxrss * 1024, lines[-1] if lines else ""
+
+
+COMMANDS = {
+    "deform": ["deform", "IN", "out.ENDING", "-l", "l.json", "--force"],
+    "report": ["deform", "IN", "out.ENDING", "-l", "l.json", "--force", "--report", "r.json"],
+    "recompute": ["deform", "IN", "out.ENDING", "-l", "l.json", "--force", "--normals", "recompute"],
+    "morph": ["deform", "IN", "out.glb", "-l", "l.json", "--force", "--as-morph", "x"],
+    "check": ["check", "IN", "-l", "l.json"],
+    "embed": ["embed", "IN", "-l", "l.json", "-o", "e.npy", "--force"],
+    "info": ["info", "IN", "--json"],
+    "obj": ["deform", "IN", "o.obj", "-l", "l.json", "--force"],
+    "glb": ["deform", "IN", "o.glb", "-l", "l.json", "--force"],
+    "ply": ["deform", "IN", "o.ply", "-l", "l.json", "--force"],
+    "stl": ["deform", "IN", "o.stl", "-l", "l.json", "--force"],
+}
+
+
+# What works on faces, and is asked for, may take more.
+MOST_FOR_FACES = 500e6
+WITH_FACES = ("report", "recompute", "check")
+
+
+def run_all(run, name, commands):
+    """Runs the commands; returns the exit code of each."""
+    ending = name.rsplit(".", 1)[1]
+    allowed = MOST + MOST_PER_BYTE * os.path.getsize(run.path(name))
+    run.write("l.json", json.dumps(LATTICE))
+    codes = {}
+    for command in commands:
+        most = max(allowed, MOST_FOR_FACES) if command in WITH_FACES else allowed
+        arguments = [name if a == "IN" else a.replace("ENDING", ending) for a in COMMANDS[command]]
+        code, peak, line = measure(run, arguments)
+        if os.environ.get("FFD_PEAKS"):
+            print(f"{name:16s} {command:10s} exit {code} {peak / 1e6:7.1f} of {most / 1e6:7.1f} MB {line[:100]}")
+        check(code in (OK, LIMIT), name, command, code, line)
+        check(code == OK or "(--memory raises this)" in line, name, command, line)
+        check(SANITIZED or peak <= most, f"{name} {command}: {peak / 1e6:.1f} MB of {most / 1e6:.1f}")
+        codes[command] = code
+    return codes
+
+
+def glb(content, data=b""):
+    text = json.dumps({"asset": {"version": "2.0"}, **content}, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    data += b"\0" * (-len(data) % 4)
+    chunks = struct.pack("<II", len(text), 0x4E4F534A) + text
+    if data:
+        chunks += struct.pack("<II", len(data), 0x4E4942) + data
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def scene(nodes):
+    return {"nodes": nodes, "scenes": [{"nodes": list(range(len(nodes)))}], "scene": 0}
+
+
+def quantized(count, accessors, primitives, nodes=1):
+    """count vectors of bytes, seen through accessors, which primitives name."""
+    data = bytes((i * i >> 3) % 251 for i in range(4096)) * (4 * count // 4096 + 1)
+    return glb({"extensionsUsed": ["KHR_mesh_quantization"], "extensionsRequired": ["KHR_mesh_quantization"],
+                "buffers": [{"byteLength": 4 * count}],
+                "bufferViews": [{"buffer": 0, "byteLength": 4 * count, "byteStride": 4}],
+                "accessors": [{"bufferView": 0, "componentType": 5120, "count": count, "min": [-128] * 3,
+                               "max": [127] * 3, **accessor} for accessor in accessors],
+                "meshes": [{"primitives": [{"mode": 0, **primitive} for primitive in primitives]}],
+                **scene([{"mesh": 0, "translation": [i, 0, 0]} for i in range(nodes)])}, data[:4 * count])
+
+
+POSITION = {"type": "VEC3"}
+DIRECTIONS = [POSITION, {"type": "VEC3", "normalized": True}, {"type": "VEC4", "normalized": True}]
+ALL = ["deform", "report", "recompute", "morph", "check", "embed", "info", "obj", "glb", "ply", "stl"]
+OF_GLTF = [command for command in ALL if command != "glb"]
+
+
+def of_text(ending):
+    return [command for command in ALL if command not in ("morph", ending)]
+
+
+@case
+def compressed_by_draco(run):
+    for kind, side, refused in (("edgebreaker", 500, False), ("edgebreaker", 1100, True), ("sequential", 700, False)):
+        subprocess.run([PACKED_GLB, kind, str(side), run.path("a.glb")], check=True)
+        codes = run_all(run, "a.glb", OF_GLTF)
+        equal(codes["deform"], LIMIT if refused else OK, f"{kind} {side}")
+        if refused:
+            code, peak, line = measure(run, ["deform", "a.glb", "b.glb", "-l", "l.json", "--memory", "1G"])
+            equal(code, OK, line)
+            check(peak > MOST + MOST_PER_BYTE * os.path.getsize(run.path("a.glb")), "the limit was not needed", peak)
+
+
+@case
+def compressed_by_meshopt(run):
+    for side, refused in ((600, False), (1200, True)):
+        subprocess.run([PACKED_GLB, "meshopt", str(side), run.path("a.glb")], check=True)
+        codes = run_all(run, "a.glb", OF_GLTF)
+        equal(codes["deform"], OK, side)
+        equal(codes["obj"], LIMIT if refused else OK, side)
+
+
+@case
+def quantized_vectors(run):
+    run.write("small.glb", quantized(200000, DIRECTIONS, [{"attributes": {"POSITION": 0, "NORMAL": 1, "TANGENT": 2}}]))
+    run.write("large.glb", quantized(2000000, DIRECTIONS, [{"attributes": {"POSITION": 0, "NORMAL": 1, "TANGENT": 2}}]))
+    for name in ("small.glb", "large.glb"):
+        codes = run_all(run, name, OF_GLTF)
+        equal(codes["deform"], OK, name)
+
+
+@case
+def the_same_bytes_shown_again(run):
+    def shown(count, accessors, nodes, **more):
+        primitives = [{"attributes": {"POSITION": i}, **more} for i in range(accessors)]
+        return quantized(count, [POSITION] * accessors, primitives, nodes)
+
+    near, beyond = {"deform": OK, "obj": LIMIT}, {"deform": LIMIT, "check": LIMIT, "info": LIMIT}
+    for content, expected in ((shown(25000, 100, 1), near), (shown(25000, 400, 1), beyond),
+                              (shown(10000, 1, 600), near), (shown(10000, 1, 1600), beyond),
+                              (shown(1000000, 1, 11), near), (shown(1000000, 1, 300), beyond),
+                              (shown(4, 250, 250), {"deform": OK}), (shown(4, 600, 600), beyond),
+                              (shown(4, 100, 6, targets=[{"POSITION": i} for i in range(100)]), {"deform": OK}),
+                              (shown(4, 300, 30, targets=[{"POSITION": 0}] * 300), beyond)):
+        run.write("a.glb", content)
+        codes = run_all(run, "a.glb", OF_GLTF)
+        equal({command: codes[command] for command in expected}, expected)
+
+
+@case
+def many_joints(run):
+    run.write("a.gltf", json.dumps({
+        "asset": {"version": "2.0"}, "skins": [{"joints": [*range(2000)]}] * 100,
+        "accessors": [{"componentType": 5126, "count": 4, "type": "VEC3", "min": [0] * 3, "max": [0] * 3},
+                      {"componentType": 5121, "count": 4, "type": "VEC4"},
+                      {"componentType": 5126, "count": 4, "type": "VEC4"}],
+        "meshes": [{"primitives": [{"mode": 0, "attributes": {"POSITION": 0, "JOINTS_0": 1, "WEIGHTS_0": 2}}]}],
+        **scene([{"mesh": 0, "skin": i % 100} for i in range(2000)])}, separators=(",", ":")))
+    run_all(run, "a.gltf", ["deform", "check", "info", "obj"])
+
+
+@case
+def long_json(run):
+    head = b'{"asset":{"version":"2.0"},'
+    run.write("nodes.gltf", head + b'"nodes":[' + b"{}," * 79999 + b"{}]}")
+    run.write("accessors.gltf", head + b'"accessors":[' + b'{"componentType":5121,"count":1,"type":"SCALAR"},' * 79999
+              + b'{"componentType":5121,"count":1,"type":"SCALAR"}]}')
+    run.write("numbers.gltf", head + b'"extras":[' + b"0," * 2000000 + b"0]}")
+    run.write("arrays.gltf", head + b'"extras":[' + b"[]," * 1500000 + b"0]}")
+    run.write("objects.gltf", head + b'"extras":[' + b'{"":0},' * 700000 + b"0]}")
+    run.write("roots.gltf", head + b'"nodes":[{}],"scenes":[{"nodes":[' + b"0," * 1000000 + b"0]}]}")
+    for name in ("nodes.gltf", "accessors.gltf", "numbers.gltf", "arrays.gltf", "objects.gltf"):
+        run_all(run, name, ["deform", "info"])
+    code, peak, line = measure(run, ["info", "roots.gltf"])
+    check(code and (SANITIZED or peak <= MOST + MOST_PER_BYTE * os.path.getsize(run.path("roots.gltf"))), code, peak, line)
+
+
+TRIANGLE = b"v 0 0 1\nv 0 1 0\nv 1 0 0\n"
+
+
+@case
+def short_lines_of_obj(run):
+    run.write("vertices.obj", b"v 0 0 1\nv 0 1 0\nv 1 0 0\n" * 250000 + b"f 1 2 3\n")
+    run.write("faces.obj", TRIANGLE + b"f 1 2 3\n" * 600000)
+    run.write("polygon.obj", TRIANGLE + b"f" + b" 1 2 3" * 300000 + b"\n")
+    run.write("groups.obj", TRIANGLE + b"".join(b"g %x\nf 1 2 3\n" % i for i in range(300000)))
+    run.write("normals.obj", TRIANGLE + b"vn 0 0 1\n" + b"f 1//1 2//1 3//1\n" * 400000)
+    for name in ("vertices.obj", "faces.obj", "polygon.obj", "groups.obj", "normals.obj"):
+        equal(run_all(run, name, of_text("obj"))["deform"], OK, name)
+
+
+@case
+def short_lines_of_others(run):
+    head = b"ply\nformat binary_little_endian 1.0\nelement vertex 3\n" \
+           b"property float x\nproperty float y\nproperty float z\n" \
+           b"element face 1500000\nproperty list uchar uchar vertex_indices\nend_header\n"
+    run.write("faces.ply", head + struct.pack("<9f", 0, 0, 1, 0, 1, 0, 1, 0, 0) + b"\3\0\1\2" * 1500000)
+    run.write("vertices.ply", head.replace(b"binary_little_endian", b"ascii").replace(b"vertex 3", b"vertex 900000")
+              .replace(b"face 1500000", b"face 0") + b"0 0 1\n" * 450000 + b"1 1 0\n" * 450000)
+    run.write("vertices.off", b"OFF\n900000 0 0\n" + b"0 0 1\n" * 450000 + b"1 1 0\n" * 450000)
+    run.write("faces.off", b"OFF\n3 600000 0\n0 0 1\n0 1 0\n1 0 0\n" + b"3 0 1 2\n" * 600000)
+    run.write("facets.stl", bytes(80) + struct.pack("<I", 90000) + b"".join(
+        struct.pack("<12fH", 0, 0, 1, i, 0, 1, 0, i, 1, 0, 0, i, 0) for i in range(90000)))
+    for name in ("faces.ply", "vertices.ply", "vertices.off", "faces.off", "facets.stl"):
+        equal(run_all(run, name, of_text(name[-3:]))["deform"], OK, name)
+
+
+main()
