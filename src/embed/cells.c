@@ -108,8 +108,7 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
     result->weight_ratio = result->greatest_weight / least;
 }
 
-/* Finds where the rows of a cell's control points along u stand: where u goes round, in own. */
-static void find_rows(const ffd_locator *locator, const int span[3], cell_rows rows, double *own)
+void ffd_cells_rows(const ffd_locator *locator, const int span[3], cell_rows rows, double own[CELL_NUMBERS])
 {
     const int *const order = locator->cells->order;
     size_t first[3], function[3];
@@ -135,10 +134,10 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
     const cell_search *cells = locator->cells;
     cell_basis basis;
     cell_rows rows;
-    double own[MAX_ORDER * MAX_ORDER * MAX_ORDER * N];
+    double own[CELL_NUMBERS];
     for (int a = 0; a < 3; a++)
         ffd_basis_derivatives_in(&locator->knots[a], span[a], offset[a], basis.value[a], basis.slope[a]);
-    find_rows(locator, span, rows, own);
+    ffd_cells_rows(locator, span, rows, own);
     cells->kernel(&basis, cells->order, (const cell_rows *)&rows, result);
     if (!cells->rational) {
         result->value[3] = 1;
@@ -147,14 +146,29 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
     }
 }
 
-static cell_kernel *const kernels[] = {
-    [FFD_ISA_SCALAR] = ffd_cell_kernel_scalar,
+/* Those of an instruction set; region is NULL where points are searched one by one. */
+typedef struct kernel_set {
+    cell_kernel *cell;
+    region_kernel *region;
+    size_t lanes; /* of region */
+} kernel_set;
+
+static const kernel_set kernels[] = {
+    [FFD_ISA_SCALAR] = {ffd_cell_kernel_scalar, NULL, 0},
 #ifdef FFD_X86
-    [FFD_ISA_SSE2] = ffd_cell_kernel_sse2,
-    [FFD_ISA_AVX2] = ffd_cell_kernel_avx2,
-    [FFD_ISA_AVX512] = ffd_cell_kernel_avx512,
+    [FFD_ISA_SSE2] = {ffd_cell_kernel_sse2, ffd_region_kernel_sse2, 2},
+    [FFD_ISA_AVX2] = {ffd_cell_kernel_avx2, ffd_region_kernel_avx2, 4},
+    [FFD_ISA_AVX512] = {ffd_cell_kernel_avx512, ffd_region_kernel_avx512, 8},
 #endif
 };
+
+static void choose_kernels(cell_search *cells, ffd_isa isa)
+{
+    const kernel_set *set = &kernels[ffd_isa_resolve(isa)];
+    cells->kernel = set->cell;
+    cells->region_kernel = set->region;
+    cells->lanes = set->lanes;
+}
 
 void ffd_cells_centre(const ffd_locator *locator, cell_region *region)
 {
@@ -173,7 +187,7 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     if (!cells)
         return ffd_fail_memory(error);
     locator->cells = cells;
-    cells->kernel = kernels[ffd_isa_resolve(locator->isa)];
+    choose_kernels(cells, locator->isa);
     cells->rational = lattice->rest_weights != NULL;
     for (int a = 0; a < 3; a++) {
         cells->order[a] = lattice->knots[a].degree + 1;

@@ -8,6 +8,7 @@
 #include "embed/cell_kernel.h"
 #include "embed/collapse.h"
 #include "embed/locator.h"
+#include "embed/region_kernel.h"
 #include <math.h>
 #include <stdatomic.h>
 
@@ -15,17 +16,6 @@
 #define LEAF_BOUND 0.5  /* a box is a leaf when its contraction bound is no more */
 #define LEAF_DEPTH 12   /* halvings of a cell before a box is called hard */
 #define LEAF_BUDGET 512 /* boxes looked at in one cell, likewise */
-
-/* A part of a cell in which F is certain to have at most one root: u = t_span + lo + t width, t in [0,1]^3.
-   Places are offsets from the span's start throughout: in a narrow span u itself would be too coarse. */
-typedef struct cell_region {
-    int span[3];
-    double lo[3], width[3];
-    double inverse[9];                /* Y */
-    double bound;                     /* L < 1 */
-    double centre[BEZIER_COMPONENTS]; /* A and W there (ffd_cells_centre) */
-    double greatest_weight, weight_ratio;
-} cell_region;
 
 typedef struct cell_leaf {
     cell_region region; /* hard: only span is set */
@@ -65,6 +55,8 @@ typedef struct cell_search {
     size_t bricks[3];
     bool rational;
     cell_kernel *kernel;
+    region_kernel *region_kernel; /* for so many points at a time; NULL: one by one */
+    int lanes;
     /* The search's units: powers of two that bring the lattice and its weights to size 1, so that products of
        three derivatives stay in the range of doubles. x = (P - origin) scale. */
     double scale;
@@ -110,6 +102,10 @@ void ffd_cells_centre(const ffd_locator *locator, cell_region *region);
    FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bricks *own,
                            const cell_brick **brick, ffd_error *error);
+
+/* Finds where the rows of a cell's control points along u stand: where u goes round, in own. */
+#define CELL_NUMBERS (MAX_ORDER * MAX_ORDER * MAX_ORDER * BEZIER_COMPONENTS)
+void ffd_cells_rows(const ffd_locator *locator, const int span[3], cell_rows rows, double own[CELL_NUMBERS]);
 
 /* At u = t_span + offset. */
 void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double offset[3],

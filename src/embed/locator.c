@@ -95,26 +95,48 @@ const char *ffd_locator_get_method(const ffd_locator *locator)
 
 static const ffd_location nowhere = {.uvw = {NAN, NAN, NAN}, .status = FFD_OUTSIDE};
 
+/* p = xyz with the origin subtracted. False where the verdict on the point is there already. */
+static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], ffd_location *location)
+{
+    *location = nowhere;
+    for (int a = 0; a < 3; a++)
+        p[a] = xyz[a] - locator->origin[a];
+    if (!vec_is_finite(xyz))
+        location->status = FFD_POINT_INVALID;
+    return vec_is_finite(p); /* else it is not one, or farther away than doubles reach */
+}
+
+static ffd_status find_general(const ffd_locator *locator, const double *xyz, size_t count,
+                               ffd_location *locations, ffd_error *error)
+{
+    search_scratch *scratch = NULL;
+    double *p = ffd_alloc(CELLS_AT_ONCE, 3 * sizeof *p);
+    ffd_status status = p ? FFD_OK : ffd_fail_memory(error);
+    for (size_t first = 0; first < count && !status; first += CELLS_AT_ONCE) {
+        const size_t size = count - first < CELLS_AT_ONCE ? count - first : CELLS_AT_ONCE;
+        for (size_t i = 0; i < size; i++)
+            if (!begin(locator, xyz + 3 * (first + i), p + 3 * i, &locations[first + i]))
+                p[3 * i] = NAN;
+        status = ffd_cells_find_many(locator, p, size, &scratch, locations + first, error);
+    }
+    ffd_search_scratch_free(scratch);
+    ffd_free(p);
+    return status;
+}
+
 ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_t count,
                             ffd_location *locations, ffd_error *error)
 {
-    search_scratch *scratch = NULL;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < count && !status; i++) {
-        const double p[3] = {xyz[3 * i] - locator->origin[0], xyz[3 * i + 1] - locator->origin[1],
-                             xyz[3 * i + 2] - locator->origin[2]};
-        locations[i] = nowhere;
-        if (!vec_is_finite(xyz + 3 * i))
-            locations[i].status = FFD_POINT_INVALID;
-        else if (!vec_is_finite(p)) /* farther away than doubles reach */
-            locations[i].status = FFD_OUTSIDE;
-        else if (locator->method == METHOD_AFFINE)
+    if (locator->method == METHOD_GENERAL)
+        return find_general(locator, xyz, count, locations, error);
+    for (size_t i = 0; i < count; i++) {
+        double p[3];
+        if (!begin(locator, xyz + 3 * i, p, &locations[i]))
+            continue;
+        if (locator->method == METHOD_AFFINE)
             ffd_affine_find(locator, p, &locations[i]);
-        else if (locator->method == METHOD_SEPARABLE)
-            ffd_separable_find(locator, p, &locations[i]);
         else
-            status = ffd_cells_find(locator, p, &scratch, &locations[i], error);
+            ffd_separable_find(locator, p, &locations[i]);
     }
-    ffd_search_scratch_free(scratch);
-    return status;
+    return FFD_OK;
 }

@@ -83,6 +83,10 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error);
 void ffd_cells_destroy(struct cell_search **cells);
 ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_scratch **scratch,
                           ffd_location *location, ffd_error *error);
+/* search_many.c: the same for so many points at most; those whose first coordinate is NaN are left alone. */
+#define CELLS_AT_ONCE ((size_t)1024)
+ffd_status ffd_cells_find_many(const ffd_locator *locator, const double *p, size_t count,
+                               search_scratch **scratch, ffd_location *locations, ffd_error *error);
 void ffd_search_scratch_free(search_scratch *scratch);
 
 #endif

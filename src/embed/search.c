@@ -11,9 +11,8 @@ enum { N = BEZIER_COMPONENTS };
    wider than the tolerance. */
 #define HULL_SLACK 4
 #define CURVE_STEPS 2
-/* What one point may take, so that no lattice makes the search endless: bricks looked into, and boxes of hard
-   leaves (of degrees above 3 as many fewer as they are larger). */
-#define MOST_BRICKS 4096
+/* What one point may take, so that no lattice makes the search endless: bricks looked into (SEARCH_BRICKS),
+   and boxes of hard leaves (of degrees above 3 as many fewer as they are larger). */
 #define MOST_HARD_BOXES 16384
 #define LEAST_HARD_BOXES 1024
 
@@ -53,7 +52,7 @@ double ffd_image_of_tolerance(const double inverse[9], const double tolerance[3]
 }
 
 /* Whether Y (C - x) can be 0 in the leaf: x's image against that of the leaf's control points. */
-static bool image_holds(const point_search *search, const cell_leaf *leaf)
+bool ffd_search_image_holds(const point_search *search, const cell_leaf *leaf)
 {
     if (search->locator->cells->rational)
         return true;
@@ -79,7 +78,7 @@ static bool visit_leaf(void *context, uint32_t number)
     if (leaf->hard) {
         search->leaves++;
         ffd_search_hard_leaf(search, leaf);
-    } else if (image_holds(search, leaf)) {
+    } else if (ffd_search_image_holds(search, leaf)) {
         search->leaves++;
         ffd_search_region(search, &leaf->region);
     }
@@ -92,7 +91,7 @@ static bool visit_brick(void *context, uint32_t number)
     const cell_search *cells = search->locator->cells;
     if (!bounds_hold(&cells->brick_hulls[number], search->x, search->slack))
         return true;
-    if (search->bricks++ >= MOST_BRICKS) {
+    if (search->bricks++ >= SEARCH_BRICKS) {
         search->unresolved = true;
         return false;
     }
@@ -155,9 +154,11 @@ static bool is_on_collapse(point_search *search, ffd_location *location)
     return false;
 }
 
-static void judge(const point_search *search, ffd_location *location)
+void ffd_search_judge(const point_search *search, ffd_location *location)
 {
     const root_list *list = &search->roots;
+    location->evaluations = search->evaluations;
+    location->leaves = search->leaves;
     location->unresolved = search->unresolved;
     if (list->count == 0) {
         location->status = search->unresolved ? FFD_SINGULAR : FFD_OUTSIDE;
@@ -176,11 +177,24 @@ static void judge(const point_search *search, ffd_location *location)
     ffd_locator_report(search->locator, best->uvw, location->uvw);
 }
 
-static bool make_scratch(search_scratch **scratch)
+bool ffd_search_scratch_make(search_scratch **scratch)
 {
     if (!*scratch)
         *scratch = ffd_alloc_zero(1, sizeof **scratch);
     return *scratch;
+}
+
+bool ffd_search_place(point_search *search, const double p[3])
+{
+    const cell_search *cells = search->locator->cells;
+    for (int a = 0; a < 3; a++)
+        search->x[a] = p[a] * cells->scale;
+    if (!vec_is_finite(search->x))
+        return false;
+    ffd_cells_tolerance(cells, search->x, search->tolerance);
+    for (int a = 0; a < 3; a++)
+        search->slack[a] = HULL_SLACK * search->tolerance[a];
+    return true;
 }
 
 void ffd_search_scratch_free(search_scratch *scratch)
@@ -188,6 +202,7 @@ void ffd_search_scratch_free(search_scratch *scratch)
     if (!scratch)
         return;
     ffd_own_bricks_free(&scratch->own);
+    ffd_free(scratch->many);
     ffd_free(scratch->slots);
     ffd_free(scratch->numbers);
     ffd_free(scratch);
@@ -204,21 +219,16 @@ ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_
                           ffd_location *location, ffd_error *error)
 {
     const cell_search *cells = locator->cells;
-    if (!make_scratch(scratch))
+    if (!ffd_search_scratch_make(scratch))
         return ffd_fail_memory(error);
     point_search search = {
         .locator = locator, .scratch = *scratch, .hard_boxes = hard_boxes_of(cells), .error = error};
-    for (int a = 0; a < 3; a++)
-        search.x[a] = p[a] * cells->scale;
-    if (!vec_is_finite(search.x)) /* farther away than doubles reach */
+    if (!ffd_search_place(&search, p))
         return FFD_OK;
-    ffd_cells_tolerance(cells, search.x, search.tolerance);
-    for (int a = 0; a < 3; a++)
-        search.slack[a] = HULL_SLACK * search.tolerance[a];
     if (!is_on_collapse(&search, location)) {
         ffd_box_tree_visit(&cells->brick_tree, search.x, search.slack, visit_brick, &search);
         if (!search.status)
-            judge(&search, location);
+            ffd_search_judge(&search, location);
     }
     location->evaluations = search.evaluations;
     location->leaves = search.leaves;

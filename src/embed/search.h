@@ -5,9 +5,13 @@
 
 #include "embed/roots.h"
 
+/* Bricks that one point may look into. */
+#define SEARCH_BRICKS 4096
+
 struct search_scratch {
-    double *slots;   /* coefficients of a hard leaf's halvings */
-    double *numbers; /* of the contraction bound */
+    struct many_scratch *many; /* search_many.c */
+    double *slots;             /* coefficients of a hard leaf's halvings */
+    double *numbers;           /* of the contraction bound */
     own_bricks own;
 };
 
@@ -32,6 +36,19 @@ typedef struct sample {
     double jacobian[9]; /* of F, row by row: by u,v,w, or by a region's t */
     double weight;
 } sample;
+
+/* Makes the scratch where there is none; false: no memory. */
+bool ffd_search_scratch_make(search_scratch **scratch);
+
+/* Sets the point, with the origin subtracted. False where it is farther away than the search's doubles reach.
+ */
+bool ffd_search_place(point_search *search, const double p[3]);
+
+/* Whether a leaf that is not hard can hold the point, by the image of its control points. */
+bool ffd_search_image_holds(const point_search *search, const cell_leaf *leaf);
+
+/* What the roots that were found say. */
+void ffd_search_judge(const point_search *search, ffd_location *location);
 
 /* At the offsets from the spans' starts. */
 void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at);

@@ -35,12 +35,17 @@ void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double 
     derivatives(knots->t, span, knots->degree, u, value, derivative);
 }
 
+void ffd_basis_local_knots(const knot_vector *knots, int span, double local[2 * MAX_DEGREE])
+{
+    for (int i = 0; i < 2 * knots->degree; i++)
+        local[i] = knots->t[span + 1 - knots->degree + i] - knots->t[span];
+}
+
 void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset, double value[MAX_ORDER],
                               double derivative[MAX_ORDER])
 {
     const int d = knots->degree;
     double local[2 * MAX_DEGREE];
-    for (int i = 0; i < 2 * d; i++)
-        local[i] = knots->t[span + 1 - d + i] - knots->t[span];
+    ffd_basis_local_knots(knots, span, local);
     derivatives(local, d - 1, d, offset, value, derivative);
 }

@@ -14,6 +14,9 @@ void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double 
 void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset, double value[MAX_ORDER],
                               double derivative[MAX_ORDER]);
 
+/* The 2 d knots round the span that functions of this span depend on, from t_span. */
+void ffd_basis_local_knots(const knot_vector *knots, int span, double local[2 * MAX_DEGREE]);
+
 /* The Bezier form of the curve over a non-empty span: Bezier point r = sum_j matrix[r*(d+1)+j] P_{span-d+j},
    the blossom at t_span (d-r times) and t_{span+1} (r times), which is what knot insertion (P&T A5.6) arrives
    at. */

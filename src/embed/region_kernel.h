@@ -1,0 +1,53 @@
+/* region_kernel.h - the root of one region for several points at a time (maths.md 6.4), each in a lane. */
+#ifndef FFD_EMBED_REGION_KERNEL_H
+#define FFD_EMBED_REGION_KERNEL_H
+
+#include "embed/cell_kernel.h"
+#include <stdint.h>
+
+/* Most lanes of any instruction set. */
+#define REGION_LANES 8
+
+/* A part of a cell in which F is certain to have at most one root: u = t_span + lo + t width, t in [0,1]^3.
+   Places are offsets from the span's start throughout: in a narrow span u itself would be too coarse. */
+typedef struct cell_region {
+    int span[3];
+    double lo[3], width[3];
+    double inverse[9];                /* Y */
+    double bound;                     /* L < 1 */
+    double centre[BEZIER_COMPONENTS]; /* A and W there (ffd_cells_centre) */
+    double greatest_weight, weight_ratio;
+} cell_region;
+
+/* What is the same for all points of a region of a lattice without weights. */
+typedef struct region_kernel_cell {
+    const cell_region *region;
+    int order[3];
+    double knots[3][2 * MAX_DEGREE]; /* round the span, from its start (ffd_basis_derivatives_in) */
+    cell_rows rows;
+} region_kernel_cell;
+
+typedef enum region_outcome {
+    REGION_EMPTY,    /* there is no root */
+    REGION_FOUND,    /* t is within the tolerance */
+    REGION_UNCERTAIN /* Newton's steps alone do not decide: ffd_search_region must */
+} region_outcome;
+
+/* One point a lane; all lanes are filled, if need be with points twice. */
+typedef struct region_lanes {
+    double x[3][REGION_LANES], tolerance[3][REGION_LANES]; /* as point_search has them */
+    /* Results: */
+    region_outcome outcome[REGION_LANES];
+    double t[3][REGION_LANES], equation[3][REGION_LANES], jacobian[9][REGION_LANES]; /* as sample has them */
+    uint32_t evaluations[REGION_LANES];
+} region_lanes;
+
+/* Does what ffd_search_region does, with the same bits, as long as it takes Newton's steps. One function for
+   each instruction set that has lanes; a processor without takes the points one by one. */
+typedef void region_kernel(const region_kernel_cell *cell, region_lanes *lanes);
+
+#ifdef FFD_X86
+region_kernel ffd_region_kernel_sse2, ffd_region_kernel_avx2, ffd_region_kernel_avx512;
+#endif
+
+#endif
