@@ -677,6 +677,80 @@ static void test_no_memory(void **state)
     (void)state;
 }
 
+/* Images of places inside, on the cells' borders and on those of the volume, some moved a little, and points
+   all round; some stand twice. */
+static void draw_points(draw *d, const ffd_lattice *lattice, size_t count, double *points)
+{
+    for (size_t i = 0; i < count; i++) {
+        double uvw[3], *const p = points + 3 * i;
+        for (int a = 0; a < 3; a++) {
+            const knot_vector *const knots = &lattice->knots[a];
+            const int span = knots->spans[draw_int(d, 0, (int)knots->span_count - 1)],
+                      choice = draw_int(d, 0, 7);
+            uvw[a] = choice == 0   ? knots->t[span]
+                     : choice == 1 ? knots->t[span + 1]
+                                   : draw_between(d, ffd_knots_first(knots), ffd_knots_last(knots));
+        }
+        ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, p, NULL);
+        const double away = i % 5 == 0 ? 0.3 : i % 5 == 1 ? 1e-13 : 0;
+        for (int a = 0; a < 3; a++)
+            p[a] += draw_between(d, -away, away);
+        if (i % 11 == 10)
+            memcpy(p, p - 3, 3 * sizeof *p);
+        if (i % 97 == 96)
+            p[1] = i % 2 ? NAN : 1e300;
+    }
+}
+
+static void check_same(const ffd_location *a, const ffd_location *b, ffd_isa isa, const double p[3])
+{
+    if (memcmp(a->uvw, b->uvw, sizeof a->uvw) != 0 ||
+        memcmp(&a->residual, &b->residual, sizeof a->residual) != 0 || a->status != b->status ||
+        a->unresolved != b->unresolved || a->evaluations != b->evaluations || a->leaves != b->leaves)
+        fail_msg("instruction set %d: %.17g %.17g %.17g has status %d, u %.17g after %u evaluations, not %d, "
+                 "%.17g, %u",
+                 (int)isa, p[0], p[1], p[2], a->status, a->uvw[0], a->evaluations, b->status, b->uvw[0],
+                 b->evaluations);
+}
+
+static void test_instruction_sets(void **state)
+{
+    enum { COUNT = 2311 };
+    static const struct {
+        point_map map;
+        int degree;
+        size_t size;
+    } kinds[] = {{warped_map, 3, 8}, {warped_map, 3, 4}, {bent_map, 3, 6},   {folded_map, 2, 6},
+                 {steep_map, 3, 5},  {warped_map, 1, 6}, {warped_map, 5, 8}, {product_map, 2, 4},
+                 {far_map, 3, 5},    {thin_map, 3, 6}};
+    static double points[3 * COUNT];
+    static ffd_location one_by_one[COUNT], several[COUNT];
+    draw d = {draw_seed()};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        ffd_lattice *lattice = clamped(kinds[i].degree, kinds[i].size);
+        ffd_locator *locator;
+        set_points(lattice, kinds[i].map);
+        draw_points(&d, lattice, COUNT, points);
+        assert_int_equal(ffd_locator_create_for(lattice, FFD_ISA_SCALAR, &locator, NULL), FFD_OK);
+        assert_int_equal(ffd_locator_find(locator, points, COUNT, one_by_one, NULL), FFD_OK);
+        ffd_locator_destroy(&locator);
+        for (ffd_isa isa = FFD_ISA_AUTO; isa <= FFD_ISA_AVX512; isa++) {
+            if (!ffd_isa_available(isa))
+                continue;
+            assert_int_equal(ffd_locator_create_for(lattice, isa, &locator, NULL), FFD_OK);
+            /* The first time bricks are made. */
+            for (int round = 0; round < 2; round++) {
+                assert_int_equal(ffd_locator_find(locator, points, COUNT, several, NULL), FFD_OK);
+                for (size_t k = 0; k < COUNT; k++)
+                    check_same(&several[k], &one_by_one[k], isa, points + 3 * k);
+            }
+            ffd_locator_destroy(&locator);
+        }
+        ffd_lattice_destroy(&lattice);
+    }
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -699,6 +773,7 @@ int main(void)
         cmocka_unit_test(test_symmetric_fold),
         cmocka_unit_test(test_sign_of_volume),
         cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_instruction_sets),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
