@@ -22,6 +22,9 @@ ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error);
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
                                 file_input *input, ffd_error *error);
 void ffd_file_unload(file_input *input);
+/* For bytes that are not needed for a while: gives back the memory that they take where the system can read
+   them again, by itself, from the file. Any thread. */
+void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
 
 bool ffd_file_exists(const char *path);
 /* Whether both paths lead to one existing file. */

@@ -1,4 +1,5 @@
 #define _XOPEN_SOURCE 700 /* realpath */
+#define _DEFAULT_SOURCE   /* madvise */
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/path.h"
@@ -150,6 +151,16 @@ void ffd_file_unload(file_input *input)
     else
         ffd_free(input->block);
     *input = (file_input){.data = nothing};
+}
+
+void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
+{
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    const size_t begin = (size_t)((const unsigned char *)bytes - input->data);
+    const size_t first = (begin + page - 1) / page * page;
+    const size_t last = begin + size == input->size ? input->size : (begin + size) / page * page;
+    if (input->mapped && first < last) /* a mapping begins at a page */
+        madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
 }
 
 bool ffd_file_exists(const char *path)

@@ -48,6 +48,32 @@ static void test_load(void **state)
     (void)state;
 }
 
+/* What is forgotten is there when it is read. */
+static void test_forget(void **state)
+{
+    enum { SIZE = 100000 };
+    char *text = malloc(SIZE + 1);
+    file_input input;
+    assert_non_null(text);
+    for (size_t i = 0; i < SIZE; i++)
+        text[i] = (char)('a' + i % 23);
+    text[SIZE] = 0;
+    put_text("long", text);
+    assert_int_equal(ffd_file_load(in_folder("long"), &input, NULL), FFD_OK);
+    assert_memory_equal(input.data, text, SIZE);
+    ffd_file_forget(&input, input.data + 1, SIZE - 1);
+    ffd_file_forget(&input, input.data, SIZE);
+    ffd_file_forget(&input, input.data + 5000, 10);
+    ffd_file_forget(&input, input.data + SIZE, 0);
+    assert_memory_equal(input.data, text, SIZE);
+    ffd_file_unload(&input);
+    file_input held = {.data = (unsigned char *)text, .size = SIZE}; /* not mapped: nothing happens */
+    ffd_file_forget(&held, text, SIZE);
+    assert_int_equal(text[SIZE - 1], 'a' + (SIZE - 1) % 23);
+    free(text);
+    (void)state;
+}
+
 static void test_load_within(void **state)
 {
     file_input input;
@@ -216,6 +242,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_load),
+        cmocka_unit_test(test_forget),
         cmocka_unit_test(test_load_within),
         cmocka_unit_test(test_appears_when_committed),
         cmocka_unit_test(test_dropped),

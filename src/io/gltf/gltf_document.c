@@ -259,6 +259,14 @@ static void free_document(gltf_document *d)
     ffd_free(d);
 }
 
+void ffd_gltf_forget(const gltf_document *d)
+{
+    ffd_file_forget(&d->input, d->input.data, d->input.size);
+    for (size_t i = 0; i < d->buffer_values.count; i++)
+        if (d->buffers[i].kind == BUFFER_FILE)
+            ffd_file_forget(&d->buffers[i].file, d->buffers[i].file.data, d->buffers[i].file.size);
+}
+
 static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_error *error)
 {
     d->path = ffd_text_copy(source->path);
@@ -290,6 +298,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         d->crowds_status = ffd_gltf_make_crowds(d, &d->crowds_error);
     if (status == FFD_OK)
         d->skins_status = ffd_gltf_place_skins(d, &d->skins_error);
+    ffd_gltf_forget(d);
     const bool no_memory = d->skins_status == FFD_E_MEMORY || d->crowds_status == FFD_E_MEMORY;
     return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
 }

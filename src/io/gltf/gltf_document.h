@@ -147,6 +147,9 @@ typedef struct gltf_document {
 ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const mesh_room *room,
                                 mesh_document **document, ffd_error *error);
 
+/* Gives back the memory of the files' bytes, which are read again when they are needed. */
+void ffd_gltf_forget(const gltf_document *document);
+
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {
     return (const gltf_document *)document;

@@ -8,6 +8,8 @@
 
 /* Bytes of a buffer written at once: a multiple of 3, so that pieces of base64 join. */
 #define BLOCK ((size_t)3 << 14)
+/* Blocks after which the input's bytes so far are given back. */
+#define BLOCKS_KEPT 128
 
 void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...)
 {
@@ -46,6 +48,8 @@ static ffd_status put_content(const gltf_saver *saver, size_t buffer, bool base6
         if (base64)
             ffd_base64_encode(block, part, text);
         status = base64 ? put(saver, text, ffd_base64_length(part), error) : put(saver, block, part, error);
+        if (at / BLOCK % BLOCKS_KEPT == BLOCKS_KEPT - 1)
+            ffd_gltf_forget(saver->document);
     }
     ffd_free(block);
     ffd_free(text);
