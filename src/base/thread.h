@@ -12,6 +12,11 @@ typedef void (*tile_function)(void *context, size_t tile, size_t begin, size_t e
    done without. */
 void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_function function, void *context);
 
+/* The same; and calls `finish` for each tile, one at a time in their order, by the thread that has had the
+   tile and with the same arguments, while other threads go on with later tiles. */
+void ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_function function,
+                           tile_function finish, void *context);
+
 /* The number of processors that are switched on, at least 1. */
 int ffd_processor_count(void);
 

@@ -247,6 +247,44 @@ static void test_tiles(void **state)
     (void)state;
 }
 
+typedef struct ordered_log {
+    unsigned char made[1000]; /* of each tile, by its thread */
+    size_t finished;          /* by one thread at a time */
+    size_t out_of_order;
+} ordered_log;
+
+static void make_slowly(void *context, size_t tile, size_t begin, size_t end, int worker)
+{
+    ordered_log *log = context;
+    volatile size_t work = 0;
+    (void)worker;
+    for (size_t i = 0; i < (tile * 7919 % 13) * 1000; i++)
+        work += i;
+    log->made[tile] = (unsigned char)(end - begin);
+}
+
+static void finish_in_order(void *context, size_t tile, size_t begin, size_t end, int worker)
+{
+    ordered_log *log = context;
+    (void)worker;
+    log->out_of_order += tile != log->finished || log->made[tile] != end - begin || begin != 3 * tile;
+    log->finished++;
+}
+
+static void test_tiles_in_order(void **state)
+{
+    static const int threads[] = {1, 2, 3, 16};
+    for (size_t t = 0; t < 4; t++) {
+        static ordered_log log;
+        memset(&log, 0, sizeof log);
+        ffd_parallel_in_order(2999, 3, threads[t], make_slowly, finish_in_order, &log);
+        assert_int_equal(log.finished, 1000);
+        assert_int_equal(log.out_of_order, 0);
+    }
+    ffd_parallel_in_order(0, 1, 4, make_slowly, finish_in_order, NULL);
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +299,7 @@ int main(void)
         cmocka_unit_test(test_json_text_is_utf8),
         cmocka_unit_test(test_exit_codes),
         cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_tiles_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
