@@ -62,6 +62,7 @@ typedef struct ffd_source {
        files. What asks for more (a short file can show or unpack any number of vertices) is refused with
        FFD_E_LIMIT. Estimated, and without that of the lattice. */
     uint64_t memory;
+    int threads; /* for reading and writing it: 0: those of the job, or all cores */
 } ffd_source;
 
 /* Whether text is a selector as ffd_deform_desc's only takes it. Errors: FFD_E_ARGUMENT, with the nearest

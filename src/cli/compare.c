@@ -39,7 +39,7 @@ static ffd_source source(const settings *s, const char *file, const char *other)
 {
     const bool other_only = strcmp(other, "-") == 0 && strcmp(file, "-") != 0;
     const ffd_format format = other_only ? FFD_FORMAT_AUTO : s->input_format;
-    return (ffd_source){file, format, FFD_SPACE_SCENE, s->memory};
+    return (ffd_source){.path = file, .format = format, .memory = s->memory};
 }
 
 static int compare(const settings *s, const char *a, const char *b)

@@ -40,7 +40,8 @@ static int embed(settings *s, const char *input)
     ffd_job_result result;
     ffd_error error;
     ffd_embed_desc_init(&desc);
-    desc.input = (ffd_source){input, s->input_format, (ffd_space)s->space, s->memory};
+    desc.input = (ffd_source){
+        .path = input, .format = s->input_format, .space = (ffd_space)s->space, .memory = s->memory};
     desc.lattice = s->lattice;
     desc.output = s->output;
     desc.status_output = s->status;

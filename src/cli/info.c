@@ -23,7 +23,7 @@ static const cli_option options[] = {
 
 static int describe(const settings *s, const char *file)
 {
-    const ffd_source source = {file, s->input_format, FFD_SPACE_SCENE, s->memory};
+    const ffd_source source = {.path = file, .format = s->input_format, .memory = s->memory};
     ffd_error error;
     char *text;
     if (ffd_info_run(&source, s->json, &text, &error))

@@ -188,7 +188,8 @@ bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t in
 void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
 {
     ffd_deform_desc_init(desc);
-    desc->input = (ffd_source){input, job->input_format, (ffd_space)job->space, job->memory};
+    desc->input = (ffd_source){
+        .path = input, .format = job->input_format, .space = (ffd_space)job->space, .memory = job->memory};
     desc->lattices = job->lattices;
     desc->lattice_count = job->lattice_count;
     desc->outside = (ffd_outside)job->outside;

@@ -163,7 +163,7 @@ static const cli_option options[] = {
 
 static int create(settings *s, const char *mesh)
 {
-    const ffd_source source = {mesh, s->input_format, FFD_SPACE_SCENE, s->memory};
+    const ffd_source source = {.path = mesh, .format = s->input_format, .memory = s->memory};
     ffd_error error;
     s->desc.shape = (ffd_lattice_shape)s->shape;
     s->desc.spacing = (ffd_spacing)s->spacing;

@@ -4,18 +4,27 @@
 #include <string.h>
 
 #define BLOCK ((size_t)256 * 1024)
+/* Of a file, in memory while it is copied. */
+#define PIECE ((size_t)8 * 1024 * 1024)
 
 void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
                       file_output *output, ffd_error *error)
 {
     const char *data = (const char *)input->data;
-    *splice = (file_splice){.output = output, .error = error, .copied = data, .last = data + input->size};
+    *splice = (file_splice){
+        .input = input, .output = output, .error = error, .copied = data, .last = data + input->size};
     splice->status = ffd_output_begin(output, options->path, options->force, error);
     if (splice->status)
         return;
     splice->block = ffd_alloc(BLOCK, sizeof *splice->block);
     if (!splice->block)
         splice->status = ffd_fail_memory(error);
+}
+
+void ffd_splice_begin_part(file_splice *splice, const char *first, const char *last, byte_buffer *text,
+                           ffd_error *error)
+{
+    *splice = (file_splice){.error = error, .copied = first, .last = last, .text = text};
 }
 
 static void flush(file_splice *splice)
@@ -27,6 +36,10 @@ static void flush(file_splice *splice)
 
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size)
 {
+    if (splice->text) {
+        ffd_buffer_append(splice->text, bytes, size);
+        return;
+    }
     if (size > BLOCK - splice->used)
         flush(splice);
     if (splice->status)
@@ -40,8 +53,21 @@ void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size)
 
 void ffd_splice_copy(file_splice *splice, const char *to)
 {
+    while (splice->input && (size_t)(to - splice->copied) > PIECE) {
+        ffd_splice_bytes(splice, splice->copied, PIECE);
+        ffd_file_forget(splice->input, splice->copied, PIECE);
+        splice->copied += PIECE;
+    }
     ffd_splice_bytes(splice, splice->copied, (size_t)(to - splice->copied));
     splice->copied = to;
+}
+
+void ffd_splice_part(file_splice *splice, const char *first, const char *last, const byte_buffer *text)
+{
+    ffd_splice_copy(splice, first);
+    ffd_splice_bytes(splice, text->data, text->size);
+    ffd_file_forget(splice->input, first, (size_t)(last - first));
+    splice->copied = last;
 }
 
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size)
@@ -64,6 +90,8 @@ void ffd_splice_numbers(file_splice *splice, const text_word *words, const doubl
 ffd_status ffd_splice_end(file_splice *splice)
 {
     ffd_splice_copy(splice, splice->last);
+    if (splice->text)
+        return splice->text->failed ? ffd_fail_memory(splice->error) : FFD_OK;
     flush(splice);
     ffd_free(splice->block);
     splice->block = NULL;

@@ -2,22 +2,31 @@
 #ifndef FFD_IO_SPLICE_H
 #define FFD_IO_SPLICE_H
 
+#include "base/buffer.h"
 #include "base/file.h"
 #include "io/text_scan.h"
 #include "mesh/mesh.h"
 
 typedef struct file_splice {
+    const file_input *input; /* NULL: of a part */
     file_output *output;
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
     const char *copied, *last; /* the file is copied up to here, and ends there */
     char *block;
     size_t used;
+    byte_buffer *text; /* of a part: what takes its bytes; NULL: output does */
 } file_splice;
 
 /* Begins the output that options name. To be followed by ffd_splice_end, which tells of failures. */
 void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
                       file_output *output, ffd_error *error);
+/* Begins a part of the file, [first, last), whose bytes go behind those of text: threads splice parts side by
+   side. To be followed by ffd_splice_end. */
+void ffd_splice_begin_part(file_splice *splice, const char *first, const char *last, byte_buffer *text,
+                           ffd_error *error);
+/* Writes a part that has ended in the place of the file's bytes [first, last). */
+void ffd_splice_part(file_splice *splice, const char *first, const char *last, const byte_buffer *text);
 /* Copies the file up to a place not before the last one. */
 void ffd_splice_copy(file_splice *splice, const char *to);
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);

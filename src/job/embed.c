@@ -96,7 +96,7 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 /* Reads the mesh and places the lattice, which has been read, in it. */
 static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
-    ffd_status status = ffd_source_open(&desc->input, &made->document, error);
+    ffd_status status = ffd_source_open(&desc->input, threads, &made->document, error);
     if (!status)
         status = ffd_mesh_check(made->document, error);
     if (!status)

@@ -111,7 +111,7 @@ ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd
 ffd_status ffd_info_mesh(const ffd_source *source, json_text *json, ffd_error *error)
 {
     mesh_document *document;
-    ffd_status status = ffd_source_open(source, &document, error);
+    ffd_status status = ffd_source_open(source, 0, &document, error);
     if (status == FFD_OK)
         status = ffd_info_document(document, json, error);
     ffd_source_close(&document);

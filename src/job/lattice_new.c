@@ -24,7 +24,7 @@ static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *d
 {
     static const ffd_bounds everywhere = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
     mesh_document *document;
-    ffd_status status = ffd_source_open(mesh, &document, error);
+    ffd_status status = ffd_source_open(mesh, 0, &document, error);
     if (status != FFD_OK)
         return status;
     const uint64_t count = ffd_pass_vertex_count(document);

@@ -22,11 +22,12 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
                          ffd_path_ending(source->path));
 }
 
-ffd_status ffd_source_open(const ffd_source *source, mesh_document **document, ffd_error *error)
+ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document **document, ffd_error *error)
 {
     file_input input;
     ffd_source typed = *source;
     *document = NULL;
+    typed.threads = source->threads > 0 ? source->threads : threads;
     ffd_status status = ffd_source_format(source, &typed.format, error);
     if (status)
         return status;

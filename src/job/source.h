@@ -7,8 +7,9 @@
 /* The format that a source has by its own account or by its name's ending. Errors: FFD_E_ARGUMENT. */
 ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_error *error);
 
-/* Opens the document, to be closed by the caller. Messages name the file. */
-ffd_status ffd_source_open(const ffd_source *source, mesh_document **document, ffd_error *error);
+/* Opens the document, to be closed by the caller, with the job's threads (0: all cores) unless the source has
+   a number of its own. Messages name the file. */
+ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document **document, ffd_error *error);
 
 void ffd_source_close(mesh_document **document);
 

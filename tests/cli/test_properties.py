@@ -183,6 +183,43 @@ def order_company_threads_and_format_change_nothing(run):
         equal(glb_positions(run.read("part-out.glb"))[0], [[single(x) for x in straight[n]] for n in numbers], kind)
 
 
+def long_obj(draw, backwards):
+    """Many statements of all kinds and dialects, in no order; backwards: indices count back."""
+    lines, vertices, normals = [], 0, 0
+    for _ in range(9000):
+        kind = draw.randrange(10)
+        if kind < 4 or vertices < 3 or normals < 2:
+            lines.append("v" + "".join(" %.7g" % draw.uniform(-0.9, 0.9) for _ in range(3)))
+            lines.append("vn" + "".join(" %.7g" % draw.uniform(-1, 1) for _ in range(3)) + draw.choice(("", " ", "# n")))
+            vertices += 1
+            normals += 1
+        elif kind < 8:
+            corners = [(draw.randrange(vertices), draw.randrange(max(0, normals - 9), normals)) for _ in range(3)]
+            lines.append("f " + draw.choice((" ", " \\\n ")).join(
+                f"{v - vertices}//{n - normals}" if backwards else f"{v + 1}//{n + 1}" for v, n in corners))
+        else:
+            lines.append(draw.choice(("# C:\\here\\", "", "g a#b", "vt 0.5 0.25", "l 1 2", "surf 0 1 0 1 1 2", "s off")))
+    return "".join(line + draw.choice(("\n", "\n", "\n", "\r\n", "\r")) for line in lines)
+
+
+@case
+def blocks_change_nothing(run):
+    """A long OBJ is read and written in blocks; comments behind it make them longer."""
+    draw = random.Random(SEED + 6)
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"twist": {"axis": "z", "degrees": 50}}]))
+    for backwards in (False, True):
+        text = long_obj(draw, backwards)
+        for padding in ("", "# padding\n" * 90000, "# padding\n" * 300000):
+            run.write("a.obj", text + padding)
+            for threads in ("1", "2", "5"):
+                run.ffd("deform", "a.obj", "out.obj", "-l", "l.json", "--force", "-q", "-j", threads)
+                out = run.read("out.obj").replace(padding.encode(), b"")
+                if not padding and threads == "1":
+                    expected = out
+                equal(out == expected, True, f"{backwards}, {len(padding)}, {threads}")
+        check(len(expected) > len(text) * 1.2, "few numbers have changed")
+
+
 @case
 def several_lattices(run):
     """-l A -l B is B on the result of A, with one rounding at the end."""

@@ -662,7 +662,7 @@ static void test_embed_writes_what_belongs_to_mesh_and_lattice(void **state)
     assert_int_equal(ffd_lattice_load(lattice_path, &lattice, NULL), FFD_OK);
     assert_int_equal(ffd_lattice_fit(lattice, min, max, NULL), FFD_OK);
     const hash128 lattice_hash = ffd_embedding_hash_lattice(lattice);
-    assert_int_equal(ffd_source_open(&desc.input, &document, NULL), FFD_OK);
+    assert_int_equal(ffd_source_open(&desc.input, 0, &document, NULL), FFD_OK);
     assert_int_equal(ffd_embedding_hash_positions(document, 1, &mesh_hash, NULL), FFD_OK);
     assert_int_equal(ffd_embedding_open(output_path, 1500, &mesh_hash, &lattice_hash, &file, NULL), FFD_OK);
     for (size_t i = 0; i < 1500; i++) {

@@ -6,6 +6,7 @@
 #ifndef FFD_IO_OBJ_OBJ_DOCUMENT_H
 #define FFD_IO_OBJ_OBJ_DOCUMENT_H
 
+#include "io/obj/obj_blocks.h"
 #include "io/obj/obj_walk.h"
 #include "mesh/mesh.h"
 
@@ -27,7 +28,8 @@ typedef struct obj_document {
     uint32_t *pair_start, *pair_normal;
     /* Where `vn` can be added so that every index keeps its meaning: an offset into the file. */
     size_t addition;
-    obj_walk users; /* before the first statement that may name elements; totals set */
+    obj_blocks blocks; /* of the file */
+    int threads;
     /* What ffd_obj_select left: bytes of vertices, faces, pairs; and of `vn` that a corner of a face uses
        which is not selected, so that they must stay. NULL: all is selected. */
     uint8_t *selected_vertices, *selected_faces, *selected_pairs, *held_normals;
@@ -42,9 +44,14 @@ static inline const obj_document *ffd_obj_of(const mesh_document *document)
 
 /* A walk over the document's file, totals set. */
 void ffd_obj_document_walk(const obj_document *document, obj_walk *walk);
-/* The same from the first statement on that may name elements: faces, lines, points, and what is not known.
- */
+/* The same from the first block on with a statement that may name elements: faces, lines, points, and what is
+   not known. */
 void ffd_obj_document_walk_users(const obj_document *document, obj_walk *walk);
+/* The same over one block. */
+void ffd_obj_document_walk_block(const obj_document *document, size_t block, obj_walk *walk);
+/* obj_vectors.c: cuts the file into blocks, and fills in the blocks, the numbers of elements, their
+   coordinates, and addition as if no index counted back. */
+ffd_status ffd_obj_read_vectors(obj_document *document, ffd_error *error);
 /* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
 ffd_status ffd_obj_read_faces(obj_document *document, ffd_error *error);
 

@@ -1,4 +1,5 @@
 #include "base/memory.h"
+#include "base/thread.h"
 #include "io/obj/obj_document.h"
 #include <inttypes.h>
 #include <stdlib.h>
@@ -22,89 +23,153 @@ static ffd_status check_index(const obj_document *d, const obj_scan *scan, obj_i
                          count.total);
 }
 
-/* A `vn` added before an index that counts back would change its meaning: the file's end is then the place.
- */
-static void note_negative_normal(obj_document *d, const obj_corner *corner)
-{
-    if (corner->normal.value < 0)
-        d->addition = d->input.size;
-}
+/* A corner's vertex and normal, from 0. */
+typedef struct vertex_normal {
+    uint32_t vertex, normal;
+} vertex_normal;
+
+/* What the faces, lines and points of one block are. */
+typedef struct block_faces {
+    size_t faces, corners, lines, points; /* corners: of faces */
+    vertex_normal *with_normal;           /* the corners of faces that have one, in their order */
+    size_t count, capacity;
+    bool counts_back; /* some index of a normal does */
+    ffd_status status;
+} block_faces;
+
+typedef struct reader {
+    const obj_document *document;
+    block_faces *blocks;
+} reader;
 
 /* What is left alone may name normals too (surf). */
-static void look_for_corners(obj_document *d, obj_scan *scan)
+static void look_for_corners(obj_scan *scan, block_faces *block)
 {
     text_word word;
     obj_corner corner;
     while (ffd_obj_scan_word(scan, &word))
         if (ffd_obj_corner(word, &corner))
-            note_negative_normal(d, &corner);
+            block->counts_back = block->counts_back || corner.normal.value < 0;
 }
 
-/* Checks the corners of a face, line or point. Those of faces are counted, and those with a normal for their
-   vertex: in pair_start[vertex + 1]. Only what is used is refused: a texcoord's index is not, nor a normal's
-   in a file without any `vn`, as some tools write that leave the normals out. */
-static ffd_status check_corners(obj_document *d, obj_walk *walk, uint64_t *with_normal, ffd_error *error)
+static ffd_status add_normal(const obj_document *d, const obj_walk *walk, size_t vertex,
+                             const obj_index *index, block_faces *block, ffd_error *error)
 {
-    obj_scan *scan = &walk->scan;
-    text_word word;
-    obj_corner corner;
-    while (ffd_obj_scan_word(scan, &word)) {
-        size_t vertex, normal;
-        if (!ffd_obj_corner(word, &corner))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
-                                 "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"", ffd_text_shown(word),
-                                 word.first);
-        ffd_status status = check_index(d, scan, corner.vertex, walk->vertices, "vertex", &vertex, error);
-        if (status)
-            return status;
-        note_negative_normal(d, &corner);
-        if (scan->keyword != OBJ_FACE)
-            continue;
-        d->corners++;
-        if (corner.normal.text.first == corner.normal.text.last || d->normals == 0)
-            continue;
-        status = check_index(d, scan, corner.normal, walk->normals, "normal", &normal, error);
-        if (status)
-            return status;
-        if (++*with_normal > UINT32_MAX)
-            return ffd_fail_line(error, FFD_E_LIMIT, d->name, scan->line,
-                                 "more than %" PRIu32 " face corners with a normal", UINT32_MAX);
-        d->pair_start[vertex + 1]++;
-    }
+    size_t normal;
+    const ffd_status status = check_index(d, &walk->scan, *index, walk->normals, "normal", &normal, error);
+    if (status)
+        return status;
+    if (!ffd_grow((void **)&block->with_normal, &block->capacity, block->count + 1,
+                  sizeof *block->with_normal))
+        return ffd_fail_memory(error);
+    block->with_normal[block->count++] = (vertex_normal){(uint32_t)vertex, (uint32_t)normal};
     return FFD_OK;
 }
 
-static ffd_status check_statements(obj_document *d, uint64_t *with_normal, ffd_error *error)
+/* Checks the corners of a face, line or point. Only what is used is refused: a texcoord's index is not, nor a
+   normal's in a file without any `vn`, as some tools write that leave the normals out. */
+static ffd_status check_corners(const obj_document *d, obj_walk *walk, block_faces *block, ffd_error *error)
+{
+    obj_scan *scan = &walk->scan;
+    const bool is_face = scan->keyword == OBJ_FACE;
+    text_word word;
+    obj_corner corner;
+    ffd_status status = FFD_OK;
+    while (status == FFD_OK) {
+        size_t vertex;
+        const bool plain = ffd_obj_scan_corner(scan, &corner);
+        if (!plain && !ffd_obj_scan_word(scan, &word))
+            return FFD_OK;
+        if (!plain && !ffd_obj_corner(word, &corner))
+            return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
+                                 "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"", ffd_text_shown(word),
+                                 word.first);
+        status = check_index(d, scan, corner.vertex, walk->vertices, "vertex", &vertex, error);
+        block->counts_back = block->counts_back || corner.normal.value < 0;
+        block->corners += is_face;
+        if (status == FFD_OK && is_face && d->normals > 0 &&
+            corner.normal.text.first < corner.normal.text.last)
+            status = add_normal(d, walk, vertex, &corner.normal, block, error);
+    }
+    return status;
+}
+
+static ffd_status read_block(const obj_document *d, size_t number, block_faces *block, ffd_error *error)
 {
     obj_walk walk;
     ffd_status status = FFD_OK;
-    ffd_obj_document_walk_users(d, &walk);
+    ffd_obj_document_walk_block(d, number, &walk);
     while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
         switch (walk.scan.keyword) {
-        case OBJ_NORMAL:
-            ffd_obj_scan_finish(&walk.scan);
-            d->addition = (size_t)(walk.scan.at - (const char *)d->input.data);
-            break;
         case OBJ_FACE:
-            d->faces++;
-            status = check_corners(d, &walk, with_normal, error);
+            block->faces++;
+            status = check_corners(d, &walk, block, error);
             break;
         case OBJ_LINE:
-            d->lines++;
-            status = check_corners(d, &walk, with_normal, error);
+            block->lines++;
+            status = check_corners(d, &walk, block, error);
             break;
         case OBJ_POINT:
-            d->points++;
-            status = check_corners(d, &walk, with_normal, error);
+            block->points++;
+            status = check_corners(d, &walk, block, error);
             break;
         case OBJ_OTHER:
-            look_for_corners(d, &walk.scan);
+            look_for_corners(&walk.scan, block);
             break;
         default:
             break;
         }
     }
     return status;
+}
+
+static void read_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const reader *r = context;
+    (void)tile;
+    (void)worker;
+    for (size_t i = first; i < last; i++) {
+        const obj_block *text = &r->document->blocks.list[i];
+        block_faces block = {0}; /* the thread's own: the list's share lines of the cache */
+        if (!text->names_elements)
+            continue;
+        block.status = read_block(r->document, i, &block, NULL);
+        r->blocks[i] = block;
+        ffd_file_forget(&r->document->input, text->first, (size_t)(text->last - text->first));
+    }
+}
+
+/* Reads a block that has failed again for the words. */
+static ffd_status find_failure(const obj_document *d, size_t number, ffd_status status, ffd_error *error)
+{
+    block_faces block = {0};
+    if (status == FFD_E_MEMORY)
+        return ffd_fail_memory(error);
+    status = read_block(d, number, &block, error);
+    ffd_free(block.with_normal);
+    return status;
+}
+
+/* Sums up what the blocks have. A `vn` added before an index that counts back would change its meaning: the
+   file's end is then the place. */
+static ffd_status join_blocks(obj_document *d, const block_faces *blocks, uint64_t *with_normal,
+                              ffd_error *error)
+{
+    for (size_t i = 0; i < d->blocks.count; i++) {
+        const block_faces *block = &blocks[i];
+        if (block->status)
+            return find_failure(d, i, block->status, error);
+        d->faces += block->faces;
+        d->corners += block->corners;
+        d->lines += block->lines;
+        d->points += block->points;
+        *with_normal += block->count;
+        d->addition = block->counts_back ? d->input.size : d->addition;
+    }
+    if (*with_normal <= UINT32_MAX)
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more than %" PRIu32 " face corners with a normal",
+                         UINT32_MAX);
 }
 
 static int compare_numbers(const void *a, const void *b)
@@ -129,26 +194,20 @@ static void sort_numbers(uint32_t *numbers, size_t count)
     }
 }
 
-/* From pair_start[i + 1] = how many corners vertex i has to the place behind its last one. */
-static void sum_counts(obj_document *d)
+/* Counts the corners of each vertex, and fills each vertex's list from its end, which leaves
+   pair_start[i + 1] at the list's beginning. */
+static void collect_normals(obj_document *d, const block_faces *blocks)
 {
+    for (size_t b = 0; b < d->blocks.count; b++)
+        for (size_t i = 0; i < blocks[b].count; i++)
+            d->pair_start[blocks[b].with_normal[i].vertex + 1]++;
     for (size_t i = 0; i < d->vertices; i++)
         d->pair_start[i + 1] += d->pair_start[i];
-}
-
-/* Fills each vertex's list from its end, which leaves pair_start[i + 1] at the list's beginning. */
-static void collect_normals(obj_document *d)
-{
-    obj_walk walk;
-    obj_face_corner corner;
-    ffd_obj_document_walk_users(d, &walk);
-    while (ffd_obj_walk_next(&walk)) {
-        if (walk.scan.keyword != OBJ_FACE)
-            continue;
-        while (ffd_obj_walk_corner(&walk, &corner))
-            if (corner.has_normal)
-                d->pair_normal[--d->pair_start[corner.vertex + 1]] = (uint32_t)corner.normal;
-    }
+    for (size_t b = 0; b < d->blocks.count; b++)
+        for (size_t i = 0; i < blocks[b].count; i++) {
+            const vertex_normal *corner = &blocks[b].with_normal[i];
+            d->pair_normal[--d->pair_start[corner->vertex + 1]] = corner->normal;
+        }
 }
 
 /* Sorts each list and keeps each normal once; pair_start then has its final meaning. */
@@ -169,27 +228,30 @@ static void join_equal_normals(obj_document *d, size_t total)
         d->pair_normal = block;
 }
 
-ffd_status ffd_obj_read_faces(obj_document *d, ffd_error *error)
+static ffd_status read_blocks(reader *r, obj_document *d, ffd_error *error)
 {
     uint64_t with_normal = 0;
-    d->pair_start = ffd_alloc_zero(d->vertices + 1, sizeof *d->pair_start);
-    if (!d->pair_start)
-        return ffd_fail_memory(error);
-    const ffd_status status = check_statements(d, &with_normal, error);
-    if (status)
+    ffd_parallel_tiles(d->blocks.count, 1, d->threads, read_tile, r);
+    const ffd_status status = join_blocks(d, r->blocks, &with_normal, error);
+    if (status || with_normal == 0)
         return status;
-    if (with_normal == 0) {
-        ffd_free(d->pair_start);
-        d->pair_start = NULL;
-        return FFD_OK;
-    }
+    d->pair_start = ffd_alloc_zero(d->vertices + 1, sizeof *d->pair_start);
     d->pair_normal = ffd_alloc((size_t)with_normal, sizeof *d->pair_normal);
-    if (!d->pair_normal)
+    if (!d->pair_start || !d->pair_normal)
         return ffd_fail_memory(error);
-    sum_counts(d);
-    collect_normals(d);
+    collect_normals(d, r->blocks);
     join_equal_normals(d, (size_t)with_normal);
     return FFD_OK;
+}
+
+ffd_status ffd_obj_read_faces(obj_document *d, ffd_error *error)
+{
+    reader r = {.document = d, .blocks = ffd_alloc_zero(d->blocks.count, sizeof *r.blocks)};
+    const ffd_status status = r.blocks ? read_blocks(&r, d, error) : ffd_fail_memory(error);
+    for (size_t i = 0; r.blocks && i < d->blocks.count; i++)
+        ffd_free(r.blocks[i].with_normal);
+    ffd_free(r.blocks);
+    return status;
 }
 
 /* The normal's place in the vertex's ascending list. */

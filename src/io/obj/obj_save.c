@@ -1,20 +1,30 @@
 #include "base/memory.h"
 #include "base/number.h"
+#include "base/thread.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_split.h"
 #include "io/splice.h"
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 
 typedef struct saver {
     const obj_document *document;
     obj_split split;
-    file_splice splice;
+    byte_buffer *texts;  /* each worker's block */
+    file_splice *splice; /* of the whole file */
+    atomic_bool is_over; /* after a failure */
 } saver;
 
+/* A block as it is being made. */
+typedef struct block_saver {
+    const saver *all;
+    file_splice splice;
+} block_saver;
+
 /* Replaces those of a statement's three numbers that have other bits than before. */
-static void replace_numbers(saver *s, obj_scan *scan, const double *before, const double *after)
+static void replace_numbers(block_saver *s, obj_scan *scan, const double *before, const double *after)
 {
     text_word words[3];
     size_t count = 0;
@@ -25,17 +35,18 @@ static void replace_numbers(saver *s, obj_scan *scan, const double *before, cons
     ffd_splice_numbers(&s->splice, words, before, after, count);
 }
 
-static void renumber_corners(saver *s, obj_walk *walk)
+static void renumber_corners(block_saver *s, obj_walk *walk)
 {
+    const saver *all = s->all;
     obj_face_corner corner;
     while (ffd_obj_walk_corner(walk, &corner)) {
         if (!corner.has_normal)
             continue;
-        const uint32_t target = s->split.target[ffd_obj_find_pair(s->document, &corner)];
+        const uint32_t target = all->split.target[ffd_obj_find_pair(all->document, &corner)];
         if (target == OBJ_NONE)
             continue;
         char text[24];
-        const uint64_t index = (uint64_t)s->document->normals + target + 1;
+        const uint64_t index = (uint64_t)all->document->normals + target + 1;
         const int size = snprintf(text, sizeof text, "%" PRIu64, index);
         ffd_splice_replace(&s->splice, corner.normal_text, text, (size_t)size);
     }
@@ -74,77 +85,134 @@ static void begin_line(file_splice *splice, const char *first, const char *place
         write_word(splice, line_end);
 }
 
-static void add_normals(saver *s)
+static void add_normals(const saver *s, file_splice *splice)
 {
     const obj_document *d = s->document;
     const char *first = (const char *)d->input.data, *place = first + d->addition;
     if (s->split.added_count == 0)
         return;
     const text_word line_end = line_end_at(d, place);
-    ffd_splice_copy(&s->splice, place);
-    begin_line(&s->splice, first, place, line_end);
+    ffd_splice_copy(splice, place);
+    begin_line(splice, first, place, line_end);
     for (size_t i = 0; i < s->split.added_count; i++) {
         const double *value = d->new_directions + 3 * (size_t)s->split.added[i];
-        ffd_splice_bytes(&s->splice, "vn", 2);
+        ffd_splice_bytes(splice, "vn", 2);
         for (int a = 0; a < 3; a++) {
             char text[1 + FFD_NUMBER_CAPACITY] = " ";
-            ffd_splice_bytes(&s->splice, text, 1 + ffd_number_format(value[a], text + 1));
+            ffd_splice_bytes(splice, text, 1 + ffd_number_format(value[a], text + 1));
         }
-        write_word(&s->splice, line_end);
+        write_word(splice, line_end);
     }
 }
 
-static void replace_normal(saver *s, obj_walk *walk)
+static void replace_normal(block_saver *s, obj_walk *walk)
 {
-    const obj_document *d = s->document;
+    const obj_document *d = s->all->document;
     const size_t n = walk->normals.seen - 1;
-    const uint32_t keeper = s->split.keeper[n];
+    const uint32_t keeper = s->all->split.keeper[n];
     if (keeper != OBJ_NONE)
         replace_numbers(s, &walk->scan, d->directions + 3 * n, d->new_directions + 3 * (size_t)keeper);
     if (n + 1 == d->normals && d->addition < d->input.size)
-        add_normals(s);
+        add_normals(s->all, &s->splice);
 }
 
-/* Whether no statement behind the walk's place can change. */
-static bool is_done(const saver *s, const obj_walk *walk)
+/* Writes the walk's statement, with its changes, of the block's faces so far. */
+static void write_statement(block_saver *s, obj_walk *walk, size_t faces)
 {
-    return walk->vertices.seen == s->document->vertices && !s->split.target &&
-           (!s->split.keeper || walk->normals.seen == s->document->normals);
+    const saver *all = s->all;
+    const obj_document *d = all->document;
+    const size_t v = walk->vertices.seen - 1;
+    if (walk->scan.keyword == OBJ_VERTEX)
+        replace_numbers(s, &walk->scan, d->positions + 3 * v, d->new_positions + 3 * v);
+    else if (walk->scan.keyword == OBJ_NORMAL && all->split.keeper)
+        replace_normal(s, walk);
+    else if (walk->scan.keyword == OBJ_FACE && all->split.target &&
+             (!d->selected_faces || d->selected_faces[faces - 1]))
+        renumber_corners(s, walk);
 }
 
-static void write_statements(saver *s)
+static void make_block(const saver *all, size_t number, byte_buffer *text)
+{
+    const obj_block *block = &all->document->blocks.list[number];
+    block_saver s = {.all = all};
+    obj_walk walk;
+    size_t faces = block->faces;
+    ffd_splice_begin_part(&s.splice, block->first, block->last, text, NULL);
+    ffd_obj_document_walk_block(all->document, number, &walk);
+    while (ffd_obj_walk_next(&walk)) {
+        faces += walk.scan.keyword == OBJ_FACE;
+        write_statement(&s, &walk, faces);
+    }
+    ffd_splice_end(&s.splice);
+}
+
+/* Whether some statement of the block can change. */
+static bool can_change(const saver *s, size_t number)
 {
     const obj_document *d = s->document;
-    obj_walk walk;
-    size_t faces = 0;
-    ffd_obj_document_walk(d, &walk);
-    while (s->splice.status == FFD_OK && !is_done(s, &walk) && ffd_obj_walk_next(&walk)) {
-        faces += walk.scan.keyword == OBJ_FACE;
-        const size_t v = walk.vertices.seen - 1;
-        if (walk.scan.keyword == OBJ_VERTEX)
-            replace_numbers(s, &walk.scan, d->positions + 3 * v, d->new_positions + 3 * v);
-        else if (walk.scan.keyword == OBJ_NORMAL && s->split.keeper)
-            replace_normal(s, &walk);
-        else if (walk.scan.keyword == OBJ_FACE && s->split.target &&
-                 (!d->selected_faces || d->selected_faces[faces - 1]))
-            renumber_corners(s, &walk);
+    const obj_block *block = &d->blocks.list[number];
+    const bool is_last = number + 1 == d->blocks.count;
+    return (is_last ? d->vertices : block[1].vertices) > block->vertices ||
+           (s->split.keeper && (is_last ? d->normals : block[1].normals) > block->normals) ||
+           (s->split.target && block->names_elements);
+}
+
+static void make_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    saver *s = context;
+    byte_buffer text = s->texts[worker]; /* the thread's own: the list's share lines of the cache */
+    (void)last;
+    (void)tile;
+    text.size = 0;
+    if (can_change(s, first) && !atomic_load(&s->is_over))
+        make_block(s, first, &text);
+    s->texts[worker] = text;
+}
+
+static void write_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    saver *s = context;
+    const obj_block *block = &s->document->blocks.list[first];
+    (void)last;
+    (void)tile;
+    if (!can_change(s, first) || atomic_load(&s->is_over))
+        return;
+    if (s->texts[worker].failed)
+        s->splice->status = ffd_fail_memory(s->splice->error);
+    ffd_splice_part(s->splice, block->first, block->last, &s->texts[worker]);
+    if (s->splice->status)
+        atomic_store(&s->is_over, true);
+}
+
+static void write_blocks(saver *s)
+{
+    const obj_document *d = s->document;
+    s->texts = ffd_alloc_zero((size_t)d->threads, sizeof *s->texts);
+    if (!s->texts) {
+        s->splice->status = ffd_fail_memory(s->splice->error);
+        return;
     }
+    ffd_parallel_in_order(d->blocks.count, 1, d->threads, make_tile, write_tile, s);
+    for (int i = 0; i < d->threads; i++)
+        ffd_buffer_free(&s->texts[i]);
+    ffd_free(s->texts);
 }
 
 ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error)
 {
     const obj_document *d = ffd_obj_of(document);
-    saver s = {.document = d};
+    file_splice splice;
+    saver s = {.document = d, .splice = &splice};
     (void)log;
     ffd_status status = d->new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
     if (status == FFD_OK) {
-        ffd_splice_begin(&s.splice, &d->input, options, output, error);
-        if (d->new_positions)
-            write_statements(&s);
+        ffd_splice_begin(&splice, &d->input, options, output, error);
+        if (d->new_positions && splice.status == FFD_OK)
+            write_blocks(&s);
         if (d->addition == d->input.size)
-            add_normals(&s);
-        status = ffd_splice_end(&s.splice);
+            add_normals(&s, &splice);
+        status = ffd_splice_end(&splice);
     }
     ffd_obj_split_free(&s.split);
     return status;

@@ -57,20 +57,18 @@ static void pass_comment(obj_scan *scan)
         scan->at++;
 }
 
-/* Behind characters that neither end a line nor could be something else than themselves: 16 at a time, in a
-   loop that a compiler turns into vectors. */
-static const char *pass_ordinary(const char *at, const char *last)
+bool ffd_obj_is_plain(const char *first, const char *last)
 {
-    for (; last - at >= 16; at += 16) {
-        unsigned char special = 0;
-        for (int i = 0; i < 16; i++)
-            special |= (unsigned char)((at[i] == '\n') | (at[i] == '\r') | (at[i] == '\\') | (at[i] == '#'));
-        if (special)
-            break;
-    }
-    while (at < last && class_of(at) <= BLANK)
-        at++;
-    return at;
+    const size_t size = (size_t)(last - first);
+    return size == 0 ||
+           (!memchr(first, '\r', size) && !memchr(first, '\\', size) && !memchr(first, '#', size));
+}
+
+static void pass_plain_line(obj_scan *scan)
+{
+    const char *end = scan->at < scan->last ? memchr(scan->at, '\n', (size_t)(scan->last - scan->at)) : NULL;
+    scan->line += end != NULL;
+    scan->at = end ? end + 1 : scan->last;
 }
 
 void ffd_obj_scan_finish(obj_scan *scan)
@@ -78,13 +76,13 @@ void ffd_obj_scan_finish(obj_scan *scan)
     if (!scan->inside)
         return;
     scan->inside = false;
+    if (scan->plain) {
+        pass_plain_line(scan);
+        return;
+    }
     const bool names = takes_names(scan->keyword);
     while (scan->at < scan->last) {
-        const char *const at = pass_ordinary(scan->at, scan->last);
-        scan->at = at;
-        if (at == scan->last)
-            return;
-        const int class = class_of(at);
+        const int class = class_of(scan->at);
         if (class == LINE_END) {
             pass_line_end(scan);
             return;
@@ -126,6 +124,31 @@ static text_word take_word(obj_scan *scan, bool names)
     return (text_word){word.first, at};
 }
 
+static bool is_blank_at(const obj_scan *scan, ptrdiff_t offset)
+{
+    return scan->last - scan->at > offset && class_of(scan->at + offset) == BLANK;
+}
+
+/* The statements that files consist of. */
+static bool take_common_keyword(obj_scan *scan)
+{
+    const char c = *scan->at;
+    ptrdiff_t size = 1;
+    if (c == 'v' && is_blank_at(scan, 1)) {
+        scan->keyword = OBJ_VERTEX;
+    } else if (c == 'f' && is_blank_at(scan, 1)) {
+        scan->keyword = OBJ_FACE;
+    } else if (c == 'v' && is_blank_at(scan, 2) && (scan->at[1] == 'n' || scan->at[1] == 't')) {
+        scan->keyword = scan->at[1] == 'n' ? OBJ_NORMAL : OBJ_TEXCOORD;
+        size = 2;
+    } else {
+        return false;
+    }
+    scan->name = (text_word){scan->at, scan->at + size};
+    scan->at += size;
+    return true;
+}
+
 static obj_keyword keyword_of(text_word word)
 {
     static const struct {
@@ -163,6 +186,8 @@ bool ffd_obj_scan_next(obj_scan *scan)
     }
     scan->inside = true;
     scan->keyword_line = scan->line;
+    if (take_common_keyword(scan))
+        return true;
     scan->name = take_word(scan, false);
     scan->keyword = keyword_of(scan->name);
     return true;
@@ -174,4 +199,18 @@ bool ffd_obj_scan_word(obj_scan *scan, text_word *word)
     pass_blanks(scan);
     *word = take_word(scan, names);
     return word->first < word->last;
+}
+
+const char *ffd_obj_scan_argument(obj_scan *scan)
+{
+    pass_blanks(scan);
+    return scan->at;
+}
+
+bool ffd_obj_scan_take(obj_scan *scan, const char *end)
+{
+    if (end < scan->last && class_of(end) != BLANK && class_of(end) != LINE_END)
+        return false;
+    scan->at = end;
+    return true;
 }

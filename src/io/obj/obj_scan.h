@@ -29,6 +29,7 @@ typedef enum obj_keyword {
 typedef struct obj_scan {
     const char *at, *last;
     size_t line;         /* of at, from 1 */
+    bool plain;          /* [at, last) has no CR, no backslash and no #: lines end at LF alone */
     bool inside;         /* at is in a statement, not between two */
     obj_keyword keyword; /* of the statement begun last */
     text_word name;      /* the keyword as written */
@@ -36,12 +37,20 @@ typedef struct obj_scan {
 } obj_scan;
 
 void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size);
+/* Whether a text is plain (see there). */
+bool ffd_obj_is_plain(const char *first, const char *last);
 /* Goes behind the current statement, if any, and its line's end. */
 void ffd_obj_scan_finish(obj_scan *scan);
 /* Goes to the next statement, behind its keyword. False at the end of the file. */
 bool ffd_obj_scan_next(obj_scan *scan);
 /* Takes the next argument of the current statement. False (and *word is empty) where there is none left. */
 bool ffd_obj_scan_word(obj_scan *scan, text_word *word);
+
+/* For readers of arguments of a certain form, which need not be words before: where the next one begins, and
+   its end, which is taken if nothing else of the word follows. False, and nothing is taken, where something
+   does. */
+const char *ffd_obj_scan_argument(obj_scan *scan);
+bool ffd_obj_scan_take(obj_scan *scan, const char *end);
 
 /* The line end that starts at a character, given that one does: its length, 1 or 2. */
 size_t ffd_obj_line_end_size(const char *at, const char *last);

@@ -22,6 +22,13 @@ bool ffd_obj_number(text_word word, double *value)
     return end && (end == word.last || is_misplaced_exponent(end, word.last));
 }
 
+bool ffd_obj_scan_number(obj_scan *scan, double *value)
+{
+    const char *const at = ffd_obj_scan_argument(scan);
+    const char *const end = ffd_number_parse(at, scan->last, value);
+    return end && ffd_obj_scan_take(scan, end);
+}
+
 /* Reads an optional index at *at and goes behind it. */
 static bool take_index(const char **at, const char *last, obj_index *index)
 {
@@ -58,4 +65,35 @@ bool ffd_obj_corner(text_word word, obj_corner *corner)
             return false;
     }
     return false;
+}
+
+/* More digits are a word's. */
+#define MOST_DIGITS 18
+
+static const char *take_digits(const char *at, const char *last, obj_index *index)
+{
+    int64_t value = 0;
+    const char *const first = at;
+    const char *const most = last - at > MOST_DIGITS ? at + MOST_DIGITS : last;
+    for (; at < most && is_digit(*at); at++)
+        value = value * 10 + (*at - '0');
+    *index = (obj_index){value, {first, at}};
+    return at;
+}
+
+bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner)
+{
+    const char *at = ffd_obj_scan_argument(scan);
+    const char *const last = scan->last;
+    at = take_digits(at, last, &corner->vertex);
+    corner->texcoord = corner->normal = (obj_index){0, {at, at}};
+    if (corner->vertex.text.first == at)
+        return false;
+    if (at < last && *at == '/') {
+        at = take_digits(at + 1, last, &corner->texcoord);
+        corner->normal.text = (text_word){at, at};
+        if (at < last && *at == '/')
+            at = take_digits(at + 1, last, &corner->normal);
+    }
+    return ffd_obj_scan_take(scan, at);
 }

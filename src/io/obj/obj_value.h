@@ -10,6 +10,10 @@
    pass and not applied: files hold it, and the readers that they are made for stop in front of it. */
 bool ffd_obj_number(text_word word, double *value);
 
+/* Takes a scan's next argument if it is a number. False, and nothing is taken, where it is anything else: it
+   is then a word to be looked at. */
+bool ffd_obj_scan_number(obj_scan *scan, double *value);
+
 /* An index of a corner: as written, from 1 or counting back from -1. Too large ones stay out of every range.
  */
 typedef struct obj_index {
@@ -20,6 +24,10 @@ typedef struct obj_index {
 typedef struct obj_corner {
     obj_index vertex, texcoord, normal;
 } obj_corner;
+
+/* Takes a scan's next argument if it is a corner in digits and slashes alone, and its vertex is there. False,
+   and nothing is taken, where it is anything else: it is then a word to be looked at. */
+bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner);
 
 /* Reads v, v/t, v//n or v/t/n; a slash with nothing behind it is allowed. False for anything else. */
 bool ffd_obj_corner(text_word word, obj_corner *corner);

@@ -32,8 +32,10 @@ bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner)
 {
     text_word word;
     obj_corner text;
-    if (!ffd_obj_scan_word(&walk->scan, &word) || !ffd_obj_corner(word, &text) ||
-        !ffd_obj_find(text.vertex.value, walk->vertices, &corner->vertex))
+    if (!ffd_obj_scan_corner(&walk->scan, &text) &&
+        (!ffd_obj_scan_word(&walk->scan, &word) || !ffd_obj_corner(word, &text)))
+        return false;
+    if (!ffd_obj_find(text.vertex.value, walk->vertices, &corner->vertex))
         return false;
     corner->normal_text = text.normal.text;
     corner->has_normal = text.normal.text.first < text.normal.text.last &&

@@ -1,0 +1,48 @@
+#include "io/obj/obj_blocks.h"
+#include "base/memory.h"
+#include "io/obj/obj_scan.h"
+
+/* Whether the line that ends at `end` (a line end's first character) may go on in the next: a backslash in a
+   comment does not continue it, but cutting elsewhere is as good. */
+static bool may_continue(const char *first, const char *end)
+{
+    return end > first && end[-1] == '\\';
+}
+
+/* The place behind the next line end from `at` on that surely ends a statement. */
+static const char *find_cut(const char *first, const char *at, const char *last)
+{
+    for (; at < last; at++) {
+        if (*at != '\n' && *at != '\r')
+            continue;
+        const char *end = *at == '\n' && at > first && at[-1] == '\r' ? at - 1 : at;
+        at = end + ffd_obj_line_end_size(end, last);
+        if (!may_continue(first, end))
+            return at;
+        at--;
+    }
+    return last;
+}
+
+ffd_status ffd_obj_blocks_cut(const char *first, const char *last, size_t target, obj_blocks *blocks,
+                              ffd_error *error)
+{
+    const size_t most = (size_t)(last - first) / target + 1;
+    const char *at = first;
+    *blocks = (obj_blocks){.list = ffd_alloc_zero(most, sizeof *blocks->list)};
+    if (!blocks->list)
+        return ffd_fail_memory(error);
+    do {
+        const char *wanted = (size_t)(last - at) > target ? at + target : last;
+        const char *end = find_cut(first, wanted, last);
+        blocks->list[blocks->count++] = (obj_block){.first = at, .last = end};
+        at = end;
+    } while (at < last);
+    return FFD_OK;
+}
+
+void ffd_obj_blocks_free(obj_blocks *blocks)
+{
+    ffd_free(blocks->list);
+    *blocks = (obj_blocks){0};
+}

@@ -1,0 +1,29 @@
+/* obj_blocks.h - an OBJ file cut into blocks of whole statements, which threads scan side by side. */
+#ifndef FFD_IO_OBJ_OBJ_BLOCKS_H
+#define FFD_IO_OBJ_OBJ_BLOCKS_H
+
+#include "base/fail.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+/* A block, and what stands before it in the file. Whoever cuts the file fills in first and last only. */
+typedef struct obj_block {
+    const char *first, *last;
+    size_t line; /* of its first character, from 1 */
+    size_t vertices, texcoords, normals, faces;
+    bool plain;          /* see obj_scan */
+    bool names_elements; /* has a statement that may name elements by their numbers */
+} obj_block;
+
+typedef struct obj_blocks {
+    obj_block *list; /* at least one */
+    size_t count;
+} obj_blocks;
+
+/* Cuts the text, without its byte order mark, behind line ends that nothing continues: at the first one from
+   each multiple of `target` bytes on. Errors: FFD_E_MEMORY; *blocks is then empty. */
+ffd_status ffd_obj_blocks_cut(const char *first, const char *last, size_t target, obj_blocks *blocks,
+                              ffd_error *error);
+void ffd_obj_blocks_free(obj_blocks *blocks);
+
+#endif

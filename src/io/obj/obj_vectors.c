@@ -1,0 +1,211 @@
+/* obj_vectors.c - the blocks of a file with their positions and normals. */
+#include "base/memory.h"
+#include "base/thread.h"
+#include "io/obj/obj_document.h"
+#include <inttypes.h>
+#include <string.h>
+
+/* So many blocks at least, for threads to share, unless they would be smaller than that. */
+#define BLOCKS 64
+#define SMALLEST_BLOCK ((size_t)16 * 1024)
+#define LARGEST_BLOCK ((size_t)1024 * 1024)
+
+/* Elements of 3 numbers while they are being read. */
+typedef struct vectors {
+    double *xyz;
+    size_t count, capacity;
+} vectors;
+
+/* What one block has. */
+typedef struct block_content {
+    vectors positions, normals;
+    size_t texcoords, faces, lines;
+    size_t addition; /* behind the last `vn`, from the file's beginning; 0: none */
+    bool names_elements;
+    ffd_status status;
+} block_content;
+
+typedef struct reader {
+    obj_document *document;
+    block_content *contents; /* of each block */
+} reader;
+
+static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char *what, vectors *list,
+                              ffd_error *error)
+{
+    text_word word;
+    if (!ffd_grow((void **)&list->xyz, &list->capacity, list->count + 1, 3 * sizeof *list->xyz))
+        return ffd_fail_memory(error);
+    for (int a = 0; a < 3; a++) {
+        double *value = &list->xyz[3 * list->count + (size_t)a];
+        if (ffd_obj_scan_number(scan, value))
+            continue;
+        if (!ffd_obj_scan_word(scan, &word))
+            return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->keyword_line,
+                                 "a %s needs 3 numbers, found %d", what, a);
+        if (!ffd_obj_number(word, value))
+            return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
+                                 "coordinate %c of a %s is not a number: \"%.*s\"", "xyz"[a], what,
+                                 ffd_text_shown(word), word.first);
+    }
+    list->count++;
+    return FFD_OK;
+}
+
+/* Whether a statement may name elements by their numbers. */
+static bool may_name_elements(obj_keyword keyword)
+{
+    return keyword == OBJ_FACE || keyword == OBJ_LINE || keyword == OBJ_POINT || keyword == OBJ_OTHER;
+}
+
+static ffd_status read_block(const obj_document *d, size_t block, block_content *content, ffd_error *error)
+{
+    obj_walk walk;
+    ffd_status status = FFD_OK;
+    ffd_obj_document_walk_block(d, block, &walk);
+    const size_t line = walk.scan.line;
+    while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
+        const obj_keyword keyword = walk.scan.keyword;
+        content->names_elements = content->names_elements || may_name_elements(keyword);
+        content->faces += keyword == OBJ_FACE;
+        if (keyword == OBJ_VERTEX) {
+            status = read_vector(d, &walk.scan, "vertex", &content->positions, error);
+        } else if (keyword == OBJ_NORMAL) {
+            status = read_vector(d, &walk.scan, "normal", &content->normals, error);
+            ffd_obj_scan_finish(&walk.scan);
+            content->addition = (size_t)(walk.scan.at - (const char *)d->input.data);
+        }
+    }
+    content->texcoords = walk.texcoords.seen;
+    content->lines = walk.scan.line - line;
+    return status;
+}
+
+static void free_content(block_content *content)
+{
+    ffd_free(content->positions.xyz);
+    ffd_free(content->normals.xyz);
+}
+
+static void read_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const reader *r = context;
+    (void)tile;
+    (void)worker;
+    for (size_t i = first; i < last; i++) {
+        obj_block *block = &r->document->blocks.list[i];
+        block_content content = {0}; /* the thread's own: the list's share lines of the cache */
+        block->plain = ffd_obj_is_plain(block->first, block->last);
+        content.status = read_block(r->document, i, &content, NULL);
+        r->contents[i] = content;
+        ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
+    }
+}
+
+/* Reads a block that has failed again, now that its place is known, for the words. */
+static ffd_status find_failure(const obj_document *d, size_t block, ffd_status status, ffd_error *error)
+{
+    block_content content = {0};
+    if (status == FFD_E_MEMORY)
+        return ffd_fail_memory(error);
+    status = read_block(d, block, &content, error);
+    free_content(&content);
+    return status;
+}
+
+/* Gives the blocks their places in the file. Stops at the first that has failed. */
+static ffd_status number_blocks(reader *r, ffd_error *error)
+{
+    obj_document *d = r->document;
+    size_t line = 1, faces = 0;
+    for (size_t i = 0; i < d->blocks.count; i++) {
+        obj_block *block = &d->blocks.list[i];
+        const block_content *content = &r->contents[i];
+        block->line = line;
+        block->vertices = d->vertices;
+        block->texcoords = d->texcoords;
+        block->normals = d->normals;
+        block->faces = faces;
+        block->names_elements = content->names_elements;
+        if (content->status)
+            return find_failure(d, i, content->status, error);
+        line += content->lines;
+        faces += content->faces;
+        d->vertices += content->positions.count;
+        d->texcoords += content->texcoords;
+        d->normals += content->normals.count;
+        d->addition = content->addition ? content->addition : d->addition;
+    }
+    return FFD_OK;
+}
+
+static ffd_status check_counts(const obj_document *d, ffd_error *error)
+{
+    if (d->vertices <= OBJ_ELEMENTS_MAX && d->normals <= OBJ_ELEMENTS_MAX)
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more vertices or normals than the limit of %" PRIu32,
+                         OBJ_ELEMENTS_MAX);
+}
+
+static void take_vectors(vectors *from, double *to)
+{
+    if (from->count > 0)
+        memcpy(to, from->xyz, 3 * from->count * sizeof *to);
+    ffd_free(from->xyz);
+    *from = (vectors){0};
+}
+
+static void join_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const reader *r = context;
+    const obj_document *d = r->document;
+    (void)tile;
+    (void)worker;
+    for (size_t i = first; i < last; i++) {
+        take_vectors(&r->contents[i].positions, d->positions + 3 * d->blocks.list[i].vertices);
+        take_vectors(&r->contents[i].normals, d->directions + 3 * d->blocks.list[i].normals);
+    }
+}
+
+static ffd_status read_blocks(reader *r, ffd_error *error)
+{
+    obj_document *d = r->document;
+    ffd_parallel_tiles(d->blocks.count, 1, d->threads, read_tile, r);
+    ffd_status status = number_blocks(r, error);
+    if (status == FFD_OK)
+        status = check_counts(d, error);
+    if (status)
+        return status;
+    d->positions = ffd_alloc(d->vertices, 3 * sizeof *d->positions);
+    d->directions = ffd_alloc(d->normals, 3 * sizeof *d->directions);
+    if (!d->positions || !d->directions)
+        return ffd_fail_memory(error);
+    ffd_parallel_tiles(d->blocks.count, 1, d->threads, join_tile, r);
+    return FFD_OK;
+}
+
+static ffd_status cut(obj_document *d, ffd_error *error)
+{
+    const char *first = (const char *)d->input.data, *last = first + d->input.size;
+    size_t target = d->input.size / BLOCKS;
+    if (target < SMALLEST_BLOCK)
+        target = SMALLEST_BLOCK;
+    if (target > LARGEST_BLOCK)
+        target = LARGEST_BLOCK;
+    if (d->input.size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
+        first += 3;
+    return ffd_obj_blocks_cut(first, last, target, &d->blocks, error);
+}
+
+ffd_status ffd_obj_read_vectors(obj_document *d, ffd_error *error)
+{
+    ffd_status status = cut(d, error);
+    if (status)
+        return status;
+    reader r = {.document = d, .contents = ffd_alloc_zero(d->blocks.count, sizeof *r.contents)};
+    status = r.contents ? read_blocks(&r, error) : ffd_fail_memory(error);
+    for (size_t i = 0; r.contents && i < d->blocks.count; i++)
+        free_content(&r.contents[i]);
+    ffd_free(r.contents);
+    return status;
+}

@@ -1,0 +1,232 @@
+/* OBJ in blocks: wherever a file is cut, its blocks have the statements that it has in one piece; and
+   arguments read straight from the text are those that words give. */
+#include "../support/draw.h"
+#include "base/memory.h"
+#include "io/obj/obj_blocks.h"
+#include "io/obj/obj_value.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define RUNS 3000
+#define MOST_PIECES 60
+#define ROOM 20000
+
+static const char *const pieces[] = {
+    "v 1 2 3",
+    "f 1/2/3 2//3 3",
+    "vn 0 0 1",
+    "vt .5 .5",
+    "# a comment",
+    "# C:\\dir\\",
+    "g a#b \\c",
+    "usemtl x",
+    "f 1 2 3# behind",
+    "\n",
+    "\n",
+    "\n",
+    "\r\n",
+    "\r",
+    "\\\n",
+    "\\\r\n",
+    "\\\r",
+    "\\",
+    " ",
+    "\t",
+    "#",
+    "surf 0 1",
+    "v 1e5 -2 +3",
+    "o",
+    "f -1 -2 \\\n -3",
+    "vp 1 2 3\f\v",
+    "v",
+    "fo 1",
+};
+
+static size_t draw_text(draw *d, char *text)
+{
+    size_t size = 0;
+    for (uint32_t count = draw_number(d) % MOST_PIECES; count > 0; count--) {
+        const char *piece = pieces[draw_number(d) % (sizeof pieces / sizeof *pieces)];
+        memcpy(text + size, piece, strlen(piece));
+        size += strlen(piece);
+    }
+    return size;
+}
+
+/* Appends the statements of a scan: keyword, kind, line and words. Returns the line behind it. */
+static size_t list_statements(obj_scan scan, char *list)
+{
+    text_word word;
+    size_t used = strlen(list);
+    while (ffd_obj_scan_next(&scan)) {
+        used +=
+            (size_t)snprintf(list + used, ROOM - used, "%.*s %d@%zu", (int)(scan.name.last - scan.name.first),
+                             scan.name.first, (int)scan.keyword, scan.keyword_line);
+        while (ffd_obj_scan_word(&scan, &word))
+            used += (size_t)snprintf(list + used, ROOM - used, " [%.*s]", (int)(word.last - word.first),
+                                     word.first);
+        used += (size_t)snprintf(list + used, ROOM - used, "\n");
+    }
+    return scan.line;
+}
+
+static void any_cut_gives_the_same_statements(void **state)
+{
+    (void)state;
+    static char text[ROOM], whole[ROOM], cut[ROOM];
+    draw d = {7};
+    size_t most_blocks = 0;
+    for (int run = 0; run < RUNS; run++) {
+        const size_t size = draw_text(&d, text), target = 1 + draw_number(&d) % 60;
+        obj_blocks blocks;
+        obj_scan scan;
+        size_t line = 1;
+        whole[0] = cut[0] = 0;
+        ffd_obj_scan_begin(&scan, text, size);
+        list_statements(scan, whole);
+        assert_int_equal(ffd_obj_blocks_cut(text, text + size, target, &blocks, NULL), FFD_OK);
+        for (size_t i = 0; i < blocks.count; i++) {
+            const obj_block *block = &blocks.list[i];
+            assert_ptr_equal(block->first, i ? blocks.list[i - 1].last : text);
+            scan = (obj_scan){.at = block->first,
+                              .last = block->last,
+                              .line = line,
+                              .plain = ffd_obj_is_plain(block->first, block->last)};
+            line = list_statements(scan, cut);
+        }
+        assert_ptr_equal(blocks.list[blocks.count - 1].last, text + size);
+        if (strcmp(whole, cut) != 0)
+            fail_msg("seed 7, run %d, cut by %zu:\n%s\nnot\n%s", run, target, cut, whole);
+        most_blocks = blocks.count > most_blocks ? blocks.count : most_blocks;
+        ffd_obj_blocks_free(&blocks);
+    }
+    assert_in_range(most_blocks, 10, ROOM);
+}
+
+static void blocks_are_as_long_as_asked_for(void **state)
+{
+    (void)state;
+    enum { LINES = 1000 };
+    char text[8 * LINES + 1] = "";
+    obj_blocks blocks;
+    for (size_t i = 0; i < LINES; i++)
+        memcpy(text + 8 * i, "v 1 2 3\n", 8);
+    assert_int_equal(ffd_obj_blocks_cut(text, text + 8 * LINES, 100, &blocks, NULL), FFD_OK);
+    assert_int_equal(blocks.count, 8 * LINES / 104 + 1);
+    for (size_t i = 0; i + 1 < blocks.count; i++)
+        assert_int_equal(blocks.list[i].last - blocks.list[i].first, 104);
+    ffd_obj_blocks_free(&blocks);
+    assert_int_equal(ffd_obj_blocks_cut(text, text, 100, &blocks, NULL), FFD_OK);
+    assert_int_equal(blocks.count, 1);
+    ffd_obj_blocks_free(&blocks);
+    ffd_alloc_fail_after(0);
+    assert_int_equal(ffd_obj_blocks_cut(text, text + 8, 100, &blocks, NULL), FFD_E_MEMORY);
+    ffd_alloc_fail_after(-1);
+    assert_null(blocks.list);
+}
+
+static const char *const arguments[] = {
+    "1",
+    "12/3/4",
+    "1//2",
+    "7/",
+    "7/8/",
+    "1/2/3/4",
+    "-1",
+    "-1/-2/-3",
+    "+1",
+    "/1",
+    "x",
+    "1x",
+    "1.5",
+    "1e3",
+    "-.5",
+    ".",
+    "inf",
+    "nan",
+    "0x10",
+    "3.1+e2",
+    "1e",
+    "1e+",
+    "--1",
+    "1#2",
+    "1/#",
+    "1\\\n2",
+    "1\\2",
+    "00012",
+    "99999999999",
+    "1e400",
+    "1e-400",
+    "+-1",
+    "1/2 3",
+    "1/2\t3",
+    "1\n",
+    "1\r\n",
+    "",
+    "123456789012345678",
+    "1234567890123456789",
+    "123456789012345678901/2/3",
+    "1_000",
+    "5,5",
+};
+
+static bool same_index(obj_index a, obj_index b)
+{
+    return a.value == b.value && a.text.last - a.text.first == b.text.last - b.text.first &&
+           (a.text.last == a.text.first || a.text.first == b.text.first);
+}
+
+/* What is taken straight from the text must be all of the word and mean the same; what is not, stays. */
+static void arguments_are_read_as_words_are(void **state)
+{
+    (void)state;
+    size_t numbers = 0, corners = 0;
+    for (size_t i = 0; i < sizeof arguments / sizeof *arguments; i++) {
+        char text[80];
+        snprintf(text, sizeof text, "f  %s", arguments[i]);
+        obj_scan scan;
+        text_word word;
+        ffd_obj_scan_begin(&scan, text, strlen(text));
+        assert_true(ffd_obj_scan_next(&scan));
+        obj_scan by_word = scan, by_number = scan, by_corner = scan;
+        double value = 0, expected = 0;
+        obj_corner corner, expected_corner;
+        const bool is_word = ffd_obj_scan_word(&by_word, &word);
+        const bool is_number = is_word && ffd_obj_number(word, &expected);
+        if (ffd_obj_scan_number(&by_number, &value)) {
+            assert_true(is_number && memcmp(&value, &expected, sizeof value) == 0);
+            assert_ptr_equal(by_number.at, by_word.at);
+            numbers++;
+        }
+        const bool is_corner = is_word && ffd_obj_corner(word, &expected_corner);
+        if (ffd_obj_scan_corner(&by_corner, &corner)) {
+            assert_true(is_corner && same_index(corner.vertex, expected_corner.vertex) &&
+                        same_index(corner.texcoord, expected_corner.texcoord) &&
+                        same_index(corner.normal, expected_corner.normal));
+            assert_ptr_equal(by_corner.at, by_word.at);
+            corners++;
+        } else {
+            text_word again;
+            assert_true(ffd_obj_scan_word(&by_corner, &again) == is_word);
+            assert_ptr_equal(again.first, word.first);
+            assert_ptr_equal(again.last, word.last);
+        }
+    }
+    assert_in_range(numbers, 8, 40);
+    assert_in_range(corners, 8, 40);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_cut_gives_the_same_statements),
+        cmocka_unit_test(blocks_are_as_long_as_asked_for),
+        cmocka_unit_test(arguments_are_read_as_words_are),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
