@@ -199,7 +199,7 @@ def long_obj(draw, backwards):
                 f"{v - vertices}//{n - normals}" if backwards else f"{v + 1}//{n + 1}" for v, n in corners))
         else:
             lines.append(draw.choice(("# C:\\here\\", "", "g a#b", "vt 0.5 0.25", "l 1 2", "surf 0 1 0 1 1 2", "s off")))
-    return "".join(line + draw.choice(("\n", "\n", "\n", "\r\n", "\r")) for line in lines)
+    return "".join(line + draw.choice(("\n", "\n", "\n", "\r\n", "\r")) for line in lines) + "g end\n"
 
 
 @case
