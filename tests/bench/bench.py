@@ -4,7 +4,7 @@
     bench.py --ffd PATH [--runs 5] [--side 1000] [--threads N] [--folder DIR] [--only glb|obj] [--csv FILE]
 
 The meshes are made first (at the default size a GLB of 48 MB and an OBJ of v, vt, vn and quads of about 160 MB).
-Each run of the program is followed by one of `dd bs=64M` on the same file, so that both meet the same machine;
+Before that: what it takes to start. Each run of the program is followed by one of `dd bs=64M` on the same file, so that both meet the same machine;
 read and written data stay in the page cache. Time is wall-clock, memory the largest resident set of the process.
 """
 
@@ -20,6 +20,9 @@ import subprocess
 import sys
 import tempfile
 import time
+
+
+STARTS = 31
 
 
 def surface(side):
@@ -130,8 +133,11 @@ def write_lattices(folder):
     return paths
 
 
-def measure(command):
-    """Seconds and peak bytes of one run."""
+def measure(command, output=None):
+    """Seconds and peak bytes of one run. The output is removed before: to replace a file costs time of its own,
+    which depends on the file system."""
+    if output and os.path.exists(output):
+        os.remove(output)
     start = time.perf_counter()
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     with process.stderr:
@@ -146,6 +152,19 @@ def measure(command):
 
 def spread(values):
     return f"{statistics.median(values):7.3f}  ({min(values):.3f} to {max(values):.3f})"
+
+
+def print_starts(ffd, folder, lattices):
+    """What a process costs that has next to nothing to do."""
+    source, target = os.path.join(folder, "small.obj"), os.path.join(folder, "small-out.obj")
+    with open(source, "w", encoding="ascii") as file:
+        file.writelines(f"v {i % 10} {i // 10} 0.5\n" for i in range(100))
+    jobs = {"ffd --version": [ffd, "--version"],
+            "100 vertices, box": [ffd, "deform", source, target, "-l", lattices["box"], "--quiet"],
+            "100 vertices, warped": [ffd, "deform", source, target, "-l", lattices["warped"], "--quiet"]}
+    for name, command in jobs.items():
+        times = [1000 * measure(command, target)[0] for _ in range(STARTS)]
+        print(f"{name:22} {spread(times)} ms")
 
 
 def processor():
@@ -191,6 +210,7 @@ def main():
     csv = ["file,lattice,run,ffd_seconds,copy_seconds,ffd_peak_bytes,file_bytes"]
     with tempfile.TemporaryDirectory(dir=arguments.folder) as folder:
         lattices = write_lattices(folder)
+        print_starts(arguments.ffd, folder, lattices)
         print(f"{'file':5} {'MB':>6} {'lattice':8} {'ffd s: median (spread)':>28} {'copy s: median (spread)':>28}"
               f" {'ratio':>6} {'peak MB':>8} {'x file':>6}")
         for ending, write in (("glb", write_glb), ("obj", write_obj)):
@@ -202,17 +222,17 @@ def main():
             target = os.path.join(folder, "out." + ending)
             copy = os.path.join(folder, "copy." + ending)
             for name, lattice in lattices.items():
-                command = [arguments.ffd, "deform", source, target, "-l", lattice, "--force", "--quiet"]
+                command = [arguments.ffd, "deform", source, target, "-l", lattice, "--quiet"]
                 if arguments.threads:
                     command += ["--threads", str(arguments.threads)]
                 dd = ["dd", "if=" + source, "of=" + copy, "bs=64M"]
-                measure(dd)  # the file is in the page cache from here on
+                measure(dd, copy)  # the file is in the page cache from here on
                 times, copies, peaks = [], [], []
                 for run in range(arguments.runs):
-                    seconds, peak = measure(command)
+                    seconds, peak = measure(command, target)
                     times.append(seconds)
                     peaks.append(peak)
-                    copies.append(measure(dd)[0])
+                    copies.append(measure(dd, copy)[0])
                     csv.append(f"{ending},{name},{run},{seconds:.6f},{copies[-1]:.6f},{peak},{size}")
                 ratio = statistics.median(times) / statistics.median(copies)
                 print(f"{ending:5} {size / 1e6:6.1f} {name:8} {spread(times):>28} {spread(copies):>28} {ratio:6.1f}"
