@@ -6,6 +6,8 @@
 The meshes are made first (at the default size a GLB of 48 MB and an OBJ of v, vt, vn and quads of about 160 MB).
 Before that: what it takes to start. Each run of the program is followed by one of `dd bs=64M` on the same file, so that both meet the same machine;
 read and written data stay in the page cache. Time is wall-clock, memory the largest resident set of the process.
+Then what the lattice's size costs, what a second thread brings to four million vertices, and what others take that
+are installed (assimp, SciPy).
 """
 
 import argparse
@@ -14,6 +16,7 @@ import json
 import math
 import os
 import platform
+import shutil
 import statistics
 import struct
 import subprocess
@@ -23,6 +26,7 @@ import time
 
 
 STARTS = 31
+SIZES = (4, 8, 16, 32, 64)
 
 
 def surface(side):
@@ -184,13 +188,102 @@ def build_flags(ffd):
             with open(path, encoding="utf-8") as file:
                 options = {option["name"]: option["value"] for option in json.load(file)}
             with open(os.path.join(folder, "compile_commands.json"), encoding="utf-8") as file:
-                compiler = next(entry["command"].split()[0] for entry in json.load(file)
-                                if entry["file"].endswith(".c"))
+                words = next(entry["command"].split() for entry in json.load(file) if entry["file"].endswith(".c"))
+            compiler = words[os.path.basename(words[0]) == "ccache"]
             said = subprocess.run([compiler, "--version"], capture_output=True, text=True, check=False).stdout
             compiler = said.splitlines()[0] if said else compiler
             return f"{compiler}; buildtype {options['buildtype']}, b_sanitize {options['b_sanitize']}"
         folder = os.path.dirname(folder)
     return "unknown build"
+
+
+def box_lattice(size):
+    box = {"min": [-0.1, -0.1, -1.2], "max": [10.1, 10.1, 1.2]}
+    last = size - 1
+    moves = [TWIST[0], {"at": [[1, last], [1, last], [last // 2, last]], "by": [0.3, 0.2, 0.5]}]
+    return {"format": "ffd-lattice", "version": 1, "size": [size] * 3, "moves": moves, "rest": {"box": box}}
+
+
+def medians(commands, runs, output):
+    """The median seconds of each command, run in turn."""
+    times = [[] for _ in commands]
+    for _ in range(runs):
+        for k, command in enumerate(commands):
+            times[k].append(measure(command, output)[0])
+    return [statistics.median(values) for values in times]
+
+
+def print_sizes(bench, source, folder):
+    """What the number of control points costs a vertex: box lattices of 4^3 to 64^3."""
+    target, commands = os.path.join(folder, "sized.glb"), []
+    for size in SIZES:
+        path = os.path.join(folder, f"box{size}.json")
+        with open(path, "w", encoding="ascii") as file:
+            json.dump(box_lattice(size), file)
+        commands.append(bench.command(source, target, path))
+    times = medians(commands, bench.runs, target)
+    shown = ", ".join(f"{size}^3 {seconds:.3f} s ({seconds / times[0]:.2f})" for size, seconds in zip(SIZES, times))
+    print(f"GLB, box lattice by its size (ratio to {SIZES[0]}^3): {shown}", flush=True)
+    os.remove(target)
+
+
+def print_threads(bench, folder, lattices):
+    """What a second thread brings to four times as many vertices."""
+    side = 2 * bench.side
+    source, target = os.path.join(folder, "four.glb"), os.path.join(folder, "four-out.glb")
+    make(write_glb, source, side)
+    for name, lattice in lattices.items():
+        one, two = medians([bench.command(source, target, lattice, threads) for threads in (1, 2)], bench.runs, target)
+        print(f"GLB, {side * side / 1e6:.1f} M vertices, {name}: 1 thread {one:.3f} s, 2 threads {two:.3f} s, "
+              f"{one / two:.2f} times as fast", flush=True)
+    os.remove(source)
+    os.remove(target)
+
+
+def print_peers(bench, folder, lattice):
+    """Others that are installed, with the same OBJ: reading and writing it without any deformation."""
+    source, target = os.path.join(folder, "in.obj"), os.path.join(folder, "peer.obj")
+    own, = medians([bench.command(source, target, lattice)], bench.runs, target)
+    peers = {"assimp": ["assimp", "export", source, target]}
+    for name, command in peers.items():
+        if not shutil.which(command[0]):
+            print(f"{name} is not installed")
+            continue
+        seconds, = medians([command], 1, target)
+        print(f"OBJ, {name} reads and writes it: {seconds:.2f} s, ffd deforms it: {own:.2f} s ({seconds / own:.1f})")
+    if os.path.exists(target):
+        os.remove(target)
+
+
+def print_scipy(bench):
+    """SciPy's tensor B-spline on as many points as a lattice of 8^3 has to displace, one coordinate after another."""
+    try:
+        import numpy
+        from scipy import ndimage
+    except ImportError:
+        print("SciPy is not installed")
+        return
+    draw = numpy.random.default_rng(7)
+    points = 1000 * bench.side
+    coefficients, places = draw.random((3, 8, 8, 8)), 7 * draw.random((3, points))
+    times = []
+    for _ in range(bench.runs):
+        start = time.perf_counter()
+        for axis in coefficients:
+            ndimage.map_coordinates(axis, places, order=3, prefilter=False, mode="nearest")
+        times.append(time.perf_counter() - start)
+    print(f"SciPy (map_coordinates, cubic, 8^3): {points / statistics.median(times) / 1e6:.2f} M points/s")
+
+
+class Bench:
+    def __init__(self, arguments):
+        self.ffd, self.runs, self.side, self.threads = (arguments.ffd, arguments.runs, arguments.side,
+                                                        arguments.threads)
+
+    def command(self, source, target, lattice, threads=0):
+        command = [self.ffd, "deform", source, target, "-l", lattice, "--quiet"]
+        threads = threads or self.threads
+        return command + (["--threads", str(threads)] if threads else [])
 
 
 def main():
@@ -207,6 +300,7 @@ def main():
     print(f"{processor()}, {os.cpu_count()} cores, {platform.system()} {platform.release()}")
     print(f"{build_flags(arguments.ffd)}; threads: {arguments.threads or 'all'}; runs: {arguments.runs}", flush=True)
 
+    bench = Bench(arguments)
     csv = ["file,lattice,run,ffd_seconds,copy_seconds,ffd_peak_bytes,file_bytes"]
     with tempfile.TemporaryDirectory(dir=arguments.folder) as folder:
         lattices = write_lattices(folder)
@@ -222,9 +316,7 @@ def main():
             target = os.path.join(folder, "out." + ending)
             copy = os.path.join(folder, "copy." + ending)
             for name, lattice in lattices.items():
-                command = [arguments.ffd, "deform", source, target, "-l", lattice, "--quiet"]
-                if arguments.threads:
-                    command += ["--threads", str(arguments.threads)]
+                command = bench.command(source, target, lattice)
                 dd = ["dd", "if=" + source, "of=" + copy, "bs=64M"]
                 measure(dd, copy)  # the file is in the page cache from here on
                 times, copies, peaks = [], [], []
@@ -237,8 +329,14 @@ def main():
                 ratio = statistics.median(times) / statistics.median(copies)
                 print(f"{ending:5} {size / 1e6:6.1f} {name:8} {spread(times):>28} {spread(copies):>28} {ratio:6.1f}"
                       f" {max(peaks) / 1e6:8.1f} {max(peaks) / size:6.2f}", flush=True)
+            if ending == "glb":
+                print_sizes(bench, source, folder)
+            else:
+                print_peers(bench, folder, lattices["box"])
             for path in (source, target, copy):
                 os.remove(path)
+        print_threads(bench, folder, lattices)
+        print_scipy(bench)
     if arguments.csv:
         with open(arguments.csv, "w", encoding="ascii") as file:
             file.write("\n".join(csv) + "\n")
