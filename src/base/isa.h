@@ -7,6 +7,9 @@
 /* The best of this processor. Never FFD_ISA_AUTO. */
 ffd_isa ffd_isa_best(void);
 
+/* Its name as options have it: "avx2". */
+const char *ffd_isa_name(ffd_isa isa);
+
 /* What an available one stands for: the best in place of FFD_ISA_AUTO. */
 static inline ffd_isa ffd_isa_resolve(ffd_isa isa)
 {

@@ -1,5 +1,6 @@
 #include "job/deform_job.h"
 #include "base/clock.h"
+#include "base/isa.h"
 #include "base/thread.h"
 #include "job/figures.h"
 #include "job/gates.h"
@@ -49,7 +50,9 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "a falloff has a meaning only where the outside is extended");
     if (!ffd_isa_available(desc->isa))
-        return ffd_fail(error, FFD_E_ARGUMENT, "this processor does not have the instruction set asked for");
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "this build or this processor does not have the instructions %s",
+                        ffd_isa_name(desc->isa));
     return check_embedding(desc, error);
 }
 
