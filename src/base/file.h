@@ -5,12 +5,14 @@
 #include "base/fail.h"
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 typedef struct file_input {
     const unsigned char *data; /* never NULL after success, also when size is 0 */
     size_t size;
     void *block; /* how it is held: mapped or allocated */
     bool mapped;
+    uint64_t identity[2]; /* the same for every input of one mapped file, whatever name led to it */
 } file_input;
 
 /* Reads path ("-": standard input, also where that is a pipe). Regular files are mapped. A folder, a pipe and

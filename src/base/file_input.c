@@ -85,7 +85,10 @@ static ffd_status load_descriptor(int fd, const char *name, file_input *input, f
     if (S_ISREG(info.st_mode) && info.st_size > 0) {
         if ((unsigned long long)info.st_size > (size_t)-1)
             return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
-        return map_file(fd, name, (size_t)info.st_size, input, error);
+        const ffd_status status = map_file(fd, name, (size_t)info.st_size, input, error);
+        input->identity[0] = (uint64_t)info.st_dev;
+        input->identity[1] = (uint64_t)info.st_ino;
+        return status;
     }
     return read_stream(fd, name, input, error);
 }

@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "io/openmesh/half_edges.h"
 #include "job/edge_list.h"
+#include "job/normal_groups.h"
 #include "job/quality.h"
 #include "job/selection.h"
 #include "job/source.h"
@@ -18,16 +19,23 @@
 /* Whether there is memory for all that figures and normals from faces need, with the faces that are there. */
 static ffd_status check_room(const deform_job *job, const mesh_faces *faces, ffd_error *error)
 {
-    mesh_room room = ffd_room_at_least(&job->document->room, FIGURES_ROOM);
+    mesh_room room = job->document->room;
     const size_t corners = faces->start[faces->face_count];
     ffd_status status = ffd_room_take(&room, ffd_pass_vertex_count(job->document), ARRAY_BYTES, error);
     if (status == FFD_OK)
         status = ffd_mesh_faces_take(faces, corners, &room, error);
     if (status == FFD_OK && job->check)
         status = ffd_room_check(&room, corners, EDGE_LIST_BYTES, error);
+    for (size_t i = 0; i < job->document->part_count && status == FFD_OK && job->recomputes; i++)
+        status = ffd_room_take(&room, job->document->parts[i].normal_count, NORMAL_BYTES, error);
     if (status == FFD_OK && job->recomputes)
         status = ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
     return status;
+}
+
+void ffd_figures_widen_room(deform_job *job)
+{
+    job->document->room = ffd_room_at_least(&job->document->room, FIGURES_ROOM);
 }
 
 static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)

@@ -6,6 +6,9 @@
 
 #define NORMAL_NO_GROUP UINT32_MAX
 
+/* Bytes of memory that a normal takes at the most while its group is found, with its corner. */
+#define NORMAL_BYTES 76
+
 typedef enum normal_outcome {
     NORMAL_KEPT, /* no face around it has a vertex that moved */
     NORMAL_NEW,

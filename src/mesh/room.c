@@ -7,8 +7,9 @@
 /* Of the program itself, before it has read anything. */
 #define PROGRAM (16 * MEGABYTE)
 
-/* Of a file's byte: itself, and of vectors in six characters each (0 0 0) twice 24 bytes. */
+/* Of a file's byte: itself, and of vectors in six characters each (0 0 0), or 12 bytes, twice 24. */
 #define KEPT_OF_TEXT 9
+#define KEPT_OF_FLOATS 5
 
 static uint64_t add(uint64_t a, uint64_t b, uint64_t times)
 {
@@ -27,14 +28,15 @@ mesh_room ffd_room_make(uint64_t asked)
 
 void ffd_room_add_file(mesh_room *room, uint64_t size, uint64_t kept_per_byte)
 {
-    room->most = add(room->most, size, BYTES_PER_BYTE);
+    if (!room->is_shared)
+        room->most = add(room->most, size, BYTES_PER_BYTE);
     room->taken = add(room->taken, size, kept_per_byte);
 }
 
-mesh_room ffd_room_of_file(uint64_t size, uint64_t asked)
+mesh_room ffd_room_of_file(uint64_t size, bool text, uint64_t asked)
 {
     mesh_room room = ffd_room_make(asked);
-    ffd_room_add_file(&room, size, KEPT_OF_TEXT);
+    ffd_room_add_file(&room, size, text ? KEPT_OF_TEXT : KEPT_OF_FLOATS);
     return room;
 }
 

@@ -3,6 +3,7 @@
 #define FFD_MESH_ROOM_H
 
 #include "base/fail.h"
+#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -14,16 +15,16 @@ typedef struct mesh_room {
     uint64_t most;
     uint64_t taken; /* may be more: what is taken for the bytes of files is not refused */
     uint64_t asked; /* by the user */
+    bool is_shared; /* with another document of the same files: they are allowed for already */
 } mesh_room;
 
 /* Room for a document without files: 100 MB, or `asked` where that is more, with the program itself in it. */
 mesh_room ffd_room_make(uint64_t asked);
 /* Adds a file: 20 times its size is allowed, and of that kept_per_byte times its size is taken. */
 void ffd_room_add_file(mesh_room *room, uint64_t size, uint64_t kept_per_byte);
-/* Room for a document of one file, beside whose bytes its numbers are kept, and once more when they have
- * moved.
- */
-mesh_room ffd_room_of_file(uint64_t size, uint64_t asked);
+/* Room for a document of one file, beside whose bytes its numbers are kept, and again when they have moved.
+   text: the numbers are text, which may be shorter than they are. */
+mesh_room ffd_room_of_file(uint64_t size, bool text, uint64_t asked);
 /* The same with at least `most` bytes in all. */
 mesh_room ffd_room_at_least(const mesh_room *room, uint64_t most);
 /* What is allowed in all, and what is left of it. */

@@ -157,6 +157,35 @@ def the_same_bytes_shown_again(run):
 
 
 @case
+def one_file_for_many_buffers(run):
+    """A file counts once; and so does what is decoded out of data URIs."""
+    run.write("b.bin", bytes(1000000))
+    content = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1, "uri": f"{'./' * (i % 5)}b.bin"} for i in range(500)],
+               "accessors": [{"componentType": 5126, "count": 20000, "type": "VEC3", "min": [0] * 3, "max": [0] * 3}],
+               "meshes": [{"primitives": [{"mode": 0, "attributes": {"POSITION": 0}}]}],
+               **scene([{"mesh": 0, "translation": [i, 0, 0]} for i in range(800)])}
+    run.write("a.gltf", json.dumps(content, separators=(",", ":")))
+    run.write("l.json", json.dumps(LATTICE))
+    code, _, line = measure(run, COMMANDS["deform"][:1] + ["a.gltf", "c.gltf", "-l", "l.json"])
+    equal(code, LIMIT, line)
+    del content["nodes"][400:]
+    content["scenes"][0]["nodes"] = list(range(400))
+    run.write("a.gltf", json.dumps(content, separators=(",", ":")))
+    code, _, line = measure(run, COMMANDS["deform"][:1] + ["a.gltf", "c.gltf", "-l", "l.json"])
+    equal(code, OK, line)
+
+
+@case
+def corners_of_one_primitive(run):
+    """Faces are made beside a copy of a primitive's corners."""
+    content = {"accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "min": [0] * 3, "max": [0] * 3},
+                             {"componentType": 5125, "count": 12000000, "type": "SCALAR"}],
+               "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}], **scene([{"mesh": 0}])}
+    run.write("a.glb", glb(content))
+    run_all(run, "a.glb", ["info", "check", "obj"])
+
+
+@case
 def many_joints(run):
     run.write("a.gltf", json.dumps({
         "asset": {"version": "2.0"}, "skins": [{"joints": [*range(2000)]}] * 100,

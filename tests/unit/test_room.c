@@ -83,9 +83,11 @@ static void no_size_wraps_round(void **state)
 static void text_is_kept_as_numbers(void **state)
 {
     (void)state;
-    const mesh_room none = ffd_room_make(0), room = ffd_room_of_file(10 * MB, 0);
+    const mesh_room none = ffd_room_make(0), room = ffd_room_of_file(10 * MB, true, 0),
+                    floats = ffd_room_of_file(10 * MB, false, 0);
     assert_true(ffd_room_most(&room) == 300 * MB);
     assert_in_range(ffd_room_left(&room), ffd_room_left(&none) + 50 * MB, ffd_room_left(&none) + 190 * MB);
+    assert_true(ffd_room_left(&floats) > ffd_room_left(&room));
 }
 
 int main(void)

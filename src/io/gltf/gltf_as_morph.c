@@ -82,6 +82,7 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
     const ffd_format format = d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF;
     const ffd_source source = {.path = d->path, .format = format, .space = d->space};
     mesh_room room = d->base.room;
+    room.is_shared = true;
     mesh_document *other = NULL;
     file_input file = {0};
     ffd_status status = ffd_gltf_add_target(d, meshes, log, &file, error);

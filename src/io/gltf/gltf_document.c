@@ -4,6 +4,8 @@
 #include "io/formats.h"
 #include "io/gltf/gltf_schema.h"
 #include <float.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* What the JSON library and tinygltf need at most for one object of a list; the model keeps less of it. */
 #define OBJECT_BYTES 1024
@@ -44,7 +46,8 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
     } else if (is_glb) {
         return ffd_fail_file(error, FFD_E_INVALID, d->name, "is a GLB file: its name must end in .glb");
     }
-    return ffd_json_span_parse(text, size, d->name, &d->tree, error);
+    const ffd_status status = ffd_json_span_parse(text, size, d->name, &d->tree, error);
+    return status ? status : ffd_room_take(&d->base.room, d->tree.count, sizeof *d->tree.values, error);
 }
 
 static ffd_status list_values(const gltf_document *d, const char *key, gltf_values *list, ffd_error *error)
@@ -75,6 +78,31 @@ static ffd_status list_all_values(gltf_document *d, ffd_error *error)
     return status;
 }
 
+static int compare_files(const void *a, const void *b)
+{
+    const file_input *const *x = a, *const *y = b;
+    return memcmp((*x)->identity, (*y)->identity, sizeof(*x)->identity);
+}
+
+/* Allows memory for the files of buffers, however many buffers name one of them. */
+static ffd_status count_files(gltf_document *d, ffd_error *error)
+{
+    size_t count = 0;
+    const file_input **files = ffd_alloc(d->buffer_values.count, sizeof *files);
+    if (!files)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < d->buffer_values.count; i++)
+        if (d->buffers[i].kind == BUFFER_FILE)
+            files[count++] = &d->buffers[i].file;
+    if (count > 0)
+        qsort(files, count, sizeof *files, compare_files);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || compare_files(&files[i - 1], &files[i]) != 0)
+            ffd_room_add_file(&d->base.room, files[i]->size, KEPT_PER_BYTE);
+    ffd_free(files);
+    return FFD_OK;
+}
+
 static ffd_status load_buffers(gltf_document *d, ffd_error *error)
 {
     d->buffers = ffd_alloc_zero(d->buffer_values.count, sizeof *d->buffers);
@@ -86,9 +114,10 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
         status = ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
                                       bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size, d->path,
                                       d->name, &d->buffers[i], error);
-        ffd_room_add_file(&d->base.room, d->buffers[i].file.size, KEPT_PER_BYTE);
+        if (d->buffers[i].kind == BUFFER_DATA && status == FFD_OK)
+            status = ffd_room_take(&d->base.room, d->buffers[i].size, 1, error);
     }
-    return status;
+    return status == FFD_OK ? count_files(d, error) : status;
 }
 
 static ffd_status list_primitives(gltf_document *d, ffd_error *error)
@@ -299,6 +328,8 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (status == FFD_OK)
         d->skins_status = ffd_gltf_place_skins(d, &d->skins_error);
     ffd_gltf_forget(d);
+    if (status == FFD_OK && d->skins_status == FFD_E_LIMIT)
+        return ffd_fail(error, FFD_E_LIMIT, "%s", d->skins_error.message);
     const bool no_memory = d->skins_status == FFD_E_MEMORY || d->crowds_status == FFD_E_MEMORY;
     return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
 }

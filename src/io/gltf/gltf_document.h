@@ -231,6 +231,9 @@ void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *
 ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,
                                  uint32_t **corners, size_t *count, ffd_error *error);
 
+/* gltf_faces.c: the most that it gives of any primitive. */
+uint64_t ffd_gltf_most_corners(const gltf_document *document);
+
 /* gltf_faces.c: the vertices of triangle t among a primitive's corners. Every second triangle of a strip is
    turned round (glTF 2.0, 3.7.2.1). */
 void ffd_gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3]);

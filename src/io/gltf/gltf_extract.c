@@ -51,22 +51,6 @@ static size_t find_texcoords(const gltf_document *d, size_t m, size_t p)
 }
 
 /* Counts the values and gives each part and accessor its place. */
-/* Takes room for the corners of a primitive while it is added. */
-static ffd_status take_corners(const extractor *e)
-{
-    const gltf_model *model = &e->document->model;
-    uint64_t most = 0;
-    for (size_t m = 0; m < model->mesh_count; m++)
-        for (size_t p = 0; p < model->meshes[m].primitive_count; p++) {
-            const gltf_primitive *primitive = &model->meshes[m].primitives[p];
-            const int accessor =
-                primitive->indices >= 0 ? primitive->indices : primitive->accessor[GLTF_POSITION];
-            if (accessor >= 0 && model->accessors[accessor].count > most)
-                most = model->accessors[accessor].count;
-        }
-    return ffd_model_take(e->model, most, sizeof(uint32_t), e->error);
-}
-
 static ffd_status count_values(extractor *e)
 {
     const gltf_document *d = e->document;
@@ -364,7 +348,8 @@ static ffd_status extract(extractor *e)
     e->first_texcoord = ffd_alloc(d->model.accessor_count, sizeof *e->first_texcoord);
     if (!e->first_position || !e->first_normal || !e->first_texcoord)
         return ffd_fail_memory(e->error);
-    ffd_status status = take_corners(e);
+    /* For the corners of a primitive while it is added. */
+    ffd_status status = ffd_model_take(e->model, ffd_gltf_most_corners(d), sizeof(uint32_t), e->error);
     if (status == FFD_OK)
         status = count_values(e);
     if (status)

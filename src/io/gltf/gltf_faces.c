@@ -176,6 +176,25 @@ static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, cons
     return status;
 }
 
+uint64_t ffd_gltf_most_corners(const gltf_document *d)
+{
+    uint64_t most = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
+            const uint64_t corners = count_drawing(d, &d->model.meshes[m].primitives[p]).corners;
+            most = corners > most ? corners : most;
+        }
+    return most;
+}
+
+/* For the faces, beside the corners of one primitive. */
+static ffd_status check_room(const gltf_document *d, const mesh_faces *faces, ffd_error *error)
+{
+    mesh_room room = d->base.room;
+    const ffd_status status = ffd_mesh_faces_take(faces, 3 * (uint64_t)faces->face_count, &room, error);
+    return status ? status : ffd_room_check(&room, ffd_gltf_most_corners(d), sizeof(uint32_t), error);
+}
+
 ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
@@ -185,7 +204,9 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
         return status;
     for (size_t i = 0; i < d->base.part_count; i++)
         faces->vertex_count += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
-    status = ffd_mesh_faces_make(document, faces, 3 * faces->face_count, error);
+    status = check_room(d, faces, error);
+    if (status == FFD_OK)
+        status = ffd_mesh_faces_make(document, faces, 3 * faces->face_count, error);
     if (status)
         return status;
     size_t *base = ffd_alloc(d->base.part_count, sizeof *base);

@@ -33,7 +33,7 @@ typedef struct block_faces {
     size_t faces, corners, lines, points; /* corners: of faces */
     vertex_normal *with_normal;           /* the corners of faces that have one, in their order */
     size_t count, capacity;
-    bool counts_back; /* some index of a normal does */
+    size_t counts_back; /* the place behind the last index of a normal that does; 0: none */
     ffd_status status;
 } block_faces;
 
@@ -42,14 +42,21 @@ typedef struct reader {
     block_faces *blocks;
 } reader;
 
+static void note_index(const obj_document *d, const obj_scan *scan, const obj_corner *corner,
+                       block_faces *block)
+{
+    if (corner->normal.value < 0)
+        block->counts_back = (size_t)(scan->at - (const char *)d->input.data);
+}
+
 /* What is left alone may name normals too (surf). */
-static void look_for_corners(obj_scan *scan, block_faces *block)
+static void look_for_corners(const obj_document *d, obj_scan *scan, block_faces *block)
 {
     text_word word;
     obj_corner corner;
     while (ffd_obj_scan_word(scan, &word))
         if (ffd_obj_corner(word, &corner))
-            block->counts_back = block->counts_back || corner.normal.value < 0;
+            note_index(d, scan, &corner, block);
 }
 
 static ffd_status add_normal(const obj_document *d, const obj_walk *walk, size_t vertex,
@@ -85,7 +92,7 @@ static ffd_status check_corners(const obj_document *d, obj_walk *walk, block_fac
                                  "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"", ffd_text_shown(word),
                                  word.first);
         status = check_index(d, scan, corner.vertex, walk->vertices, "vertex", &vertex, error);
-        block->counts_back = block->counts_back || corner.normal.value < 0;
+        note_index(d, scan, &corner, block);
         block->corners += is_face;
         if (status == FFD_OK && is_face && d->normals > 0 &&
             corner.normal.text.first < corner.normal.text.last)
@@ -114,7 +121,7 @@ static ffd_status read_block(const obj_document *d, size_t number, block_faces *
             status = check_corners(d, &walk, block, error);
             break;
         case OBJ_OTHER:
-            look_for_corners(&walk.scan, block);
+            look_for_corners(d, &walk.scan, block);
             break;
         default:
             break;
@@ -147,11 +154,11 @@ static ffd_status find_failure(const obj_document *d, size_t number, ffd_status 
         return ffd_fail_memory(error);
     status = read_block(d, number, &block, error);
     ffd_free(block.with_normal);
-    return status;
+    return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
 }
 
-/* Sums up what the blocks have. A `vn` added before an index that counts back would change its meaning: the
-   file's end is then the place. */
+/* Sums up what the blocks have. A `vn` added before an index that counts back would change its meaning: where
+   one stands behind the last `vn`, the file's end is the place. */
 static ffd_status join_blocks(obj_document *d, const block_faces *blocks, uint64_t *with_normal,
                               ffd_error *error)
 {
@@ -164,7 +171,7 @@ static ffd_status join_blocks(obj_document *d, const block_faces *blocks, uint64
         d->lines += block->lines;
         d->points += block->points;
         *with_normal += block->count;
-        d->addition = block->counts_back ? d->input.size : d->addition;
+        d->addition = block->counts_back > d->addition ? d->input.size : d->addition;
     }
     if (*with_normal <= UINT32_MAX)
         return FFD_OK;

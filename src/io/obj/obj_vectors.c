@@ -110,7 +110,7 @@ static ffd_status find_failure(const obj_document *d, size_t block, ffd_status s
         return ffd_fail_memory(error);
     status = read_block(d, block, &content, error);
     free_content(&content);
-    return status;
+    return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
 }
 
 /* Gives the blocks their places in the file. Stops at the first that has failed. */

@@ -53,7 +53,7 @@ ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_docume
         return status;
     }
     describe_part(d);
-    d->base.room = ffd_room_of_file(d->input.size, source->memory);
+    d->base.room = ffd_room_of_file(d->input.size, true, source->memory);
     *document = &d->base;
     return FFD_OK;
 }
