@@ -9,10 +9,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-/* What figures and normals from faces may take in any case, as they are asked for: scenes are found that show
-   a million triangles with a file of 300 kB. */
-#define FIGURES_ROOM ((uint64_t)500000000)
-
 /* Of a vertex, in the arrays. */
 #define ARRAY_BYTES (12 * sizeof(double))
 
@@ -35,7 +31,7 @@ static ffd_status check_room(const deform_job *job, const mesh_faces *faces, ffd
 
 void ffd_figures_widen_room(deform_job *job)
 {
-    job->document->room = ffd_room_at_least(&job->document->room, FIGURES_ROOM);
+    job->document->room = ffd_room_for_faces(&job->document->room);
 }
 
 static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)

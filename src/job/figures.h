@@ -13,7 +13,7 @@ typedef struct figure_arrays {
     double *deformed, *gradients; /* see mesh_pass */
 } figure_arrays;
 
-/* Allows the document the memory that figures, or normals from faces, may take in any case. */
+/* Allows the document the memory that figures, or normals from faces, may take. */
 void ffd_figures_widen_room(deform_job *job);
 
 /* Reads the mesh's faces (at rest: before the pass) and makes room for the pass. Faces that are not valid, or
