@@ -29,11 +29,6 @@ static ffd_status check_room(const deform_job *job, const mesh_faces *faces, ffd
     return status;
 }
 
-void ffd_figures_widen_room(deform_job *job)
-{
-    job->document->room = ffd_room_for_faces(&job->document->room);
-}
-
 static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     ffd_error own;

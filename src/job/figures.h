@@ -13,9 +13,6 @@ typedef struct figure_arrays {
     double *deformed, *gradients; /* see mesh_pass */
 } figure_arrays;
 
-/* Allows the document the memory that figures, or normals from faces, may take. */
-void ffd_figures_widen_room(deform_job *job);
-
 /* Reads the mesh's faces (at rest: before the pass) and makes room for the pass. Faces that are not valid, or
    that the document has no room for, refuse a check and normals that are to be computed from them; else a
    deformation goes on without their figures after a warning. */

@@ -11,10 +11,6 @@
 #define KEPT_OF_TEXT 9
 #define KEPT_OF_FLOATS 5
 
-/* More for work over faces. */
-#define FACES_PER_BYTE 2000
-#define MOST_FOR_FACES (400 * MEGABYTE)
-
 static uint64_t add(uint64_t a, uint64_t b, uint64_t times)
 {
     return times && b > (UINT64_MAX - a) / times ? UINT64_MAX : a + b * times;
@@ -42,15 +38,6 @@ mesh_room ffd_room_of_file(uint64_t size, bool text, uint64_t asked)
     mesh_room room = ffd_room_make(asked);
     ffd_room_add_file(&room, size, text ? KEPT_OF_TEXT : KEPT_OF_FLOATS);
     return room;
-}
-
-mesh_room ffd_room_for_faces(const mesh_room *room)
-{
-    mesh_room wider = *room;
-    const uint64_t files = (room->most - LEAST) / BYTES_PER_BYTE;
-    wider.most =
-        add(room->most, files < MOST_FOR_FACES / FACES_PER_BYTE ? files * FACES_PER_BYTE : MOST_FOR_FACES, 1);
-    return wider;
 }
 
 uint64_t ffd_room_left(const mesh_room *room)

@@ -25,9 +25,6 @@ void ffd_room_add_file(mesh_room *room, uint64_t size, uint64_t kept_per_byte);
 /* Room for a document of one file, beside whose bytes its numbers are kept, and again when they have moved.
    text: the numbers are text, which may be shorter than they are. */
 mesh_room ffd_room_of_file(uint64_t size, bool text, uint64_t asked);
-/* The same for work over all faces that is asked for: with 2000 bytes more for each byte of the files, up to
-   400 MB. Scenes are found that show a million triangles with a file of 300 kB. */
-mesh_room ffd_room_for_faces(const mesh_room *room);
 /* What is allowed in all, and what is left of it. */
 uint64_t ffd_room_most(const mesh_room *room);
 uint64_t ffd_room_left(const mesh_room *room);

@@ -48,21 +48,13 @@ COMMANDS = {
 }
 
 
-# What works on all faces, and is asked for, may take more.
-MOST_FOR_FACES, FACES_PER_BYTE = 400e6, 2000
-WITH_FACES = ("report", "recompute", "check")
-
-
 def run_all(run, name, commands):
     """Runs the commands; returns the exit code of each."""
     ending = name.rsplit(".", 1)[1]
-    allowed = MOST + MOST_PER_BYTE * os.path.getsize(run.path(name))
+    most = MOST + MOST_PER_BYTE * os.path.getsize(run.path(name))
     run.write("l.json", json.dumps(LATTICE))
     codes = {}
     for command in commands:
-        most = allowed
-        if command in WITH_FACES:
-            most += min(MOST_FOR_FACES, FACES_PER_BYTE * os.path.getsize(run.path(name)))
         arguments = [name if a == "IN" else a.replace("ENDING", ending) for a in COMMANDS[command]]
         code, peak, line = measure(run, arguments)
         if os.environ.get("FFD_PEAKS"):

@@ -519,7 +519,7 @@ def models_of_gltf(run):
     checked = normals = 0
     for path in models(".glb", 300000):
         run.write("l.json", lattice(rest={"box": "mesh"}, moves=EMPTY))
-        command = ["-l", "l.json", "--normals", "recompute", "--force", "-q"]
+        command = ["-l", "l.json", "--normals", "recompute", "--memory", "1G", "--force", "-q"]
         if run.ffd("deform", path, "a.glb", *command, code=(0, 4, 6), stderr=subprocess.DEVNULL).code:
             continue
         with open(path, "rb") as file:

@@ -90,28 +90,12 @@ static void text_is_kept_as_numbers(void **state)
     assert_true(ffd_room_left(&floats) > ffd_room_left(&room));
 }
 
-static void work_over_faces_has_more(void **state)
-{
-    (void)state;
-    mesh_room room = ffd_room_make(0), faces = ffd_room_for_faces(&room);
-    assert_true(ffd_room_most(&faces) == 100 * MB);
-    ffd_room_add_file(&room, MB / 10, 1);
-    faces = ffd_room_for_faces(&room);
-    assert_true(ffd_room_most(&faces) == 302 * MB && ffd_room_most(&room) == 102 * MB);
-    ffd_room_add_file(&room, 9 * MB / 10, 1);
-    faces = ffd_room_for_faces(&room);
-    assert_true(ffd_room_most(&faces) == 520 * MB);
-    ffd_room_add_file(&room, UINT64_MAX / 2, 1);
-    faces = ffd_room_for_faces(&room);
-    assert_true(ffd_room_most(&faces) == UINT64_MAX);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_widen_it),          cmocka_unit_test(more_can_be_asked_for),
         cmocka_unit_test(what_is_taken_is_gone),   cmocka_unit_test(no_size_wraps_round),
-        cmocka_unit_test(text_is_kept_as_numbers), cmocka_unit_test(work_over_faces_has_more),
+        cmocka_unit_test(text_is_kept_as_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
