@@ -96,3 +96,59 @@ int ffd_tangent_of_normal(const double gradient[9], const double tangent[3], con
 {
     return carry_tangent(gradient, tangent, normal, result, NULL);
 }
+
+/* A kernel for all, or NULL, and the function for one. */
+typedef struct attribute_way {
+    attribute_kernel *normals, *tangents;
+} attribute_way;
+
+static const attribute_way ways[] = {
+    [FFD_ISA_SCALAR] = {NULL, NULL},
+#ifdef FFD_X86
+    [FFD_ISA_SSE2] = {ffd_normal_kernel_sse2, ffd_tangent_kernel_sse2},
+    [FFD_ISA_AVX2] = {ffd_normal_kernel_avx2, ffd_tangent_kernel_avx2},
+    [FFD_ISA_AVX512] = {ffd_normal_kernel_avx512, ffd_tangent_kernel_avx512},
+#endif
+};
+
+static void try_kernel(attribute_kernel *kernel, const attribute_batch *batch)
+{
+    if (kernel)
+        kernel(batch);
+    else
+        memset(batch->outcomes, ATTRIBUTE_OPEN, batch->count);
+}
+
+static uint8_t outcome_of(int is_carried, int collapsed)
+{
+    return is_carried ? ATTRIBUTE_CARRIED : collapsed ? ATTRIBUTE_COLLAPSED : ATTRIBUTE_KEPT;
+}
+
+void ffd_deform_normals(ffd_isa isa, const attribute_batch *batch)
+{
+    try_kernel(ways[ffd_isa_resolve(isa)].normals, batch);
+    for (size_t i = 0; i < batch->count; i++) {
+        double *const n = batch->directions + i * batch->step;
+        int collapsed;
+        if (batch->outcomes[i] != ATTRIBUTE_OPEN)
+            continue;
+        const int is_carried =
+            ffd_deform_normal(batch->gradients + batch->points[i] * batch->stride, n, n, &collapsed);
+        batch->outcomes[i] = outcome_of(is_carried, collapsed);
+    }
+}
+
+void ffd_deform_tangents(ffd_isa isa, const attribute_batch *batch)
+{
+    try_kernel(ways[ffd_isa_resolve(isa)].tangents, batch);
+    for (size_t i = 0; i < batch->count; i++) {
+        double *const t = batch->directions + i * batch->step;
+        const double *const normal = batch->normals ? batch->normals + 3 * i : NULL;
+        int collapsed;
+        if (batch->outcomes[i] != ATTRIBUTE_OPEN)
+            continue;
+        const int is_carried =
+            ffd_deform_tangent(batch->gradients + batch->points[i] * batch->stride, t, normal, t, &collapsed);
+        batch->outcomes[i] = outcome_of(is_carried, collapsed);
+    }
+}

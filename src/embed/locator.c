@@ -1,6 +1,7 @@
 #include "embed/locator.h"
 #include "base/memory.h"
 #include "base/vec.h"
+#include "embed/affine_kernel.h"
 #include <math.h>
 
 /* The middle of the control points' bounds, and how far they reach from it. */
@@ -106,6 +107,30 @@ static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], 
     return vec_is_finite(p); /* else it is not one, or farther away than doubles reach */
 }
 
+static affine_kernel *const affine_kernels[] = {
+    [FFD_ISA_SCALAR] = NULL, /* one by one */
+#ifdef FFD_X86
+    [FFD_ISA_SSE2] = ffd_affine_kernel_sse2,
+    [FFD_ISA_AVX2] = ffd_affine_kernel_avx2,
+    [FFD_ISA_AVX512] = ffd_affine_kernel_avx512,
+#endif
+};
+
+static void find_affine(const ffd_locator *locator, const double *xyz, size_t count, ffd_location *locations)
+{
+    affine_kernel *const kernel = affine_kernels[ffd_isa_resolve(locator->isa)];
+    for (size_t first = 0; first < count; first += AFFINE_POINTS) {
+        const size_t size = count - first < AFFINE_POINTS ? count - first : AFFINE_POINTS;
+        uint8_t found[AFFINE_POINTS] = {0};
+        double p[3];
+        if (kernel)
+            kernel(locator, xyz + 3 * first, size, locations + first, found);
+        for (size_t i = 0; i < size; i++)
+            if (!found[i] && begin(locator, xyz + 3 * (first + i), p, &locations[first + i]))
+                ffd_affine_find(locator, p, &locations[first + i]);
+    }
+}
+
 static ffd_status find_general(const ffd_locator *locator, const double *xyz, size_t count,
                                ffd_location *locations, ffd_error *error)
 {
@@ -129,13 +154,11 @@ ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_
 {
     if (locator->method == METHOD_GENERAL)
         return find_general(locator, xyz, count, locations, error);
-    for (size_t i = 0; i < count; i++) {
+    if (locator->method == METHOD_AFFINE)
+        find_affine(locator, xyz, count, locations);
+    for (size_t i = 0; i < count && locator->method == METHOD_SEPARABLE; i++) {
         double p[3];
-        if (!begin(locator, xyz + 3 * i, p, &locations[i]))
-            continue;
-        if (locator->method == METHOD_AFFINE)
-            ffd_affine_find(locator, p, &locations[i]);
-        else
+        if (begin(locator, xyz + 3 * i, p, &locations[i]))
             ffd_separable_find(locator, p, &locations[i]);
     }
     return FFD_OK;

@@ -2,63 +2,21 @@
    name, FFD_LANES the number of points in hand at a time. Operation by operation it is leaf.c, evaluation
    included: a lane that is done keeps its numbers while the others go on. */
 #include "embed/region_kernel.h"
+#include "base/lanes.h"
 #include <float.h>
-#include <math.h>
-#include <stdbool.h>
-#include <string.h>
 
-#define ALWAYS_INLINE inline __attribute__((always_inline))
 /* As in leaf.c. */
 #define LEAF_STEPS 64
 
-typedef double lanes __attribute__((vector_size(8 * FFD_LANES)));
-typedef int64_t mask __attribute__((vector_size(8 * FFD_LANES))); /* -1: yes, 0: no */
-
-static ALWAYS_INLINE lanes choose(mask which, lanes yes, lanes no)
-{
-    return (lanes)((which & (mask)yes) | (~which & (mask)no));
-}
-
-static ALWAYS_INLINE lanes all(double value)
-{
-    return value - (lanes){0};
-}
-
-static ALWAYS_INLINE lanes magnitude(lanes a)
-{
-    return (lanes)((mask)a & INT64_MAX);
-}
-
-static ALWAYS_INLINE bool any(mask which)
-{
-    int64_t some = 0;
-    for (int l = 0; l < FFD_LANES; l++)
-        some |= which[l];
-    return some != 0;
-}
-
-static ALWAYS_INLINE lanes load(const double *from)
-{
-    lanes taken;
-    memcpy(&taken, from, sizeof taken);
-    return taken;
-}
-
 static ALWAYS_INLINE lanes greatest(const lanes v[3])
 {
-    const lanes x = magnitude(v[0]), y = magnitude(v[1]), z = magnitude(v[2]);
-    return choose(x > y, choose(x > z, x, z), choose(y > z, y, z));
+    const lanes x = lanes_magnitude(v[0]), y = lanes_magnitude(v[1]), z = lanes_magnitude(v[2]);
+    return lanes_choose(x > y, lanes_choose(x > z, x, z), lanes_choose(y > z, y, z));
 }
 
 static ALWAYS_INLINE lanes clip_to_unit(lanes t)
 {
-    return choose(t < 0, all(0), choose(t > 1, all(1), t));
-}
-
-static ALWAYS_INLINE void apply(const double m[9], const lanes v[3], lanes out[3])
-{
-    for (int r = 0; r < 3; r++)
-        out[r] = m[3 * r] * v[0] + m[3 * r + 1] * v[1] + m[3 * r + 2] * v[2];
+    return lanes_choose(t < 0, lanes_all(0), lanes_choose(t > 1, lanes_all(1), t));
 }
 
 typedef struct basis_lanes {
@@ -69,7 +27,7 @@ typedef struct basis_lanes {
 static ALWAYS_INLINE void raise_degree(const double *t, int span, int degree, lanes u, lanes *value)
 {
     const double *const left = t + span + 1 - degree, *const right = t + span + 1;
-    lanes from_left = all(0);
+    lanes from_left = lanes_all(0);
     for (int r = 0; r < degree; r++) {
         const double width = right[r] - left[r];
         const lanes lower = value[r];
@@ -83,11 +41,11 @@ static ALWAYS_INLINE void raise_degree(const double *t, int span, int degree, la
 static ALWAYS_INLINE void find_basis(const double *t, int d, lanes u, basis_lanes *basis)
 {
     const int span = d - 1;
-    basis->value[0] = all(1);
+    basis->value[0] = lanes_all(1);
     for (int degree = 1; degree < d; degree++)
         raise_degree(t, span, degree, u, basis->value);
     const double *const left = t + span + 1 - d, *const right = t + span + 1;
-    lanes before = all(0);
+    lanes before = lanes_all(0);
     for (int r = 0; r < d; r++) {
         const lanes quotient = basis->value[r] * (d / (right[r] - left[r]));
         basis->slope[r] = before - quotient;
@@ -112,16 +70,16 @@ static ALWAYS_INLINE void evaluate(const region_kernel_cell *cell, const int ord
     }
     lanes sum[3], by[3][3];
     for (int r = 0; r < 3; r++)
-        sum[r] = by[0][r] = by[1][r] = by[2][r] = all(0);
+        sum[r] = by[0][r] = by[1][r] = by[2][r] = lanes_all(0);
     for (int k = 0; k < order[2]; k++) {
         lanes plane[3], plane_u[3], plane_v[3];
         for (int r = 0; r < 3; r++)
-            plane[r] = plane_u[r] = plane_v[r] = all(0);
+            plane[r] = plane_u[r] = plane_v[r] = lanes_all(0);
         for (int j = 0; j < order[1]; j++) {
             const double *point = cell->rows[k][j];
             lanes line[3], line_u[3];
             for (int r = 0; r < 3; r++)
-                line[r] = line_u[r] = all(0);
+                line[r] = line_u[r] = lanes_all(0);
             for (int i = 0; i < order[0]; i++, point += BEZIER_COMPONENTS)
                 for (int r = 0; r < 3; r++) {
                     line[r] += basis[0].value[i] * point[r];
@@ -166,13 +124,13 @@ static ALWAYS_INLINE mask newton_step(const sample_lanes *at, const lanes t[3], 
         c[3 * r + 1] = a[2] * b[0] - a[0] * b[2];
         c[3 * r + 2] = a[0] * b[1] - a[1] * b[0];
     }
-    const lanes determinant = m[0] * c[0] + m[1] * c[1] + m[2] * c[2], size = magnitude(determinant);
+    const lanes determinant = m[0] * c[0] + m[1] * c[1] + m[2] * c[2], size = lanes_magnitude(determinant);
     mask usable = (size > 1e-250) & (size < 1e250);
     for (int r = 0; r < 3; r++) {
         lanes row[3];
         for (int k = 0; k < 3; k++) {
             row[k] = c[3 * k + r] / determinant;
-            usable &= magnitude(row[k]) <= DBL_MAX;
+            usable &= lanes_magnitude(row[k]) <= DBL_MAX;
         }
         const lanes step = row[0] * at->equation[0] + row[1] * at->equation[1] + row[2] * at->equation[2];
         to[r] = clip_to_unit(t[r] + -step);
@@ -200,11 +158,11 @@ static ALWAYS_INLINE void settle(progress *all_lanes, mask which, region_outcome
 static ALWAYS_INLINE void move(progress *to, mask which, const lanes t[3], const sample_lanes *at)
 {
     for (int a = 0; a < 3; a++) {
-        to->t[a] = choose(which, t[a], to->t[a]);
-        to->at.equation[a] = choose(which, at->equation[a], to->at.equation[a]);
+        to->t[a] = lanes_choose(which, t[a], to->t[a]);
+        to->at.equation[a] = lanes_choose(which, at->equation[a], to->at.equation[a]);
     }
     for (int i = 0; i < 9; i++)
-        to->at.jacobian[i] = choose(which, at->jacobian[i], to->at.jacobian[i]);
+        to->at.jacobian[i] = lanes_choose(which, at->jacobian[i], to->at.jacobian[i]);
 }
 
 static ALWAYS_INLINE void count_evaluation(mask which, region_lanes *result)
@@ -218,12 +176,12 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
     const cell_region *const region = cell->region;
     const double *const y = region->inverse;
     const double bound = region->bound;
-    lanes x[3], tolerance[3], accepted[3], equation[3], step[3], image[3], t[3], noise = all(0);
+    lanes x[3], tolerance[3], accepted[3], equation[3], step[3], image[3], t[3], noise = lanes_all(0);
     sample_lanes at;
     progress now;
     for (int a = 0; a < 3; a++) {
-        x[a] = load(result->x[a]);
-        tolerance[a] = load(result->tolerance[a]);
+        x[a] = lanes_load(result->x[a]);
+        tolerance[a] = lanes_load(result->tolerance[a]);
         accepted[a] = tolerance[a] * region->weight_ratio;
         equation[a] = x[a] * region->centre[3] - region->centre[a];
     }
@@ -232,15 +190,15 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
         const lanes sum =
             (fabs(row[0]) * tolerance[0] + fabs(row[1]) * tolerance[1] + fabs(row[2]) * tolerance[2]) *
             region->greatest_weight;
-        noise = choose(sum > noise, sum, noise);
+        noise = lanes_choose(sum > noise, sum, noise);
     }
-    const lanes least = choose(4.0 * noise > 1e-12, 4.0 * noise, all(1e-12));
+    const lanes least = lanes_choose(4.0 * noise > 1e-12, 4.0 * noise, lanes_all(1e-12));
     now.open = ~(mask){0};
-    now.e = all(0.5);
+    now.e = lanes_all(0.5);
     memset(result->evaluations, 0, sizeof result->evaluations);
-    apply(y, equation, step);
+    lanes_apply(y, equation, step);
     settle(&now, ~(mask)(greatest(step) <= (1 + bound) * now.e + noise), REGION_EMPTY, result);
-    if (!any(now.open))
+    if (!lanes_any(now.open))
         return;
     for (int a = 0; a < 3; a++)
         now.t[a] = clip_to_unit(0.5 + step[a]);
@@ -248,24 +206,24 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
     evaluate(cell, order, x, now.t, &now.at);
     count_evaluation(now.open, result);
     for (int i = 0; i < LEAF_STEPS; i++) {
-        now.e = choose(now.e > least, now.e, least);
+        now.e = lanes_choose(now.e > least, now.e, least);
         settle(&now, accepts(&now.at, accepted), REGION_FOUND, result);
-        apply(y, now.at.equation, image);
+        lanes_apply(y, now.at.equation, image);
         settle(&now, ~(mask)(greatest(image) <= (1 + bound) * now.e + noise), REGION_EMPTY, result);
         const lanes shorter = bound * now.e + noise;
         settle(&now, ~newton_step(&now.at, now.t, t), REGION_UNCERTAIN, result);
-        if (!any(now.open))
+        if (!lanes_any(now.open))
             break;
         evaluate(cell, order, x, t, &at);
         count_evaluation(now.open, result);
-        apply(y, at.equation, image);
+        lanes_apply(y, at.equation, image);
         const lanes radius = (greatest(image) + noise) / (1 - bound);
         const mask stands =
             ((mask)t[0] == (mask)now.t[0]) & ((mask)t[1] == (mask)now.t[1]) & ((mask)t[2] == (mask)now.t[2]);
         settle(&now, ~((mask)(radius <= shorter) | accepts(&at, accepted)) | stands, REGION_UNCERTAIN,
                result);
         move(&now, now.open, t, &at);
-        now.e = choose(now.open, radius, now.e);
+        now.e = lanes_choose(now.open, radius, now.e);
     }
     settle(&now, now.open, REGION_UNCERTAIN, result);
     for (int a = 0; a < 3; a++) {

@@ -1,6 +1,7 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "base/vec.h"
+#include "deform/attribute.h"
 #include "job/tile.h"
 #include <ffd/deform.h>
 #include <math.h>
@@ -223,23 +224,28 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
 {
     const mesh_part *part = work->part;
     mesh_document *document = work->pass->document;
-    const size_t count = to - from;
-    document->format->read_normals(document, work->part_number, from, count, scratch->normals);
-    for (size_t i = 0; i < count; i++) {
+    const attribute_batch batch = {.gradients = scratch->points[0].gradient,
+                                   .stride = sizeof *scratch->points / sizeof(double),
+                                   .points = scratch->of_points,
+                                   .count = to - from,
+                                   .directions = scratch->normals,
+                                   .step = 3,
+                                   .outcomes = scratch->outcomes};
+    document->format->read_normals(document, work->part_number, from, batch.count, scratch->normals);
+    for (size_t i = 0; i < batch.count; i++) {
         while (part->normal_start ? part->normal_start[*vertex + 1] <= from + i : *vertex < from + i)
             (*vertex)++;
-        double *n = scratch->normals + 3 * i;
-        int collapsed = 0;
-        scratch->normals_changed[i] = false;
-        if (part->selected_normals && !part->selected_normals[from + i])
-            continue;
-        scratch->normals_changed[i] =
-            (uint8_t)ffd_deform_normal(scratch->points[*vertex - first].gradient, n, n, &collapsed);
-        totals->normals_collapsed += work->pass->only_offsets ? 0 : (uint64_t)collapsed;
+        scratch->of_points[i] = (uint32_t)(*vertex - first);
     }
+    ffd_deform_normals(work->pass->chain->isa, &batch);
     if (work->pass->only_offsets)
         return;
-    document->format->write_normals(document, work->part_number, from, count, scratch->normals,
+    for (size_t i = 0; i < batch.count; i++) {
+        const bool selected = !part->selected_normals || part->selected_normals[from + i];
+        scratch->normals_changed[i] = selected && scratch->outcomes[i] == ATTRIBUTE_CARRIED;
+        totals->normals_collapsed += selected && scratch->outcomes[i] == ATTRIBUTE_COLLAPSED;
+    }
+    document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
                                     scratch->normals_changed);
 }
 
@@ -247,13 +253,20 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
 static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
 {
     mesh_document *document = work->pass->document;
+    const attribute_batch batch = {.gradients = scratch->points[0].gradient,
+                                   .stride = sizeof *scratch->points / sizeof(double),
+                                   .points = scratch->of_points,
+                                   .count = count,
+                                   .directions = scratch->tangents,
+                                   .step = 4,
+                                   .normals = work->part->normal_count ? scratch->normals : NULL,
+                                   .outcomes = scratch->outcomes};
     document->format->read_tangents(document, work->part_number, first, count, scratch->tangents);
-    for (size_t i = 0; i < count; i++) {
-        double *t = scratch->tangents + 4 * i;
-        const double *n = work->part->normal_count ? scratch->normals + 3 * i : NULL;
-        scratch->tangents_changed[i] =
-            (uint8_t)ffd_deform_tangent(scratch->points[i].gradient, t, n, t, NULL);
-    }
+    for (size_t i = 0; i < count; i++)
+        scratch->of_points[i] = (uint32_t)i;
+    ffd_deform_tangents(work->pass->chain->isa, &batch);
+    for (size_t i = 0; i < count; i++)
+        scratch->tangents_changed[i] = scratch->outcomes[i] == ATTRIBUTE_CARRIED;
     if (work->pass->only_offsets)
         return;
     document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,

@@ -36,8 +36,10 @@ typedef struct tile_scratch {
     vertex_places places;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
-    shape_scratch *shape; /* NULL where the document has no morph targets */
-    ffd_status status;    /* of the first tile of this worker that failed, and what it said */
+    uint32_t of_points[PASS_TILE]; /* the points that normals or tangents stand at */
+    uint8_t outcomes[PASS_TILE];   /* what became of these */
+    shape_scratch *shape;          /* NULL where the document has no morph targets */
+    ffd_status status;             /* of the first tile of this worker that failed, and what it said */
     ffd_error error;
 } tile_scratch;
 

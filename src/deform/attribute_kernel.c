@@ -1,0 +1,125 @@
+/* attribute_kernel.c - compiled once for each instruction set with lanes: FFD_NORMAL_KERNEL and
+   FFD_TANGENT_KERNEL are the functions' names, FFD_LANES the number of directions in hand at a time.
+   Operation by operation it is attribute.c. */
+#include "deform/attribute_kernel.h"
+#include "base/lanes.h"
+#include <float.h>
+
+/* F of the directions' points, and which of these do not move at all. */
+typedef struct gradient_lanes {
+    lanes f[9];
+    mask still;
+} gradient_lanes;
+
+static ALWAYS_INLINE void load_gradients(const attribute_batch *batch, size_t first, gradient_lanes *at)
+{
+    double entry[9][FFD_LANES];
+    for (size_t l = 0; l < FFD_LANES; l++) {
+        const double *const gradient = batch->gradients + batch->points[first + l] * batch->stride;
+        for (int i = 0; i < 9; i++)
+            entry[i][l] = gradient[i];
+    }
+    at->still = ~(mask){0};
+    for (int i = 0; i < 9; i++) {
+        const lanes e = lanes_load(entry[i]);
+        at->still &= e == 0.0;
+        at->f[i] = e + (i % 4 == 0 ? 1.0 : 0.0);
+    }
+}
+
+static ALWAYS_INLINE lanes largest_entry(const lanes m[9])
+{
+    lanes largest = lanes_all(0);
+    for (int i = 0; i < 9; i++) {
+        const lanes size = lanes_magnitude(m[i]);
+        largest = lanes_choose(size > largest, size, largest);
+    }
+    return largest;
+}
+
+/* Where the square root is that of vec_length. */
+static ALWAYS_INLINE mask is_ordinary(lanes square)
+{
+    return (square > 1e-280) & (square < 1e300);
+}
+
+static ALWAYS_INLINE void load_directions(const double *from, size_t step, lanes v[3])
+{
+    if (step == 3) {
+        lanes_load_triples(from, v);
+        return;
+    }
+    double triples[3 * FFD_LANES];
+    for (size_t l = 0; l < FFD_LANES; l++)
+        memcpy(triples + 3 * l, from + l * step, 3 * sizeof *triples);
+    lanes_load_triples(triples, v);
+}
+
+/* Divides by the length and puts what is carried in its place. size: of the terms that were added up. */
+static ALWAYS_INLINE void finish(const attribute_batch *batch, size_t first, mask still,
+                                 const lanes before[3], lanes size, const lanes carried[3])
+{
+    const lanes old_square = lanes_dot(before, before), square = lanes_dot(carried, carried);
+    const lanes length = lanes_root(square);
+    const mask is_carried = is_ordinary(old_square) & is_ordinary(square) &
+                            (length > 16 * DBL_EPSILON * (size * lanes_root(old_square)));
+    lanes result[3];
+    for (int a = 0; a < 3; a++)
+        result[a] = lanes_choose(is_carried & ~still, carried[a] / length, before[a]);
+    double triples[3 * FFD_LANES];
+    lanes_store_triples(result, triples);
+    for (size_t l = 0; l < FFD_LANES; l++) {
+        memcpy(batch->directions + (first + l) * batch->step, triples + 3 * l, 3 * sizeof *triples);
+        batch->outcomes[first + l] = still[l]        ? ATTRIBUTE_KEPT
+                                     : is_carried[l] ? ATTRIBUTE_CARRIED
+                                                     : ATTRIBUTE_OPEN;
+    }
+}
+
+static void leave_open(const attribute_batch *batch, size_t first)
+{
+    memset(batch->outcomes + first, ATTRIBUTE_OPEN, batch->count - first);
+}
+
+void FFD_NORMAL_KERNEL(const attribute_batch *batch)
+{
+    size_t first = 0;
+    for (; first + FFD_LANES <= batch->count; first += FFD_LANES) {
+        gradient_lanes at;
+        lanes normal[3], cofactor[9], carried[3];
+        load_gradients(batch, first, &at);
+        load_directions(batch->directions + first * batch->step, batch->step, normal);
+        for (int r = 0; r < 3; r++) {
+            const lanes *const a = at.f + 3 * ((r + 1) % 3), *const b = at.f + 3 * ((r + 2) % 3);
+            cofactor[3 * r] = a[1] * b[2] - a[2] * b[1];
+            cofactor[3 * r + 1] = a[2] * b[0] - a[0] * b[2];
+            cofactor[3 * r + 2] = a[0] * b[1] - a[1] * b[0];
+        }
+        for (int r = 0; r < 3; r++)
+            carried[r] = lanes_dot(cofactor + 3 * r, normal);
+        const lanes largest = largest_entry(at.f);
+        finish(batch, first, at.still, normal, largest * largest, carried);
+    }
+    leave_open(batch, first);
+}
+
+void FFD_TANGENT_KERNEL(const attribute_batch *batch)
+{
+    size_t first = 0;
+    for (; first + FFD_LANES <= batch->count; first += FFD_LANES) {
+        gradient_lanes at;
+        lanes tangent[3], normal[3], carried[3];
+        load_gradients(batch, first, &at);
+        load_directions(batch->directions + first * batch->step, batch->step, tangent);
+        for (int r = 0; r < 3; r++)
+            carried[r] = lanes_dot(at.f + 3 * r, tangent);
+        if (batch->normals) {
+            lanes_load_triples(batch->normals + 3 * first, normal);
+            const lanes along = lanes_dot(carried, normal);
+            for (int a = 0; a < 3; a++)
+                carried[a] -= along * normal[a];
+        }
+        finish(batch, first, at.still, tangent, largest_entry(at.f), carried);
+    }
+    leave_open(batch, first);
+}
