@@ -5,10 +5,21 @@
 #include <stdint.h>
 #include <string.h>
 
+/* Where the machine has them the same way compilers make vectors of loops over plain copies, and only of
+   these. */
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+#define LITTLE_ENDIAN_MACHINE 1
+#else
+#define LITTLE_ENDIAN_MACHINE 0
+#endif
+
 static inline void store_u32(unsigned char bytes[4], uint32_t value)
 {
-    for (int i = 0; i < 4; i++)
-        bytes[i] = (unsigned char)(value >> (8 * i));
+    if (LITTLE_ENDIAN_MACHINE)
+        memcpy(bytes, &value, sizeof value);
+    else
+        for (int i = 0; i < 4; i++)
+            bytes[i] = (unsigned char)(value >> (8 * i));
 }
 
 static inline void store_u64(unsigned char bytes[8], uint64_t value)
@@ -27,8 +38,11 @@ static inline void store_double(unsigned char bytes[8], double value)
 static inline uint32_t load_u32(const unsigned char bytes[4])
 {
     uint32_t value = 0;
-    for (int i = 0; i < 4; i++)
-        value |= (uint32_t)bytes[i] << (8 * i);
+    if (LITTLE_ENDIAN_MACHINE)
+        memcpy(&value, bytes, sizeof value);
+    else
+        for (int i = 0; i < 4; i++)
+            value |= (uint32_t)bytes[i] << (8 * i);
     return value;
 }
 

@@ -1,4 +1,5 @@
 #include "base/number.h"
+#include "base/thread.h"
 #include "io/gltf/gltf_encode.h"
 #include "io/gltf/gltf_saver.h"
 #include <float.h>
@@ -9,20 +10,55 @@ typedef struct stored_bounds {
     double least[4], largest[4];
 } stored_bounds;
 
-/* Floats go to the file as they are. */
-static stored_bounds find_float_bounds(const float *xyz, size_t count)
+/* Threads share that many tiles at most, of that many vectors at least. */
+#define TILES 64
+#define SMALLEST_TILE ((size_t)1 << 14)
+
+typedef struct bounds_search {
+    const float *xyz;
+    stored_bounds tiles[TILES];
+} bounds_search;
+
+static void widen(stored_bounds *bounds, double least, double largest, size_t c)
+{
+    if (least < bounds->least[c])
+        bounds->least[c] = least;
+    if (largest > bounds->largest[c])
+        bounds->largest[c] = largest;
+}
+
+static stored_bounds bounds_of_first(const float *xyz)
 {
     stored_bounds bounds = {{0}, {0}};
-    for (size_t c = 0; c < 3 && count > 0; c++)
+    for (size_t c = 0; c < 3; c++)
         bounds.least[c] = bounds.largest[c] = xyz[c];
-    for (size_t i = 1; i < count; i++)
-        for (size_t c = 0; c < 3; c++) {
-            const double value = xyz[3 * i + c];
-            if (value < bounds.least[c])
-                bounds.least[c] = value;
-            if (value > bounds.largest[c])
-                bounds.largest[c] = value;
-        }
+    return bounds;
+}
+
+static void search_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    bounds_search *search = context;
+    /* From the first vector of all on, as if there were one tile. */
+    stored_bounds bounds = bounds_of_first(search->xyz);
+    (void)worker;
+    for (size_t i = first; i < last; i++)
+        for (size_t c = 0; c < 3; c++)
+            widen(&bounds, search->xyz[3 * i + c], search->xyz[3 * i + c], c);
+    search->tiles[tile] = bounds;
+}
+
+/* Floats go to the file as they are. */
+static stored_bounds find_float_bounds(const float *xyz, size_t count, int threads)
+{
+    const size_t share = count / TILES + 1, size = share > SMALLEST_TILE ? share : SMALLEST_TILE;
+    bounds_search search = {.xyz = xyz};
+    if (count == 0)
+        return search.tiles[0];
+    ffd_parallel_tiles(count, size, threads, search_tile, &search);
+    stored_bounds bounds = search.tiles[0];
+    for (size_t t = 1; t < count / size + (count % size != 0); t++)
+        for (size_t c = 0; c < 3; c++)
+            widen(&bounds, search.tiles[t].least[c], search.tiles[t].largest[c], c);
     return bounds;
 }
 
@@ -34,7 +70,7 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
     const size_t size = ffd_gltf_component_size(component);
     stored_bounds bounds = {{0}, {0}};
     if (version && component == GLTF_FLOAT && accessor->rows == 3)
-        return find_float_bounds(version->values, (size_t)accessor->count);
+        return find_float_bounds(version->values, (size_t)accessor->count, d->threads);
     for (size_t i = 0; i < accessor->count; i++) {
         unsigned char encoded[GLTF_LARGEST_VECTOR];
         const unsigned char *element = ffd_gltf_element(d, a, i);

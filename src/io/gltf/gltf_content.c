@@ -251,8 +251,8 @@ static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwr
     }
 }
 
-static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buffer, size_t offset,
-                             size_t size, unsigned char *bytes)
+/* The first overwrite from which on some end behind offset. */
+static size_t find_overwrite(const gltf_new_buffer *buffer, size_t offset)
 {
     size_t low = 0, high = buffer->overwrite_count;
     while (low < high) {
@@ -262,7 +262,14 @@ static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buff
         else
             high = middle;
     }
-    for (size_t i = low; i < buffer->overwrite_count && buffer->overwrites[i].begin < offset + size; i++)
+    return low;
+}
+
+static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buffer, size_t offset,
+                             size_t size, unsigned char *bytes)
+{
+    for (size_t i = find_overwrite(buffer, offset);
+         i < buffer->overwrite_count && buffer->overwrites[i].begin < offset + size; i++)
         if (buffer->overwrites[i].end > offset)
             apply_overwrite(d, &buffer->overwrites[i], offset, size, bytes);
 }
@@ -302,17 +309,34 @@ static void apply_appends(const gltf_saver *saver, const gltf_new_buffer *buffer
         apply_append(saver, &buffer->appends[i], offset, size, bytes);
 }
 
+/* Bytes behind the old byteLength are no content: a buffer that grows does so from there. */
+static size_t size_of_old(const gltf_new_buffer *made)
+{
+    return made->append_count > 0 ? made->old->length : made->old->size;
+}
+
 void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, size_t size,
                            unsigned char *bytes)
 {
     const gltf_new_buffer *made = &saver->buffers[b];
-    const gltf_buffer *old = made->old;
-    /* Bytes behind the old byteLength are no content: a buffer that grows does so from there. */
-    const size_t kept = made->append_count > 0 ? old->length : old->size;
+    const size_t kept = size_of_old(made);
     const size_t held = kept <= offset ? 0 : kept - offset < size ? kept - offset : size;
-    copy_common(old->data, 0, kept, offset, size, bytes);
+    copy_common(made->old->data, 0, kept, offset, size, bytes);
     memset(bytes + held, 0, size - held);
     apply_appends(saver, made, offset, size, bytes);
     /* Last: what was compressed is appended as it was and changed there. */
     apply_overwrites(saver->document, made, offset, size, bytes);
+}
+
+size_t ffd_gltf_content_kept(const gltf_saver *saver, size_t b, size_t offset, const unsigned char **bytes)
+{
+    const gltf_new_buffer *made = &saver->buffers[b];
+    const size_t next = find_overwrite(made, offset);
+    size_t end = size_of_old(made);
+    if (next < made->overwrite_count && made->overwrites[next].begin < end)
+        end = made->overwrites[next].begin;
+    if (end <= offset)
+        return 0;
+    *bytes = made->old->data + offset;
+    return end - offset;
 }

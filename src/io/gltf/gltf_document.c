@@ -1,6 +1,7 @@
 #include "io/gltf/gltf_document.h"
 #include "base/memory.h"
 #include "base/path.h"
+#include "base/thread.h"
 #include "io/formats.h"
 #include "io/gltf/gltf_schema.h"
 #include <float.h>
@@ -344,6 +345,7 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
     d->base.format = &ffd_gltf_format;
     d->base.room = *room;
     d->space = source->space;
+    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
     d->input = *input; /* borrowed until all is well */
     const ffd_status status = read_document(d, source, error);
     if (status) {

@@ -96,6 +96,7 @@ typedef struct gltf_document {
     const char *name; /* for messages */
     ffd_space space;
     file_input input;
+    int threads; /* for reading and writing */
     bool binary;
     glb_layout glb;
     json_span tree;
@@ -246,8 +247,9 @@ void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first,
 const unsigned char *ffd_gltf_element(const gltf_document *document, size_t accessor, size_t i);
 /* The first 3 components of an element as results hold them (gltf_stream): floats bit for bit. */
 void ffd_gltf_original(const gltf_document *document, size_t accessor, size_t i, float values[3]);
-/* Those of the first `count` elements. */
-void ffd_gltf_originals(const gltf_document *document, size_t accessor, size_t count, float *values);
+/* Those of elements [first, first + count). */
+void ffd_gltf_originals(const gltf_document *document, size_t accessor, size_t first, size_t count,
+                        float *values);
 /* The number that a component's bytes stand for. */
 double ffd_gltf_read_number(const unsigned char *at, int component, bool normalized);
 /* Element i of a sparse.indices or index accessor. */

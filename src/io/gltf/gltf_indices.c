@@ -1,9 +1,14 @@
 #include "base/little_endian.h"
 #include "base/memory.h"
+#include "base/thread.h"
 #include "io/gltf/gltf_document.h"
 
 /* Elements that are read at a time. */
-#define BLOCK 256
+#define BLOCK ((size_t)256)
+
+/* Threads share that many tiles at most, of that many elements at least. */
+#define TILES 64
+#define SMALLEST_TILE ((size_t)1 << 16)
 
 /* Of indices that stand one behind the other: loops that a compiler turns into vectors. */
 static uint32_t largest_packed(const unsigned char *at, size_t count, int component)
@@ -29,25 +34,57 @@ static uint32_t largest_packed(const unsigned char *at, size_t count, int compon
     return largest;
 }
 
+/* The largest of an accessor's values, tile by tile. */
+typedef struct index_search {
+    const gltf_document *document;
+    size_t accessor;
+    bool is_packed;
+    uint32_t largest[TILES]; /* of each tile */
+} index_search;
+
+static uint32_t largest_read(const gltf_document *d, size_t a, size_t begin, size_t end)
+{
+    double values[BLOCK];
+    uint32_t largest = 0;
+    for (size_t first = begin; first < end; first += BLOCK) {
+        const size_t size = end - first < BLOCK ? end - first : BLOCK;
+        ffd_gltf_read(d, a, first, size, 1, values);
+        for (size_t i = 0; i < size; i++)
+            if (values[i] > largest)
+                largest = (uint32_t)values[i];
+    }
+    return largest;
+}
+
+static void search_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    index_search *search = context;
+    const gltf_document *d = search->document;
+    const gltf_layout *layout = &d->layouts[search->accessor];
+    (void)worker;
+    search->largest[tile] = search->is_packed
+                                ? largest_packed(layout->data + first * layout->stride, last - first,
+                                                 d->model.accessors[search->accessor].component)
+                                : largest_read(d, search->accessor, first, last);
+}
+
 static uint32_t largest_of(const gltf_document *d, size_t a)
 {
     const gltf_accessor *accessor = &d->model.accessors[a];
     const gltf_layout *layout = &d->layouts[a];
     const bool is_index =
         accessor->component == GLTF_U8 || accessor->component == GLTF_U16 || accessor->component == GLTF_U32;
-    const size_t count = (size_t)accessor->count;
-    double values[BLOCK];
+    const size_t count = (size_t)accessor->count, share = count / TILES + 1;
+    index_search search = {.document = d,
+                           .accessor = a,
+                           .is_packed = is_index && layout->data && !accessor->sparse.present &&
+                                        !accessor->normalized &&
+                                        layout->stride == ffd_gltf_component_size(accessor->component)};
     uint32_t largest = 0;
-    if (is_index && layout->data && !accessor->sparse.present && !accessor->normalized &&
-        layout->stride == ffd_gltf_component_size(accessor->component))
-        return largest_packed(layout->data, count, accessor->component);
-    for (size_t first = 0; first < count; first += BLOCK) {
-        const size_t size = count - first < BLOCK ? count - first : BLOCK;
-        ffd_gltf_read(d, a, first, size, 1, values);
-        for (size_t i = 0; i < size; i++)
-            if (values[i] > largest)
-                largest = (uint32_t)values[i];
-    }
+    ffd_parallel_tiles(count, share > SMALLEST_TILE ? share : SMALLEST_TILE, d->threads, search_tile,
+                       &search);
+    for (size_t t = 0; t < TILES; t++)
+        largest = search.largest[t] > largest ? search.largest[t] : largest;
     return largest;
 }
 

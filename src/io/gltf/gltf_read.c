@@ -114,16 +114,16 @@ const unsigned char *ffd_gltf_element(const gltf_document *d, size_t a, size_t i
     return layout->data ? layout->data + i * layout->stride : zeros;
 }
 
-void ffd_gltf_originals(const gltf_document *d, size_t a, size_t count, float *values)
+void ffd_gltf_originals(const gltf_document *d, size_t a, size_t first, size_t count, float *values)
 {
     const gltf_layout *layout = &d->layouts[a];
     const gltf_accessor *accessor = &d->model.accessors[a];
     if (accessor->component != GLTF_FLOAT || accessor->sparse.present || !layout->data) {
         for (size_t i = 0; i < count; i++)
-            ffd_gltf_original(d, a, i, values + 3 * i);
+            ffd_gltf_original(d, a, first + i, values + 3 * i);
         return;
     }
-    const unsigned char *at = layout->data;
+    const unsigned char *at = layout->data + first * layout->stride;
     for (size_t i = 0; i < count; i++, at += layout->stride)
         for (size_t c = 0; c < 3; c++) {
             const uint32_t bits = load_u32(at + 4 * c);

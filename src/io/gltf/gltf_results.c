@@ -1,6 +1,24 @@
 #include "base/memory.h"
+#include "base/thread.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_encode.h"
+
+/* Vectors that a thread copies at a time. */
+#define TILE ((size_t)1 << 14)
+
+typedef struct originals {
+    const gltf_document *document;
+    const gltf_stream *stream;
+} originals;
+
+static void copy_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const originals *of = context;
+    (void)tile;
+    (void)worker;
+    ffd_gltf_originals(of->document, of->stream->accessor, first, last - first,
+                       of->stream->result + 3 * first);
+}
 
 static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic semantic, ffd_error *error)
 {
@@ -14,8 +32,9 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
     if (!stream->result)
         return ffd_fail_memory(error);
+    originals of = {d, stream};
     if (!d->morph_name)
-        ffd_gltf_originals(d, stream->accessor, count, stream->result);
+        ffd_parallel_tiles(count, TILE, d->threads, copy_tile, &of);
     return FFD_OK;
 }
 

@@ -8,8 +8,9 @@
 
 /* Bytes of a buffer written at once: a multiple of 3, so that pieces of base64 join. */
 #define BLOCK ((size_t)3 << 14)
-/* Blocks after which the input's bytes so far are given back. */
-#define BLOCKS_KEPT 128
+/* Most bytes of the input that are written at once, and written until those so far are given back. */
+#define LARGEST_WRITE ((size_t)1 << 20)
+#define MOST_HELD ((size_t)6 << 20)
 
 void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...)
 {
@@ -35,24 +36,46 @@ static ffd_status put_padding(const gltf_saver *saver, size_t size, char with, f
     return put(saver, bytes, size, error);
 }
 
-/* Writes a buffer's new content, as it is or as base64. */
-static ffd_status put_content(const gltf_saver *saver, size_t buffer, bool base64, ffd_error *error)
+static ffd_status put_base64(const gltf_saver *saver, size_t buffer, ffd_error *error)
 {
     const size_t size = ffd_gltf_content_size(saver, buffer);
     unsigned char *block = ffd_alloc(BLOCK, 1);
-    char *text = base64 ? ffd_alloc(ffd_base64_length(BLOCK), 1) : NULL;
-    ffd_status status = block && (text || !base64) ? FFD_OK : ffd_fail_memory(error);
+    char *text = ffd_alloc(ffd_base64_length(BLOCK), 1);
+    ffd_status status = block && text ? FFD_OK : ffd_fail_memory(error);
     for (size_t at = 0; at < size && status == FFD_OK; at += BLOCK) {
         const size_t part = size - at < BLOCK ? size - at : BLOCK;
         ffd_gltf_content_read(saver, buffer, at, part, block);
-        if (base64)
-            ffd_base64_encode(block, part, text);
-        status = base64 ? put(saver, text, ffd_base64_length(part), error) : put(saver, block, part, error);
-        if (at / BLOCK % BLOCKS_KEPT == BLOCKS_KEPT - 1)
-            ffd_gltf_forget(saver->document);
+        ffd_base64_encode(block, part, text);
+        status = put(saver, text, ffd_base64_length(part), error);
     }
     ffd_free(block);
     ffd_free(text);
+    return status;
+}
+
+/* Writes a buffer's new content. What stays is not copied before. */
+static ffd_status put_content(const gltf_saver *saver, size_t buffer, ffd_error *error)
+{
+    const size_t size = ffd_gltf_content_size(saver, buffer);
+    size_t written = 0;
+    unsigned char *block = ffd_alloc(BLOCK, 1);
+    ffd_status status = block ? FFD_OK : ffd_fail_memory(error);
+    for (size_t at = 0, part = 0; at < size && status == FFD_OK; at += part) {
+        const unsigned char *bytes = block;
+        const size_t kept = ffd_gltf_content_kept(saver, buffer, at, &bytes);
+        part = size - at < BLOCK ? size - at : BLOCK;
+        if (kept >= part)
+            part = kept < LARGEST_WRITE ? kept : LARGEST_WRITE;
+        else
+            ffd_gltf_content_read(saver, buffer, at, part, block);
+        status = put(saver, kept >= part ? bytes : block, part, error);
+        written += part;
+        if (written >= MOST_HELD) {
+            ffd_gltf_forget(saver->document);
+            written = 0;
+        }
+    }
+    ffd_free(block);
     return status;
 }
 
@@ -91,7 +114,7 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
         if (status)
             return status;
         if (edit->buffer != EDIT_NO_BUFFER)
-            status = put_content(saver, (size_t)edit->buffer, true, error);
+            status = put_base64(saver, (size_t)edit->buffer, error);
         else if (edit->text_size > 0)
             status = put(saver, saver->edits.pool.data + edit->text, edit->text_size, error);
         at = edit->end;
@@ -157,7 +180,7 @@ static ffd_status put_bin(const gltf_saver *saver, const glb_sizes *sizes, ffd_e
         return status;
     if (!sizes->own_bin)
         return put(saver, d->input.data + d->glb.bin_begin, d->glb.bin_size, error);
-    status = put_content(saver, 0, false, error);
+    status = put_content(saver, 0, error);
     return status ? status : put_padding(saver, sizes->bin_chunk - sizes->bin, 0, error);
 }
 
@@ -202,7 +225,7 @@ static ffd_status put_buffer_files(const gltf_saver *saver, ffd_error *error)
             continue;
         status = ffd_output_begin(saver->output, saver->buffers[b].target, overwrites(saver), error);
         if (status == FFD_OK)
-            status = put_content(saver, b, false, error);
+            status = put_content(saver, b, error);
     }
     return status;
 }
