@@ -43,7 +43,7 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
                      double *by_uvw, double *jacobian)
 {
     static const uint32_t which[1] = {0};
-    double inside[3], difference[3 * CELL_POINTS], rest[3 * CELL_POINTS];
+    double inside[3], numbers[2 * 3 * CELL_POINTS];
     size_t number[3];
     kernel_cell cell;
     if (lattice->rest_weights)
@@ -51,15 +51,18 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
     ffd_displacement_wrap(lattice, uvw, inside);
     for (int a = 0; a < 3; a++)
         number[a] = ffd_knots_span_number(&lattice->knots[a], inside[a]);
-    if (!ffd_displacement_load(lattice, number, jacobian, difference, rest, &cell))
+    if (!ffd_displacement_cell_points(lattice, number, jacobian != NULL, numbers))
         return false;
+    ffd_displacement_cell_begin(lattice, number, jacobian != NULL, numbers, &cell);
     cell.inverse = inverse ? cell.inverse : NULL;
     const kernel_points points = {.uvw = inside,
                                   .stride = 3,
                                   .which = which,
                                   .count = 1,
                                   .delta = delta,
+                                  .delta_step = 3,
                                   .gradient = by_uvw,
+                                  .gradient_step = 9,
                                   .jacobian = jacobian};
     ffd_kernel_scalar(&cell, &points);
     return true;

@@ -24,10 +24,24 @@ typedef struct batch_cell {
     uint32_t first, count;
 } batch_cell;
 
+/* Points of cells (displacement_cell.h) that batches had before: neighbours in a mesh often come back to
+   them. */
+#define KEPT_CELLS ((size_t)256)
+#define KEPT_NUMBERS (KEPT_CELLS * 3 * 4 * 4 * 4)
+
+typedef struct kept_cells {
+    const ffd_lattice *lattice; /* whose cells they are; NULL: there are none */
+    bool gradients;
+    size_t count, numbers;   /* of cells that there is room for, and of numbers that each has */
+    size_t keys[KEPT_CELLS]; /* 1 + key of a batch_cell; 0: none */
+    bool acts[KEPT_CELLS];   /* a moved control point acts in it */
+    double points[KEPT_NUMBERS];
+} kept_cells;
+
 /* What a batch needs beside its results; of one thread. */
 typedef struct displacement_scratch {
+    kept_cells kept;
     double uvw[3 * DISPLACEMENT_BATCH], jacobian[9 * DISPLACEMENT_BATCH];
-    double difference[3 * CELL_POINTS], rest[3 * CELL_POINTS]; /* of one cell */
     batch_cell cells[DISPLACEMENT_BATCH];
     size_t cell_count;
     uint16_t cell_of[DISPLACEMENT_BATCH];     /* of each wanted point */
@@ -40,10 +54,15 @@ typedef struct displacement_batch {
     size_t stride;
     const uint32_t *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted */
     size_t count;
-    double *delta;    /* 3 for each of them, from delta[3 n] on */
+    double *delta; /* 3 for each of them, from delta[n * delta_step] on */
+    size_t delta_step;
     double *gradient; /* 9 likewise; or NULL */
-    uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
+    size_t gradient_step;
+    uint8_t *moves; /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
+
+/* To be called before the first batch, and before one of a lattice that may stand where another stood. */
+void ffd_displacement_scratch_clear(displacement_scratch *scratch);
 
 /* ffd_displacement for every point of the batch, with the same bits, whatever the instruction set and the
    order and company of the points. */

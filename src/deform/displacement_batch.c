@@ -14,13 +14,6 @@ static displacement_kernel *const kernels[] = {
 #endif
 };
 
-/* The span that holds u, most often the one of the point before. */
-static size_t find_span(const knot_vector *knots, double u, size_t guess)
-{
-    const double *const t = knots->t + knots->spans[guess];
-    return t[0] <= u && u < t[1] ? guess : ffd_knots_span_number(knots, u);
-}
-
 /* The batch's cell with these spans, made where it is new. */
 static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *scratch)
 {
@@ -37,25 +30,46 @@ static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *
     return made;
 }
 
+/* Bounds of the cell that the point before was in. */
+typedef struct cell_range {
+    double lo[3], hi[3];
+} cell_range;
+
+static bool range_holds(const cell_range *range, const double uvw[3])
+{
+    return range->lo[0] <= uvw[0] && uvw[0] < range->hi[0] && range->lo[1] <= uvw[1] &&
+           uvw[1] < range->hi[1] && range->lo[2] <= uvw[2] && uvw[2] < range->hi[2];
+}
+
+static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displacement_scratch *scratch,
+                        cell_range *range)
+{
+    const knot_vector *const knots = lattice->knots;
+    size_t span[3];
+    for (int a = 0; a < 3; a++) {
+        span[a] = ffd_knots_span_number(&knots[a], uvw[a]);
+        range->lo[a] = knots[a].t[knots[a].spans[span[a]]];
+        range->hi[a] = knots[a].t[knots[a].spans[span[a]] + 1];
+    }
+    return take_cell(span, (span[2] * knots[1].span_count + span[1]) * knots[0].span_count + span[0],
+                     scratch);
+}
+
 /* Finds the cell of each wanted point. */
 static void find_cells(const ffd_lattice *lattice, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
-    const knot_vector *const knots = lattice->knots;
-    size_t span[3] = {0, 0, 0}, cell = NO_CELL;
+    cell_range range = {{0}, {0}}; /* nothing */
+    size_t cell = NO_CELL;
     scratch->cell_count = 0;
     memset(scratch->buckets, 0xff, sizeof scratch->buckets);
     for (size_t k = 0; k < batch->count; k++) {
         const size_t n = batch->which[k];
         double *const uvw = scratch->uvw + 3 * n;
-        size_t here[3];
-        ffd_displacement_wrap(lattice, batch->uvw + n * batch->stride, uvw);
-        for (int a = 0; a < 3; a++)
-            here[a] = find_span(&knots[a], uvw[a], span[a]);
-        if (cell == NO_CELL || memcmp(here, span, sizeof here) != 0) {
-            const size_t key = (here[2] * knots[1].span_count + here[1]) * knots[0].span_count + here[0];
-            cell = take_cell(here, key, scratch);
-            memcpy(span, here, sizeof here);
+        memcpy(uvw, batch->uvw + n * batch->stride, 3 * sizeof *uvw);
+        if (!range_holds(&range, uvw)) {
+            ffd_displacement_wrap(lattice, batch->uvw + n * batch->stride, uvw);
+            cell = find_cell(lattice, uvw, scratch, &range);
         }
         scratch->cell_of[k] = (uint16_t)cell;
         scratch->cells[cell].count++;
@@ -79,10 +93,41 @@ static void sort_points(const displacement_batch *batch, displacement_scratch *s
 
 static void stay(const displacement_batch *batch, size_t n)
 {
-    memset(batch->delta + 3 * n, 0, 3 * sizeof *batch->delta);
+    memset(batch->delta + n * batch->delta_step, 0, 3 * sizeof *batch->delta);
     if (batch->gradient)
-        memset(batch->gradient + 9 * n, 0, 9 * sizeof *batch->gradient);
+        memset(batch->gradient + n * batch->gradient_step, 0, 9 * sizeof *batch->gradient);
     batch->moves[n] = 0;
+}
+
+void ffd_displacement_scratch_clear(displacement_scratch *scratch)
+{
+    scratch->kept.lattice = NULL;
+}
+
+/* Makes the kept cells those of the lattice. */
+static void begin_cells(const ffd_lattice *lattice, bool gradients, kept_cells *kept)
+{
+    if (kept->lattice == lattice && kept->gradients == gradients)
+        return;
+    kept->lattice = lattice;
+    kept->gradients = gradients;
+    kept->numbers = ffd_displacement_cell_numbers(lattice, gradients);
+    kept->count = KEPT_NUMBERS / kept->numbers;
+    if (kept->count > KEPT_CELLS)
+        kept->count = KEPT_CELLS;
+    memset(kept->keys, 0, sizeof kept->keys);
+}
+
+/* The points of a cell, found where they are not kept; NULL where no moved control point acts in it. */
+static const double *find_points(const ffd_lattice *lattice, const batch_cell *cell, kept_cells *kept)
+{
+    const size_t place = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
+    double *const points = kept->points + place * kept->numbers;
+    if (kept->keys[place] != cell->key + 1) {
+        kept->keys[place] = cell->key + 1;
+        kept->acts[place] = ffd_displacement_cell_points(lattice, cell->span, kept->gradients, points);
+    }
+    return kept->acts[place] ? points : NULL;
 }
 
 static void displace_cell(const ffd_lattice *lattice, displacement_kernel *kernel,
@@ -90,26 +135,28 @@ static void displace_cell(const ffd_lattice *lattice, displacement_kernel *kerne
                           displacement_scratch *scratch)
 {
     const uint32_t *const which = scratch->sorted + of->first;
+    const double *const control = find_points(lattice, of, &scratch->kept);
     kernel_cell cell;
-    if (!ffd_displacement_load(lattice, of->span, batch->gradient, scratch->difference, scratch->rest,
-                               &cell)) {
-        for (size_t k = 0; k < of->count; k++)
-            stay(batch, which[k]);
+    for (size_t k = 0; k < of->count && !control; k++)
+        stay(batch, which[k]);
+    if (!control)
         return;
-    }
+    ffd_displacement_cell_begin(lattice, of->span, batch->gradient, control, &cell);
     const kernel_points points = {.uvw = scratch->uvw,
                                   .stride = 3,
                                   .which = which,
                                   .count = of->count,
                                   .delta = batch->delta,
+                                  .delta_step = batch->delta_step,
                                   .gradient = batch->gradient,
+                                  .gradient_step = batch->gradient_step,
                                   .jacobian = cell.rest ? scratch->jacobian : NULL};
     kernel(&cell, &points);
-    for (size_t k = 0; k < of->count; k++) {
+    for (size_t k = 0; k < of->count; k++)
         batch->moves[which[k]] = 1;
-        if (cell.rest)
-            ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
-    }
+    for (size_t k = 0; k < of->count && cell.rest; k++)
+        ffd_displacement_to_space(scratch->jacobian + 9 * which[k],
+                                  batch->gradient + which[k] * batch->gradient_step);
 }
 
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
@@ -118,13 +165,14 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
     if (lattice->rest_weights) {
         for (size_t k = 0; k < batch->count; k++) {
             const size_t n = batch->which[k];
-            batch->moves[n] =
-                (uint8_t)ffd_displacement(lattice, batch->uvw + n * batch->stride, batch->delta + 3 * n,
-                                          batch->gradient ? batch->gradient + 9 * n : NULL);
+            batch->moves[n] = (uint8_t)ffd_displacement(
+                lattice, batch->uvw + n * batch->stride, batch->delta + n * batch->delta_step,
+                batch->gradient ? batch->gradient + n * batch->gradient_step : NULL);
         }
         return;
     }
     displacement_kernel *const kernel = kernels[ffd_isa_resolve(isa)];
+    begin_cells(lattice, batch->gradient, &scratch->kept);
     find_cells(lattice, batch, scratch);
     sort_points(batch, scratch);
     for (size_t c = 0; c < scratch->cell_count; c++)

@@ -36,28 +36,82 @@ void ffd_displacement_to_space(const double jacobian[9], double gradient[9])
         memset(gradient, 0, 9 * sizeof *gradient);
 }
 
-bool ffd_displacement_load(const ffd_lattice *lattice, const size_t number[3], bool gradients,
-                           double *difference, double *rest, kernel_cell *cell)
+static bool needs_rest(const ffd_lattice *lattice, bool gradients)
 {
-    int span[3];
+    return gradients && !lattice->has_uvw_by_p;
+}
+
+static size_t point_count(const ffd_lattice *lattice)
+{
+    size_t count = 1;
+    for (int a = 0; a < 3; a++)
+        count *= (size_t)lattice->knots[a].degree + 1;
+    return count;
+}
+
+/* Rows of `inner` numbers: row r becomes sum_j E_rj row j, in ascending j. */
+static void combine_rows(const double *extraction, size_t order, size_t inner, double *rows)
+{
+    double old[3 * CELL_POINTS];
+    memcpy(old, rows, order * inner * sizeof *old);
+    for (size_t r = 0; r < order; r++, extraction += order) {
+        double *const to = rows + r * inner;
+        for (size_t x = 0; x < inner; x++)
+            to[x] = extraction[0] * old[x];
+        for (size_t j = 1; j < order; j++)
+            for (size_t x = 0; x < inner; x++)
+                to[x] += extraction[j] * old[j * inner + x];
+    }
+}
+
+/* From a cell's control points to its Bezier points (P&T 5.3): N_j = sum_r E_rj B_r. */
+static void extract(const ffd_lattice *lattice, const size_t number[3], double *points)
+{
+    const size_t count = 3 * point_count(lattice);
+    size_t inner = 3;
     for (int a = 0; a < 3; a++) {
         const knot_vector *const knots = &lattice->knots[a];
         const size_t order = (size_t)knots->degree + 1;
-        span[a] = knots->spans[number[a]];
-        cell->degree[a] = knots->degree;
-        cell->first[a] = knots->t[span[a]];
-        cell->width[a] = knots->t[span[a] + 1] - knots->t[span[a]];
-        cell->extraction[a] = knots->extractions + number[a] * order * order;
+        for (size_t first = 0; first < count; first += order * inner)
+            combine_rows(knots->extractions + number[a] * order * order, order, inner, points + first);
+        inner *= order;
     }
+}
+
+size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients)
+{
+    return (needs_rest(lattice, gradients) ? 2 : 1) * 3 * point_count(lattice);
+}
+
+bool ffd_displacement_cell_points(const ffd_lattice *lattice, const size_t number[3], bool gradients,
+                                  double *numbers)
+{
+    int span[3];
+    for (int a = 0; a < 3; a++)
+        span[a] = lattice->knots[a].spans[number[a]];
     if (!ffd_displacement_reaches(lattice, span))
         return false;
-    ffd_lattice_cell_points(lattice, lattice->difference, span, difference);
-    cell->difference = difference;
-    cell->inverse = lattice->has_uvw_by_p ? lattice->uvw_by_p : NULL;
-    cell->rest = NULL;
-    if (gradients && !cell->inverse) {
-        ffd_lattice_cell_points(lattice, lattice->rest, span, rest);
-        cell->rest = rest;
-    }
+    ffd_lattice_cell_points(lattice, lattice->difference, span, numbers);
+    extract(lattice, number, numbers);
+    if (!needs_rest(lattice, gradients))
+        return true;
+    double *const rest = numbers + 3 * point_count(lattice);
+    ffd_lattice_cell_points(lattice, lattice->rest, span, rest);
+    extract(lattice, number, rest);
     return true;
+}
+
+void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], bool gradients,
+                                 const double *numbers, kernel_cell *cell)
+{
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &lattice->knots[a];
+        const int span = knots->spans[number[a]];
+        cell->degree[a] = knots->degree;
+        cell->first[a] = knots->t[span];
+        cell->width[a] = knots->t[span + 1] - knots->t[span];
+    }
+    cell->difference = numbers;
+    cell->inverse = lattice->has_uvw_by_p ? lattice->uvw_by_p : NULL;
+    cell->rest = needs_rest(lattice, gradients) ? numbers + 3 * point_count(lattice) : NULL;
 }

@@ -8,10 +8,16 @@
 /* Whether a moved control point acts in the cell whose last knot intervals are span. */
 bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3]);
 
-/* Fills the cell with these non-empty spans, for displacements alone or with gradients, and the buffers that
-   it points to (3 * CELL_POINTS each). Returns whether a moved control point acts in it. */
-bool ffd_displacement_load(const ffd_lattice *lattice, const size_t number[3], bool gradients,
-                           double *difference, double *rest, kernel_cell *cell);
+/* Numbers that the Bezier points of a cell of the lattice take, for displacements alone or with gradients:
+   those of the differences and, where there is no inverse for all, those at rest. */
+size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients);
+/* Finds them for the cell with these non-empty spans. Returns whether a moved control point acts in it; else
+   nothing is written. */
+bool ffd_displacement_cell_points(const ffd_lattice *lattice, const size_t number[3], bool gradients,
+                                  double *numbers);
+/* The cell itself, with these points. */
+void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], bool gradients,
+                                 const double *numbers, kernel_cell *cell);
 
 /* u,v,w within the periods of closed directions. */
 void ffd_displacement_wrap(const ffd_lattice *lattice, const double uvw[3], double inside[3]);

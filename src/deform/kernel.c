@@ -1,22 +1,18 @@
 /* kernel.c - compiled once for each instruction set: FFD_KERNEL is the function's name, FFD_LANES the number
    of points that it has in hand at a time.
 
-   The basis functions of a span are those of its Bezier form: N_j = sum_r E_rj B_r(t), all terms >= 0, and
-   exact at both ends of the span (P&T 1.4, 5.3). The tensor product is summed u first, then v, then w, each
-   in ascending index (P&T A4.3's order by separation). */
+   The Bernstein polynomials are all >= 0, and exact at both ends of the span (P&T 1.3). The tensor product is
+   summed u first, then v, then w, each in ascending index (P&T A4.3's order by separation). */
 #include "deform/kernel.h"
-#include <stdbool.h>
-
 #if FFD_LANES == 1
+#include <stdbool.h>
+#define ALWAYS_INLINE inline __attribute__((always_inline))
 typedef double lanes;
 #else
-typedef double lanes __attribute__((vector_size(8 * FFD_LANES)));
+#include "base/lanes.h"
 #endif
 
-/* Only where it knows degrees and wishes can the compiler keep the sums in registers. */
-#define ALWAYS_INLINE inline __attribute__((always_inline))
-
-/* The d+1 functions of a span and their derivatives by the knots' parameter. */
+/* The d+1 Bernstein polynomials of a span and their derivatives by the knots' parameter. */
 typedef struct span_basis {
     lanes value[MAX_ORDER], derivative[MAX_ORDER];
 } span_basis;
@@ -40,26 +36,15 @@ static ALWAYS_INLINE void raise_bernstein(int degree, lanes t, lanes rest, lanes
     value[degree] = from_left;
 }
 
-/* sum_r E_rj b_r for every j. */
-static ALWAYS_INLINE void extract(int degree, const double *extraction, const lanes *bernstein, lanes *value)
-{
-    for (int j = 0; j <= degree; j++) {
-        lanes sum = extraction[j] * bernstein[0];
-        for (int r = 1; r <= degree; r++)
-            sum += extraction[r * (degree + 1) + j] * bernstein[r];
-        value[j] = sum;
-    }
-}
-
 static ALWAYS_INLINE void find_basis(const kernel_cell *cell, int a, int degree, lanes u, bool derivatives,
                                      span_basis *basis)
 {
     const lanes t = (u - cell->first[a]) / cell->width[a], rest = 1.0 - t;
-    lanes bernstein[MAX_ORDER], slope[MAX_ORDER];
-    bernstein[0] = rest;
-    bernstein[1] = t;
+    lanes *const value = basis->value, *const slope = basis->derivative;
+    value[0] = rest;
+    value[1] = t;
     for (int d = 2; d < degree; d++)
-        raise_bernstein(d, t, rest, bernstein);
+        raise_bernstein(d, t, rest, value);
     if (derivatives) {
         /* B'_r = d (B_{r-1} - B_r), these of degree d - 1 (P&T 1.4). */
         const double factor = degree / cell->width[a];
@@ -67,16 +52,14 @@ static ALWAYS_INLINE void find_basis(const kernel_cell *cell, int a, int degree,
             slope[0] = t * 0.0 - factor;
             slope[1] = t * 0.0 + factor;
         } else {
-            slope[0] = -factor * bernstein[0];
+            slope[0] = -factor * value[0];
             for (int r = 1; r < degree; r++)
-                slope[r] = factor * (bernstein[r - 1] - bernstein[r]);
-            slope[degree] = factor * bernstein[degree - 1];
+                slope[r] = factor * (value[r - 1] - value[r]);
+            slope[degree] = factor * value[degree - 1];
         }
-        extract(degree, cell->extraction[a], slope, basis->derivative);
     }
     if (degree > 1)
-        raise_bernstein(degree, t, rest, bernstein);
-    extract(degree, cell->extraction[a], bernstein, basis->value);
+        raise_bernstein(degree, t, rest, value);
 }
 
 /* The basis function's share in a sum of the next direction; parts are those that term has. */
@@ -149,15 +132,28 @@ static ALWAYS_INLINE field_sum sum_cell(const int degree[3], const span_basis ba
     return sum;
 }
 
-static ALWAYS_INLINE lanes take(const double *first, size_t stride, const uint32_t *which)
+#if FFD_LANES > 1
+/* Whether the points' numbers are one after the other. They ascend, but for the last that may be repeated. */
+static ALWAYS_INLINE bool in_a_row(const uint32_t *which)
+{
+    return which[FFD_LANES - 1] - which[0] == FFD_LANES - 1 && which[FFD_LANES - 2] != which[FFD_LANES - 1];
+}
+#endif
+
+static ALWAYS_INLINE void take(const kernel_points *points, const uint32_t *which, lanes uvw[3])
 {
 #if FFD_LANES == 1
-    return first[which[0] * stride];
+    for (int a = 0; a < 3; a++)
+        uvw[a] = points->uvw[which[0] * points->stride + (size_t)a];
 #else
-    lanes taken;
+    double triples[3 * FFD_LANES];
+    if (points->stride == 3 && in_a_row(which)) {
+        lanes_load_triples(points->uvw + (size_t)which[0] * 3, uvw);
+        return;
+    }
     for (int l = 0; l < FFD_LANES; l++)
-        taken[l] = first[which[l] * stride];
-    return taken;
+        memcpy(triples + 3 * l, points->uvw + which[l] * points->stride, 3 * sizeof *triples);
+    lanes_load_triples(triples, uvw);
 #endif
 }
 
@@ -172,40 +168,53 @@ static ALWAYS_INLINE void put(lanes values, double *to, size_t step, const uint3
 #endif
 }
 
+static ALWAYS_INLINE void put_vector(const lanes values[3], double *to, size_t step, const uint32_t *which)
+{
+#if FFD_LANES > 1
+    if (step == 3 && in_a_row(which)) {
+        lanes_store_triples(values, to + (size_t)which[0] * 3);
+        return;
+    }
+#endif
+    for (int c = 0; c < 3; c++)
+        put(values[c], to + c, step, which);
+}
+
 /* The derivatives are the columns. */
-static ALWAYS_INLINE void put_matrix(const field_sum *sum, double *to, const uint32_t *which)
+static ALWAYS_INLINE void put_matrix(const field_sum *sum, double *to, size_t step, const uint32_t *which)
 {
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
-            put(sum->part[1 + c][r], to + 3 * r + c, 9, which);
+            put(sum->part[1 + c][r], to + 3 * r + c, step, which);
 }
 
 /* That matrix times m. */
-static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], double *to,
+static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], double *to, size_t step,
                                       const uint32_t *which)
 {
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             put(sum->part[1][r] * m[c] + sum->part[2][r] * m[3 + c] + sum->part[3][r] * m[6 + c],
-                to + 3 * r + c, 9, which);
+                to + 3 * r + c, step, which);
 }
 
 static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
                                    const uint32_t *which, bool derivatives, bool jacobian)
 {
     span_basis basis[3];
+    lanes uvw[3];
+    take(points, which, uvw);
     for (int a = 0; a < 3; a++)
-        find_basis(cell, a, degree[a], take(points->uvw + a, points->stride, which), derivatives, &basis[a]);
+        find_basis(cell, a, degree[a], uvw[a], derivatives, &basis[a]);
     const field_sum sum = sum_cell(degree, basis, cell->difference, derivatives);
-    for (int c = 0; c < 3; c++)
-        put(sum.part[0][c], points->delta + c, 3, which);
+    put_vector(sum.part[0], points->delta, points->delta_step, which);
     if (derivatives && cell->inverse)
-        put_product(&sum, cell->inverse, points->gradient, which);
+        put_product(&sum, cell->inverse, points->gradient, points->gradient_step, which);
     else if (derivatives)
-        put_matrix(&sum, points->gradient, which);
+        put_matrix(&sum, points->gradient, points->gradient_step, which);
     if (jacobian) {
         const field_sum rest = sum_cell(degree, basis, cell->rest, true);
-        put_matrix(&rest, points->jacobian, which);
+        put_matrix(&rest, points->jacobian, 9, which);
     }
 }
 

@@ -11,11 +11,10 @@
 /* One cell of a lattice without weights. */
 typedef struct kernel_cell {
     int degree[3];
-    double first[3], width[3];   /* the span's first knot and length */
-    const double *extraction[3]; /* the span's Bezier form (basis.h) */
-    const double *difference;    /* Q - P of the cell's control points, u fastest, 3 numbers each */
-    const double *rest;          /* P likewise; needed for the Jacobian */
-    const double *inverse;       /* d uvw / d p, 3 x 3, where it is the same everywhere; else NULL */
+    double first[3], width[3]; /* the span's first knot and length */
+    const double *difference;  /* Q - P as the cell's Bezier points, u fastest, 3 numbers each */
+    const double *rest;        /* P likewise; needed for the Jacobian */
+    const double *inverse;     /* d uvw / d p, 3 x 3, where it is the same everywhere; else NULL */
 } kernel_cell;
 
 /* Points of the cell, and where their results go. */
@@ -24,9 +23,12 @@ typedef struct kernel_points {
     size_t stride;         /* 3 or more */
     const uint32_t *which; /* the numbers n of the points that are wanted */
     size_t count;          /* of them, 1 or more */
-    double *delta;         /* 3 for each n: sum (Q - P) N N N */
-    double *gradient; /* 9 for each n or NULL: d delta_r / d p_c is gradient[9 n + 3 r + c] where the cell has
-                         the inverse; else it is d delta_r / d uvw_c */
+    double *delta;         /* 3 for each n, from delta[n * delta_step] on: sum (Q - P) N N N */
+    size_t delta_step;
+    double
+        *gradient; /* 9 for each n, from gradient[n * gradient_step] on, or NULL: the number 3 r + c of them
+                      is d delta_r / d p_c where the cell has the inverse; else it is d delta_r / d uvw_c */
+    size_t gradient_step;
     double *jacobian; /* 9 for each n, d p_r / d uvw_c; or NULL. Not without the gradient. */
 } kernel_points;
 

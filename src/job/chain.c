@@ -103,8 +103,27 @@ static void note_location(const ffd_lattice *lattice, const ffd_location *locati
     memcpy(point->uvw, location->uvw, sizeof point->uvw);
 }
 
+/* Where a link's displacements go: those of the first straight to the points. */
+static displacement_batch begin_batch(const chain_run *run, size_t link)
+{
+    chain_scratch *scratch = run->scratch;
+    const size_t point = sizeof *run->points / sizeof(double);
+    displacement_batch batch = {.uvw = scratch->locations[0].uvw,
+                                .stride = sizeof *scratch->locations / sizeof(double),
+                                .which = scratch->inside,
+                                .delta = link == 0 ? run->points[0].delta : scratch->delta,
+                                .delta_step = link == 0 ? point : 3,
+                                .gradient = link == 0 ? run->points[0].gradient : scratch->gradient,
+                                .gradient_step = link == 0 ? point : 9,
+                                .moves = scratch->moves};
+    if (!run->gradients)
+        batch.gradient = NULL;
+    return batch;
+}
+
 /* The displacement of a point outside, into where the batch puts those of the others. */
-static ffd_status extend(const chain_link *link, const chain_run *run, size_t i, ffd_error *error)
+static ffd_status extend(const chain_link *link, const chain_run *run, const displacement_batch *batch,
+                         size_t i, ffd_error *error)
 {
     chain_scratch *scratch = run->scratch;
     chain_point *point = &run->points[i];
@@ -117,46 +136,47 @@ static ffd_status extend(const chain_link *link, const chain_run *run, size_t i,
     if (status || !nearest.found)
         return status;
     point->extended = point->extended || nearest.distance < reach || !(link->falloff > 0);
-    scratch->moves[i] =
-        (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, scratch->delta + 3 * i,
-                                            run->gradients ? scratch->gradient + 9 * i : NULL);
+    scratch->moves[i] = (uint8_t)ffd_extension_displacement(
+        link->lattice, &nearest, link->falloff, batch->delta + i * batch->delta_step,
+        batch->gradient ? batch->gradient + i * batch->gradient_step : NULL);
     return FFD_OK;
 }
 
 static ffd_status find_displacements(const lattice_chain *chain, const chain_link *link, const chain_run *run,
-                                     ffd_error *error)
+                                     displacement_batch *batch, ffd_error *error)
 {
     chain_scratch *scratch = run->scratch;
-    displacement_batch batch = {.uvw = scratch->locations[0].uvw,
-                                .stride = sizeof *scratch->locations / sizeof(double),
-                                .which = scratch->inside,
-                                .delta = scratch->delta,
-                                .gradient = run->gradients ? scratch->gradient : NULL,
-                                .moves = scratch->moves};
     for (size_t i = 0; i < run->count; i++) {
-        const ffd_status status = has_place(&scratch->locations[i]) ? FFD_OK : extend(link, run, i, error);
+        if (has_place(&scratch->locations[i])) {
+            scratch->inside[batch->count++] = (uint32_t)i;
+            continue;
+        }
+        const ffd_status status = extend(link, run, batch, i, error);
         if (status)
             return status;
-        if (has_place(&scratch->locations[i]))
-            scratch->inside[batch.count++] = (uint32_t)i;
     }
-    ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
+    ffd_displacements(link->lattice, chain->isa, batch, &scratch->displacement);
     return FFD_OK;
 }
 
-static void displace(const chain_run *run, size_t i)
+static void displace(const chain_run *run, const displacement_batch *batch, size_t i)
 {
     chain_point *point = &run->points[i];
-    const double *delta = run->scratch->delta + 3 * i, *gradient = run->scratch->gradient + 9 * i;
+    const double *delta = batch->delta + i * batch->delta_step;
+    const bool is_there = delta == point->delta;
     for (int a = 0; a < 3; a++)
         if (delta[a] != 0) {
             run->x[3 * i + (size_t)a] += delta[a];
-            point->delta[a] += delta[a];
+            if (!is_there)
+                point->delta[a] += delta[a];
         }
-    if (run->gradients && point->moved)
-        compose(point->gradient, gradient);
-    else if (run->gradients)
-        memcpy(point->gradient, gradient, sizeof point->gradient);
+    if (batch->gradient && !is_there) {
+        const double *gradient = batch->gradient + i * batch->gradient_step;
+        if (point->moved)
+            compose(point->gradient, gradient);
+        else
+            memcpy(point->gradient, gradient, sizeof point->gradient);
+    }
     point->moved = true;
 }
 
@@ -174,11 +194,12 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
         run->embed_seconds += middle - start;
         for (size_t i = 0; i < run->count && !status; i++)
             note_location(link->lattice, &scratch->locations[i], &run->points[i]);
+        displacement_batch batch = begin_batch(run, l);
         if (!status)
-            status = find_displacements(chain, link, run, error);
+            status = find_displacements(chain, link, run, &batch, error);
         for (size_t i = 0; i < run->count && !status; i++)
             if (scratch->moves[i])
-                displace(run, i);
+                displace(run, &batch, i);
         run->deform_seconds += ffd_clock_seconds() - middle;
         if (status)
             return status;

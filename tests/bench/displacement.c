@@ -76,6 +76,8 @@ static void run_batches(sample *s)
                                           .which = s->which,
                                           .count = rest < DISPLACEMENT_BATCH ? rest : DISPLACEMENT_BATCH,
                                           .delta = s->delta,
+                                          .delta_step = 3,
+                                          .gradient_step = 9,
                                           .gradient = s->gradients ? s->gradient : NULL,
                                           .moves = s->moves};
         ffd_displacements(s->lattice, s->isa, &batch, &s->scratch);
@@ -134,6 +136,7 @@ int main(int count, char **arguments)
     for (size_t size = 8; size <= 64; size *= 8)
         for (int box = 1; box >= 0; box--) {
             s->lattice = make_lattice(size, box);
+            ffd_displacement_scratch_clear(&s->scratch);
             printf("%zu^3 %s, millions a second\n", size, box ? "box" : "general");
             for (s->isa = FFD_ISA_SCALAR; s->isa <= FFD_ISA_AVX512; s->isa++) {
                 if (!ffd_isa_available(s->isa))

@@ -100,6 +100,8 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
                                 .stride = 3 + (size_t)draw_int(d, 0, 1),
                                 .which = s->which,
                                 .delta = s->delta + odd,
+                                .delta_step = 3,
+                                .gradient_step = 9,
                                 .gradient = draw_int(d, 0, 2) ? s->gradient + 1 - odd : NULL,
                                 .moves = s->moves};
     for (size_t n = 0; n < DISPLACEMENT_BATCH; n++) {
@@ -116,6 +118,9 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
             continue;
         memset(s->delta, 0xff, sizeof s->delta);
         memset(s->gradient, 0xff, sizeof s->gradient);
+        /* Cells from the batch before, or none. */
+        if (draw_int(d, 0, 1))
+            ffd_displacement_scratch_clear(&s->scratch);
         ffd_displacements(lattice, isa, &batch, &s->scratch);
         for (size_t k = 0; k < batch.count; k++)
             check_point(lattice, &batch, s->which[k], names[isa]);
@@ -129,6 +134,7 @@ static void batches_give_what_points_get_alone(void **state)
     assert_non_null(s);
     for (int i = 0; i < LATTICES; i++) {
         ffd_lattice *lattice = random_lattice(&d, i);
+        ffd_displacement_scratch_clear(&s->scratch);
         for (int round = 0; round < ROUNDS; round++)
             check_batch(&d, lattice, s);
         ffd_lattice_destroy(&lattice);
