@@ -63,6 +63,9 @@ typedef struct ffd_source {
        FFD_E_LIMIT. Estimated, and without that of the lattice. */
     uint64_t memory;
     int threads; /* for reading and writing it: 0: those of the job, or all cores */
+    /* Normals will not be asked for: a format may leave them out, and does not describe them then. Set by
+       jobs that keep them. */
+    bool only_positions;
 } ffd_source;
 
 /* Whether text is a selector as ffd_deform_desc's only takes it. Errors: FFD_E_ARGUMENT, with the nearest

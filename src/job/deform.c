@@ -87,12 +87,21 @@ static ffd_status begin_morph(deform_job *job, ffd_error *error)
     return format->keep_base(job->document, job->desc->as_morph, error);
 }
 
+/* Whether nothing that is asked for looks at normals. */
+static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_options *options)
+{
+    ffd_format input;
+    return desc->normals == FFD_NORMALS_KEEP && !desc->quality && desc->only_count == 0 &&
+           ffd_source_format(&desc->input, &input, NULL) == FFD_OK && input == options->format;
+}
+
 static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
     ffd_status status = resolve_output(job->desc, &options, error);
     if (!status)
         status = check_morph(job, &options, error);
+    job->only_positions = !status && needs_only_positions(job->desc, &options);
     if (!status)
         status = ffd_deform_job_open(job, result, error);
     if (!status)

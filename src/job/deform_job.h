@@ -8,8 +8,9 @@
 /* What a job holds while it runs. */
 typedef struct deform_job {
     const ffd_deform_desc *desc;
-    bool check;      /* nothing will be written; all figures are wanted */
-    bool recomputes; /* there are normals, and they are to be those of the deformed faces */
+    bool check;          /* nothing will be written; all figures are wanted */
+    bool recomputes;     /* there are normals, and they are to be those of the deformed faces */
+    bool only_positions; /* set before opening: nothing asked for looks at normals */
     int threads;
     mesh_log log;
     lattice_chain chain;

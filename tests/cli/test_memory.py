@@ -222,6 +222,21 @@ def short_lines_of_obj(run):
 
 
 @case
+def more_vertices_than_memory(run):
+    """The positions of a large OBJ do not stay in memory."""
+    block = b"".join(b"v %d %d %d\n" % (i % 10, i // 10 % 10, i // 100) for i in range(1000))
+    with open(run.path("a.obj"), "wb") as file:
+        for _ in range(16000):
+            file.write(block)
+        file.write(b"f 1 2 3\n")
+    run.write("l.json", json.dumps(LATTICE))
+    for normals in ("keep", "transform"):
+        code, peak, line = measure(run, [*COMMANDS["deform"][:1], "a.obj", "b.obj", "-l", "l.json", "--force", "--normals", normals])
+        equal(code, OK, line)
+        check(peak < 350e6, f"{peak / 1e6:.0f} MB, where positions and results have {16000000 * 48 / 1e6:.0f}")
+
+
+@case
 def short_lines_of_others(run):
     head = b"ply\nformat binary_little_endian 1.0\nelement vertex 3\n" \
            b"property float x\nproperty float y\nproperty float z\n" \

@@ -6,7 +6,7 @@ import struct
 import subprocess
 
 from gltf_reader import Gltf
-from harness import (CUBE_CORNERS, CUBE_FACES, INVALID, MODELS, case, check, equal, glb, glb_split, gltf_json,
+from harness import (CUBE_CORNERS, CUBE_FACES, INVALID, MODELS, OK, case, check, equal, glb, glb_split, gltf_json,
                      gltf_vectors, lattice, main, near)
 from vectors import cross, dot, minus, unit
 
@@ -150,6 +150,24 @@ def hard_edges_stay_hard(run):
     equal(compare_obj(Obj(hard_cube()), after, "twisted"), (24, 0))
     equal(len(after.normals), 6, "one a face")
     equal([[n for _, n in face] for face in after.faces], [[i] * 4 for i in range(6)], "the numbers stay")
+
+
+@case
+def kept_normals_are_checked(run):
+    """`--normals keep` leaves them as they are, and refuses what is refused without it."""
+    cube = hard_cube()
+    run.write("l.json", lattice(moves=TWIST))
+    for text, code in ((cube, OK), (cube.replace("vn ", "vn x ", 1), INVALID), (cube.replace("//1", "//9", 1), INVALID),
+                       (cube.replace("//1", "//0", 1), INVALID), (cube.replace("//1", "//-7", 1), INVALID)):
+        run.write("a.obj", text)
+        keep = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--normals", "keep", "-q", code=code)
+        other = run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "--force", "-q", code=code)
+        equal(keep.err, other.err, text)
+        if code == OK:
+            lines = run.read("b.obj").decode().splitlines()
+            equal(lines[8:], cube.splitlines()[8:], "normals and faces")
+            equal(lines[:8], run.read("c.obj").decode().splitlines()[:8], "positions")
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--normals", "keep", code=INVALID)
 
 
 @case

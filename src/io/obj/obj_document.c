@@ -59,15 +59,15 @@ static void free_document(obj_document *d)
 {
     ffd_obj_blocks_free(&d->blocks);
     ffd_free(d->name);
-    ffd_free(d->positions);
-    ffd_free(d->directions);
+    ffd_spill_free(&d->position_store);
+    ffd_spill_free(&d->direction_store);
+    ffd_spill_free(&d->result_store);
     ffd_free(d->pair_start);
     ffd_free(d->pair_normal);
     ffd_free(d->selected_vertices);
     ffd_free(d->selected_faces);
     ffd_free(d->selected_pairs);
     ffd_free(d->held_normals);
-    ffd_free(d->new_positions);
     ffd_free(d->new_directions);
     ffd_free(d);
 }
@@ -80,6 +80,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
         return ffd_fail_memory(error);
     d->input = *input;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
+    d->only_positions = source->only_positions;
     d->name = ffd_text_copy(ffd_path_shown(source->path));
     ffd_status status = d->name ? check_encoding(d, error) : ffd_fail_memory(error);
     if (status == FFD_OK)

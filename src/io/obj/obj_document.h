@@ -6,6 +6,7 @@
 #ifndef FFD_IO_OBJ_OBJ_DOCUMENT_H
 #define FFD_IO_OBJ_OBJ_DOCUMENT_H
 
+#include "base/spill.h"
 #include "io/obj/obj_blocks.h"
 #include "io/obj/obj_walk.h"
 #include "mesh/mesh.h"
@@ -14,15 +15,20 @@
 #define OBJ_ELEMENTS_MAX (UINT32_MAX - 1)
 #define OBJ_NONE UINT32_MAX
 
+/* Bytes of a position or direction. */
+#define OBJ_VECTOR (3 * sizeof(double))
+
 typedef struct obj_document {
     mesh_document base;
     mesh_part part;
     file_input input;
-    char *name;                           /* for messages */
-    size_t vertices, texcoords, normals;  /* `v`, `vt`, `vn` */
-    size_t faces, corners, lines, points; /* statements; corners of faces */
-    double *positions;                    /* 3 a `v` */
-    double *directions;                   /* 3 a `vn` */
+    char *name;                                                /* for messages */
+    size_t vertices, texcoords, normals;                       /* `v`, `vt`, `vn` */
+    size_t faces, corners, lines, points;                      /* statements; corners of faces */
+    const double *positions;                                   /* 3 a `v` */
+    const double *directions;                                  /* 3 a `vn`; NULL: not held */
+    spill_array position_store, direction_store, result_store; /* of these two and new_positions */
+    bool only_positions; /* normals are checked but not held, and the part shows none */
     /* A pair is a vertex with one of its normals: pairs pair_start[i] .. pair_start[i+1]-1 are those of
        vertex i, with the `vn` pair_normal[.] (from 0) ascending. NULL where no face corner names a normal. */
     uint32_t *pair_start, *pair_normal;
@@ -54,6 +60,9 @@ void ffd_obj_document_walk_block(const obj_document *document, size_t block, obj
 ffd_status ffd_obj_read_vectors(obj_document *document, ffd_error *error);
 /* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
 ffd_status ffd_obj_read_faces(obj_document *document, ffd_error *error);
+
+/* Gives back the memory of positions and results of so many vertices, where they stand in a file. */
+void ffd_obj_forget_vectors(const obj_document *document, size_t first, size_t count);
 
 /* The pair of a face's corner that has a normal. */
 size_t ffd_obj_find_pair(const obj_document *document, const obj_face_corner *corner);

@@ -64,7 +64,7 @@ static ffd_status add_normal(const obj_document *d, const obj_walk *walk, size_t
 {
     size_t normal;
     const ffd_status status = check_index(d, &walk->scan, *index, walk->normals, "normal", &normal, error);
-    if (status)
+    if (status || d->only_positions)
         return status;
     if (!ffd_grow((void **)&block->with_normal, &block->capacity, block->count + 1,
                   sizeof *block->with_normal))

@@ -144,6 +144,7 @@ static void make_block(const saver *all, size_t number, byte_buffer *text)
         write_statement(&s, &walk, faces);
     }
     ffd_splice_end(&s.splice);
+    ffd_obj_forget_vectors(all->document, block->vertices, walk.vertices.seen - block->vertices);
 }
 
 /* Whether some statement of the block can change. */

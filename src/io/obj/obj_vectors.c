@@ -3,6 +3,7 @@
 #include "base/thread.h"
 #include "io/obj/obj_document.h"
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <string.h>
 
 /* So many blocks at least, for threads to share, unless they would be smaller than that. */
@@ -27,7 +28,11 @@ typedef struct block_content {
 
 typedef struct reader {
     obj_document *document;
-    block_content *contents; /* of each block */
+    block_content *contents; /* of each worker's block */
+    size_t line, faces;      /* before the next block */
+    size_t failed;           /* the first block that could not be read; SIZE_MAX: none so far */
+    ffd_status status;       /* of that block */
+    atomic_bool is_over;
 } reader;
 
 static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char *what, vectors *list,
@@ -81,6 +86,12 @@ static ffd_status read_block(const obj_document *d, size_t block, block_content 
     return status;
 }
 
+static void clear_content(block_content *content)
+{
+    content->positions.count = content->normals.count = 0;
+    *content = (block_content){.positions = content->positions, .normals = content->normals};
+}
+
 static void free_content(block_content *content)
 {
     ffd_free(content->positions.xyz);
@@ -89,17 +100,64 @@ static void free_content(block_content *content)
 
 static void read_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
-    const reader *r = context;
+    reader *r = context;
+    obj_block *block = &r->document->blocks.list[first];
+    block_content content = r->contents[worker]; /* the thread's own: the list's share lines of the cache */
     (void)tile;
-    (void)worker;
-    for (size_t i = first; i < last; i++) {
-        obj_block *block = &r->document->blocks.list[i];
-        block_content content = {0}; /* the thread's own: the list's share lines of the cache */
+    (void)last;
+    clear_content(&content);
+    if (!atomic_load(&r->is_over)) {
         block->plain = ffd_obj_is_plain(block->first, block->last);
-        content.status = read_block(r->document, i, &content, NULL);
-        r->contents[i] = content;
-        ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
+        content.status = read_block(r->document, first, &content, NULL);
     }
+    r->contents[worker] = content;
+    ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
+}
+
+static bool append(const vectors *from, size_t count, spill_array *to)
+{
+    const size_t size = from->count * OBJ_VECTOR, old = count * OBJ_VECTOR;
+    if (!ffd_spill_grow(to, old + size))
+        return false;
+    if (size > 0)
+        memcpy((char *)to->data + old, from->xyz, size);
+    ffd_spill_forget(to, old, size);
+    return true;
+}
+
+/* Gives the block its place in the file, and takes over what it has. */
+static void join_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    reader *r = context;
+    obj_document *d = r->document;
+    obj_block *block = &d->blocks.list[first];
+    const block_content *content = &r->contents[worker];
+    (void)tile;
+    (void)last;
+    if (r->failed != SIZE_MAX)
+        return;
+    block->line = r->line;
+    block->vertices = d->vertices;
+    block->texcoords = d->texcoords;
+    block->normals = d->normals;
+    block->faces = r->faces;
+    block->names_elements = content->names_elements;
+    r->status = content->status;
+    if (r->status == FFD_OK &&
+        (!append(&content->positions, d->vertices, &d->position_store) ||
+         (!d->only_positions && !append(&content->normals, d->normals, &d->direction_store))))
+        r->status = FFD_E_MEMORY;
+    if (r->status) {
+        r->failed = first;
+        atomic_store(&r->is_over, true);
+        return;
+    }
+    r->line += content->lines;
+    r->faces += content->faces;
+    d->vertices += content->positions.count;
+    d->texcoords += content->texcoords;
+    d->normals += content->normals.count;
+    d->addition = content->addition ? content->addition : d->addition;
 }
 
 /* Reads a block that has failed again, now that its place is known, for the words. */
@@ -113,32 +171,6 @@ static ffd_status find_failure(const obj_document *d, size_t block, ffd_status s
     return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
 }
 
-/* Gives the blocks their places in the file. Stops at the first that has failed. */
-static ffd_status number_blocks(reader *r, ffd_error *error)
-{
-    obj_document *d = r->document;
-    size_t line = 1, faces = 0;
-    for (size_t i = 0; i < d->blocks.count; i++) {
-        obj_block *block = &d->blocks.list[i];
-        const block_content *content = &r->contents[i];
-        block->line = line;
-        block->vertices = d->vertices;
-        block->texcoords = d->texcoords;
-        block->normals = d->normals;
-        block->faces = faces;
-        block->names_elements = content->names_elements;
-        if (content->status)
-            return find_failure(d, i, content->status, error);
-        line += content->lines;
-        faces += content->faces;
-        d->vertices += content->positions.count;
-        d->texcoords += content->texcoords;
-        d->normals += content->normals.count;
-        d->addition = content->addition ? content->addition : d->addition;
-    }
-    return FFD_OK;
-}
-
 static ffd_status check_counts(const obj_document *d, ffd_error *error)
 {
     if (d->vertices <= OBJ_ELEMENTS_MAX && d->normals <= OBJ_ELEMENTS_MAX)
@@ -147,41 +179,15 @@ static ffd_status check_counts(const obj_document *d, ffd_error *error)
                          OBJ_ELEMENTS_MAX);
 }
 
-static void take_vectors(vectors *from, double *to)
-{
-    if (from->count > 0)
-        memcpy(to, from->xyz, 3 * from->count * sizeof *to);
-    ffd_free(from->xyz);
-    *from = (vectors){0};
-}
-
-static void join_tile(void *context, size_t tile, size_t first, size_t last, int worker)
-{
-    const reader *r = context;
-    const obj_document *d = r->document;
-    (void)tile;
-    (void)worker;
-    for (size_t i = first; i < last; i++) {
-        take_vectors(&r->contents[i].positions, d->positions + 3 * d->blocks.list[i].vertices);
-        take_vectors(&r->contents[i].normals, d->directions + 3 * d->blocks.list[i].normals);
-    }
-}
-
 static ffd_status read_blocks(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
-    ffd_parallel_tiles(d->blocks.count, 1, d->threads, read_tile, r);
-    ffd_status status = number_blocks(r, error);
-    if (status == FFD_OK)
-        status = check_counts(d, error);
-    if (status)
-        return status;
-    d->positions = ffd_alloc(d->vertices, 3 * sizeof *d->positions);
-    d->directions = ffd_alloc(d->normals, 3 * sizeof *d->directions);
-    if (!d->positions || !d->directions)
-        return ffd_fail_memory(error);
-    ffd_parallel_tiles(d->blocks.count, 1, d->threads, join_tile, r);
-    return FFD_OK;
+    ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r);
+    if (r->failed != SIZE_MAX)
+        return find_failure(d, r->failed, r->status, error);
+    d->positions = d->position_store.data;
+    d->directions = d->direction_store.data;
+    return check_counts(d, error);
 }
 
 static ffd_status cut(obj_document *d, ffd_error *error)
@@ -202,9 +208,13 @@ ffd_status ffd_obj_read_vectors(obj_document *d, ffd_error *error)
     ffd_status status = cut(d, error);
     if (status)
         return status;
-    reader r = {.document = d, .contents = ffd_alloc_zero(d->blocks.count, sizeof *r.contents)};
+    reader r = {.document = d,
+                .contents = ffd_alloc_zero((size_t)d->threads, sizeof *r.contents),
+                .line = 1,
+                .failed = SIZE_MAX};
+    atomic_init(&r.is_over, false);
     status = r.contents ? read_blocks(&r, error) : ffd_fail_memory(error);
-    for (size_t i = 0; r.contents && i < d->blocks.count; i++)
+    for (int i = 0; r.contents && i < d->threads; i++)
         free_content(&r.contents[i]);
     ffd_free(r.contents);
     return status;

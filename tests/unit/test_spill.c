@@ -1,0 +1,97 @@
+/* test_spill.c - arrays that move into a file when they grow large. */
+#include "base/memory.h"
+#include "base/spill.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define STEP (SPILL_FROM / 4 + 12345)
+
+static unsigned char mark_of(size_t step)
+{
+    return (unsigned char)(17 * step + 1);
+}
+
+/* Grows in steps to three times the size of the least file; each step marks its ends. */
+static void grow_and_check(bool is_mapped)
+{
+    spill_array array = {0};
+    const size_t steps = 3 * (SPILL_FROM / STEP);
+    for (size_t s = 0; s < steps; s++) {
+        assert_true(ffd_spill_grow(&array, (s + 1) * STEP));
+        unsigned char *data = array.data;
+        data[s * STEP] = data[(s + 1) * STEP - 1] = mark_of(s);
+        ffd_spill_forget(&array, s * STEP, STEP);
+    }
+    assert_true(array.size >= steps * STEP);
+    assert_true(array.is_mapped == is_mapped);
+    for (size_t s = 0; s < steps; s++) {
+        const unsigned char *data = array.data;
+        assert_int_equal(data[s * STEP], mark_of(s));
+        assert_int_equal(data[(s + 1) * STEP - 1], mark_of(s));
+    }
+    ffd_spill_free(&array);
+    assert_null(array.data);
+}
+
+static void large_arrays_stand_in_a_file(void **state)
+{
+    (void)state;
+    unsetenv("TMPDIR");
+    grow_and_check(true);
+    setenv("TMPDIR", "/tmp", 1);
+    grow_and_check(true);
+}
+
+static void without_a_folder_they_stay_in_memory(void **state)
+{
+    (void)state;
+    setenv("TMPDIR", "/nonexistent", 1);
+    grow_and_check(false);
+    unsetenv("TMPDIR");
+}
+
+static void small_arrays_do_not_need_one(void **state)
+{
+    (void)state;
+    spill_array array = {0};
+    assert_true(ffd_spill_grow(&array, 0));
+    assert_non_null(array.data);
+    assert_true(ffd_spill_grow(&array, 1000));
+    *(unsigned char *)array.data = 7;
+    ffd_spill_forget(&array, 0, 1000);
+    assert_true(ffd_spill_grow(&array, 1 << 20));
+    assert_int_equal(*(unsigned char *)array.data, 7);
+    assert_false(array.is_mapped);
+    ffd_spill_free(&array);
+}
+
+static void failures_leave_it_as_it_was(void **state)
+{
+    (void)state;
+    spill_array array = {0};
+    assert_true(ffd_spill_grow(&array, 100));
+    void *data = array.data;
+    ffd_alloc_fail_after(0);
+    assert_false(ffd_spill_grow(&array, 1000));
+    ffd_alloc_fail_after(-1);
+    assert_true(array.data == data && array.size == 100);
+    assert_false(ffd_spill_grow(&array, SIZE_MAX / 2));
+    assert_true(array.data == data && array.size == 100);
+    ffd_spill_free(&array);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(large_arrays_stand_in_a_file),
+        cmocka_unit_test(without_a_folder_they_stay_in_memory),
+        cmocka_unit_test(small_arrays_do_not_need_one),
+        cmocka_unit_test(failures_leave_it_as_it_was),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
