@@ -69,6 +69,70 @@ static ALWAYS_INLINE void lanes_apply(const double m[9], const lanes v[3], lanes
         out[r] = m[3 * r] * v[0] + m[3 * r + 1] * v[1] + m[3 * r + 2] * v[2];
 }
 
+/* The transpose of a square of numbers, in place. */
+static ALWAYS_INLINE void lanes_transpose(lanes row[FFD_LANES])
+{
+#if FFD_LANES == 8
+    lanes pair[8], four[8];
+    for (int i = 0; i < 8; i += 2) {
+        pair[i] = __builtin_shufflevector(row[i], row[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        pair[i + 1] = __builtin_shufflevector(row[i], row[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int i = 0; i < 8; i += 4)
+        for (int c = 0; c < 2; c++) {
+            four[i + c] = __builtin_shufflevector(pair[i + c], pair[i + 2 + c], 0, 1, 8, 9, 4, 5, 12, 13);
+            four[i + 2 + c] =
+                __builtin_shufflevector(pair[i + c], pair[i + 2 + c], 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    for (int c = 0; c < 4; c++) {
+        row[c] = __builtin_shufflevector(four[c], four[4 + c], 0, 1, 2, 3, 8, 9, 10, 11);
+        row[4 + c] = __builtin_shufflevector(four[c], four[4 + c], 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+#elif FFD_LANES == 4
+    lanes pair[4];
+    for (int i = 0; i < 4; i += 2) {
+        pair[i] = __builtin_shufflevector(row[i], row[i + 1], 0, 4, 2, 6);
+        pair[i + 1] = __builtin_shufflevector(row[i], row[i + 1], 1, 5, 3, 7);
+    }
+    for (int c = 0; c < 2; c++) {
+        row[c] = __builtin_shufflevector(pair[c], pair[2 + c], 0, 1, 4, 5);
+        row[2 + c] = __builtin_shufflevector(pair[c], pair[2 + c], 2, 3, 6, 7);
+    }
+#else
+    const lanes first = __builtin_shufflevector(row[0], row[1], 0, 2);
+    row[1] = __builtin_shufflevector(row[0], row[1], 1, 3);
+    row[0] = first;
+#endif
+}
+
+/* Nine numbers of each of FFD_LANES places, from and to a register for each number. */
+static ALWAYS_INLINE void lanes_load_nines(const double *const from[FFD_LANES], lanes v[9])
+{
+    for (int first = 0; first < 8; first += FFD_LANES) {
+        for (int l = 0; l < FFD_LANES; l++)
+            v[first + l] = lanes_load(from[l] + first);
+        lanes_transpose(v + first);
+    }
+    double last[FFD_LANES];
+    for (int l = 0; l < FFD_LANES; l++)
+        last[l] = from[l][8];
+    v[8] = lanes_load(last);
+}
+
+static ALWAYS_INLINE void lanes_store_nines(const lanes v[9], double *const to[FFD_LANES])
+{
+    for (int first = 0; first < 8; first += FFD_LANES) {
+        lanes row[FFD_LANES];
+        for (int l = 0; l < FFD_LANES; l++)
+            row[l] = v[first + l];
+        lanes_transpose(row);
+        for (int l = 0; l < FFD_LANES; l++)
+            lanes_store(row[l], to[l] + first);
+    }
+    for (int l = 0; l < FFD_LANES; l++)
+        to[l][8] = v[8][l];
+}
+
 /* Vectors of three that stand one behind the other, from and to a register for each coordinate. */
 static ALWAYS_INLINE void lanes_load_triples(const double *from, lanes v[3])
 {

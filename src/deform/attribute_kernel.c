@@ -13,17 +13,15 @@ typedef struct gradient_lanes {
 
 static ALWAYS_INLINE void load_gradients(const attribute_batch *batch, size_t first, gradient_lanes *at)
 {
-    double entry[9][FFD_LANES];
-    for (size_t l = 0; l < FFD_LANES; l++) {
-        const double *const gradient = batch->gradients + batch->points[first + l] * batch->stride;
-        for (int i = 0; i < 9; i++)
-            entry[i][l] = gradient[i];
-    }
+    const double *gradient[FFD_LANES];
+    lanes e[9];
+    for (size_t l = 0; l < FFD_LANES; l++)
+        gradient[l] = batch->gradients + batch->points[first + l] * batch->stride;
+    lanes_load_nines(gradient, e);
     at->still = ~(mask){0};
     for (int i = 0; i < 9; i++) {
-        const lanes e = lanes_load(entry[i]);
-        at->still &= e == 0.0;
-        at->f[i] = e + (i % 4 == 0 ? 1.0 : 0.0);
+        at->still &= e[i] == 0.0;
+        at->f[i] = e[i] + (i % 4 == 0 ? 1.0 : 0.0);
     }
 }
 
@@ -61,8 +59,9 @@ static ALWAYS_INLINE void finish(const attribute_batch *batch, size_t first, mas
 {
     const lanes old_square = lanes_dot(before, before), square = lanes_dot(carried, carried);
     const lanes length = lanes_root(square);
+    /* The square and 1 are more than the length before: what is close to collapse is left open. */
     const mask is_carried = is_ordinary(old_square) & is_ordinary(square) &
-                            (length > 16 * DBL_EPSILON * (size * lanes_root(old_square)));
+                            (length > 16 * DBL_EPSILON * (size * (old_square + 1.0)));
     lanes result[3];
     for (int a = 0; a < 3; a++)
         result[a] = lanes_choose(is_carried & ~still, carried[a] / length, before[a]);

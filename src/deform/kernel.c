@@ -180,22 +180,40 @@ static ALWAYS_INLINE void put_vector(const lanes values[3], double *to, size_t s
         put(values[c], to + c, step, which);
 }
 
-/* The derivatives are the columns. */
-static ALWAYS_INLINE void put_matrix(const field_sum *sum, double *to, size_t step, const uint32_t *which)
+static ALWAYS_INLINE void put_matrix(const lanes m[9], double *to, size_t step, const uint32_t *which)
 {
+#if FFD_LANES == 1
+    for (int i = 0; i < 9; i++)
+        put(m[i], to + i, step, which);
+#else
+    double *place[FFD_LANES];
+    for (int l = 0; l < FFD_LANES; l++)
+        place[l] = to + which[l] * step;
+    lanes_store_nines(m, place);
+#endif
+}
+
+/* The derivatives are the columns. */
+static ALWAYS_INLINE void put_derivatives(const field_sum *sum, double *to, size_t step,
+                                          const uint32_t *which)
+{
+    lanes m[9];
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
-            put(sum->part[1 + c][r], to + 3 * r + c, step, which);
+            m[3 * r + c] = sum->part[1 + c][r];
+    put_matrix(m, to, step, which);
 }
 
 /* That matrix times m. */
 static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], double *to, size_t step,
                                       const uint32_t *which)
 {
+    lanes product[9];
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
-            put(sum->part[1][r] * m[c] + sum->part[2][r] * m[3 + c] + sum->part[3][r] * m[6 + c],
-                to + 3 * r + c, step, which);
+            product[3 * r + c] =
+                sum->part[1][r] * m[c] + sum->part[2][r] * m[3 + c] + sum->part[3][r] * m[6 + c];
+    put_matrix(product, to, step, which);
 }
 
 static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
@@ -211,10 +229,10 @@ static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3],
     if (derivatives && cell->inverse)
         put_product(&sum, cell->inverse, points->gradient, points->gradient_step, which);
     else if (derivatives)
-        put_matrix(&sum, points->gradient, points->gradient_step, which);
+        put_derivatives(&sum, points->gradient, points->gradient_step, which);
     if (jacobian) {
         const field_sum rest = sum_cell(degree, basis, cell->rest, true);
-        put_matrix(&rest, points->jacobian, 9, which);
+        put_derivatives(&rest, points->jacobian, 9, which);
     }
 }
 
