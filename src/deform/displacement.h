@@ -26,8 +26,8 @@ typedef struct batch_cell {
 
 /* Points of cells (displacement_cell.h) that batches had before: neighbours in a mesh often come back to
    them. */
-#define KEPT_CELLS ((size_t)256)
-#define KEPT_NUMBERS (KEPT_CELLS * 3 * 4 * 4 * 4)
+#define KEPT_CELLS ((size_t)2048)
+#define KEPT_NUMBERS (KEPT_CELLS * (3 * 4 * 4 * 4 + 1))
 
 typedef struct kept_cells {
     const ffd_lattice *lattice; /* whose cells they are; NULL: there are none */

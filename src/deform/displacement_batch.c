@@ -5,12 +5,17 @@
 
 #define NO_CELL UINT16_MAX
 
-static displacement_kernel *const kernels[] = {
-    [FFD_ISA_SCALAR] = ffd_kernel_scalar,
+typedef struct kernel_pair {
+    extraction_kernel *extract;
+    displacement_kernel *displace;
+} kernel_pair;
+
+static const kernel_pair kernels[] = {
+    [FFD_ISA_SCALAR] = {ffd_extraction_kernel_scalar, ffd_kernel_scalar},
 #ifdef FFD_X86
-    [FFD_ISA_SSE2] = ffd_kernel_sse2,
-    [FFD_ISA_AVX2] = ffd_kernel_avx2,
-    [FFD_ISA_AVX512] = ffd_kernel_avx512,
+    [FFD_ISA_SSE2] = {ffd_extraction_kernel_sse2, ffd_kernel_sse2},
+    [FFD_ISA_AVX2] = {ffd_extraction_kernel_avx2, ffd_kernel_avx2},
+    [FFD_ISA_AVX512] = {ffd_extraction_kernel_avx512, ffd_kernel_avx512},
 #endif
 };
 
@@ -111,7 +116,7 @@ static void begin_cells(const ffd_lattice *lattice, bool gradients, kept_cells *
         return;
     kept->lattice = lattice;
     kept->gradients = gradients;
-    kept->numbers = ffd_displacement_cell_numbers(lattice, gradients);
+    kept->numbers = ffd_displacement_cell_numbers(lattice, gradients) + 1;
     kept->count = KEPT_NUMBERS / kept->numbers;
     if (kept->count > KEPT_CELLS)
         kept->count = KEPT_CELLS;
@@ -119,23 +124,25 @@ static void begin_cells(const ffd_lattice *lattice, bool gradients, kept_cells *
 }
 
 /* The points of a cell, found where they are not kept; NULL where no moved control point acts in it. */
-static const double *find_points(const ffd_lattice *lattice, const batch_cell *cell, kept_cells *kept)
+static const double *find_points(const ffd_lattice *lattice, extraction_kernel *extract,
+                                 const batch_cell *cell, kept_cells *kept)
 {
     const size_t place = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
     double *const points = kept->points + place * kept->numbers;
     if (kept->keys[place] != cell->key + 1) {
         kept->keys[place] = cell->key + 1;
-        kept->acts[place] = ffd_displacement_cell_points(lattice, cell->span, kept->gradients, points);
+        kept->acts[place] =
+            ffd_displacement_cell_points(lattice, extract, cell->span, kept->gradients, points);
     }
     return kept->acts[place] ? points : NULL;
 }
 
-static void displace_cell(const ffd_lattice *lattice, displacement_kernel *kernel,
+static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
                           const displacement_batch *batch, const batch_cell *of,
                           displacement_scratch *scratch)
 {
     const uint32_t *const which = scratch->sorted + of->first;
-    const double *const control = find_points(lattice, of, &scratch->kept);
+    const double *const control = find_points(lattice, kernel->extract, of, &scratch->kept);
     kernel_cell cell;
     for (size_t k = 0; k < of->count && !control; k++)
         stay(batch, which[k]);
@@ -151,7 +158,7 @@ static void displace_cell(const ffd_lattice *lattice, displacement_kernel *kerne
                                   .gradient = batch->gradient,
                                   .gradient_step = batch->gradient_step,
                                   .jacobian = cell.rest ? scratch->jacobian : NULL};
-    kernel(&cell, &points);
+    kernel->displace(&cell, &points);
     for (size_t k = 0; k < of->count; k++)
         batch->moves[which[k]] = 1;
     for (size_t k = 0; k < of->count && cell.rest; k++)
@@ -171,7 +178,7 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
         }
         return;
     }
-    displacement_kernel *const kernel = kernels[ffd_isa_resolve(isa)];
+    const kernel_pair *const kernel = &kernels[ffd_isa_resolve(isa)];
     begin_cells(lattice, batch->gradient, &scratch->kept);
     find_cells(lattice, batch, scratch);
     sort_points(batch, scratch);

@@ -49,33 +49,21 @@ static size_t point_count(const ffd_lattice *lattice)
     return count;
 }
 
-/* Rows of `inner` numbers: row r becomes sum_j E_rj row j, in ascending j. */
-static void combine_rows(const double *extraction, size_t order, size_t inner, double *rows)
+static void load_points(const ffd_lattice *lattice, extraction_kernel *extract, const double *field,
+                        const size_t number[3], double *points)
 {
-    double old[3 * CELL_POINTS];
-    memcpy(old, rows, order * inner * sizeof *old);
-    for (size_t r = 0; r < order; r++, extraction += order) {
-        double *const to = rows + r * inner;
-        for (size_t x = 0; x < inner; x++)
-            to[x] = extraction[0] * old[x];
-        for (size_t j = 1; j < order; j++)
-            for (size_t x = 0; x < inner; x++)
-                to[x] += extraction[j] * old[j * inner + x];
-    }
-}
-
-/* From a cell's control points to its Bezier points (P&T 5.3): N_j = sum_r E_rj B_r. */
-static void extract(const ffd_lattice *lattice, const size_t number[3], double *points)
-{
-    const size_t count = 3 * point_count(lattice);
-    size_t inner = 3;
+    int span[3], degree[3];
+    const double *extraction[3];
     for (int a = 0; a < 3; a++) {
         const knot_vector *const knots = &lattice->knots[a];
         const size_t order = (size_t)knots->degree + 1;
-        for (size_t first = 0; first < count; first += order * inner)
-            combine_rows(knots->extractions + number[a] * order * order, order, inner, points + first);
-        inner *= order;
+        span[a] = knots->spans[number[a]];
+        degree[a] = knots->degree;
+        extraction[a] = knots->extractions + number[a] * order * order;
     }
+    ffd_lattice_cell_points(lattice, field, span, points);
+    points[3 * point_count(lattice)] = 0;
+    extract(degree, extraction, points);
 }
 
 size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients)
@@ -83,21 +71,17 @@ size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients)
     return (needs_rest(lattice, gradients) ? 2 : 1) * 3 * point_count(lattice);
 }
 
-bool ffd_displacement_cell_points(const ffd_lattice *lattice, const size_t number[3], bool gradients,
-                                  double *numbers)
+bool ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
+                                  const size_t number[3], bool gradients, double *numbers)
 {
     int span[3];
     for (int a = 0; a < 3; a++)
         span[a] = lattice->knots[a].spans[number[a]];
     if (!ffd_displacement_reaches(lattice, span))
         return false;
-    ffd_lattice_cell_points(lattice, lattice->difference, span, numbers);
-    extract(lattice, number, numbers);
-    if (!needs_rest(lattice, gradients))
-        return true;
-    double *const rest = numbers + 3 * point_count(lattice);
-    ffd_lattice_cell_points(lattice, lattice->rest, span, rest);
-    extract(lattice, number, rest);
+    load_points(lattice, extract, lattice->difference, number, numbers);
+    if (needs_rest(lattice, gradients))
+        load_points(lattice, extract, lattice->rest, number, numbers + 3 * point_count(lattice));
     return true;
 }
 

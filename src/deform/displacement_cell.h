@@ -11,10 +11,10 @@ bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3]);
 /* Numbers that the Bezier points of a cell of the lattice take, for displacements alone or with gradients:
    those of the differences and, where there is no inverse for all, those at rest. */
 size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients);
-/* Finds them for the cell with these non-empty spans. Returns whether a moved control point acts in it; else
-   nothing is written. */
-bool ffd_displacement_cell_points(const ffd_lattice *lattice, const size_t number[3], bool gradients,
-                                  double *numbers);
+/* Finds them, and one more for the kernel's use, for the cell with these non-empty spans. Returns whether a
+   moved control point acts in it; else nothing is written. */
+bool ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
+                                  const size_t number[3], bool gradients, double *numbers);
 /* The cell itself, with these points. */
 void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], bool gradients,
                                  const double *numbers, kernel_cell *cell);

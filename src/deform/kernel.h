@@ -1,4 +1,5 @@
-/* kernel.h - the displacement of many points of one cell, several at a time. */
+/* kernel.h - the displacement of many points of one cell, several at a time, and what it takes of the cell.
+ */
 #ifndef FFD_DEFORM_KERNEL_H
 #define FFD_DEFORM_KERNEL_H
 
@@ -32,12 +33,18 @@ typedef struct kernel_points {
     double *jacobian; /* 9 for each n, d p_r / d uvw_c; or NULL. Not without the gradient. */
 } kernel_points;
 
+/* Turns a cell's control points, u fastest and 3 numbers each, into its Bezier points. extraction: of the
+   span in each direction (basis.h). One number behind the points is read. */
+typedef void extraction_kernel(const int degree[3], const double *const extraction[3], double *points);
+
 /* One function for each instruction set, all of the same source: a point is a lane, and its operations are
    the same ones in the same order, so that all give the same bits. */
 typedef void displacement_kernel(const kernel_cell *cell, const kernel_points *points);
 
 displacement_kernel ffd_kernel_scalar;
+extraction_kernel ffd_extraction_kernel_scalar;
 #ifdef FFD_X86
+extraction_kernel ffd_extraction_kernel_sse2, ffd_extraction_kernel_avx2, ffd_extraction_kernel_avx512;
 displacement_kernel ffd_kernel_sse2, ffd_kernel_avx2, ffd_kernel_avx512;
 #endif
 

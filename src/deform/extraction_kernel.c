@@ -1,0 +1,69 @@
+/* extraction_kernel.c - compiled once for each instruction set: FFD_EXTRACTION_KERNEL is the function's name.
+   From a cell's control points to its Bezier points (P&T 5.3): N_j = sum_r E_rj B_r, so that those along a
+   direction are sum_j E_rj P_j, in ascending j. */
+#include "deform/kernel.h"
+#include <string.h>
+
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
+/* Rows of `inner` numbers: row r of `to` becomes sum_j E_rj row j of `from`. */
+static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, size_t inner,
+                                       const double *restrict from, double *restrict to)
+{
+    for (size_t r = 0; r < order; r++, extraction += order, to += inner)
+        for (size_t x = 0; x < inner; x++) {
+            double sum = extraction[0] * from[x];
+            for (size_t j = 1; j < order; j++)
+                sum += extraction[j] * from[j * inner + x];
+            to[x] = sum;
+        }
+}
+
+/* Four numbers at once: a point and what stands behind it, which the next point then replaces. */
+typedef double quad __attribute__((vector_size(32)));
+
+static ALWAYS_INLINE void combine_points(const double *extraction, const double *from, double *to)
+{
+    quad point[4];
+    for (int j = 0; j < 4; j++)
+        memcpy(&point[j], from + 3 * j, sizeof point[j]);
+    for (int r = 0; r < 4; r++, extraction += 4) {
+        quad sum = extraction[0] * point[0];
+        for (int j = 1; j < 4; j++)
+            sum += extraction[j] * point[j];
+        memcpy(to + 3 * r, &sum, sizeof sum);
+    }
+}
+
+static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, size_t inner, size_t count,
+                                        const double *restrict from, double *restrict to)
+{
+    for (size_t first = 0; first < count; first += order * inner)
+        combine_rows(extraction, order, inner, from + first, to + first);
+}
+
+static void extract_cubic(const double *const extraction[3], double *points)
+{
+    double by_u[3 * 64 + 1], by_v[3 * 64];
+    for (size_t row = 0; row < 16; row++)
+        combine_points(extraction[0], points + 12 * row, by_u + 12 * row);
+    combine_slabs(extraction[1], 4, 12, 3 * 64, by_u, by_v);
+    combine_slabs(extraction[2], 4, 48, 3 * 64, by_v, points);
+}
+
+void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3], double *points)
+{
+    if (degree[0] == 3 && degree[1] == 3 && degree[2] == 3) {
+        extract_cubic(extraction, points);
+        return;
+    }
+    double old[3 * CELL_POINTS];
+    const size_t order[3] = {(size_t)degree[0] + 1, (size_t)degree[1] + 1, (size_t)degree[2] + 1};
+    const size_t count = 3 * order[0] * order[1] * order[2];
+    size_t inner = 3;
+    for (int a = 0; a < 3; a++) {
+        memcpy(old, points, count * sizeof *old);
+        combine_slabs(extraction[a], order[a], inner, count, old, points);
+        inner *= order[a];
+    }
+}
