@@ -196,23 +196,27 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
 {
     const mesh_pass *pass = work->pass;
     const mesh_format *format = pass->document->format;
+    vertex_place place = ffd_vertex_place_of(&scratch->places, 0);
+    pass_totals own = *totals; /* where no store to the scratch can reach it */
     for (size_t i = 0; i < count; i++) {
         const uint64_t number = work->first_vertex + first + i;
         const chain_point *point = &scratch->points[i];
-        const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
         double *p = scratch->raw + 3 * i;
-        fill_arrays(pass, place.singular, point, scratch->place + 3 * i, number, totals);
+        if (work->part->skinned)
+            place = ffd_vertex_place_of(&scratch->places, i);
+        fill_arrays(pass, place.singular, point, scratch->place + 3 * i, number, &own);
         scratch->changed[i] = false;
         if (!ffd_part_selects(work->part, first + i))
             continue;
-        count_point(place.singular, point, scratch->before + 3 * i, scratch->place + 3 * i, number, totals);
+        count_point(place.singular, point, scratch->before + 3 * i, scratch->place + 3 * i, number, &own);
         scratch->changed[i] = move_back(&place, point, p);
         if (scratch->changed[i]) {
-            totals->moved++;
+            own.moved++;
             if (!ffd_tile_fits_file(pass->document, p))
-                totals->first_overflow = least(totals->first_overflow, number);
+                own.first_overflow = least(own.first_overflow, number);
         }
     }
+    *totals = own;
     if (pass->write)
         format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
                                 scratch->changed);
@@ -277,7 +281,7 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
                               pass_totals *totals)
 {
     const mesh_part *part = work->part;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && !part->identity; i++) {
         const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
         ffd_gradient_bring_back(&place, scratch->points[i].gradient);
     }
@@ -311,6 +315,12 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
 static void choose(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
 {
     size_t chosen = 0;
+    if (!work->part->selected && !work->part->skipped) {
+        scratch->chosen_count = count;
+        for (size_t i = 0; i < count; i++)
+            scratch->chosen[i] = i;
+        return;
+    }
     for (size_t i = 0; i < count; i++)
         if (ffd_part_selects(work->part, first + i)) {
             if (chosen < i)

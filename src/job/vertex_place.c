@@ -22,16 +22,6 @@ vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i)
     return (vertex_place){part->linear, part->offset, part->inverse, part->identity, part->singular};
 }
 
-bool ffd_displacement_bring_back(const vertex_place *place, const double delta[3], double own[3])
-{
-    const bool moves = !place->singular && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
-    for (int a = 0; a < 3; a++)
-        own[a] = moves ? delta[a] : 0;
-    if (moves && !place->identity)
-        mat_apply(place->inverse, own, own);
-    return moves;
-}
-
 void ffd_gradient_bring_back(const vertex_place *place, double gradient[9])
 {
     double product[9];

@@ -2,6 +2,7 @@
 #ifndef FFD_JOB_VERTEX_PLACE_H
 #define FFD_JOB_VERTEX_PLACE_H
 
+#include "base/vec.h"
 #include "mesh/mesh.h"
 
 /* So many vertices at once. */
@@ -28,7 +29,16 @@ vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i);
 
 /* Takes a displacement from the lattice's space to the file's own: linear^{-1} delta; zeros where there is no
    inverse. False where nothing is displaced. */
-bool ffd_displacement_bring_back(const vertex_place *place, const double delta[3], double own[3]);
+static inline bool ffd_displacement_bring_back(const vertex_place *place, const double delta[3],
+                                               double own[3])
+{
+    const bool moves = !place->singular && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
+    for (int a = 0; a < 3; a++)
+        own[a] = moves ? delta[a] : 0;
+    if (moves && !place->identity)
+        mat_apply(place->inverse, own, own);
+    return moves;
+}
 
 /* Takes a gradient E from the lattice's space to the file's own: linear^{-1} E linear. 0 where there is no
    inverse. */

@@ -58,6 +58,8 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
    sign are not valid, and a unit vector would not survive their steps: such become floats. */
 static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
 {
+    if (accessor->component == GLTF_FLOAT)
+        return false;
     return semantic == GLTF_POSITION ||
            (accessor->normalized && (accessor->component == GLTF_I8 || accessor->component == GLTF_I16));
 }
