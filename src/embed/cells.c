@@ -52,6 +52,33 @@ static ffd_status make_extractions(const ffd_locator *locator, cell_search *cell
     return FFD_OK;
 }
 
+/* Half a kilobyte each, so that a direction of millions of spans goes without. */
+#define MOST_SCHEMES ((size_t)4096)
+
+static ffd_status make_schemes(const ffd_locator *locator, cell_search *cells, ffd_error *error)
+{
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &locator->knots[a];
+        const size_t intervals = knots->functions + (size_t)knots->degree;
+        if (intervals > MOST_SCHEMES)
+            continue;
+        cells->schemes[a] = ffd_alloc(intervals, sizeof *cells->schemes[a]);
+        if (!cells->schemes[a])
+            return ffd_fail_memory(error);
+        for (size_t i = 0; i < knots->span_count; i++)
+            ffd_basis_scheme(knots, knots->spans[i], &cells->schemes[a][knots->spans[i]]);
+    }
+    return FFD_OK;
+}
+
+const span_scheme *ffd_cells_scheme(const ffd_locator *locator, int a, int span, span_scheme *own)
+{
+    if (locator->cells->schemes[a])
+        return &locator->cells->schemes[a][span];
+    ffd_basis_scheme(&locator->knots[a], span, own);
+    return own;
+}
+
 const double *ffd_cells_point(const ffd_locator *locator, const size_t function[3])
 {
     const ffd_lattice *lattice = locator->lattice;
@@ -135,8 +162,11 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
     cell_basis basis;
     cell_rows rows;
     double own[CELL_NUMBERS];
-    for (int a = 0; a < 3; a++)
-        ffd_basis_derivatives_in(&locator->knots[a], span[a], offset[a], basis.value[a], basis.slope[a]);
+    for (int a = 0; a < 3; a++) {
+        span_scheme made;
+        const span_scheme *const scheme = ffd_cells_scheme(locator, a, span[a], &made);
+        ffd_basis_derivatives_by(scheme, offset[a], basis.value[a], basis.slope[a]);
+    }
     ffd_cells_rows(locator, span, rows, own);
     cells->kernel(&basis, cells->order, (const cell_rows *)&rows, result);
     if (!cells->rational) {
@@ -200,6 +230,8 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     if (!status)
         status = make_extractions(locator, cells, error);
     if (!status)
+        status = make_schemes(locator, cells, error);
+    if (!status)
         status = ffd_cells_look_at_volume(locator, error);
     if (!status)
         status = ffd_collapses_find(locator, &cells->collapses, error);
@@ -217,6 +249,8 @@ void ffd_cells_destroy(cell_search **cells_pointer)
     ffd_collapses_free(&cells->collapses);
     for (int a = 0; a < 3; a++)
         ffd_free(cells->extraction[a]);
+    for (int a = 0; a < 3; a++)
+        ffd_free(cells->schemes[a]);
     ffd_free(cells->points);
     ffd_free(cells);
     *cells_pointer = NULL;

@@ -9,6 +9,7 @@
 #include "embed/collapse.h"
 #include "embed/locator.h"
 #include "embed/region_kernel.h"
+#include "spline/basis.h"
 #include <math.h>
 #include <stdatomic.h>
 
@@ -65,7 +66,8 @@ typedef struct cell_search {
     double *points;     /* h x and h: BEZIER_COMPONENTS a control point */
     bool is_seam[3];    /* the first and the last face of this direction are one (ffd_lattice_is_seam) */
     collapse_list collapses;
-    double *extraction[3]; /* of each span: order x order */
+    double *extraction[3];   /* of each span: order x order */
+    span_scheme *schemes[3]; /* of each knot interval that is a span; NULL where there are too many */
     bounds *brick_hulls;
     box_tree brick_tree;
     _Atomic(cell_brick *) *made;              /* one for each brick */
@@ -79,6 +81,8 @@ static inline void ffd_cells_tolerance(const cell_search *cells, const double x[
         tolerance[a] = 16 * DBL_EPSILON * (cells->extent[a] + fabs(x[a]));
 }
 
+/* The triangular scheme of a span, which may be made in *own. */
+const span_scheme *ffd_cells_scheme(const ffd_locator *locator, int a, int span, span_scheme *own);
 /* h x, h of the control point that the basis functions with these numbers share. */
 const double *ffd_cells_point(const ffd_locator *locator, const size_t function[3]);
 /* Spans by numbers of non-empty spans. */

@@ -23,36 +23,35 @@ typedef struct basis_lanes {
     lanes value[MAX_ORDER], slope[MAX_ORDER];
 } basis_lanes;
 
-/* triangle.h's step. */
-static ALWAYS_INLINE void raise_degree(const double *t, int span, int degree, lanes u, lanes *value)
+/* basis.c's step by reciprocals. */
+static ALWAYS_INLINE void raise_degree(const span_scheme *scheme, int d, int degree, lanes u, lanes *value)
 {
-    const double *const left = t + span + 1 - degree, *const right = t + span + 1;
+    const double *const right = scheme->knots + d, *const left = right - degree;
+    const double *const reciprocal = scheme->reciprocals + degree * (degree - 1) / 2;
     lanes from_left = lanes_all(0);
     for (int r = 0; r < degree; r++) {
-        const double width = right[r] - left[r];
-        const lanes lower = value[r];
-        value[r] = from_left + lower * ((right[r] - u) / width);
-        from_left = lower * ((u - left[r]) / width);
+        const lanes share = value[r] * reciprocal[r];
+        value[r] = from_left + (right[r] - u) * share;
+        from_left = (u - left[r]) * share;
     }
     value[degree] = from_left;
 }
 
-/* basis.c's derivatives. */
-static ALWAYS_INLINE void find_basis(const double *t, int d, lanes u, basis_lanes *basis)
+/* ffd_basis_derivatives_by */
+static ALWAYS_INLINE void find_basis(const span_scheme *scheme, int d, lanes offset, basis_lanes *basis)
 {
-    const int span = d - 1;
+    const lanes u = offset / scheme->length;
+    lanes before = lanes_all(0);
     basis->value[0] = lanes_all(1);
     for (int degree = 1; degree < d; degree++)
-        raise_degree(t, span, degree, u, basis->value);
-    const double *const left = t + span + 1 - d, *const right = t + span + 1;
-    lanes before = lanes_all(0);
+        raise_degree(scheme, d, degree, u, basis->value);
     for (int r = 0; r < d; r++) {
-        const lanes quotient = basis->value[r] * (d / (right[r] - left[r]));
+        const lanes quotient = basis->value[r] * scheme->factors[r];
         basis->slope[r] = before - quotient;
         before = quotient;
     }
     basis->slope[d] = before;
-    raise_degree(t, span, d, u, basis->value);
+    raise_degree(scheme, d, d, u, basis->value);
 }
 
 /* F and its derivatives by t. */
@@ -66,7 +65,7 @@ static ALWAYS_INLINE void evaluate(const region_kernel_cell *cell, const int ord
     basis_lanes basis[3];
     for (int a = 0; a < 3; a++) {
         const lanes offset = cell->region->lo[a] + t[a] * cell->region->width[a];
-        find_basis(cell->knots[a], order[a] - 1, offset, &basis[a]);
+        find_basis(cell->schemes[a], order[a] - 1, offset, &basis[a]);
     }
     lanes sum[3], by[3][3];
     for (int r = 0; r < 3; r++)

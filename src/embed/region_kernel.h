@@ -3,6 +3,7 @@
 #define FFD_EMBED_REGION_KERNEL_H
 
 #include "embed/cell_kernel.h"
+#include "spline/basis.h"
 #include <stdint.h>
 
 /* Most lanes of any instruction set. */
@@ -23,7 +24,8 @@ typedef struct cell_region {
 typedef struct region_kernel_cell {
     const cell_region *region;
     int order[3];
-    double knots[3][2 * MAX_DEGREE]; /* round the span, from its start (ffd_basis_derivatives_in) */
+    const span_scheme *schemes[3];
+    span_scheme own_schemes[3]; /* which they may point to */
     cell_rows rows;
 } region_kernel_cell;
 

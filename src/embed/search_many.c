@@ -82,7 +82,7 @@ static void load_cell(const ffd_locator *locator, const cell_region *region, dou
     cell->region = region;
     for (int a = 0; a < 3; a++) {
         cell->order[a] = locator->cells->order[a];
-        ffd_basis_local_knots(&locator->knots[a], region->span[a], cell->knots[a]);
+        cell->schemes[a] = ffd_cells_scheme(locator, a, region->span[a], &cell->own_schemes[a]);
     }
     ffd_cells_rows(locator, region->span, cell->rows, own);
 }

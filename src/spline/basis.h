@@ -14,8 +14,21 @@ void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double 
 void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset, double value[MAX_ORDER],
                               double derivative[MAX_ORDER]);
 
-/* The 2 d knots round the span that functions of this span depend on, from t_span. */
-void ffd_basis_local_knots(const knot_vector *knots, int span, double local[2 * MAX_DEGREE]);
+/* The differences that the triangular scheme of a span divides by, made once for many parameters. Its units
+   are the span's length, in which no difference is below 1 and so no reciprocal above it. */
+typedef struct span_scheme {
+    int degree;
+    double length;
+    double knots[2 * MAX_DEGREE]; /* those that functions of this span depend on, from the span's start */
+    double reciprocals[MAX_DEGREE * MAX_ORDER / 2]; /* degree by degree, in ascending order */
+    double factors[MAX_DEGREE]; /* d / (t_{i+d} - t_i) of the derivatives, by the knots' own parameter */
+} span_scheme;
+
+void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme);
+/* ffd_basis_derivatives_in by reciprocals, within a few roundings of it: at a knot a function may miss 0 or 1
+   by one. */
+void ffd_basis_derivatives_by(const span_scheme *scheme, double offset, double value[MAX_ORDER],
+                              double derivative[MAX_ORDER]);
 
 /* The Bezier form of the curve over a non-empty span: Bezier point r = sum_j matrix[r*(d+1)+j] P_{span-d+j},
    the blossom at t_span (d-r times) and t_{span+1} (r times), which is what knot insertion (P&T A5.6) arrives
