@@ -6,8 +6,8 @@
 The meshes are made first (at the default size a GLB of 48 MB and an OBJ of v, vt, vn and quads of about 160 MB).
 Before that: what it takes to start. Each run of the program is followed by one of `dd bs=64M` on the same file, so that both meet the same machine;
 read and written data stay in the page cache. Time is wall-clock, memory the largest resident set of the process.
-Then what the lattice's size costs, what a second thread brings to four million vertices, and what others take that
-are installed (assimp, SciPy).
+Then what the lattice's size and normals with tangents cost, what a second thread brings to four million vertices, and
+what others take that are installed (assimp; SciPy and VTK, if the Python that runs this has them).
 """
 
 import argparse
@@ -52,28 +52,41 @@ def quads(side):
             yield a, a + 1, a + side + 1, a + side
 
 
-def write_glb(path, side, positions, normals):
+def tangents_of(normals):
+    """Along x, with a handedness of 1."""
+    tangents = array.array("f")
+    for k in range(0, len(normals), 3):
+        x, z = normals[k + 2], -normals[k]
+        size = math.hypot(x, z)
+        tangents.extend((x / size, 0, z / size, 1))
+    return tangents
+
+
+def write_glb(path, side, positions, normals, tangents=None):
     indices = array.array("I")
     for a, b, c, d in quads(side):
         indices.extend((a, b, c, a, c, d))
     count = side * side
-    parts = [positions.tobytes(), normals.tobytes(), indices.tobytes()]
-    offsets = [0, len(parts[0]), len(parts[0]) + len(parts[1])]
+    streams = [("POSITION", "VEC3", positions), ("NORMAL", "VEC3", normals)]
+    if tangents:
+        streams.append(("TANGENT", "VEC4", tangents))
+    parts = [values.tobytes() for _, _, values in streams] + [indices.tobytes()]
+    bounds = {"min": [min(positions[a::3]) for a in range(3)], "max": [max(positions[a::3]) for a in range(3)]}
     document = {
         "asset": {"version": "2.0"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2}]}],
+        "meshes": [{"primitives": [{"attributes": {name: i for i, (name, _, _) in enumerate(streams)},
+                                    "indices": len(streams)}]}],
         "accessors": [
-            {"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3",
-             "min": [min(positions[a::3]) for a in range(3)], "max": [max(positions[a::3]) for a in range(3)]},
-            {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
-            {"bufferView": 2, "componentType": 5125, "count": len(indices), "type": "SCALAR"},
-        ],
+            {"bufferView": i, "componentType": 5126, "count": count, "type": kind, **(bounds if i == 0 else {})}
+            for i, (_, kind, _) in enumerate(streams)
+        ] + [{"bufferView": len(streams), "componentType": 5125, "count": len(indices), "type": "SCALAR"}],
         "bufferViews": [
-            {"buffer": 0, "byteOffset": offset, "byteLength": len(part), "target": target}
-            for part, offset, target in zip(parts, offsets, (34962, 34962, 34963))
+            {"buffer": 0, "byteOffset": sum(map(len, parts[:i])), "byteLength": len(part),
+             "target": 34962 if i < len(streams) else 34963}
+            for i, part in enumerate(parts)
         ],
         "buffers": [{"byteLength": sum(map(len, parts))}],
     }
@@ -86,6 +99,10 @@ def write_glb(path, side, positions, normals):
         file.write(struct.pack("<I4s", sum(map(len, parts)), b"BIN\0"))
         for part in parts:
             file.write(part)
+
+
+def write_glb_with_tangents(path, side, positions, normals):
+    write_glb(path, side, positions, normals, tangents_of(normals))
 
 
 def write_obj(path, side, positions, normals):
@@ -227,6 +244,20 @@ def print_sizes(bench, source, folder):
     os.remove(target)
 
 
+def print_attributes(bench, folder, lattices):
+    """What normals and tangents cost beside positions, whole process, one thread."""
+    source, target = os.path.join(folder, "tangents.glb"), os.path.join(folder, "tangents-out.glb")
+    make(write_glb_with_tangents, source, bench.side)
+    for name, lattice in lattices.items():
+        command = bench.command(source, target, lattice, 1)
+        positions, all_three = medians([command + ["--normals", normals] for normals in ("keep", "transform")],
+                                       bench.runs, target)
+        print(f"GLB, {name}: positions {positions:.3f} s, with normals and tangents {all_three:.3f} s "
+              f"({all_three / positions:.2f})", flush=True)
+    os.remove(source)
+    os.remove(target)
+
+
 def print_threads(bench, folder, lattices):
     """What a second thread brings to four times as many vertices."""
     side = 2 * bench.side
@@ -273,6 +304,33 @@ def print_scipy(bench):
             ndimage.map_coordinates(axis, places, order=3, prefilter=False, mode="nearest")
         times.append(time.perf_counter() - start)
     print(f"SciPy (map_coordinates, cubic, 8^3): {points / statistics.median(times) / 1e6:.2f} M points/s")
+
+
+def print_vtk(bench):
+    """VTK's B-spline transform on as many points."""
+    try:
+        from vtkmodules.util.numpy_support import numpy_to_vtk
+        from vtkmodules.vtkCommonCore import vtkPoints
+        from vtkmodules.vtkCommonDataModel import vtkImageData
+        from vtkmodules.vtkFiltersHybrid import vtkBSplineTransform
+        import numpy
+    except ImportError:
+        print("VTK is not installed")
+        return
+    draw = numpy.random.default_rng(7)
+    count = 1000 * bench.side
+    image, source, target, transform = vtkImageData(), vtkPoints(), vtkPoints(), vtkBSplineTransform()
+    image.SetDimensions(8, 8, 8)
+    image.GetPointData().SetScalars(numpy_to_vtk(draw.random((512, 3)), deep=True))
+    source.SetData(numpy_to_vtk(7 * draw.random((count, 3)), deep=True))
+    transform.SetCoefficientData(image)
+    times = []
+    for _ in range(bench.runs):
+        target.Reset()
+        start = time.perf_counter()
+        transform.TransformPoints(source, target)
+        times.append(time.perf_counter() - start)
+    print(f"VTK (vtkBSplineTransform, 8^3): {count / statistics.median(times) / 1e6:.2f} M points/s")
 
 
 class Bench:
@@ -335,8 +393,10 @@ def main():
                 print_peers(bench, folder, lattices["box"])
             for path in (source, target, copy):
                 os.remove(path)
+        print_attributes(bench, folder, lattices)
         print_threads(bench, folder, lattices)
         print_scipy(bench)
+        print_vtk(bench)
     if arguments.csv:
         with open(arguments.csv, "w", encoding="ascii") as file:
             file.write("\n".join(csv) + "\n")
