@@ -35,15 +35,28 @@ static stored_bounds bounds_of_first(const float *xyz)
     return bounds;
 }
 
+/* So many vectors at a time, of which compilers make vectors of their own. */
+#define GROUP 4
+
 static void search_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     bounds_search *search = context;
     /* From the first vector of all on, as if there were one tile. */
     stored_bounds bounds = bounds_of_first(search->xyz);
+    float least[3 * GROUP], largest[3 * GROUP];
     (void)worker;
-    for (size_t i = first; i < last; i++)
-        for (size_t c = 0; c < 3; c++)
-            widen(&bounds, search->xyz[3 * i + c], search->xyz[3 * i + c], c);
+    for (size_t k = 0; k < 3 * GROUP; k++)
+        least[k] = largest[k] = search->xyz[k % 3];
+    for (; last - first >= GROUP; first += GROUP)
+        for (size_t k = 0; k < 3 * GROUP; k++) {
+            const float value = search->xyz[3 * first + k];
+            least[k] = value < least[k] ? value : least[k];
+            largest[k] = value > largest[k] ? value : largest[k];
+        }
+    for (size_t k = 0; k < 3 * GROUP; k++)
+        widen(&bounds, least[k], largest[k], k % 3);
+    for (size_t k = 3 * first; k < 3 * last; k++)
+        widen(&bounds, search->xyz[k], search->xyz[k], k % 3);
     search->tiles[tile] = bounds;
 }
 

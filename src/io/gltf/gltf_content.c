@@ -221,9 +221,9 @@ static void copy_common(const unsigned char *from, size_t at, size_t size, size_
         memcpy(bytes + (begin - offset), from + (begin - at), end - begin);
 }
 
-static void put_vector(const float *xyz, unsigned char *bytes)
+static void put_vectors(const float *xyz, size_t count, unsigned char *bytes)
 {
-    for (size_t c = 0; c < 3; c++) {
+    for (size_t c = 0; c < 3 * count; c++) {
         uint32_t bits;
         memcpy(&bits, xyz + c, sizeof bits);
         store_u32(bytes + 4 * c, bits);
@@ -242,7 +242,12 @@ static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwr
          i++, at += overwrite->stride) {
         unsigned char encoded[GLTF_LARGEST_VECTOR];
         if (is_vector && at >= offset && at + element <= offset + size) {
-            put_vector(overwrite->values + 3 * i, bytes + (at - offset));
+            /* Those that stand one behind the other at once. */
+            const size_t end = overwrite->end < offset + size ? overwrite->end : offset + size;
+            const size_t count = overwrite->stride == element ? (end - at) / element : 1;
+            put_vectors(overwrite->values + 3 * i, count, bytes + (at - offset));
+            i += count - 1;
+            at += (count - 1) * element;
             continue;
         }
         ffd_gltf_encode(accessor, accessor->component, ffd_gltf_element(d, overwrite->accessor, i),
