@@ -63,8 +63,8 @@ typedef struct ffd_source {
        FFD_E_LIMIT. Estimated, and without that of the lattice. */
     uint64_t memory;
     int threads; /* for reading and writing it: 0: those of the job, or all cores */
-    /* Normals will not be asked for: a format may leave them out, and does not describe them then. Set by
-       jobs that keep them. */
+    /* Normals will not be asked for: a format may leave them out, and does not describe them then.
+       ffd_deform_run decides on this itself. */
     bool only_positions;
 } ffd_source;
 

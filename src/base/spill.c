@@ -1,6 +1,7 @@
 #define _DEFAULT_SOURCE /* madvise */
 #include "base/spill.h"
 #include "base/memory.h"
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -28,11 +29,14 @@ static int make_file(void)
     return file;
 }
 
-/* The file's first `size` bytes, whose place on the disk is certain: writing to a page without one would end
-   the program. NULL where they cannot be had. */
+/* The file's first `size` bytes, which have been given their place on the disk: writing to a page without one
+   would end the program. NULL where they cannot be had. */
 static void *map_bytes(int file, size_t size)
 {
-    if ((size_t)(off_t)size != size || posix_fallocate(file, 0, (off_t)size) != 0)
+    int failure = (size_t)(off_t)size == size ? EINTR : EFBIG;
+    while (failure == EINTR)
+        failure = posix_fallocate(file, 0, (off_t)size);
+    if (failure)
         return NULL;
     void *data = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     return data == MAP_FAILED ? NULL : data;
@@ -46,6 +50,18 @@ static bool grow_mapped(spill_array *array, size_t size)
     munmap(array->data, array->size);
     array->data = data;
     array->size = size;
+    return true;
+}
+
+/* Back to memory, where the disk is full. */
+static bool leave_file(spill_array *array, size_t size)
+{
+    void *data = ffd_alloc(size, 1);
+    if (!data)
+        return false;
+    memcpy(data, array->data, array->size);
+    ffd_spill_free(array);
+    *array = (spill_array){.data = data, .size = size};
     return true;
 }
 
@@ -78,8 +94,8 @@ bool ffd_spill_grow(spill_array *array, size_t needed)
     if (size < needed)
         size = needed;
     if (array->is_mapped)
-        return grow_mapped(array, size);
-    if (size >= SPILL_FROM && move_to_file(array, size))
+        return grow_mapped(array, size) || grow_mapped(array, needed) || leave_file(array, needed);
+    if (needed >= SPILL_FROM && move_to_file(array, size))
         return true;
     void *data = ffd_realloc(array->data, size, 1);
     if (!data)

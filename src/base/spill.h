@@ -1,6 +1,6 @@
 /* spill.h - arrays that may be larger than memory: beyond a size they stand in a temporary file without a
-   name, in the folder TMPDIR or /var/tmp, whose pages can leave memory. Where there is no such place they
-   stay in memory. */
+   name, in the folder TMPDIR or /var/tmp, whose pages can leave memory (but where that is a file system in
+   memory). Where there is no such place, or no more of it, they are in memory. */
 #ifndef FFD_BASE_SPILL_H
 #define FFD_BASE_SPILL_H
 

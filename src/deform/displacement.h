@@ -31,10 +31,10 @@ typedef struct batch_cell {
 
 typedef struct kept_cells {
     const ffd_lattice *lattice; /* whose cells they are; NULL: there are none */
-    bool gradients;
-    size_t count, numbers;   /* of cells that there is room for, and of numbers that each has */
-    size_t keys[KEPT_CELLS]; /* 1 + key of a batch_cell; 0: none */
-    bool acts[KEPT_CELLS];   /* a moved control point acts in it */
+    bool gradients;             /* of the batch */
+    size_t count, numbers;      /* of cells that there is room for, and of numbers that each has */
+    size_t keys[KEPT_CELLS];    /* 1 + key of a batch_cell; 0: none */
+    bool acts[KEPT_CELLS];      /* a moved control point acts in it */
     double points[KEPT_NUMBERS];
 } kept_cells;
 
@@ -61,7 +61,8 @@ typedef struct displacement_batch {
     uint8_t *moves; /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 
-/* To be called before the first batch, and before one of a lattice that may stand where another stood. */
+/* To be called before the first batch, unless the scratch is zeroed, and before one of a lattice that may
+   stand where another stood. */
 void ffd_displacement_scratch_clear(displacement_scratch *scratch);
 
 /* ffd_displacement for every point of the batch, with the same bits, whatever the instruction set and the

@@ -112,11 +112,12 @@ void ffd_displacement_scratch_clear(displacement_scratch *scratch)
 /* Makes the kept cells those of the lattice. */
 static void begin_cells(const ffd_lattice *lattice, bool gradients, kept_cells *kept)
 {
-    if (kept->lattice == lattice && kept->gradients == gradients)
+    const size_t numbers = ffd_displacement_cell_numbers(lattice, gradients) + 1;
+    kept->gradients = gradients;
+    if (kept->lattice == lattice && kept->numbers == numbers)
         return;
     kept->lattice = lattice;
-    kept->gradients = gradients;
-    kept->numbers = ffd_displacement_cell_numbers(lattice, gradients) + 1;
+    kept->numbers = numbers;
     kept->count = KEPT_NUMBERS / kept->numbers;
     if (kept->count > KEPT_CELLS)
         kept->count = KEPT_CELLS;

@@ -133,10 +133,13 @@ static ALWAYS_INLINE field_sum sum_cell(const int degree[3], const span_basis ba
 }
 
 #if FFD_LANES > 1
-/* Whether the points' numbers are one after the other. They ascend, but for the last that may be repeated. */
+/* Whether the points' numbers are one after the other. */
 static ALWAYS_INLINE bool in_a_row(const uint32_t *which)
 {
-    return which[FFD_LANES - 1] - which[0] == FFD_LANES - 1 && which[FFD_LANES - 2] != which[FFD_LANES - 1];
+    uint32_t off = 0;
+    for (uint32_t l = 1; l < FFD_LANES; l++)
+        off |= which[l] ^ (which[0] + l);
+    return off == 0;
 }
 #endif
 

@@ -61,8 +61,7 @@ typedef struct chain_point {
 /* Most points of a run. */
 #define CHAIN_RUN DISPLACEMENT_BATCH
 
-/* What one thread needs to send runs through the chain; cleared (ffd_displacement_scratch_clear) before the
-   first. */
+/* What one thread needs to send runs through the chain; zeroed before the first. */
 typedef struct chain_scratch {
     ffd_location locations[CHAIN_RUN];
     double delta[3 * CHAIN_RUN], gradient[9 * CHAIN_RUN];

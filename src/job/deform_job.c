@@ -80,7 +80,7 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     ffd_status status =
         ffd_chain_load(desc->lattices, desc->lattice_count, &outside, desc->isa, &job->chain, error);
     ffd_source source = desc->input;
-    source.only_positions = source.only_positions || job->only_positions;
+    source.only_positions = job->only_positions;
     if (!status)
         status = ffd_source_open(&source, job->threads, &job->document, error);
     if (!status)

@@ -1,5 +1,6 @@
 #include "spline/basis.h"
 #include "spline/triangle.h"
+#include <math.h>
 
 void ffd_basis_values(const knot_vector *knots, int span, double u, double value[MAX_ORDER])
 {
@@ -51,6 +52,10 @@ void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset,
     derivatives(local, d - 1, d, offset, value, derivative);
 }
 
+/* Of knots, in lengths of a span: what is farther away makes no difference, and its products would be no
+   numbers. */
+#define FARTHEST 1e300
+
 void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme)
 {
     const int d = knots->degree;
@@ -61,7 +66,7 @@ void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme)
     for (int r = 0; r < d; r++)
         scheme->factors[r] = d / (t[d + r] - t[r]);
     for (int i = 0; i < 2 * d; i++)
-        t[i] /= scheme->length;
+        t[i] = fmin(fmax(t[i] / scheme->length, -FARTHEST), FARTHEST);
     for (int degree = 1; degree <= d; degree++)
         for (int r = 0; r < degree; r++)
             *reciprocal++ = 1 / (t[d + r] - t[d - degree + r]);

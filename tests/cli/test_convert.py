@@ -629,6 +629,11 @@ def containers_of_gltf(run):
     expected = json.loads(json.dumps(asset))
     del expected["buffers"][0]["uri"]
     equal([found, chunk[:len(data)]], [expected, data])
+    # A file may go on behind its buffer.
+    run.write("a.bin", data + b"more" * 50000)
+    run.ffd("deform", "a.gltf", "out/more.glb", "-l", "still.json")
+    equal(run.read("out/more.glb"), run.read("out/b.glb"), "without what stands behind the buffer")
+    run.write("a.bin", data)
     run.ffd("deform", "out/b.glb", "out/c.gltf", "-l", "still.json")
     expected["buffers"][0]["uri"] = "c.bin"
     equal([json.loads(run.text("out/c.gltf")), run.read("out/c.bin")], [expected, data])

@@ -2,14 +2,29 @@
 #include "base/memory.h"
 #include "base/spill.h"
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/statvfs.h>
 
 #include <cmocka.h>
 
 #define STEP (SPILL_FROM / 4 + 12345)
+
+/* Skips where a machine has too little of it for this test. */
+static void need_room(void)
+{
+    static const char *const folders[] = {"/tmp", "/var/tmp"};
+    for (int i = 0; i < 2; i++) {
+        struct statvfs info;
+        if (statvfs(folders[i], &info) != 0 || info.f_bavail < 8 * SPILL_FROM / info.f_frsize)
+            skip();
+    }
+}
 
 static unsigned char mark_of(size_t step)
 {
@@ -41,6 +56,7 @@ static void grow_and_check(bool is_mapped)
 static void large_arrays_stand_in_a_file(void **state)
 {
     (void)state;
+    need_room();
     unsetenv("TMPDIR");
     grow_and_check(true);
     setenv("TMPDIR", "/tmp", 1);
@@ -53,6 +69,28 @@ static void without_a_folder_they_stay_in_memory(void **state)
     setenv("TMPDIR", "/nonexistent", 1);
     grow_and_check(false);
     unsetenv("TMPDIR");
+}
+
+/* A limit on the size of files stands for a disk that is full. */
+static void a_full_disk_brings_them_back(void **state)
+{
+    (void)state;
+    const struct rlimit limit = {2 * SPILL_FROM, RLIM_INFINITY}, none = {RLIM_INFINITY, RLIM_INFINITY};
+    spill_array array = {0};
+    need_room();
+    signal(SIGXFSZ, SIG_IGN);
+    assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+    assert_true(ffd_spill_grow(&array, SPILL_FROM));
+    assert_true(array.is_mapped);
+    memset(array.data, 7, SPILL_FROM);
+    assert_true(ffd_spill_grow(&array, SPILL_FROM + SPILL_FROM / 2));
+    assert_true(array.is_mapped);
+    assert_true(ffd_spill_grow(&array, 3 * SPILL_FROM));
+    assert_false(array.is_mapped);
+    setrlimit(RLIMIT_FSIZE, &none);
+    const unsigned char *data = array.data;
+    assert_true(data[0] == 7 && data[SPILL_FROM - 1] == 7);
+    ffd_spill_free(&array);
 }
 
 static void small_arrays_do_not_need_one(void **state)
@@ -80,7 +118,9 @@ static void failures_leave_it_as_it_was(void **state)
     assert_false(ffd_spill_grow(&array, 1000));
     ffd_alloc_fail_after(-1);
     assert_true(array.data == data && array.size == 100);
+    setenv("TMPDIR", "/nonexistent", 1);
     assert_false(ffd_spill_grow(&array, SIZE_MAX / 2));
+    unsetenv("TMPDIR");
     assert_true(array.data == data && array.size == 100);
     ffd_spill_free(&array);
 }
@@ -90,6 +130,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(large_arrays_stand_in_a_file),
         cmocka_unit_test(without_a_folder_they_stay_in_memory),
+        cmocka_unit_test(a_full_disk_brings_them_back),
         cmocka_unit_test(small_arrays_do_not_need_one),
         cmocka_unit_test(failures_leave_it_as_it_was),
     };

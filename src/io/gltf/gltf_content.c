@@ -337,7 +337,8 @@ size_t ffd_gltf_content_kept(const gltf_saver *saver, size_t b, size_t offset, c
 {
     const gltf_new_buffer *made = &saver->buffers[b];
     const size_t next = find_overwrite(made, offset);
-    size_t end = size_of_old(made);
+    const size_t size = ffd_gltf_content_size(saver, b);
+    size_t end = size_of_old(made) < size ? size_of_old(made) : size;
     if (next < made->overwrite_count && made->overwrites[next].begin < end)
         end = made->overwrites[next].begin;
     if (end <= offset)

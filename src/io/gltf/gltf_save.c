@@ -36,17 +36,34 @@ static ffd_status put_padding(const gltf_saver *saver, size_t size, char with, f
     return put(saver, bytes, size, error);
 }
 
+/* Counts what has been written, and gives the input back from time to time. */
+static void note_written(const gltf_saver *saver, size_t size, size_t *written)
+{
+    *written += size;
+    if (*written < MOST_HELD)
+        return;
+    ffd_gltf_forget(saver->document);
+    *written = 0;
+}
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
 static ffd_status put_base64(const gltf_saver *saver, size_t buffer, ffd_error *error)
 {
     const size_t size = ffd_gltf_content_size(saver, buffer);
+    size_t written = 0;
     unsigned char *block = ffd_alloc(BLOCK, 1);
     char *text = ffd_alloc(ffd_base64_length(BLOCK), 1);
     ffd_status status = block && text ? FFD_OK : ffd_fail_memory(error);
     for (size_t at = 0; at < size && status == FFD_OK; at += BLOCK) {
-        const size_t part = size - at < BLOCK ? size - at : BLOCK;
+        const size_t part = least(size - at, BLOCK);
         ffd_gltf_content_read(saver, buffer, at, part, block);
         ffd_base64_encode(block, part, text);
         status = put(saver, text, ffd_base64_length(part), error);
+        note_written(saver, part, &written);
     }
     ffd_free(block);
     ffd_free(text);
@@ -60,20 +77,19 @@ static ffd_status put_content(const gltf_saver *saver, size_t buffer, ffd_error 
     size_t written = 0;
     unsigned char *block = ffd_alloc(BLOCK, 1);
     ffd_status status = block ? FFD_OK : ffd_fail_memory(error);
-    for (size_t at = 0, part = 0; at < size && status == FFD_OK; at += part) {
-        const unsigned char *bytes = block;
-        const size_t kept = ffd_gltf_content_kept(saver, buffer, at, &bytes);
-        part = size - at < BLOCK ? size - at : BLOCK;
-        if (kept >= part)
-            part = kept < LARGEST_WRITE ? kept : LARGEST_WRITE;
-        else
+    for (size_t at = 0, part; at < size && status == FFD_OK; at += part) {
+        const unsigned char *kept_bytes;
+        const size_t next = least(size - at, BLOCK);
+        const size_t kept = ffd_gltf_content_kept(saver, buffer, at, &kept_bytes);
+        if (kept >= next) {
+            part = least(kept, LARGEST_WRITE);
+            status = put(saver, kept_bytes, part, error);
+        } else {
+            part = next;
             ffd_gltf_content_read(saver, buffer, at, part, block);
-        status = put(saver, kept >= part ? bytes : block, part, error);
-        written += part;
-        if (written >= MOST_HELD) {
-            ffd_gltf_forget(saver->document);
-            written = 0;
+            status = put(saver, block, part, error);
         }
+        note_written(saver, part, &written);
     }
     ffd_free(block);
     return status;

@@ -29,9 +29,10 @@ typedef struct block_content {
 typedef struct reader {
     obj_document *document;
     block_content *contents; /* of each worker's block */
-    size_t line, faces;      /* before the next block */
-    size_t failed;           /* the first block that could not be read; SIZE_MAX: none so far */
-    ffd_status status;       /* of that block */
+    /* Before the next block; the document gets them when no thread looks at it any more. */
+    size_t line, vertices, texcoords, normals, faces;
+    size_t failed;     /* the first block that could not be read; SIZE_MAX: none so far */
+    ffd_status status; /* of that block */
     atomic_bool is_over;
 } reader;
 
@@ -137,15 +138,15 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     if (r->failed != SIZE_MAX)
         return;
     block->line = r->line;
-    block->vertices = d->vertices;
-    block->texcoords = d->texcoords;
-    block->normals = d->normals;
+    block->vertices = r->vertices;
+    block->texcoords = r->texcoords;
+    block->normals = r->normals;
     block->faces = r->faces;
     block->names_elements = content->names_elements;
     r->status = content->status;
     if (r->status == FFD_OK &&
-        (!append(&content->positions, d->vertices, &d->position_store) ||
-         (!d->only_positions && !append(&content->normals, d->normals, &d->direction_store))))
+        (!append(&content->positions, r->vertices, &d->position_store) ||
+         (!d->only_positions && !append(&content->normals, r->normals, &d->direction_store))))
         r->status = FFD_E_MEMORY;
     if (r->status) {
         r->failed = first;
@@ -154,9 +155,9 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     }
     r->line += content->lines;
     r->faces += content->faces;
-    d->vertices += content->positions.count;
-    d->texcoords += content->texcoords;
-    d->normals += content->normals.count;
+    r->vertices += content->positions.count;
+    r->texcoords += content->texcoords;
+    r->normals += content->normals.count;
     d->addition = content->addition ? content->addition : d->addition;
 }
 
@@ -183,6 +184,9 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
     ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r);
+    d->vertices = r->vertices;
+    d->texcoords = r->texcoords;
+    d->normals = r->normals;
     if (r->failed != SIZE_MAX)
         return find_failure(d, r->failed, r->status, error);
     d->positions = d->position_store.data;
