@@ -8,7 +8,7 @@
 #include <stddef.h>
 
 /* Bytes that are not worth a file. */
-#define SPILL_FROM ((size_t)256 << 20)
+#define SPILL_FROM ((size_t)128 << 20)
 
 typedef struct spill_array {
     void *data;  /* NULL: nothing yet */
