@@ -29,7 +29,11 @@ typedef struct batch_cell {
 #define KEPT_CELLS ((size_t)2048)
 #define KEPT_NUMBERS (KEPT_CELLS * (3 * 4 * 4 * 4 + 1))
 
+/* What the threads of a pass may keep in all, 6 MB: a machine can have many. */
+#define KEPT_IN_ALL (2 * KEPT_NUMBERS)
+
 typedef struct kept_cells {
+    int threads;                /* that share the memory; set by whoever made the scratch, 0 as 1 */
     const ffd_lattice *lattice; /* whose cells they are; NULL: there are none */
     bool gradients;             /* of the batch */
     size_t count, numbers;      /* of cells that there is room for, and of numbers that each has */

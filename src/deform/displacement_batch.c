@@ -118,9 +118,10 @@ static void begin_cells(const ffd_lattice *lattice, bool gradients, kept_cells *
         return;
     kept->lattice = lattice;
     kept->numbers = numbers;
-    kept->count = KEPT_NUMBERS / kept->numbers;
-    if (kept->count > KEPT_CELLS)
-        kept->count = KEPT_CELLS;
+    const size_t share = KEPT_IN_ALL / (size_t)(kept->threads > 2 ? kept->threads : 2);
+    kept->count = share / numbers < KEPT_CELLS ? share / numbers : KEPT_CELLS;
+    if (kept->count == 0)
+        kept->count = 1;
     memset(kept->keys, 0, sizeof kept->keys);
 }
 

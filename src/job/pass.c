@@ -430,6 +430,8 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
     for (size_t i = 0; i < pass->document->part_count; i++)
         shapes = shapes || (pass->write && pass->document->parts[i].shape_count > 0);
     tile_scratch *scratch = ffd_alloc_zero((size_t)pass->threads, sizeof *scratch);
+    for (int i = 0; scratch && i < pass->threads; i++)
+        scratch[i].chain.displacement.kept.threads = pass->threads;
     for (int i = 0; shapes && scratch && i < pass->threads; i++) {
         scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
         if (!scratch[i].shape) {

@@ -442,6 +442,7 @@ static edge_scratch *make_scratch(size_t workers, size_t links)
 {
     edge_scratch *scratch = ffd_alloc_zero(workers, sizeof *scratch);
     for (size_t i = 0; scratch && i < workers; i++) {
+        scratch[i].chain.displacement.kept.threads = (int)workers;
         scratch[i].cells = ffd_alloc(links, TILE * SLOTS * 3 * sizeof(double));
         if (!scratch[i].cells) {
             free_scratch(scratch, workers);

@@ -139,11 +139,12 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
 static void batches_give_what_points_get_alone(void **state)
 {
     draw d = {draw_seed()};
-    sample *s = malloc(sizeof *s);
+    sample *s = calloc(1, sizeof *s);
     assert_non_null(s);
     for (int i = 0; i < LATTICES; i++) {
         ffd_lattice *lattice = random_lattice(&d, i);
         ffd_displacement_scratch_clear(&s->scratch);
+        s->scratch.kept.threads = i % 4 == 0 ? 1000 : i % 4;
         for (int round = 0; round < ROUNDS; round++)
             check_batch(&d, lattice, s);
         ffd_lattice_destroy(&lattice);
