@@ -108,8 +108,9 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
 static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
 {
     made->count = (size_t)ffd_pass_vertex_count(made->document);
-    const ffd_status status = ffd_room_check(&made->document->room, made->count,
-                                             3 * sizeof *made->uvw + sizeof *made->statuses, error);
+    mesh_room room = made->document->room;
+    const ffd_status status =
+        ffd_room_take(&room, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error);
     if (status)
         return status;
     made->uvw = ffd_alloc(made->count, 3 * sizeof *made->uvw);
@@ -119,7 +120,7 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
     const mesh_pass pass = {.document = made->document,
                             .chain = &made->chain,
                             .links = 1,
-                            .threads = threads,
+                            .threads = ffd_pass_threads(&room, &made->chain, threads),
                             .uvw = made->uvw,
                             .statuses = made->statuses};
     return ffd_pass_run(&pass, totals, error);

@@ -12,20 +12,19 @@
 /* Of a vertex, in the arrays. */
 #define ARRAY_BYTES (12 * sizeof(double))
 
-/* Whether there is memory for all that figures and normals from faces need, with the faces that are there. */
-static ffd_status check_room(const deform_job *job, const mesh_faces *faces, ffd_error *error)
+/* Takes the memory that figures and normals from faces need, with the faces that are there. */
+static ffd_status take_room(const deform_job *job, const mesh_faces *faces, mesh_room *room, ffd_error *error)
 {
-    mesh_room room = job->document->room;
     const size_t corners = faces->start[faces->face_count];
-    ffd_status status = ffd_room_take(&room, ffd_pass_vertex_count(job->document), ARRAY_BYTES, error);
+    ffd_status status = ffd_room_take(room, ffd_pass_vertex_count(job->document), ARRAY_BYTES, error);
     if (status == FFD_OK)
-        status = ffd_mesh_faces_take(faces, corners, &room, error);
+        status = ffd_mesh_faces_take(faces, corners, room, error);
     if (status == FFD_OK && job->check)
-        status = ffd_room_check(&room, corners, EDGE_LIST_BYTES, error);
+        status = ffd_room_take(room, corners, EDGE_LIST_BYTES, error);
     for (size_t i = 0; i < job->document->part_count && status == FFD_OK && job->recomputes; i++)
-        status = ffd_room_take(&room, job->document->parts[i].normal_count, NORMAL_BYTES, error);
+        status = ffd_room_take(room, job->document->parts[i].normal_count, NORMAL_BYTES, error);
     if (status == FFD_OK && job->recomputes)
-        status = ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
+        status = ffd_room_take(room, ffd_half_edge_bytes(faces), 1, error);
     return status;
 }
 
@@ -33,12 +32,15 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
 {
     ffd_error own;
     char line[1024];
+    mesh_room room = arrays->room;
     ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
     if (status == FFD_OK)
-        status = check_room(job, &arrays->faces, &own);
+        status = take_room(job, &arrays->faces, &room, &own);
     arrays->has_faces = status == FFD_OK;
-    if (!status)
+    if (!status) {
+        arrays->room = room;
         return FFD_OK;
+    }
     ffd_mesh_faces_free(&arrays->faces);
     if (job->check || job->recomputes || status == FFD_E_MEMORY) {
         if (error)

@@ -416,6 +416,14 @@ uint64_t ffd_pass_vertex_count(const mesh_document *document)
     return count;
 }
 
+int ffd_pass_threads(const mesh_room *room, const lattice_chain *chain, int threads)
+{
+    return ffd_room_threads(room, threads, THREAD_BYTES + chain->count * THREAD_LINK_BYTES);
+}
+
+_Static_assert(sizeof(tile_scratch) - sizeof(kept_cells) + sizeof(shape_scratch) < THREAD_BYTES,
+               "a thread takes more than is counted");
+
 static void free_scratch(tile_scratch *scratch, int workers)
 {
     for (int i = 0; scratch && i < workers; i++)

@@ -52,6 +52,14 @@ typedef struct mesh_pass {
    parts that repeat positions do not count. */
 uint64_t ffd_pass_vertex_count(const mesh_document *document);
 
+/* What a thread of a pass may take, and of what looks at edges after it (quality.h): the latter for each
+   lattice too. */
+#define THREAD_BYTES ((size_t)2 << 20)
+#define THREAD_LINK_BYTES ((size_t)400 << 10)
+
+/* How many of the threads there is memory for, beside what is taken of the room. */
+int ffd_pass_threads(const mesh_room *room, const lattice_chain *chain, int threads);
+
 ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error);
 
 #endif

@@ -26,11 +26,12 @@ static ffd_status check_reach(const lattice_chain *chain, size_t link, const mes
 
 ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
 {
+    const int usable = ffd_pass_threads(&document->room, chain, threads);
     for (size_t l = 0; l < chain->count; l++) {
         chain_link *link = &chain->links[l];
         if (link->locator)
             continue;
-        const mesh_pass pass = {.document = document, .chain = chain, .links = l, .threads = threads};
+        const mesh_pass pass = {.document = document, .chain = chain, .links = l, .threads = usable};
         pass_totals totals;
         ffd_status status = check_reach(NULL, l, document, error);
         if (!status)

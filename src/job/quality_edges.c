@@ -3,6 +3,7 @@
 #include "base/vec.h"
 #include "embed/box_tree.h"
 #include "job/edge_list.h"
+#include "job/pass.h"
 #include "job/quality.h"
 #include "lattice/lattice.h"
 #include <float.h>
@@ -437,6 +438,10 @@ static void free_scratch(edge_scratch *scratch, size_t workers)
         ffd_free(scratch[i].cells);
     ffd_free(scratch);
 }
+
+_Static_assert(sizeof(edge_scratch) - sizeof(kept_cells) < THREAD_BYTES &&
+                   TILE * SLOTS * 3 * sizeof(double) <= THREAD_LINK_BYTES,
+               "a thread takes more than is counted");
 
 static edge_scratch *make_scratch(size_t workers, size_t links)
 {

@@ -62,3 +62,9 @@ ffd_status ffd_room_take(mesh_room *room, uint64_t count, uint64_t size, ffd_err
         room->taken += count * size; /* no more than what was left */
     return status;
 }
+
+int ffd_room_threads(const mesh_room *room, int threads, uint64_t size)
+{
+    const uint64_t most = ffd_room_left(room) / size;
+    return threads <= 1 || most <= 1 ? 1 : most < (uint64_t)threads ? (int)most : threads;
+}

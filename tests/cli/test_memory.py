@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """No file takes more memory than 20 times its size and 100 MB, whatever it shows; what needs more is refused
-(exit 7), and --memory allows it. Peaks are measured from outside; argument: the program packed_glb."""
+(exit 7), and --memory allows it; however many threads there are. Peaks are measured from outside; argument: the
+program packed_glb."""
 
 import json
 import os
@@ -56,6 +57,8 @@ def run_all(run, name, commands):
     codes = {}
     for command in commands:
         arguments = [name if a == "IN" else a.replace("ENDING", ending) for a in COMMANDS[command]]
+        if command != "info":
+            arguments += ["--threads", "64"]
         code, peak, line = measure(run, arguments)
         if os.environ.get("FFD_PEAKS"):
             print(f"{name:16s} {command:10s} exit {code} {peak / 1e6:7.1f} of {most / 1e6:7.1f} MB {line[:100]}")

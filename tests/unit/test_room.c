@@ -90,12 +90,25 @@ static void text_is_kept_as_numbers(void **state)
     assert_true(ffd_room_left(&floats) > ffd_room_left(&room));
 }
 
+static void threads_share_what_is_left(void **state)
+{
+    (void)state;
+    mesh_room room = ffd_room_make(0);
+    const uint64_t left = ffd_room_left(&room);
+    assert_int_equal(ffd_room_threads(&room, 64, left / 64), 64);
+    assert_int_equal(ffd_room_threads(&room, 64, left / 10), 10);
+    assert_int_equal(ffd_room_threads(&room, 3, left / 10), 3);
+    assert_int_equal(ffd_room_threads(&room, 0, 1), 1);
+    assert_int_equal(ffd_room_take(&room, left, 1, NULL), FFD_OK);
+    assert_int_equal(ffd_room_threads(&room, 64, 1), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_widen_it),          cmocka_unit_test(more_can_be_asked_for),
         cmocka_unit_test(what_is_taken_is_gone),   cmocka_unit_test(no_size_wraps_round),
-        cmocka_unit_test(text_is_kept_as_numbers),
+        cmocka_unit_test(text_is_kept_as_numbers), cmocka_unit_test(threads_share_what_is_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
