@@ -24,8 +24,11 @@ static inline void store_u32(unsigned char bytes[4], uint32_t value)
 
 static inline void store_u64(unsigned char bytes[8], uint64_t value)
 {
-    for (int i = 0; i < 8; i++)
-        bytes[i] = (unsigned char)(value >> (8 * i));
+    if (LITTLE_ENDIAN_MACHINE)
+        memcpy(bytes, &value, sizeof value);
+    else
+        for (int i = 0; i < 8; i++)
+            bytes[i] = (unsigned char)(value >> (8 * i));
 }
 
 static inline void store_double(unsigned char bytes[8], double value)

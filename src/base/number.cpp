@@ -1,4 +1,5 @@
 #include "base/number.h"
+#include "base/decimal.h"
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -72,7 +73,8 @@ template <typename T> size_t format_shortest(T value, char *text)
 
 extern "C" const char *ffd_number_parse(const char *first, const char *last, double *value)
 {
-    return parse(first, last, value);
+    const char *const end = ffd_decimal_parse(first, last, value);
+    return end ? end : parse(first, last, value);
 }
 
 extern "C" const char *ffd_number_parse_float(const char *first, const char *last, float *value)
@@ -82,7 +84,8 @@ extern "C" const char *ffd_number_parse_float(const char *first, const char *las
 
 extern "C" size_t ffd_number_format(double value, char text[FFD_NUMBER_CAPACITY])
 {
-    return format_shortest(value, text);
+    const size_t size = ffd_decimal_format(value, text);
+    return size ? size : format_shortest(value, text);
 }
 
 extern "C" size_t ffd_number_format_float(float value, char text[FFD_NUMBER_CAPACITY])
@@ -93,6 +96,6 @@ extern "C" size_t ffd_number_format_float(float value, char text[FFD_NUMBER_CAPA
 extern "C" number_text ffd_number_text(double value)
 {
     number_text result;
-    result.text[format_shortest(value, result.text)] = 0;
+    result.text[ffd_number_format(value, result.text)] = 0;
     return result;
 }

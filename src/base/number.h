@@ -1,4 +1,5 @@
-/* number.h - number text: exact both ways, whatever the locale (C++17 <charconv> behind C). */
+/* number.h - number text: exact both ways, whatever the locale (C++17 <charconv> behind C, and decimal.h for
+   what meshes mostly hold). */
 #ifndef FFD_BASE_NUMBER_H
 #define FFD_BASE_NUMBER_H
 
@@ -9,7 +10,7 @@ extern "C" {
 #endif
 
 /* Capacity that is enough for every number written below. */
-#define FFD_NUMBER_CAPACITY 32
+#define FFD_NUMBER_CAPACITY 40
 
 /* Reads the decimal number at the start of [first, last): optional sign, digits, point, exponent, or inf/nan.
    Returns the place behind it, or NULL where there is none. The nearest double is stored; too large numbers

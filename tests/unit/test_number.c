@@ -10,6 +10,8 @@
 #include <float.h>
 #include <locale.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct number_case {
@@ -156,12 +158,95 @@ static void test_round_trip(void **state)
     (void)state;
 }
 
+/* The shortest text by trial: with ever more digits until it reads back, in the shorter of both forms. Not
+   for powers of two, whose neighbours are not equally far away: the nearest of so many digits may not read
+   back where the one beside it does. */
+static void write_by_trial(double value, char *text, size_t capacity)
+{
+    char digits[40];
+    int count = 0;
+    do
+        snprintf(digits, sizeof digits, "%.*e", count++, value);
+    while (strtod(digits, NULL) != value);
+    const int exponent = atoi(strchr(digits, 'e') + 1);
+    snprintf(text, capacity, "%.*f", count - 1 > exponent ? count - 1 - exponent : 0, value);
+    if (strlen(digits) < strlen(text))
+        snprintf(text, capacity, "%s", digits);
+}
+
+/* A double as meshes hold them: any bits, few digits, few bits, and what lies next to those. */
+static double draw_coordinate(draw *d)
+{
+    double value = ldexp(draw_between(d, -2, 2), draw_int(d, -60, 51));
+    const int kind = draw_int(d, 0, 3);
+    if (kind == 0)
+        value = (double)(draw_bits(d) % 1000000) * pow(10, draw_int(d, -12, 3));
+    else if (kind == 1)
+        value = ldexp((double)(draw_bits(d) % 1024), draw_int(d, -50, 40));
+    const int side = draw_int(d, 0, 3);
+    return side == 0 ? nextafter(value, -HUGE_VAL) : side == 1 ? nextafter(value, HUGE_VAL) : value;
+}
+
+static void test_shortest(void **state)
+{
+    draw d = {draw_seed()};
+    setlocale(LC_ALL, "C");
+    for (int i = 0; i < 300000; i++) {
+        char expected[400];
+        int exponent;
+        const double value = draw_coordinate(&d);
+        if (fabs(frexp(value, &exponent)) == 0.5)
+            continue;
+        write_by_trial(value, expected, sizeof expected);
+        assert_string_equal(format(value), expected);
+    }
+    (void)state;
+}
+
+static size_t draw_digits(draw *d, int most, char *text)
+{
+    const int count = draw_int(d, 0, most);
+    const uint64_t zeros = draw_bits(d);
+    for (int i = 0; i < count; i++)
+        text[i] = zeros >> (i % 64) & 1 ? '0' : (char)('0' + draw_int(d, 0, 9));
+    return (size_t)count;
+}
+
+/* Texts of all lengths read as the C library reads them. */
+static void test_read(void **state)
+{
+    draw d = {draw_seed()};
+    setlocale(LC_ALL, "C");
+    for (int i = 0; i < 300000; i++) {
+        char text[80] = "-", *end;
+        size_t size = (size_t)draw_int(&d, 0, 1);
+        size += draw_digits(&d, 22, text + size);
+        if (draw_int(&d, 0, 3))
+            text[size++] = '.';
+        size += draw_digits(&d, 22, text + size);
+        if (draw_int(&d, 0, 5) == 0)
+            size += (size_t)snprintf(text + size, 8, "e%d", draw_int(&d, -30, 30));
+        snprintf(text + size, 8, "%s", draw_int(&d, 0, 1) ? ",1" : ".1");
+        double value = 0;
+        const char *const read = ffd_number_parse(text, text + size + 2, &value);
+        const double expected = strtod(text, &end);
+        if (end == text) {
+            assert_null(read);
+            continue;
+        }
+        assert_ptr_equal(read, end);
+        assert_memory_equal(&value, &expected, sizeof value);
+    }
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parse),         cmocka_unit_test(test_parse_float),
         cmocka_unit_test(test_stops_at_last), cmocka_unit_test(test_format),
-        cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_shortest),
+        cmocka_unit_test(test_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

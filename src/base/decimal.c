@@ -1,0 +1,218 @@
+#include "base/decimal.h"
+#include "base/little_endian.h"
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Digits of a number that is read: more could be more than 2^53. */
+#define MOST_DIGITS 19
+
+static unsigned digit_of(char c)
+{
+    return (unsigned)(unsigned char)c - '0';
+}
+
+static const char *take_digits(const char *at, const char *last, uint64_t *number)
+{
+    uint64_t n = *number;
+    for (; at < last && digit_of(*at) < 10; at++)
+        n = n * 10 + digit_of(*at);
+    *number = n;
+    return at;
+}
+
+/* A whole number up to 2^53 and a power of ten up to 10^22 are doubles, so that their quotient is rounded
+   once (Clinger, How to Read Floating Point Numbers Accurately, 1990). */
+const char *ffd_decimal_parse(const char *first, const char *last, double *value)
+{
+    static const double powers[MOST_DIGITS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
+                                                   1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
+                                                   1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+    const bool negative = first < last && *first == '-';
+    const char *const digits = first + negative;
+    uint64_t number = 0;
+    ptrdiff_t behind = 0;
+    const char *at = take_digits(digits, last, &number);
+    ptrdiff_t count = at - digits;
+    if (at < last && *at == '.') {
+        const char *const point = at;
+        at = take_digits(point + 1, last, &number);
+        behind = at - point - 1;
+        count += behind;
+    }
+    /* Numbers of more digits may have wrapped round. */
+    if (count == 0 || count > MOST_DIGITS || number > (uint64_t)1 << 53 ||
+        (at < last && (*at == 'e' || *at == 'E')))
+        return NULL;
+    const double size = (double)number / powers[behind];
+    *value = negative ? -size : size;
+    return at;
+}
+
+#ifdef __SIZEOF_INT128__
+
+__extension__ typedef unsigned __int128 uint128;
+
+#define MANTISSA_BITS 52
+#define LEAST_EXPONENT (-84) /* of the mantissa as a whole number */
+
+static const uint64_t powers_of_five[] = {
+    UINT64_C(1),
+    UINT64_C(5),
+    UINT64_C(25),
+    UINT64_C(125),
+    UINT64_C(625),
+    UINT64_C(3125),
+    UINT64_C(15625),
+    UINT64_C(78125),
+    UINT64_C(390625),
+    UINT64_C(1953125),
+    UINT64_C(9765625),
+    UINT64_C(48828125),
+    UINT64_C(244140625),
+    UINT64_C(1220703125),
+    UINT64_C(6103515625),
+    UINT64_C(30517578125),
+    UINT64_C(152587890625),
+    UINT64_C(762939453125),
+    UINT64_C(3814697265625),
+    UINT64_C(19073486328125),
+    UINT64_C(95367431640625),
+    UINT64_C(476837158203125),
+    UINT64_C(2384185791015625),
+    UINT64_C(11920928955078125),
+    UINT64_C(59604644775390625),
+    UINT64_C(298023223876953125),
+    UINT64_C(1490116119384765625),
+};
+
+/* 10^point, which lifts the interval of a number with this exponent to a width of 1 to 10. */
+static int point_of(int exponent)
+{
+    return (-exponent * 315653 + (1 << 20) - 1) >> 20; /* ceil(-exponent log10(2)) */
+}
+
+/* mantissa 2^exponent 10^point, as the whole number of 16 or 17 digits that has the fewest digits other than
+   final zeros of those between the neighbours' halfway points, and of these is the nearest.
+
+   The interval is 1 to 10 wide: it holds a whole number, and one multiple of 10 at most, which is shorter
+   than all others; else the nearest whole number has as many digits as any (Giulietti, The Schubfach way to
+   render doubles, 2020, 8). All of it is in whole numbers, in units of 2^-shift: nothing is rounded. (Of a
+   power of two the halfway point below is nearer.) Which way it goes cannot be predicted: no branches. */
+static uint64_t shortest(uint64_t mantissa, int exponent, int point)
+{
+    const int shift = 2 - exponent - point; /* 2 to 60: ten units fit in 64 bits */
+    const uint64_t five = powers_of_five[point];
+    const uint128 scaled = (uint128)(4 * mantissa) * five;
+    const uint64_t low = (uint64_t)scaled, unit = (uint64_t)1 << shift;
+    const uint64_t whole = (uint64_t)(scaled >> 64) << (64 - shift) | low >> shift;
+    const uint64_t part = low & (unit - 1);
+    const uint64_t reach = 2 * five - (mantissa & 1); /* ties go to the even mantissa */
+    const uint64_t last_digit = whole % 10, above_ten = (last_digit << shift) + part;
+    const bool down = above_ten <= reach, up = 10 * unit - above_ten <= reach;
+    const uint64_t nearest = whole + (part + (whole & 1) > unit / 2);
+    const uint64_t tens = whole - last_digit + (up ? 10 : 0);
+    return down | up ? tens : nearest;
+}
+
+#define DIGITS 17
+#define LEAST_OF_ALL UINT64_C(10000000000000000) /* numbers of 17 digits */
+#define EIGHT UINT64_C(100000000)
+#define ROOM (2 * DIGITS) /* so that DIGITS can be copied from each of them on */
+
+/* The digits of a number below 10^8, one a byte, the first lowest. */
+static uint64_t eight_digits(uint64_t value)
+{
+    const uint64_t fours = value / 10000 | (value % 10000) << 32;
+    const uint64_t hundreds = (fours * 10486 >> 20) & UINT64_C(0x0000007f0000007f);
+    const uint64_t pairs = hundreds | (fours - 100 * hundreds) << 16;
+    const uint64_t tens = (pairs * 103 >> 10) & UINT64_C(0x000f000f000f000f);
+    return tens | (pairs - 10 * tens) << 8;
+}
+
+/* Writes all 17 digits of a number that is not 0; returns how many zeros they end with. */
+static int write_digits(uint64_t number, char text[DIGITS])
+{
+    const uint64_t zeros = UINT64_C(0x3030303030303030);
+    const uint64_t high = number / EIGHT, middle = eight_digits(high % EIGHT);
+    const uint64_t low = eight_digits(number % EIGHT);
+    text[0] = (char)('0' + high / EIGHT);
+    store_u64((unsigned char *)text + 1, middle + zeros);
+    store_u64((unsigned char *)text + 9, low + zeros);
+    if (low)
+        return __builtin_clzll(low) / 8;
+    return middle ? 8 + __builtin_clzll(middle) / 8 : 16;
+}
+
+/* Each of the following copies DIGITS characters, for that is faster than a number that changes; those behind
+   the end do not count. */
+static char *put_fixed(char *to, const char *digits, int count, int before_point)
+{
+    if (before_point <= 0) {
+        memcpy(to, "0.0000", 6);
+        to += 2 - before_point;
+        memcpy(to, digits, DIGITS);
+        return to + count;
+    }
+    memcpy(to, digits, DIGITS);
+    if (before_point < count) {
+        to += before_point;
+        *to++ = '.';
+        memcpy(to, digits + before_point, DIGITS);
+        return to + count - before_point;
+    }
+    memset(to + count, '0', (size_t)(before_point - count));
+    return to + before_point;
+}
+
+static char *put_scientific(char *to, const char *digits, int count, int exponent)
+{
+    const int size = exponent < 0 ? -exponent : exponent;
+    *to++ = *digits;
+    if (count > 1) {
+        *to++ = '.';
+        memcpy(to, digits + 1, DIGITS);
+        to += count - 1;
+    }
+    *to++ = 'e';
+    *to++ = exponent < 0 ? '-' : '+';
+    *to++ = (char)('0' + size / 10);
+    *to++ = (char)('0' + size % 10);
+    return to;
+}
+
+size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
+{
+    uint64_t bits;
+    char room[ROOM] = {0}, *to = text;
+    memcpy(&bits, &value, sizeof bits);
+    const uint64_t hidden = (uint64_t)1 << MANTISSA_BITS, fraction = bits & (hidden - 1);
+    const int exponent = (int)(bits >> MANTISSA_BITS & 0x7ff) - 1075;
+    if (fraction == 0 || exponent < LEAST_EXPONENT || exponent >= 0)
+        return 0;
+    const int point = point_of(exponent);
+    const uint64_t number = shortest(fraction | hidden, exponent, point);
+    const int zeros = write_digits(number, room), length = number >= LEAST_OF_ALL ? DIGITS : DIGITS - 1;
+    const int count = length - zeros, before_point = length - point;
+    const char *const digits = room + DIGITS - length;
+    const int fixed = before_point <= 0      ? 2 - before_point + count
+                      : before_point < count ? count + 1
+                                             : before_point;
+    const int scientific = count + (count > 1) + 4;
+    *to = '-';
+    to += bits >> 63;
+    to = fixed <= scientific ? put_fixed(to, digits, count, before_point)
+                             : put_scientific(to, digits, count, before_point - 1);
+    return (size_t)(to - text);
+}
+
+#else
+
+size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
+{
+    (void)value;
+    (void)text;
+    return 0;
+}
+
+#endif
