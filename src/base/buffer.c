@@ -8,12 +8,19 @@
 static bool make_room(byte_buffer *buffer, size_t more)
 {
     size_t needed;
+    if (!buffer->failed && more <= buffer->capacity - buffer->size)
+        return true;
     if (buffer->failed || !ffd_add_size(buffer->size, more, &needed) ||
         !ffd_grow((void **)&buffer->data, &buffer->capacity, needed, 1)) {
         buffer->failed = true;
         return false;
     }
     return true;
+}
+
+char *ffd_buffer_room(byte_buffer *buffer, size_t size)
+{
+    return make_room(buffer, size) ? buffer->data + buffer->size : NULL;
 }
 
 void ffd_buffer_append(byte_buffer *buffer, const void *bytes, size_t size)
@@ -45,8 +52,9 @@ void ffd_buffer_format(byte_buffer *buffer, const char *format, ...)
 
 void ffd_buffer_number(byte_buffer *buffer, double value)
 {
-    char text[FFD_NUMBER_CAPACITY];
-    ffd_buffer_append(buffer, text, ffd_number_format(value, text));
+    char *const room = ffd_buffer_room(buffer, FFD_NUMBER_CAPACITY);
+    if (room)
+        buffer->size += ffd_number_format(value, room);
 }
 
 char *ffd_buffer_finish(byte_buffer *buffer)

@@ -116,11 +116,22 @@ static uint64_t shortest(uint64_t mantissa, int exponent, int point)
 }
 
 #define DIGITS 17
-#define LEAST_OF_ALL UINT64_C(10000000000000000) /* numbers of 17 digits */
+#define LEAST_OF_ALL UINT64_C(10000000000000000) /* number of 17 digits */
 #define EIGHT UINT64_C(100000000)
-#define ROOM (2 * DIGITS) /* so that DIGITS can be copied from each of them on */
 
-/* The digits of a number below 10^8, one a byte, the first lowest. */
+/* Up to 24 characters, the first lowest. Registers: what was just written as bytes is slow to read as words.
+ */
+typedef struct characters {
+    uint64_t words[3];
+} characters;
+
+static void put(const characters *from, char *to)
+{
+    for (int i = 0; i < 3; i++)
+        store_u64((unsigned char *)to + 8 * i, from->words[i]);
+}
+
+/* The digits of a number below 10^8, one a byte. */
 static uint64_t eight_digits(uint64_t value)
 {
     const uint64_t fours = value / 10000 | (value % 10000) << 32;
@@ -130,50 +141,54 @@ static uint64_t eight_digits(uint64_t value)
     return tens | (pairs - 10 * tens) << 8;
 }
 
-/* Writes all 17 digits of a number that is not 0; returns how many zeros they end with. */
-static int write_digits(uint64_t number, char text[DIGITS])
+/* The digits of a number of 16 or 17, and how many zeros they end with. */
+static characters digits_of(uint64_t number, int *zeros)
 {
-    const uint64_t zeros = UINT64_C(0x3030303030303030);
-    const uint64_t high = number / EIGHT, middle = eight_digits(high % EIGHT);
-    const uint64_t low = eight_digits(number % EIGHT);
-    text[0] = (char)('0' + high / EIGHT);
-    store_u64((unsigned char *)text + 1, middle + zeros);
-    store_u64((unsigned char *)text + 9, low + zeros);
-    if (low)
-        return __builtin_clzll(low) / 8;
-    return middle ? 8 + __builtin_clzll(middle) / 8 : 16;
+    const uint64_t text = UINT64_C(0x3030303030303030);
+    const uint64_t first = number / LEAST_OF_ALL;
+    const uint64_t middle = eight_digits(number / EIGHT % EIGHT), low = eight_digits(number % EIGHT);
+    const int shift = first ? 8 : 0; /* where there is one digit more */
+    *zeros = low ? __builtin_clzll(low) / 8 : middle ? 8 + __builtin_clzll(middle) / 8 : 16;
+    return (characters){{(middle << shift | first) + text,
+                         (low << shift | middle >> 1 >> (63 - shift)) + text,
+                         (low >> 1 >> (63 - shift)) + text}};
 }
 
-/* Each of the following copies DIGITS characters, for that is faster than a number that changes; those behind
-   the end do not count. */
-static char *put_fixed(char *to, const char *digits, int count, int before_point)
+/* With a point behind the first 1 to 7. */
+static characters with_point(const characters *digits, int before_point)
+{
+    const int at = 8 * before_point;
+    const uint64_t *const from = digits->words, before = ((uint64_t)1 << at) - 1;
+    return (characters){{(from[0] & before) | (uint64_t)'.' << at | (from[0] & ~before) << 8,
+                         from[1] << 8 | from[0] >> 56, from[2] << 8 | from[1] >> 56}};
+}
+
+static char *put_fixed(char *to, const characters *digits, int count, int before_point)
 {
     if (before_point <= 0) {
         memcpy(to, "0.0000", 6);
-        to += 2 - before_point;
-        memcpy(to, digits, DIGITS);
-        return to + count;
+        put(digits, to + 2 - before_point);
+        return to + 2 - before_point + count;
     }
-    memcpy(to, digits, DIGITS);
-    if (before_point < count) {
-        to += before_point;
-        *to++ = '.';
-        memcpy(to, digits + before_point, DIGITS);
-        return to + count - before_point;
+    if (before_point < 8 && before_point < count) {
+        const characters pointed = with_point(digits, before_point);
+        put(&pointed, to);
+        return to + count + 1;
     }
-    memset(to + count, '0', (size_t)(before_point - count));
-    return to + before_point;
+    put(digits, to);
+    if (before_point >= count)
+        return to + before_point; /* the zeros are there */
+    memmove(to + before_point + 1, to + before_point, (size_t)(count - before_point));
+    to[before_point] = '.';
+    return to + count + 1;
 }
 
-static char *put_scientific(char *to, const char *digits, int count, int exponent)
+static char *put_scientific(char *to, const characters *digits, int count, int exponent)
 {
     const int size = exponent < 0 ? -exponent : exponent;
-    *to++ = *digits;
-    if (count > 1) {
-        *to++ = '.';
-        memcpy(to, digits + 1, DIGITS);
-        to += count - 1;
-    }
+    const characters pointed = with_point(digits, 1);
+    put(&pointed, to);
+    to += count > 1 ? count + 1 : 1;
     *to++ = 'e';
     *to++ = exponent < 0 ? '-' : '+';
     *to++ = (char)('0' + size / 10);
@@ -184,7 +199,7 @@ static char *put_scientific(char *to, const char *digits, int count, int exponen
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
 {
     uint64_t bits;
-    char room[ROOM] = {0}, *to = text;
+    int zeros;
     memcpy(&bits, &value, sizeof bits);
     const uint64_t hidden = (uint64_t)1 << MANTISSA_BITS, fraction = bits & (hidden - 1);
     const int exponent = (int)(bits >> MANTISSA_BITS & 0x7ff) - 1075;
@@ -192,17 +207,18 @@ size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
         return 0;
     const int point = point_of(exponent);
     const uint64_t number = shortest(fraction | hidden, exponent, point);
-    const int zeros = write_digits(number, room), length = number >= LEAST_OF_ALL ? DIGITS : DIGITS - 1;
+    const characters digits = digits_of(number, &zeros);
+    const int length = number >= LEAST_OF_ALL ? DIGITS : DIGITS - 1;
     const int count = length - zeros, before_point = length - point;
-    const char *const digits = room + DIGITS - length;
     const int fixed = before_point <= 0      ? 2 - before_point + count
                       : before_point < count ? count + 1
                                              : before_point;
     const int scientific = count + (count > 1) + 4;
+    char *to = text;
     *to = '-';
     to += bits >> 63;
-    to = fixed <= scientific ? put_fixed(to, digits, count, before_point)
-                             : put_scientific(to, digits, count, before_point - 1);
+    to = fixed <= scientific ? put_fixed(to, &digits, count, before_point)
+                             : put_scientific(to, &digits, count, before_point - 1);
     return (size_t)(to - text);
 }
 

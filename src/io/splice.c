@@ -77,14 +77,36 @@ void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, 
     splice->copied = word.last;
 }
 
+/* Straight into the text: a mesh has millions of them. */
+static void replace_in_text(file_splice *splice, text_word word, double value)
+{
+    const size_t before = (size_t)(word.first - splice->copied);
+    char *const room = ffd_buffer_room(splice->text, before + FFD_NUMBER_CAPACITY);
+    if (!room)
+        return;
+    if (before == 1)
+        *room = *splice->copied;
+    else
+        memcpy(room, splice->copied, before);
+    splice->text->size += before + ffd_number_format(value, room + before);
+    splice->copied = word.last;
+}
+
+static void replace_number(file_splice *splice, text_word word, double value)
+{
+    char text[FFD_NUMBER_CAPACITY];
+    if (splice->text)
+        replace_in_text(splice, word, value);
+    else
+        ffd_splice_replace(splice, word, text, ffd_number_format(value, text));
+}
+
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *before,
                         const double *after, size_t count)
 {
-    for (size_t i = 0; i < count; i++) {
-        char text[FFD_NUMBER_CAPACITY];
+    for (size_t i = 0; i < count; i++)
         if (memcmp(before + i, after + i, sizeof *after) != 0)
-            ffd_splice_replace(splice, words[i], text, ffd_number_format(after[i], text));
-    }
+            replace_number(splice, words[i], after[i]);
 }
 
 ffd_status ffd_splice_end(file_splice *splice)

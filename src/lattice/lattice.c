@@ -40,8 +40,20 @@ static ffd_status check_point(const ffd_lattice *lattice, ffd_volume volume, siz
     return FFD_OK;
 }
 
+/* In a loop that compilers make vectors of: a number less itself is 0 where it is finite. */
+static bool all_finite(const double *numbers, size_t count)
+{
+    int others = 0;
+    for (size_t i = 0; i < count; i++)
+        others |= !(numbers[i] - numbers[i] == 0);
+    return !others;
+}
+
 static ffd_status check_points(const ffd_lattice *lattice, ffd_error *error)
 {
+    if (!lattice->rest_weights && all_finite(lattice->rest, 3 * lattice->count) &&
+        all_finite(lattice->deformed, 3 * lattice->count))
+        return FFD_OK;
     for (int volume = FFD_VOLUME_REST; volume <= FFD_VOLUME_DEFORMED; volume++)
         for (size_t i = 0; i < lattice->count; i++) {
             const ffd_status status = check_point(lattice, (ffd_volume)volume, i, error);
@@ -51,25 +63,26 @@ static ffd_status check_points(const ffd_lattice *lattice, ffd_error *error)
     return FFD_OK;
 }
 
-static void find_range(const ffd_lattice *lattice, int c, double *min, double *max)
+static void find_range(const ffd_lattice *lattice, double min[3], double max[3])
 {
-    *min = *max = lattice->rest[c];
-    for (size_t i = 1; i < lattice->count; i++) {
-        const double x = lattice->rest[3 * i + (size_t)c];
-        *min = x < *min ? x : *min;
-        *max = x > *max ? x : *max;
-    }
+    for (int c = 0; c < 3; c++)
+        min[c] = max[c] = lattice->rest[c];
+    for (size_t i = 1; i < lattice->count; i++)
+        for (size_t c = 0; c < 3; c++) {
+            const double x = lattice->rest[3 * i + c];
+            min[c] = x < min[c] ? x : min[c];
+            max[c] = x > max[c] ? x : max[c];
+        }
 }
 
 static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
 {
     double min[3], max[3];
     int longest = 0;
-    for (int c = 0; c < 3; c++) {
-        find_range(lattice, c, &min[c], &max[c]);
+    find_range(lattice, min, max);
+    for (int c = 1; c < 3; c++)
         if (max[c] - min[c] > max[longest] - min[longest])
             longest = c;
-    }
     /* Squares of the sides as they are could overflow or vanish. */
     const double length = max[longest] - min[longest];
     double sum = 0;

@@ -4,6 +4,8 @@
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <float.h>
+#include <math.h>
+#include <string.h>
 
 /* With "units": "box" what is a length or a position (by, to, about, within, and what a matrix acts on) is in
    fractions of the rest region's sides, along them; directions, angles and factors are the same in both
@@ -25,7 +27,8 @@ typedef struct move_work {
 /* One move in world units, with what it takes from its points. */
 typedef struct ready_move {
     lattice_move move;
-    double first, length; /* s0 and s1 - s0 along the axis through about */
+    double first, length;         /* s0 and s1 - s0 along the axis through about */
+    double degrees, sine, cosine; /* of the last rotation: all points of a layer often turn alike */
 } ready_move;
 
 static void to_world(const move_work *work, double position[3])
@@ -78,6 +81,17 @@ static void move_to_world(const move_work *work, lattice_move *move)
         matrix_to_world(work, move->matrix);
 }
 
+/* fmin and fmax are calls. */
+static double larger(double a, double b)
+{
+    return b > a ? b : a;
+}
+
+static double lesser(double a, double b)
+{
+    return b < a ? b : a;
+}
+
 /* Control points on a face of the box that `within` names belong to it, whatever their last bit: a
    coordinate's rounding is allowed for, as in the embedding's tolerance. */
 static void find_slack(move_work *work)
@@ -85,7 +99,7 @@ static void find_slack(move_work *work)
     double size[3] = {0, 0, 0};
     for (size_t i = 0; i < work->lattice->count; i++)
         for (int c = 0; c < 3; c++)
-            size[c] = fmax(size[c], fabs(work->lattice->rest[3 * i + c]));
+            size[c] = larger(size[c], fabs(work->lattice->rest[3 * i + c]));
     for (int c = 0; c < 3; c++) {
         const double *const row = work->inverse + 3 * c;
         const double largest = work->box_units
@@ -105,24 +119,22 @@ static bool is_within(const move_work *work, const lattice_move *move, size_t po
     return true;
 }
 
-static bool is_at(const move_work *work, const lattice_move *move, size_t point)
-{
-    const size_t *const size = work->lattice->size;
-    const size_t index[3] = {point % size[0], point / size[0] % size[1], point / size[0] / size[1]};
-    for (int a = 0; a < 3; a++)
-        if (index[a] < move->at_first[a] || index[a] > move->at_last[a])
-            return false;
-    return true;
-}
-
 static size_t select_points(move_work *work, const lattice_move *move)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < work->lattice->count; i++) {
-        work->selected[i] =
-            (!move->has_at || is_at(work, move, i)) && (!move->has_within || is_within(work, move, i));
-        count += work->selected[i];
+    const size_t *const size = work->lattice->size;
+    size_t first[3] = {0, 0, 0}, last[3] = {size[0] - 1, size[1] - 1, size[2] - 1}, count = 0;
+    if (move->has_at) {
+        memcpy(first, move->at_first, sizeof first);
+        memcpy(last, move->at_last, sizeof last);
     }
+    memset(work->selected, 0, work->lattice->count);
+    for (size_t k = first[2]; k <= last[2]; k++)
+        for (size_t j = first[1]; j <= last[1]; j++)
+            for (size_t i = first[0]; i <= last[0]; i++) {
+                const size_t point = (k * size[1] + j) * size[0] + i;
+                work->selected[point] = !move->has_within || is_within(work, move, point);
+                count += work->selected[point];
+            }
     return count;
 }
 
@@ -156,8 +168,8 @@ static void find_extent(const move_work *work, ready_move *ready)
         if (!work->selected[i])
             continue;
         const double s = along_axis(&ready->move, work->points + 3 * i);
-        first = fmin(first, s);
-        last = fmax(last, s);
+        first = lesser(first, s);
+        last = larger(last, s);
     }
     ready->first = first;
     ready->length = last - first;
@@ -186,13 +198,16 @@ static void across_axis(const lattice_move *move, const double p[3], double e[3]
 
 /* Rodrigues' rotation, p + (cos - 1) e + sin f: what the rotation leaves alone keeps its bits (the coordinate
    along an axis x, y or z; all at whole turns), and 90 degrees about the origin are exact. */
-static void rotate(const lattice_move *move, double degrees, double p[3])
+static void rotate(ready_move *ready, double degrees, double p[3])
 {
-    double e[3], f[3], sine, cosine;
-    across_axis(move, p, e, f);
-    ffd_sincos_degrees(degrees, &sine, &cosine);
+    double e[3], f[3];
+    across_axis(&ready->move, p, e, f);
+    if (degrees != ready->degrees) {
+        ffd_sincos_degrees(degrees, &ready->sine, &ready->cosine);
+        ready->degrees = degrees;
+    }
     for (int c = 0; c < 3; c++)
-        p[c] = (p[c] + (cosine - 1) * e[c]) + sine * f[c];
+        p[c] = (p[c] + (ready->cosine - 1) * e[c]) + ready->sine * f[c];
 }
 
 static void apply_matrix(const double m[16], double p[3])
@@ -234,7 +249,7 @@ static void bend(const ready_move *ready, double p[3])
         p[c] += by_s * move->axis[c] + by_t * move->vector[c];
 }
 
-static void act(const ready_move *ready, double p[3])
+static void act(ready_move *ready, double p[3])
 {
     const lattice_move *const move = &ready->move;
     switch (move->action) {
@@ -250,13 +265,13 @@ static void act(const ready_move *ready, double p[3])
         scale(move, p);
         break;
     case MOVE_ROTATE:
-        rotate(move, move->amount, p);
+        rotate(ready, move->amount, p);
         break;
     case MOVE_MATRIX:
         apply_matrix(move->matrix, p);
         break;
     case MOVE_TWIST:
-        rotate(move, move->amount * fraction_of(ready, p), p);
+        rotate(ready, move->amount * fraction_of(ready, p), p);
         break;
     case MOVE_TAPER:
         taper(ready, p);
@@ -267,7 +282,7 @@ static void act(const ready_move *ready, double p[3])
     }
 }
 
-static ffd_status move_point(const move_work *work, const ready_move *ready, size_t point)
+static ffd_status move_point(const move_work *work, ready_move *ready, size_t point)
 {
     double *const p = work->points + 3 * point;
     const double weight = ready->move.weight;
@@ -283,9 +298,19 @@ static ffd_status move_point(const move_work *work, const ready_move *ready, siz
                        point / size[0] % size[1], point / size[0] / size[1]);
 }
 
+static bool has_centre(move_action action)
+{
+    return action != MOVE_BY && action != MOVE_TO && action != MOVE_MATRIX;
+}
+
+static bool has_extent(move_action action)
+{
+    return action == MOVE_TWIST || action == MOVE_TAPER || action == MOVE_BEND;
+}
+
 static ffd_status apply_move(move_work *work, const lattice_move *move)
 {
-    ready_move ready = {.move = *move};
+    ready_move ready = {.move = *move, .degrees = NAN};
     const size_t count = select_points(work, move);
     if (count == 0)
         return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
@@ -293,9 +318,10 @@ static ffd_status apply_move(move_work *work, const lattice_move *move)
     if (move->weight == 0)
         return FFD_OK;
     move_to_world(work, &ready.move);
-    if (!move->has_about)
+    if (!move->has_about && has_centre(move->action))
         find_centroid(work, count, ready.move.about);
-    find_extent(work, &ready);
+    if (has_extent(move->action))
+        find_extent(work, &ready);
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < work->lattice->count && !status; i++)
         if (work->selected[i])
