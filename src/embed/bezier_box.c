@@ -197,66 +197,86 @@ static void centre_jacobian(const bezier_box *box, const double p[3], double jac
             }
 }
 
-/* The coefficients of column b of Y J_F (3 each, where the point has a next one along b) into column; the
-   greatest |delta_rb - coefficient| of each row, with the reach of p added, into distance. */
-static void column_coefficients(const bezier_box *box, int b, const double middle[3], const double reach[3],
-                                const double inverse[9], double *column, double distance[3])
+/* The coefficients of column b of Y J_F (3 each, where the point has a next one along b) into column. */
+static void column_coefficients(const bezier_box *box, int b, const double middle[3], const double inverse[9],
+                                double *column)
 {
     const size_t next = N * stride_of(box->order, b);
     const double degree = box->order[b] - 1;
-    distance[0] = distance[1] = distance[2] = 0;
-    size_t point = 0;
-    for (int k = 0; k < box->order[2]; k++)
-        for (int j = 0; j < box->order[1]; j++)
-            for (int i = 0; i < box->order[0]; i++, point++) {
-                const int at[3] = {i, j, k};
-                if (at[b] == box->order[b] - 1)
-                    continue;
+    const int last[3] = {box->order[0] - (b == 0), box->order[1] - (b == 1), box->order[2] - (b == 2)};
+    for (int k = 0; k < last[2]; k++)
+        for (int j = 0; j < last[1]; j++)
+            for (int i = 0; i < last[0]; i++) {
+                const size_t point = (size_t)((k * box->order[1] + j) * box->order[0] + i);
                 const double *c = box->coefficients + N * point, *d = c + next;
                 const double difference[N] = {degree * (d[0] - c[0]), degree * (d[1] - c[1]),
                                               degree * (d[2] - c[2]), degree * (d[3] - c[3])};
-                double f[3], *y = column + 3 * point;
+                double f[3];
                 equation(difference, middle, f);
-                mat_apply(inverse, f, y);
+                mat_apply(inverse, f, column + 3 * point);
+            }
+}
+
+/* The greatest |delta_rb - coefficient| of each row of the column, with the reach of p added. */
+static void column_distance(const bezier_box *box, int b, const double reach[3], const double inverse[9],
+                            const double *column, double distance[3])
+{
+    const size_t next = N * stride_of(box->order, b);
+    const double degree = box->order[b] - 1;
+    const int last[3] = {box->order[0] - (b == 0), box->order[1] - (b == 1), box->order[2] - (b == 2)};
+    double away[3];
+    for (int r = 0; r < 3; r++) {
+        const double *row = inverse + 3 * r;
+        away[r] = fabs(row[0]) * reach[0] + fabs(row[1]) * reach[1] + fabs(row[2]) * reach[2];
+        distance[r] = 0;
+    }
+    for (int k = 0; k < last[2]; k++)
+        for (int j = 0; j < last[1]; j++)
+            for (int i = 0; i < last[0]; i++) {
+                const size_t point = (size_t)((k * box->order[1] + j) * box->order[0] + i);
+                const double *c = box->coefficients + N * point + 3;
+                const double weight = fabs(degree * (c[next] - c[0]));
                 for (int r = 0; r < 3; r++) {
-                    const double *row = inverse + 3 * r;
-                    const double moving =
-                        (fabs(row[0]) * reach[0] + fabs(row[1]) * reach[1] + fabs(row[2]) * reach[2]) *
-                        fabs(difference[3]);
-                    const double off = fabs((r == b ? 1.0 : 0.0) - y[r]) + moving;
+                    const double off =
+                        fabs((r == b ? 1.0 : 0.0) - column[3 * point + (size_t)r]) + away[r] * weight;
                     if (!(off <= distance[r])) /* a NaN must not pass as a small bound */
                         distance[r] = off;
                 }
             }
 }
 
+/* How much a row of a column varies along a line of coefficients. */
+static double line_spread(const double *first, size_t stride, int length)
+{
+    double least = *first, greatest = *first;
+    for (int i = 1; i < length; i++) {
+        const double value = first[(size_t)i * stride];
+        least = value < least ? value : least;
+        greatest = value > greatest ? value : greatest;
+    }
+    return greatest - least;
+}
+
 /* spread[r][a]: how much row r of the column varies along a, over all lines of coefficients. */
 static void column_spread(const bezier_box *box, int b, const double *column, double spread[3][3])
 {
     for (int a = 0; a < 3; a++) {
-        const size_t stride = 3 * stride_of(box->order, a);
-        const size_t lines = ffd_bezier_count(box->order) / (size_t)box->order[a];
-        const int length = box->order[a] - (a == b);
+        const int across[2] = {(a + 1) % 3, (a + 2) % 3};
+        size_t stride[2], count[2];
+        for (int i = 0; i < 2; i++) {
+            stride[i] = 3 * stride_of(box->order, across[i]);
+            count[i] = (size_t)box->order[across[i]] - (across[i] == b); /* the last layer along b has none */
+        }
         for (int r = 0; r < 3; r++)
             spread[r][a] = 0;
-        for (size_t line = 0; line < lines; line++) {
-            const size_t start = line_start(box->order, a, line);
-            /* The last layer along b holds no coefficient. */
-            if (a != b &&
-                start / stride_of(box->order, b) % (size_t)box->order[b] == (size_t)box->order[b] - 1)
-                continue;
-            for (int r = 0; r < 3; r++) {
-                const double *y = column + 3 * start + r;
-                double least = y[0], greatest = y[0];
-                for (int i = 1; i < length; i++) {
-                    const double value = y[(size_t)i * stride];
-                    least = value < least ? value : least;
-                    greatest = value > greatest ? value : greatest;
+        for (size_t m = 0; m < count[1]; m++)
+            for (size_t n = 0; n < count[0]; n++)
+                for (size_t r = 0; r < 3; r++) {
+                    const double *first = column + m * stride[1] + n * stride[0] + r;
+                    const double found =
+                        line_spread(first, 3 * stride_of(box->order, a), box->order[a] - (a == b));
+                    spread[r][a] = found > spread[r][a] ? found : spread[r][a];
                 }
-                if (greatest - least > spread[r][a])
-                    spread[r][a] = greatest - least;
-            }
-        }
     }
 }
 
@@ -322,17 +342,15 @@ static int widest(const bezier_box *box)
 void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const double reach[3],
                             double *scratch, contraction_bound *result)
 {
-    double jacobian[9], spread[3][3][3], sum[3] = {0, 0, 0};
+    double jacobian[9], sum[3] = {0, 0, 0};
     centre_jacobian(box, middle, jacobian);
     result->regular = mat_invert(jacobian, result->inverse);
-    if (!result->regular) {
-        result->halve = widest(box);
+    if (!result->regular)
         return;
-    }
     for (int b = 0; b < 3; b++) {
         double distance[3];
-        column_coefficients(box, b, middle, reach, result->inverse, scratch, distance);
-        column_spread(box, b, scratch, spread[b]);
+        column_coefficients(box, b, middle, result->inverse, scratch);
+        column_distance(box, b, reach, result->inverse, scratch, distance);
         for (int r = 0; r < 3; r++)
             sum[r] += distance[r];
     }
@@ -340,5 +358,17 @@ void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const
     for (int r = 1; r < 3; r++)
         if (!(sum[r] <= result->bound))
             result->bound = sum[r];
-    result->halve = best_halving(box, spread);
+}
+
+int ffd_bezier_halving(const bezier_box *box, const double middle[3], const contraction_bound *found,
+                       double *scratch)
+{
+    double spread[3][3][3];
+    if (!found->regular)
+        return widest(box);
+    for (int b = 0; b < 3; b++) {
+        column_coefficients(box, b, middle, found->inverse, scratch);
+        column_spread(box, b, scratch, spread[b]);
+    }
+    return best_halving(box, spread);
 }

@@ -44,11 +44,13 @@ typedef struct contraction_bound {
     bool regular;      /* J_F(centre) has an inverse; else inverse and bound are not set */
     double inverse[9]; /* Y = J_F(centre)^{-1}, in box coordinates t in [0,1]^3 */
     double bound;      /* L: the greatest row sum of |I - Y J_F| over the box and all p in middle +- reach */
-    int halve;         /* the direction whose halving lowers the bound most */
 } contraction_bound;
 
 /* scratch: 3 * ffd_bezier_count doubles. */
 void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const double reach[3],
                             double *scratch, contraction_bound *result);
+/* The direction whose halving lowers that bound most. scratch: likewise. */
+int ffd_bezier_halving(const bezier_box *box, const double middle[3], const contraction_bound *found,
+                       double *scratch);
 
 #endif

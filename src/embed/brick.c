@@ -119,7 +119,7 @@ static bool cut(cell_cutter *cutter, bezier_box *box, int depth)
         return add_leaf(cutter, box, &hull, &found, true);
     bezier_box lower = {.coefficients = cutter->slots + (size_t)(depth + 1) * ffd_bezier_size(box->order)};
     bezier_box upper = {.coefficients = box->coefficients};
-    ffd_bezier_halve(box, found.halve, &lower, &upper);
+    ffd_bezier_halve(box, ffd_bezier_halving(box, middle, &found, cutter->scratch), &lower, &upper);
     return cut(cutter, &lower, depth + 1) && cut(cutter, &upper, depth + 1);
 }
 

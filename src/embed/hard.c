@@ -166,7 +166,10 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     }
     if (settle_box(hard, box, &found, &region, &blurred))
         return;
-    const int across = blurred ? -1 : direction_to_halve(box, found.halve);
+    const int across =
+        blurred
+            ? -1
+            : direction_to_halve(box, ffd_bezier_halving(box, search->x, &found, search->scratch->numbers));
     if (across < 0) {
         if (polish(search, &region))
             hard->singular++;
