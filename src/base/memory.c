@@ -1,7 +1,14 @@
+#define _DEFAULT_SOURCE /* madvise */
 #include "base/memory.h"
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <sys/mman.h>
+
+/* Blocks from this size on get large pages where the system has them: a page's first touch costs more than
+   filling it. */
+#define LARGE_BLOCK ((size_t)8 << 20)
+#define LARGE_PAGE ((uintptr_t)2 << 20)
 
 /* For tests only; negative: allocations never fail on purpose. */
 static atomic_long remaining_successes = -1;
@@ -38,12 +45,24 @@ bool ffd_multiply_size(size_t a, size_t b, size_t *result)
     return true;
 }
 
+static void *advised(void *block, size_t bytes)
+{
+#ifdef MADV_HUGEPAGE
+    if (block && bytes >= LARGE_BLOCK) {
+        const uintptr_t first = ((uintptr_t)block + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+        const uintptr_t last = ((uintptr_t)block + bytes) / LARGE_PAGE * LARGE_PAGE;
+        madvise((void *)first, last - first, MADV_HUGEPAGE); /* advice only */
+    }
+#endif
+    return block;
+}
+
 void *ffd_alloc(size_t count, size_t size)
 {
     size_t bytes;
     if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
         return NULL;
-    return malloc(bytes ? bytes : 1);
+    return advised(malloc(bytes ? bytes : 1), bytes);
 }
 
 void *ffd_alloc_zero(size_t count, size_t size)
@@ -51,7 +70,7 @@ void *ffd_alloc_zero(size_t count, size_t size)
     size_t bytes;
     if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
         return NULL;
-    return calloc(bytes ? bytes : 1, 1);
+    return advised(calloc(bytes ? bytes : 1, 1), bytes);
 }
 
 void *ffd_realloc(void *block, size_t count, size_t size)
