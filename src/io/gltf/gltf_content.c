@@ -333,16 +333,34 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, siz
     apply_overwrites(saver->document, made, offset, size, bytes);
 }
 
-size_t ffd_gltf_content_kept(const gltf_saver *saver, size_t b, size_t offset, const unsigned char **bytes)
+/* Where the values of an overwrite stand as the file is to have them. */
+static const unsigned char *values_in_place(const gltf_document *d, const gltf_overwrite *overwrite)
+{
+    const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];
+    const bool is_float = accessor->component == GLTF_FLOAT && accessor->rows == 3;
+    return LITTLE_ENDIAN_MACHINE && is_float && overwrite->stride == 3 * sizeof(float)
+               ? (const unsigned char *)overwrite->values
+               : NULL;
+}
+
+size_t ffd_gltf_content_at(const gltf_saver *saver, size_t b, size_t offset, const unsigned char **bytes)
 {
     const gltf_new_buffer *made = &saver->buffers[b];
-    const size_t next = find_overwrite(made, offset);
-    const size_t size = ffd_gltf_content_size(saver, b);
-    size_t end = size_of_old(made) < size ? size_of_old(made) : size;
-    if (next < made->overwrite_count && made->overwrites[next].begin < end)
-        end = made->overwrites[next].begin;
+    const size_t next = find_overwrite(made, offset), size = ffd_gltf_content_size(saver, b);
+    size_t end = size_of_old(made) < size ? size_of_old(made) : size, following = next;
+    const unsigned char *values = NULL;
+    if (next < made->overwrite_count && made->overwrites[next].begin <= offset) {
+        const gltf_overwrite *here = &made->overwrites[following++];
+        values = values_in_place(saver->document, here);
+        if (!values)
+            return 0;
+        values += offset - here->begin;
+        end = here->end < size ? here->end : size;
+    }
+    if (following < made->overwrite_count && made->overwrites[following].begin < end)
+        end = made->overwrites[following].begin;
     if (end <= offset)
         return 0;
-    *bytes = made->old->data + offset;
+    *bytes = values ? values : made->old->data + offset;
     return end - offset;
 }

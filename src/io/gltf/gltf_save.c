@@ -70,7 +70,7 @@ static ffd_status put_base64(const gltf_saver *saver, size_t buffer, ffd_error *
     return status;
 }
 
-/* Writes a buffer's new content. What stays is not copied before. */
+/* Writes a buffer's new content. What stands in memory as it is to be is not copied before. */
 static ffd_status put_content(const gltf_saver *saver, size_t buffer, ffd_error *error)
 {
     const size_t size = ffd_gltf_content_size(saver, buffer);
@@ -78,12 +78,12 @@ static ffd_status put_content(const gltf_saver *saver, size_t buffer, ffd_error 
     unsigned char *block = ffd_alloc(BLOCK, 1);
     ffd_status status = block ? FFD_OK : ffd_fail_memory(error);
     for (size_t at = 0, part; at < size && status == FFD_OK; at += part) {
-        const unsigned char *kept_bytes;
+        const unsigned char *bytes;
         const size_t next = least(size - at, BLOCK);
-        const size_t kept = ffd_gltf_content_kept(saver, buffer, at, &kept_bytes);
-        if (kept >= next) {
-            part = least(kept, LARGEST_WRITE);
-            status = put(saver, kept_bytes, part, error);
+        const size_t ready = ffd_gltf_content_at(saver, buffer, at, &bytes);
+        if (ready >= next) {
+            part = least(ready, LARGEST_WRITE);
+            status = put(saver, bytes, part, error);
         } else {
             part = next;
             ffd_gltf_content_read(saver, buffer, at, part, block);

@@ -89,10 +89,10 @@ size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer);
 /* Its bytes [offset, offset + size). */
 void ffd_gltf_content_read(const gltf_saver *saver, size_t buffer, size_t offset, size_t size,
                            unsigned char *bytes);
-/* How many bytes from offset on are those of the old content, which *bytes then points to. 0: other bytes
-   come. */
-size_t ffd_gltf_content_kept(const gltf_saver *saver, size_t buffer, size_t offset,
-                             const unsigned char **bytes);
+/* How many bytes from offset on stand in memory as they are to be written, of the old content or among
+   results, which *bytes then points to. 0: they must be read. */
+size_t ffd_gltf_content_at(const gltf_saver *saver, size_t buffer, size_t offset,
+                           const unsigned char **bytes);
 
 /* gltf_container.c: how the output holds each buffer. A .gltf that becomes a GLB has its first buffer in the
    BIN chunk and the other files as data URIs, so that it is one file; a GLB that becomes a .gltf has its BIN
