@@ -114,13 +114,20 @@ void ffd_box_tree_free(box_tree *tree)
 bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double slack[3],
                         box_tree_visitor visit, void *context)
 {
+    const bounds place = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    return ffd_box_tree_visit_box(tree, &place, slack, visit, context);
+}
+
+bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *places, const double slack[3],
+                            box_tree_visitor visit, void *context)
+{
     uint32_t stack[2 * DEPTH];
     int height = 0;
     if (tree->node_count > 0)
         stack[height++] = 0;
     while (height > 0) {
         const box_tree_node *node = &tree->nodes[stack[--height]];
-        if (!bounds_hold(&node->box, p, slack))
+        if (!bounds_meet(&node->box, places, slack))
             continue;
         if (node->count == 0) {
             stack[height++] = node->first + 1;

@@ -16,8 +16,8 @@ typedef struct root {
 } root;
 
 typedef struct root_list {
-    root roots[MOST_ROOTS];
     int count;
+    root roots[MOST_ROOTS];
 } root_list;
 
 /* Adds a root, or joins it to one that is the same: both within 1e-9 of the domain or their spreads, also

@@ -4,6 +4,8 @@
 #define FFD_EMBED_SEARCH_H
 
 #include "embed/roots.h"
+#include <stddef.h>
+#include <string.h>
 
 /* Bricks that one point may look into. */
 #define SEARCH_BRICKS 4096
@@ -20,13 +22,13 @@ typedef struct point_search {
     double x[3], tolerance[3]; /* the point, in the search's units, and its tolerance there */
     double slack[3];           /* that of hulls */
     search_scratch *scratch;
-    root_list roots;
     bool unresolved; /* a part of the lattice is left in which nothing could be shown */
     long hard_boxes; /* that may still be looked at */
     uint32_t bricks; /* looked into */
     uint32_t evaluations, leaves;
     ffd_status status;
     ffd_error *error;
+    root_list roots; /* the last: see ffd_search_begin */
 } point_search;
 
 /* C - x and F's derivatives at one u,v,w. */
@@ -39,6 +41,14 @@ typedef struct sample {
 
 /* Makes the scratch where there is none; false: no memory. */
 bool ffd_search_scratch_make(search_scratch **scratch);
+
+/* Nothing is found. The memory of roots, which are more than all else, is left as it is. */
+static inline void ffd_search_begin(point_search *search, const ffd_locator *locator)
+{
+    memset(search, 0, offsetof(point_search, roots));
+    search->roots.count = 0;
+    search->locator = locator;
+}
 
 /* Sets the point, with the origin subtracted. False where it is farther away than the search's doubles reach.
  */

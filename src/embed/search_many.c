@@ -7,6 +7,7 @@
 #include "embed/region_kernel.h"
 #include "embed/search.h"
 #include "spline/basis.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,40 +23,64 @@ struct many_scratch {
     region_lanes lanes;
 };
 
+/* Neighbours in a mesh mostly lie in the same leaves: they walk through the trees together, as long as they
+   are not farther apart than a small part of a cell. */
+#define PACKET 8
+#define CELLS_A_PACKET (1.0 / 8) /* of the mean side */
+
 /* The leaves of a point, as long as there is one at most. */
 typedef struct leaf_search {
-    point_search *search;
+    point_search search;
+    uint32_t number; /* of the point */
     uint32_t bricks; /* looked into */
-    const cell_brick *brick;
     const cell_leaf *leaf;
+    bool alone; /* it needs a search of its own */
 } leaf_search;
 
-/* False: the point needs a search of its own. */
-static bool note_leaf(void *context, uint32_t number)
+typedef struct packet {
+    leaf_search points[PACKET];
+    int count;
+    bounds places;
+    double slack[3]; /* the largest */
+    /* Of the brick that is being looked into: */
+    const cell_brick *brick;
+    bool enter[PACKET];
+} packet;
+
+static void look_at_leaf(leaf_search *point, const cell_leaf *leaf)
 {
-    leaf_search *found = context;
-    const cell_leaf *leaf = &found->brick->leaves[number];
-    if (!bounds_hold(&leaf->hull, found->search->x, found->search->slack) ||
-        (!leaf->hard && !ffd_search_image_holds(found->search, leaf)))
-        return true;
-    if (leaf->hard || found->leaf)
-        return false;
-    found->leaf = leaf;
+    if (!bounds_hold(&leaf->hull, point->search.x, point->search.slack) ||
+        (!leaf->hard && !ffd_search_image_holds(&point->search, leaf)))
+        return;
+    if (leaf->hard || point->leaf)
+        point->alone = true;
+    point->leaf = leaf;
+}
+
+static bool visit_leaf(void *context, uint32_t number)
+{
+    packet *p = context;
+    for (int i = 0; i < p->count; i++)
+        if (p->enter[i] && !p->points[i].alone)
+            look_at_leaf(&p->points[i], &p->brick->leaves[number]);
     return true;
 }
 
-static bool note_brick(void *context, uint32_t number)
+static bool visit_brick(void *context, uint32_t number)
 {
-    leaf_search *found = context;
-    const cell_search *cells = found->search->locator->cells;
-    if (!bounds_hold(&cells->brick_hulls[number], found->search->x, found->search->slack))
-        return true;
-    if (found->bricks++ >= SEARCH_BRICKS)
-        return false;
+    packet *p = context;
+    const cell_search *cells = p->points[0].search.locator->cells;
+    bool any = false;
     /* A brick that is not kept, or not made yet, may not outlast this point. */
-    found->brick = atomic_load_explicit(&cells->made[number], memory_order_acquire);
-    return found->brick &&
-           ffd_box_tree_visit(&found->brick->tree, found->search->x, found->search->slack, note_leaf, found);
+    p->brick = atomic_load_explicit(&cells->made[number], memory_order_acquire);
+    for (int i = 0; i < p->count; i++) {
+        leaf_search *point = &p->points[i];
+        p->enter[i] = bounds_hold(&cells->brick_hulls[number], point->search.x, point->search.slack);
+        if (p->enter[i])
+            point->alone = point->alone || !p->brick || point->bricks++ >= SEARCH_BRICKS;
+        any = any || p->enter[i];
+    }
+    return !any || !p->brick || ffd_box_tree_visit_box(&p->brick->tree, &p->places, p->slack, visit_leaf, p);
 }
 
 static int compare_waiting(const void *a, const void *b)
@@ -98,7 +123,10 @@ static void load_point(const point_search *search, int lane, region_lanes *lanes
 static void take_result(const ffd_locator *locator, const cell_region *region, const double p[3],
                         const region_lanes *lanes, int lane, ffd_location *location)
 {
-    point_search search = {.locator = locator, .evaluations = lanes->evaluations[lane], .leaves = 1};
+    point_search search;
+    ffd_search_begin(&search, locator);
+    search.evaluations = lanes->evaluations[lane];
+    search.leaves = 1;
     ffd_search_place(&search, p);
     if (lanes->outcome[lane] == REGION_FOUND) {
         double t[3];
@@ -133,7 +161,8 @@ static ffd_status find_in_leaf(const ffd_locator *locator, const double *p, cons
     for (size_t first = 0; first < count && !status; first += width) {
         const size_t filled = count - first < width ? count - first : width;
         for (size_t l = 0; l < width; l++) {
-            point_search search = {.locator = locator};
+            point_search search;
+            ffd_search_begin(&search, locator);
             ffd_search_place(&search, p + 3 * (size_t)waiting[first + (l < filled ? l : filled - 1)].number);
             load_point(&search, (int)l, lanes);
         }
@@ -171,31 +200,118 @@ static bool has_lanes(const cell_search *cells)
     return cells->region_kernel && !cells->rational && cells->collapses.count == 0;
 }
 
+/* Whether the next point of the mesh is near those that are there. */
+static bool is_near(const packet *p, double side, const double x[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (x[a] - p->places.lo[a] > side || p->places.hi[a] - x[a] > side)
+            return false;
+    return true;
+}
+
+/* Takes the point that stands behind the last of the packet into it. */
+static void widen(packet *p)
+{
+    const point_search *added = &p->points[p->count].search;
+    if (p->count == 0) {
+        memcpy(p->places.lo, added->x, sizeof added->x);
+        memcpy(p->places.hi, added->x, sizeof added->x);
+        memcpy(p->slack, added->slack, sizeof added->slack);
+    }
+    bounds_add(&p->places, added->x);
+    for (int a = 0; a < 3; a++)
+        p->slack[a] = added->slack[a] > p->slack[a] ? added->slack[a] : p->slack[a];
+    p->count++;
+}
+
+/* The points of a call on their way. */
+typedef struct many_search {
+    const ffd_locator *locator;
+    const double *p;
+    search_scratch **scratch;
+    ffd_location *locations;
+    ffd_error *error;
+    packet packet;
+    size_t waiting;
+} many_search;
+
+/* Finds the leaves of the packet's points, and leaves it empty. */
+static ffd_status settle_packet(many_search *many)
+{
+    packet *const p = &many->packet;
+    ffd_status status = FFD_OK;
+    ffd_box_tree_visit_box(&many->locator->cells->brick_tree, &p->places, p->slack, visit_brick, p);
+    for (int i = 0; i < p->count && !status; i++) {
+        const leaf_search *point = &p->points[i];
+        if (point->alone)
+            status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,
+                                many->error);
+        else if (point->leaf)
+            (*many->scratch)->many->waiting[many->waiting++] = (waiting_point){point->leaf, point->number};
+        else
+            ffd_search_judge(&point->search, &many->locations[point->number]);
+    }
+    p->count = 0;
+    return status;
+}
+
+static ffd_status add_point(many_search *many, double side, uint32_t number)
+{
+    packet *const p = &many->packet;
+    leaf_search *point = &p->points[p->count];
+    ffd_status status = FFD_OK;
+    ffd_search_begin(&point->search, many->locator);
+    if (!ffd_search_place(&point->search, many->p + 3 * (size_t)number))
+        return FFD_OK;
+    if (p->count > 0 && !is_near(p, side, point->search.x)) {
+        status = settle_packet(many);
+        memcpy(&p->points[0].search, &point->search, offsetof(point_search, roots));
+        p->points[0].search.roots.count = 0;
+        point = &p->points[0];
+    }
+    point->number = number;
+    point->bricks = 0;
+    point->leaf = NULL;
+    point->alone = false;
+    widen(p);
+    return status || p->count < PACKET ? status : settle_packet(many);
+}
+
+static ffd_status find_leaves(many_search *many, size_t count)
+{
+    const cell_search *const cells = many->locator->cells;
+    const double side =
+        CELLS_A_PACKET / cbrt((double)cells->cells[0] * (double)cells->cells[1] * (double)cells->cells[2]);
+    ffd_status status = FFD_OK;
+    for (uint32_t i = 0; i < count && !status; i++)
+        if (!isnan(many->p[3 * (size_t)i]))
+            status = add_point(many, side, i);
+    return status || many->packet.count == 0 ? status : settle_packet(many);
+}
+
+static ffd_status find_each(const ffd_locator *locator, const double *p, size_t count,
+                            search_scratch **scratch, ffd_location *locations, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (uint32_t i = 0; i < count && !status; i++)
+        if (!isnan(p[3 * (size_t)i]))
+            status = find_alone(locator, p, i, scratch, locations, error);
+    return status;
+}
+
 ffd_status ffd_cells_find_many(const ffd_locator *locator, const double *p, size_t count,
                                search_scratch **scratch, ffd_location *locations, ffd_error *error)
 {
-    const cell_search *const cells = locator->cells;
-    ffd_status status = FFD_OK;
-    size_t waiting = 0;
+    many_search many = {
+        .locator = locator, .p = p, .scratch = scratch, .locations = locations, .error = error};
     if (!ffd_search_scratch_make(scratch))
         return ffd_fail_memory(error);
-    if (has_lanes(cells) && !(*scratch)->many) {
+    if (!has_lanes(locator->cells))
+        return find_each(locator, p, count, scratch, locations, error);
+    if (!(*scratch)->many)
         (*scratch)->many = ffd_alloc(1, sizeof *(*scratch)->many);
-        if (!(*scratch)->many)
-            return ffd_fail_memory(error);
-    }
-    for (uint32_t i = 0; i < count && !status; i++) {
-        point_search search = {.locator = locator};
-        leaf_search found = {.search = &search};
-        if (isnan(p[3 * (size_t)i]) || !ffd_search_place(&search, p + 3 * (size_t)i))
-            continue;
-        if (!has_lanes(cells) ||
-            !ffd_box_tree_visit(&cells->brick_tree, search.x, search.slack, note_brick, &found))
-            status = find_alone(locator, p, i, scratch, locations, error);
-        else if (found.leaf)
-            (*scratch)->many->waiting[waiting++] = (waiting_point){found.leaf, i};
-        else
-            ffd_search_judge(&search, &locations[i]);
-    }
-    return status ? status : find_waiting(locator, p, waiting, scratch, locations, error);
+    if (!(*scratch)->many)
+        return ffd_fail_memory(error);
+    const ffd_status status = find_leaves(&many, count);
+    return status ? status : find_waiting(locator, p, many.waiting, scratch, locations, error);
 }
