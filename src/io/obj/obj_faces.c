@@ -2,6 +2,7 @@
 #include "base/thread.h"
 #include "io/obj/obj_document.h"
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,6 +24,10 @@ static ffd_status check_index(const obj_document *d, const obj_scan *scan, obj_i
                          count.total);
 }
 
+/* A normal that is named together with a vertex, whichever thread came first; OBJ_NONE: none so far. Nearly
+   all vertices of most meshes have but one. */
+typedef _Atomic uint32_t first_normal;
+
 /* A corner's vertex and normal, from 0. */
 typedef struct vertex_normal {
     uint32_t vertex, normal;
@@ -31,7 +36,8 @@ typedef struct vertex_normal {
 /* What the faces, lines and points of one block are. */
 typedef struct block_faces {
     size_t faces, corners, lines, points; /* corners: of faces */
-    vertex_normal *with_normal;           /* the corners of faces that have one, in their order */
+    first_normal *firsts;                 /* of the document; may be NULL */
+    vertex_normal *others;                /* corners of faces with a normal that is not their vertex' first */
     size_t count, capacity;
     size_t counts_back; /* the place behind the last index of a normal that does; 0: none */
     ffd_status status;
@@ -39,6 +45,7 @@ typedef struct block_faces {
 
 typedef struct reader {
     const obj_document *document;
+    first_normal *firsts; /* of each vertex; NULL: no normals are held */
     block_faces *blocks;
 } reader;
 
@@ -59,17 +66,26 @@ static void look_for_corners(const obj_document *d, obj_scan *scan, block_faces 
             note_index(d, scan, &corner, block);
 }
 
+/* Whether the normal is the vertex' first one. */
+static bool is_first(first_normal *first, uint32_t normal)
+{
+    uint32_t there = atomic_load_explicit(first, memory_order_relaxed);
+    if (there == OBJ_NONE && atomic_compare_exchange_strong_explicit(
+                                 first, &there, normal, memory_order_relaxed, memory_order_relaxed))
+        return true;
+    return there == normal;
+}
+
 static ffd_status add_normal(const obj_document *d, const obj_walk *walk, size_t vertex,
                              const obj_index *index, block_faces *block, ffd_error *error)
 {
     size_t normal;
     const ffd_status status = check_index(d, &walk->scan, *index, walk->normals, "normal", &normal, error);
-    if (status || d->only_positions)
+    if (status || !block->firsts || is_first(&block->firsts[vertex], (uint32_t)normal))
         return status;
-    if (!ffd_grow((void **)&block->with_normal, &block->capacity, block->count + 1,
-                  sizeof *block->with_normal))
+    if (!ffd_grow((void **)&block->others, &block->capacity, block->count + 1, sizeof *block->others))
         return ffd_fail_memory(error);
-    block->with_normal[block->count++] = (vertex_normal){(uint32_t)vertex, (uint32_t)normal};
+    block->others[block->count++] = (vertex_normal){(uint32_t)vertex, (uint32_t)normal};
     return FFD_OK;
 }
 
@@ -137,7 +153,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     (void)worker;
     for (size_t i = first; i < last; i++) {
         const obj_block *text = &r->document->blocks.list[i];
-        block_faces block = {0}; /* the thread's own: the list's share lines of the cache */
+        block_faces block = {.firsts = r->firsts}; /* the thread's own: the list's share lines of the cache */
         if (!text->names_elements)
             continue;
         block.status = read_block(r->document, i, &block, NULL);
@@ -153,14 +169,12 @@ static ffd_status find_failure(const obj_document *d, size_t number, ffd_status 
     if (status == FFD_E_MEMORY)
         return ffd_fail_memory(error);
     status = read_block(d, number, &block, error);
-    ffd_free(block.with_normal);
     return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
 }
 
-/* Sums up what the blocks have. A `vn` added before an index that counts back would change its meaning: where
-   one stands behind the last `vn`, the file's end is the place. */
-static ffd_status join_blocks(obj_document *d, const block_faces *blocks, uint64_t *with_normal,
-                              ffd_error *error)
+/* Sums up what the blocks have, but for normals. A `vn` added before an index that counts back would change
+   its meaning: where one stands behind the last `vn`, the file's end is the place. */
+static ffd_status join_blocks(obj_document *d, const block_faces *blocks, ffd_error *error)
 {
     for (size_t i = 0; i < d->blocks.count; i++) {
         const block_faces *block = &blocks[i];
@@ -170,13 +184,9 @@ static ffd_status join_blocks(obj_document *d, const block_faces *blocks, uint64
         d->corners += block->corners;
         d->lines += block->lines;
         d->points += block->points;
-        *with_normal += block->count;
         d->addition = block->counts_back > d->addition ? d->input.size : d->addition;
     }
-    if (*with_normal <= UINT32_MAX)
-        return FFD_OK;
-    return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more than %" PRIu32 " face corners with a normal",
-                         UINT32_MAX);
+    return FFD_OK;
 }
 
 static int compare_numbers(const void *a, const void *b)
@@ -201,19 +211,35 @@ static void sort_numbers(uint32_t *numbers, size_t count)
     }
 }
 
-/* Counts the corners of each vertex, and fills each vertex's list from its end, which leaves
-   pair_start[i + 1] at the list's beginning. */
-static void collect_normals(obj_document *d, const block_faces *blocks)
+/* How many normals the lists of all vertices have, with repetitions. */
+static uint64_t count_normals(const reader *r)
 {
+    uint64_t count = 0;
+    for (size_t i = 0; i < r->document->vertices; i++)
+        count += r->firsts[i] != OBJ_NONE;
+    for (size_t b = 0; b < r->document->blocks.count; b++)
+        count += r->blocks[b].count;
+    return count;
+}
+
+/* Counts the normals of each vertex, and fills each vertex's list from its end, which leaves pair_start[i +
+   1] at the list's beginning. */
+static void collect_normals(obj_document *d, const reader *r)
+{
+    for (size_t i = 0; i < d->vertices; i++)
+        d->pair_start[i + 1] = r->firsts[i] != OBJ_NONE;
     for (size_t b = 0; b < d->blocks.count; b++)
-        for (size_t i = 0; i < blocks[b].count; i++)
-            d->pair_start[blocks[b].with_normal[i].vertex + 1]++;
+        for (size_t i = 0; i < r->blocks[b].count; i++)
+            d->pair_start[r->blocks[b].others[i].vertex + 1]++;
     for (size_t i = 0; i < d->vertices; i++)
         d->pair_start[i + 1] += d->pair_start[i];
+    for (size_t i = 0; i < d->vertices; i++)
+        if (r->firsts[i] != OBJ_NONE)
+            d->pair_normal[--d->pair_start[i + 1]] = r->firsts[i];
     for (size_t b = 0; b < d->blocks.count; b++)
-        for (size_t i = 0; i < blocks[b].count; i++) {
-            const vertex_normal *corner = &blocks[b].with_normal[i];
-            d->pair_normal[--d->pair_start[corner->vertex + 1]] = corner->normal;
+        for (size_t i = 0; i < r->blocks[b].count; i++) {
+            const vertex_normal *other = &r->blocks[b].others[i];
+            d->pair_normal[--d->pair_start[other->vertex + 1]] = other->normal;
         }
 }
 
@@ -235,20 +261,34 @@ static void join_equal_normals(obj_document *d, size_t total)
         d->pair_normal = block;
 }
 
-static ffd_status read_blocks(reader *r, obj_document *d, ffd_error *error)
+static ffd_status make_pairs(const reader *r, obj_document *d, ffd_error *error)
 {
-    uint64_t with_normal = 0;
-    ffd_parallel_tiles(d->blocks.count, 1, d->threads, read_tile, r);
-    const ffd_status status = join_blocks(d, r->blocks, &with_normal, error);
-    if (status || with_normal == 0)
-        return status;
+    const uint64_t count = count_normals(r);
+    if (count == 0)
+        return FFD_OK;
+    if (count > UINT32_MAX)
+        return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more than %" PRIu32 " face corners with a normal",
+                             UINT32_MAX);
     d->pair_start = ffd_alloc_zero(d->vertices + 1, sizeof *d->pair_start);
-    d->pair_normal = ffd_alloc((size_t)with_normal, sizeof *d->pair_normal);
+    d->pair_normal = ffd_alloc((size_t)count, sizeof *d->pair_normal);
     if (!d->pair_start || !d->pair_normal)
         return ffd_fail_memory(error);
-    collect_normals(d, r->blocks);
-    join_equal_normals(d, (size_t)with_normal);
+    collect_normals(d, r);
+    join_equal_normals(d, (size_t)count);
     return FFD_OK;
+}
+
+static ffd_status read_blocks(reader *r, obj_document *d, ffd_error *error)
+{
+    const bool normals = d->normals > 0 && !d->only_positions;
+    r->firsts = normals ? ffd_alloc(d->vertices, sizeof *r->firsts) : NULL;
+    if (normals && !r->firsts)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; normals && i < d->vertices; i++)
+        atomic_init(&r->firsts[i], OBJ_NONE);
+    ffd_parallel_tiles(d->blocks.count, 1, d->threads, read_tile, r);
+    const ffd_status status = join_blocks(d, r->blocks, error);
+    return status || !normals ? status : make_pairs(r, d, error);
 }
 
 ffd_status ffd_obj_read_faces(obj_document *d, ffd_error *error)
@@ -256,8 +296,9 @@ ffd_status ffd_obj_read_faces(obj_document *d, ffd_error *error)
     reader r = {.document = d, .blocks = ffd_alloc_zero(d->blocks.count, sizeof *r.blocks)};
     const ffd_status status = r.blocks ? read_blocks(&r, d, error) : ffd_fail_memory(error);
     for (size_t i = 0; r.blocks && i < d->blocks.count; i++)
-        ffd_free(r.blocks[i].with_normal);
+        ffd_free(r.blocks[i].others);
     ffd_free(r.blocks);
+    ffd_free(r.firsts);
     return status;
 }
 
