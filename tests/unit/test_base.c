@@ -249,6 +249,7 @@ static void test_tiles(void **state)
 
 typedef struct ordered_log {
     unsigned char made[1000]; /* of each tile, by its thread */
+    size_t in_slot[32];       /* 1 + tile, until it is finished */
     size_t finished;          /* by one thread at a time */
     size_t out_of_order;
 } ordered_log;
@@ -257,7 +258,7 @@ static void make_slowly(void *context, size_t tile, size_t begin, size_t end, in
 {
     ordered_log *log = context;
     volatile size_t work = 0;
-    (void)worker;
+    log->in_slot[worker] = tile + 1;
     for (size_t i = 0; i < (tile * 7919 % 13) * 1000; i++)
         work += i;
     (void)work;
@@ -267,7 +268,7 @@ static void make_slowly(void *context, size_t tile, size_t begin, size_t end, in
 static void finish_in_order(void *context, size_t tile, size_t begin, size_t end, int worker)
 {
     ordered_log *log = context;
-    (void)worker;
+    log->out_of_order += log->in_slot[worker] != tile + 1;
     log->out_of_order += tile != log->finished || log->made[tile] != end - begin || begin != 3 * tile;
     log->finished++;
 }
@@ -278,11 +279,15 @@ static void test_tiles_in_order(void **state)
     for (size_t t = 0; t < 4; t++) {
         static ordered_log log;
         memset(&log, 0, sizeof log);
-        ffd_parallel_in_order(2999, 3, threads[t], make_slowly, finish_in_order, &log);
+        assert_true(ffd_ordered_slots(threads[t]) <= 32);
+        assert_true(ffd_parallel_in_order(2999, 3, threads[t], make_slowly, finish_in_order, &log));
         assert_int_equal(log.finished, 1000);
         assert_int_equal(log.out_of_order, 0);
     }
-    ffd_parallel_in_order(0, 1, 4, make_slowly, finish_in_order, NULL);
+    assert_true(ffd_parallel_in_order(0, 1, 4, make_slowly, finish_in_order, NULL));
+    ffd_alloc_fail_after(0);
+    assert_false(ffd_parallel_in_order(10, 1, 4, make_slowly, finish_in_order, NULL));
+    ffd_alloc_fail_after(-1);
     (void)state;
 }
 

@@ -12,7 +12,7 @@
 typedef struct saver {
     const obj_document *document;
     obj_split split;
-    byte_buffer *texts;  /* each worker's block */
+    byte_buffer *texts;  /* of blocks that are not written yet */
     file_splice *splice; /* of the whole file */
     atomic_bool is_over; /* after a failure */
 } saver;
@@ -188,13 +188,11 @@ static void write_tile(void *context, size_t tile, size_t first, size_t last, in
 static void write_blocks(saver *s)
 {
     const obj_document *d = s->document;
-    s->texts = ffd_alloc_zero((size_t)d->threads, sizeof *s->texts);
-    if (!s->texts) {
+    const int slots = ffd_ordered_slots(d->threads);
+    s->texts = ffd_alloc_zero((size_t)slots, sizeof *s->texts);
+    if (!s->texts || !ffd_parallel_in_order(d->blocks.count, 1, d->threads, make_tile, write_tile, s))
         s->splice->status = ffd_fail_memory(s->splice->error);
-        return;
-    }
-    ffd_parallel_in_order(d->blocks.count, 1, d->threads, make_tile, write_tile, s);
-    for (int i = 0; i < d->threads; i++)
+    for (int i = 0; s->texts && i < slots; i++)
         ffd_buffer_free(&s->texts[i]);
     ffd_free(s->texts);
 }

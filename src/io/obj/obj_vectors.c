@@ -28,7 +28,7 @@ typedef struct block_content {
 
 typedef struct reader {
     obj_document *document;
-    block_content *contents; /* of each worker's block */
+    block_content *contents; /* of blocks that are not joined yet */
     /* Before the next block; the document gets them when no thread looks at it any more. */
     size_t line, vertices, texcoords, normals, faces;
     size_t failed;     /* the first block that could not be read; SIZE_MAX: none so far */
@@ -183,7 +183,8 @@ static ffd_status check_counts(const obj_document *d, ffd_error *error)
 static ffd_status read_blocks(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
-    ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r);
+    if (!ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
+        return ffd_fail_memory(error);
     d->vertices = r->vertices;
     d->texcoords = r->texcoords;
     d->normals = r->normals;
@@ -212,13 +213,14 @@ ffd_status ffd_obj_read_vectors(obj_document *d, ffd_error *error)
     ffd_status status = cut(d, error);
     if (status)
         return status;
+    const int slots = ffd_ordered_slots(d->threads);
     reader r = {.document = d,
-                .contents = ffd_alloc_zero((size_t)d->threads, sizeof *r.contents),
+                .contents = ffd_alloc_zero((size_t)slots, sizeof *r.contents),
                 .line = 1,
                 .failed = SIZE_MAX};
     atomic_init(&r.is_over, false);
     status = r.contents ? read_blocks(&r, error) : ffd_fail_memory(error);
-    for (int i = 0; r.contents && i < d->threads; i++)
+    for (int i = 0; r.contents && i < slots; i++)
         free_content(&r.contents[i]);
     ffd_free(r.contents);
     return status;
