@@ -52,8 +52,11 @@ static inline uint32_t load_u32(const unsigned char bytes[4])
 static inline uint64_t load_u64(const unsigned char bytes[8])
 {
     uint64_t value = 0;
-    for (int i = 0; i < 8; i++)
-        value |= (uint64_t)bytes[i] << (8 * i);
+    if (LITTLE_ENDIAN_MACHINE)
+        memcpy(&value, bytes, sizeof value);
+    else
+        for (int i = 0; i < 8; i++)
+            value |= (uint64_t)bytes[i] << (8 * i);
     return value;
 }
 

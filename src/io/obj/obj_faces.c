@@ -172,6 +172,11 @@ static ffd_status find_failure(const obj_document *d, size_t number, ffd_status 
     return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
 }
 
+static uint32_t first_of(const reader *r, size_t vertex)
+{
+    return atomic_load_explicit(&r->firsts[vertex], memory_order_relaxed);
+}
+
 /* Sums up what the blocks have, but for normals. A `vn` added before an index that counts back would change
    its meaning: where one stands behind the last `vn`, the file's end is the place. */
 static ffd_status join_blocks(obj_document *d, const block_faces *blocks, ffd_error *error)
@@ -212,14 +217,28 @@ static void sort_numbers(uint32_t *numbers, size_t count)
 }
 
 /* How many normals the lists of all vertices have, with repetitions. */
-static uint64_t count_normals(const reader *r)
+static uint64_t count_normals(const reader *r, uint64_t *others)
 {
-    uint64_t count = 0;
+    uint64_t firsts = 0;
     for (size_t i = 0; i < r->document->vertices; i++)
-        count += r->firsts[i] != OBJ_NONE;
+        firsts += first_of(r, i) != OBJ_NONE;
+    *others = 0;
     for (size_t b = 0; b < r->document->blocks.count; b++)
-        count += r->blocks[b].count;
-    return count;
+        *others += r->blocks[b].count;
+    return firsts + *others;
+}
+
+/* Where no vertex has more than one. */
+static void take_firsts(obj_document *d, const reader *r)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < d->vertices; i++) {
+        const uint32_t first = first_of(r, i);
+        d->pair_start[i] = count;
+        if (first != OBJ_NONE)
+            d->pair_normal[count++] = first;
+    }
+    d->pair_start[d->vertices] = count;
 }
 
 /* Counts the normals of each vertex, and fills each vertex's list from its end, which leaves pair_start[i +
@@ -227,15 +246,15 @@ static uint64_t count_normals(const reader *r)
 static void collect_normals(obj_document *d, const reader *r)
 {
     for (size_t i = 0; i < d->vertices; i++)
-        d->pair_start[i + 1] = r->firsts[i] != OBJ_NONE;
+        d->pair_start[i + 1] = first_of(r, i) != OBJ_NONE;
     for (size_t b = 0; b < d->blocks.count; b++)
         for (size_t i = 0; i < r->blocks[b].count; i++)
             d->pair_start[r->blocks[b].others[i].vertex + 1]++;
     for (size_t i = 0; i < d->vertices; i++)
         d->pair_start[i + 1] += d->pair_start[i];
     for (size_t i = 0; i < d->vertices; i++)
-        if (r->firsts[i] != OBJ_NONE)
-            d->pair_normal[--d->pair_start[i + 1]] = r->firsts[i];
+        if (first_of(r, i) != OBJ_NONE)
+            d->pair_normal[--d->pair_start[i + 1]] = first_of(r, i);
     for (size_t b = 0; b < d->blocks.count; b++)
         for (size_t i = 0; i < r->blocks[b].count; i++) {
             const vertex_normal *other = &r->blocks[b].others[i];
@@ -263,7 +282,8 @@ static void join_equal_normals(obj_document *d, size_t total)
 
 static ffd_status make_pairs(const reader *r, obj_document *d, ffd_error *error)
 {
-    const uint64_t count = count_normals(r);
+    uint64_t others;
+    const uint64_t count = count_normals(r, &others);
     if (count == 0)
         return FFD_OK;
     if (count > UINT32_MAX)
@@ -273,6 +293,10 @@ static ffd_status make_pairs(const reader *r, obj_document *d, ffd_error *error)
     d->pair_normal = ffd_alloc((size_t)count, sizeof *d->pair_normal);
     if (!d->pair_start || !d->pair_normal)
         return ffd_fail_memory(error);
+    if (others == 0) {
+        take_firsts(d, r);
+        return FFD_OK;
+    }
     collect_normals(d, r);
     join_equal_normals(d, (size_t)count);
     return FFD_OK;

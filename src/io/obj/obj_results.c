@@ -39,6 +39,14 @@ static void copy_tile(void *context, size_t tile, size_t first, size_t last, int
     ffd_obj_forget_vectors(d, first, last - first);
 }
 
+static void copy_normals(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const obj_document *d = context;
+    (void)tile;
+    (void)worker;
+    ffd_obj_read_normals(&d->base, 0, first, last - first, d->new_directions + 3 * first);
+}
+
 ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
     obj_document *d = (obj_document *)document;
@@ -51,7 +59,7 @@ ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tan
         d->new_directions = ffd_alloc(d->part.normal_count, 3 * sizeof *d->new_directions);
         if (!d->new_directions)
             return ffd_fail_memory(error);
-        ffd_obj_read_normals(document, 0, 0, d->part.normal_count, d->new_directions);
+        ffd_parallel_tiles(d->part.normal_count, TILE, d->threads, copy_normals, d);
     }
     return FFD_OK;
 }

@@ -34,8 +34,9 @@ static void choose_keepers(const obj_document *d, uint32_t *keeper)
 static bool needs_own(const obj_document *d, const uint32_t *keeper, uint32_t pair)
 {
     const uint32_t kept = keeper[d->pair_normal[pair]];
-    return kept == OBJ_NONE ? !is_unchanged(d, pair)
-                            : !ffd_obj_same_vector(value_of(d, pair), value_of(d, kept));
+    if (kept == OBJ_NONE)
+        return !is_unchanged(d, pair);
+    return kept != pair && !ffd_obj_same_vector(value_of(d, pair), value_of(d, kept));
 }
 
 /* The finalizer of MurmurHash3 over the words of a value and its `vn`. */
