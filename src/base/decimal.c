@@ -109,15 +109,15 @@ static uint64_t shortest(uint64_t mantissa, int exponent, int point)
     const uint64_t part = low & (unit - 1);
     const uint64_t reach = 2 * five - (mantissa & 1); /* ties go to the even mantissa */
     const uint64_t last_digit = whole % 10, above_ten = (last_digit << shift) + part;
-    const bool down = above_ten <= reach, up = 10 * unit - above_ten <= reach;
+    const uint64_t down = above_ten <= reach, up = 10 * unit - above_ten <= reach;
     const uint64_t nearest = whole + (part + (whole & 1) > unit / 2);
-    const uint64_t tens = whole - last_digit + (up ? 10 : 0);
-    return down | up ? tens : nearest;
+    const uint64_t tens = whole - last_digit + 10 * up;
+    return nearest + ((tens - nearest) & (0 - (down | up)));
 }
 
 #define DIGITS 17
 #define LEAST_OF_ALL UINT64_C(10000000000000000) /* number of 17 digits */
-#define EIGHT UINT64_C(100000000)
+#define EIGHT UINT32_C(100000000)
 
 /* Up to 24 characters, the first lowest. Registers: what was just written as bytes is slow to read as words.
  */
@@ -132,9 +132,10 @@ static void put(const characters *from, char *to)
 }
 
 /* The digits of a number below 10^8, one a byte. */
-static uint64_t eight_digits(uint64_t value)
+static uint64_t eight_digits(uint32_t value)
 {
-    const uint64_t fours = value / 10000 | (value % 10000) << 32;
+    const uint32_t high = value / 10000;
+    const uint64_t fours = high | (uint64_t)(value - high * 10000) << 32;
     const uint64_t hundreds = (fours * 10486 >> 20) & UINT64_C(0x0000007f0000007f);
     const uint64_t pairs = hundreds | (fours - 100 * hundreds) << 16;
     const uint64_t tens = (pairs * 103 >> 10) & UINT64_C(0x000f000f000f000f);
@@ -145,8 +146,9 @@ static uint64_t eight_digits(uint64_t value)
 static characters digits_of(uint64_t number, int *zeros)
 {
     const uint64_t text = UINT64_C(0x3030303030303030);
-    const uint64_t first = number / LEAST_OF_ALL;
-    const uint64_t middle = eight_digits(number / EIGHT % EIGHT), low = eight_digits(number % EIGHT);
+    const uint32_t high = (uint32_t)(number / EIGHT), first = high / EIGHT;
+    const uint64_t middle = eight_digits(high - first * EIGHT);
+    const uint64_t low = eight_digits((uint32_t)(number - (uint64_t)high * EIGHT));
     const int shift = first ? 8 : 0; /* where there is one digit more */
     *zeros = low ? __builtin_clzll(low) / 8 : middle ? 8 + __builtin_clzll(middle) / 8 : 16;
     return (characters){{(middle << shift | first) + text,
@@ -170,11 +172,6 @@ static char *put_fixed(char *to, const characters *digits, int count, int before
         put(digits, to + 2 - before_point);
         return to + 2 - before_point + count;
     }
-    if (before_point < 8 && before_point < count) {
-        const characters pointed = with_point(digits, before_point);
-        put(&pointed, to);
-        return to + count + 1;
-    }
     put(digits, to);
     if (before_point >= count)
         return to + before_point; /* the zeros are there */
@@ -196,6 +193,22 @@ static char *put_scientific(char *to, const characters *digits, int count, int e
     return to;
 }
 
+/* In the shorter of both forms. */
+static char *put_number(char *to, const characters *digits, int count, int before_point)
+{
+    if (before_point > 0 && before_point < 8 && before_point < count) {
+        const characters pointed = with_point(digits, before_point);
+        put(&pointed, to);
+        return to + count + 1;
+    }
+    const int fixed = before_point <= 0      ? 2 - before_point + count
+                      : before_point < count ? count + 1
+                                             : before_point;
+    const int scientific = count + (count > 1) + 4;
+    return fixed <= scientific ? put_fixed(to, digits, count, before_point)
+                               : put_scientific(to, digits, count, before_point - 1);
+}
+
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
 {
     uint64_t bits;
@@ -209,17 +222,9 @@ size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
     const uint64_t number = shortest(fraction | hidden, exponent, point);
     const characters digits = digits_of(number, &zeros);
     const int length = number >= LEAST_OF_ALL ? DIGITS : DIGITS - 1;
-    const int count = length - zeros, before_point = length - point;
-    const int fixed = before_point <= 0      ? 2 - before_point + count
-                      : before_point < count ? count + 1
-                                             : before_point;
-    const int scientific = count + (count > 1) + 4;
-    char *to = text;
-    *to = '-';
-    to += bits >> 63;
-    to = fixed <= scientific ? put_fixed(to, &digits, count, before_point)
-                             : put_scientific(to, &digits, count, before_point - 1);
-    return (size_t)(to - text);
+    *text = '-';
+    char *const first = text + (bits >> 63);
+    return (size_t)(put_number(first, &digits, length - zeros, length - point) - text);
 }
 
 #else
