@@ -7,7 +7,7 @@
 
 /* Blocks from this size on get large pages where the system has them: a page's first touch costs more than
    filling it. */
-#define LARGE_BLOCK ((size_t)8 << 20)
+#define LARGE_BLOCK ((size_t)4 << 20)
 #define LARGE_PAGE ((uintptr_t)2 << 20)
 
 /* For tests only; negative: allocations never fail on purpose. */

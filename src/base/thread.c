@@ -37,12 +37,22 @@ static void run_all(void (*run)(void *work, int number), void *work, int threads
     ffd_free(others);
 }
 
+/* Tiles that a thread takes at a time, if there are many: neighbours often need the same things. */
+#define SHARE 8
+#define SHARES_A_THREAD 32
+
 typedef struct tile_work {
     tile_function function;
     void *context;
-    size_t count, tile_size, tiles;
+    size_t count, tile_size, tiles, share;
     atomic_size_t next;
 } tile_work;
+
+static size_t share_of(size_t tiles, int threads)
+{
+    const size_t share = threads > 1 ? tiles / SHARES_A_THREAD / (size_t)threads : SHARE;
+    return share < 1 ? 1 : share < SHARE ? share : SHARE;
+}
 
 static size_t tiles_of(size_t count, size_t tile_size)
 {
@@ -64,10 +74,12 @@ static void run_tiles(void *context, int number)
 {
     tile_work *work = context;
     for (;;) {
-        const size_t tile = atomic_fetch_add(&work->next, 1);
-        if (tile >= work->tiles)
+        const size_t first = atomic_fetch_add(&work->next, work->share);
+        if (first >= work->tiles)
             return;
-        call(work->function, work, tile, number);
+        const size_t last = work->tiles - first < work->share ? work->tiles : first + work->share;
+        for (size_t tile = first; tile < last; tile++)
+            call(work->function, work, tile, number);
     }
 }
 
@@ -78,6 +90,7 @@ void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_functi
                       .count = count,
                       .tile_size = tile_size,
                       .tiles = tiles_of(count, tile_size)};
+    work.share = share_of(work.tiles, threads);
     atomic_init(&work.next, 0);
     run_all(run_tiles, &work, workers_for(work.tiles, threads));
 }

@@ -98,22 +98,30 @@ static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
                     ffd_number_text(min[longest]).text, ffd_number_text(max[longest]).text, "xyz"[longest]);
 }
 
+static ffd_status fail_difference(const ffd_lattice *lattice, ffd_error *error)
+{
+    size_t c = 0;
+    while (isfinite(lattice->difference[c]))
+        c++;
+    return ffd_fail(error, FFD_E_INVALID, "%s: the way from %s to %s is longer than numbers can hold",
+                    name_of(lattice, FFD_VOLUME_DEFORMED, c / 3).text, ffd_number_text(lattice->rest[c]).text,
+                    ffd_number_text(lattice->deformed[c]).text);
+}
+
 static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
 {
-    for (size_t i = 0; i < lattice->count; i++) {
-        bool moved = lattice->rest_weights && lattice->rest_weights[i] != lattice->deformed_weights[i];
-        lattice->weights_moved |= moved;
-        for (size_t c = 3 * i; c < 3 * i + 3; c++) {
-            const double difference = lattice->deformed[c] - lattice->rest[c];
-            if (!isfinite(difference))
-                return ffd_fail(
-                    error, FFD_E_INVALID, "%s: the way from %s to %s is longer than numbers can hold",
-                    name_of(lattice, FFD_VOLUME_DEFORMED, i).text, ffd_number_text(lattice->rest[c]).text,
-                    ffd_number_text(lattice->deformed[c]).text);
-            lattice->difference[c] = difference;
-            moved |= difference != 0;
-        }
-        lattice->moved[i] = moved;
+    double *const difference = lattice->difference;
+    for (size_t c = 0; c < 3 * lattice->count; c++)
+        difference[c] = lattice->deformed[c] - lattice->rest[c];
+    if (!all_finite(difference, 3 * lattice->count))
+        return fail_difference(lattice, error);
+    for (size_t i = 0; i < lattice->count; i++)
+        lattice->moved[i] =
+            (difference[3 * i] != 0) | (difference[3 * i + 1] != 0) | (difference[3 * i + 2] != 0);
+    for (size_t i = 0; i < lattice->count && lattice->rest_weights; i++) {
+        const bool other = lattice->rest_weights[i] != lattice->deformed_weights[i];
+        lattice->weights_moved |= other;
+        lattice->moved[i] |= other;
     }
     return FFD_OK;
 }

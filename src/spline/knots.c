@@ -301,12 +301,25 @@ double ffd_knots_wrap(const knot_vector *knots, double u)
     return u > last ? last : u;
 }
 
+static double span_first(const knot_vector *knots, size_t span)
+{
+    return knots->t[knots->spans[span]];
+}
+
 size_t ffd_knots_span_number(const knot_vector *knots, double u)
 {
     size_t low = 0, high = knots->span_count;
+    /* Where equal spans would have it; most are. */
+    const double first = span_first(knots, 0), last = ffd_knots_last(knots);
+    const double guess = (u - first) / (last - first) * (double)high;
+    if (guess >= 0 && guess < (double)high) {
+        const size_t span = (size_t)guess;
+        if (u >= span_first(knots, span) && (span + 1 == high || u < span_first(knots, span + 1)))
+            return span;
+    }
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        if (u >= knots->t[knots->spans[middle]])
+        if (u >= span_first(knots, middle))
             low = middle;
         else
             high = middle;
