@@ -12,8 +12,8 @@ typedef struct byte_buffer {
     bool failed; /* memory ran out: everything appended since is lost */
 } byte_buffer;
 
-/* Where size more bytes can be written by the caller, who adds what he did write to the buffer's size; NULL when
-   memory ran out. */
+/* Where size more bytes can be written by the caller, who adds what he did write to the buffer's size; NULL
+   when memory ran out. */
 char *ffd_buffer_room(byte_buffer *buffer, size_t size);
 void ffd_buffer_append(byte_buffer *buffer, const void *bytes, size_t size);
 void ffd_buffer_text(byte_buffer *buffer, const char *text);

@@ -223,13 +223,14 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     return FFD_OK;
 }
 
-/* Brings the pages of a mapped file into memory, where the system has a call for that. The system copies without
-   waiting for pages, clears what it could not fill, and begins again: once a page. */
+/* Brings the pages of a mapped file into memory, where the system has a call for that. The system copies
+   without waiting for pages, clears what it could not fill, and begins again: once a page. */
 static void bring_in(const unsigned char *bytes, size_t size)
 {
 #ifdef MADV_POPULATE_READ
     const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = (uintptr_t)bytes / page * page;
-    madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* the write tells of failures */
+    madvise((void *)first, (uintptr_t)bytes + size - first,
+            MADV_POPULATE_READ); /* the write tells of failures */
 #else
     (void)bytes;
     (void)size;

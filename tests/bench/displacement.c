@@ -4,13 +4,14 @@
      displacement [RUNS] [POINTS]     default 7 runs of 1,000,000 points, one thread
 
    Millions a second: median (least to greatest), of the displacement alone and with its gradient, for a box,
-   where d uvw / d p is one for all, and for a lattice in general. It takes in what a tile of a mesh costs
-   beside the kernel: the cells of the points are found, and the points of each brought together. They lie on
-   a wavy surface through the lattice, row by row. */
+   where d uvw / d p is one for all, and for a lattice in general. First the kernels alone, with points of one
+   cell side by side; then with what a tile of a mesh costs beside them: the cells of the points are found,
+   and the points of each brought together. These lie on a wavy surface through the lattice, row by row. */
 #include "deform/displacement.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "base/clock.h"
+#include "deform/displacement_cell.h"
 #include <math.h>
 
 #define MOST_RUNS 99
@@ -84,6 +85,43 @@ static void run_batches(sample *s)
     }
 }
 
+static displacement_kernel *const kernels[] = {
+    [FFD_ISA_SCALAR] = ffd_kernel_scalar,
+#ifdef FFD_X86
+    [FFD_ISA_SSE2] = ffd_kernel_sse2,
+    [FFD_ISA_AVX2] = ffd_kernel_avx2,
+    [FFD_ISA_AVX512] = ffd_kernel_avx512,
+#endif
+};
+
+/* As many points as there are, a batch at a time, all in the first cell. */
+static void run_kernel(sample *s)
+{
+    static const size_t number[3] = {0, 0, 0};
+    double uvw[3 * DISPLACEMENT_BATCH], numbers[2 * 3 * 64 + 1];
+    const knot_vector *const knots = s->lattice->knots;
+    kernel_cell cell;
+    for (size_t c = 0; c < 3 * DISPLACEMENT_BATCH; c++)
+        uvw[c] = knots[c % 3].t[3] + s->uvw[c] * (knots[c % 3].t[4] - knots[c % 3].t[3]);
+    if (!ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, s->gradients,
+                                      numbers))
+        abort();
+    ffd_displacement_cell_begin(s->lattice, number, s->gradients, numbers, &cell);
+    for (size_t first = 0; first < s->count; first += DISPLACEMENT_BATCH) {
+        const size_t rest = s->count - first;
+        const kernel_points points = {.uvw = uvw,
+                                      .stride = 3,
+                                      .which = s->which,
+                                      .count = rest < DISPLACEMENT_BATCH ? rest : DISPLACEMENT_BATCH,
+                                      .delta = s->delta,
+                                      .delta_step = 3,
+                                      .gradient = s->gradients ? s->gradient : NULL,
+                                      .gradient_step = 9,
+                                      .jacobian = cell.rest ? s->scratch.jacobian : NULL};
+        kernels[s->isa](&cell, &points);
+    }
+}
+
 static void copy(sample *s)
 {
     memcpy(s->to, s->from, 3 * s->count * sizeof *s->to);
@@ -115,6 +153,21 @@ static void measure(sample *s, void (*run)(sample *), int runs)
     print_rate(s->count, seconds, runs);
 }
 
+static void print_rates(sample *s, void (*run)(sample *), const char *what, int runs)
+{
+    printf("%s, millions a second\n", what);
+    for (s->isa = FFD_ISA_SCALAR; s->isa <= FFD_ISA_AVX512; s->isa++) {
+        if (!ffd_isa_available(s->isa))
+            continue;
+        printf("  %-7s", names[s->isa]);
+        for (int gradients = 0; gradients < 2; gradients++) {
+            s->gradients = gradients;
+            measure(s, run, runs);
+        }
+        printf("\n");
+    }
+}
+
 int main(int count, char **arguments)
 {
     const int runs = count > 1 ? atoi(arguments[1]) : 7;
@@ -137,17 +190,10 @@ int main(int count, char **arguments)
         for (int box = 1; box >= 0; box--) {
             s->lattice = make_lattice(size, box);
             ffd_displacement_scratch_clear(&s->scratch);
-            printf("%zu^3 %s, millions a second\n", size, box ? "box" : "general");
-            for (s->isa = FFD_ISA_SCALAR; s->isa <= FFD_ISA_AVX512; s->isa++) {
-                if (!ffd_isa_available(s->isa))
-                    continue;
-                printf("  %-7s", names[s->isa]);
-                for (int gradients = 0; gradients < 2; gradients++) {
-                    s->gradients = gradients;
-                    measure(s, run_batches, runs);
-                }
-                printf("\n");
-            }
+            if (size == 8)
+                print_rates(s, run_kernel, box ? "kernel alone, box" : "kernel alone, general", runs);
+            printf("%zu^3 ", size);
+            print_rates(s, run_batches, box ? "box" : "general", runs);
             ffd_lattice_destroy(&s->lattice);
         }
     free(s->uvw);
