@@ -175,11 +175,15 @@ def spread(values):
     return f"{statistics.median(values):7.3f}  ({min(values):.3f} to {max(values):.3f})"
 
 
+def write_small(path):
+    with open(path, "w", encoding="ascii") as file:
+        file.writelines(f"v {i % 10} {i // 10} 0.5\n" for i in range(100))
+
+
 def print_starts(ffd, folder, lattices):
     """What a process costs that has next to nothing to do."""
     source, target = os.path.join(folder, "small.obj"), os.path.join(folder, "small-out.obj")
-    with open(source, "w", encoding="ascii") as file:
-        file.writelines(f"v {i % 10} {i // 10} 0.5\n" for i in range(100))
+    write_small(source)
     jobs = {"ffd --version": [ffd, "--version"],
             "100 vertices, box": [ffd, "deform", source, target, "-l", lattices["box"], "--quiet"],
             "100 vertices, warped": [ffd, "deform", source, target, "-l", lattices["warped"], "--quiet"]}
@@ -231,17 +235,24 @@ def medians(commands, runs, output):
 
 
 def print_sizes(bench, source, folder):
-    """What the number of control points costs a vertex: box lattices of 4^3 to 64^3."""
-    target, commands = os.path.join(folder, "sized.glb"), []
+    """What the number of control points costs, box lattices of 4^3 to 64^3: the whole process, and a vertex, which is
+    what it takes longer than with 100 vertices."""
+    target, commands, starts = os.path.join(folder, "sized.glb"), [], []
+    small, small_target = os.path.join(folder, "small.obj"), os.path.join(folder, "small-out.obj")
+    write_small(small)
     for size in SIZES:
         path = os.path.join(folder, f"box{size}.json")
         with open(path, "w", encoding="ascii") as file:
             json.dump(box_lattice(size), file)
         commands.append(bench.command(source, target, path))
-    times = medians(commands, bench.runs, target)
-    shown = ", ".join(f"{size}^3 {seconds:.3f} s ({seconds / times[0]:.2f})" for size, seconds in zip(SIZES, times))
+        starts.append(bench.command(small, small_target, path))
+    whole, making = medians(commands, bench.runs, target), medians(starts, bench.runs, small_target)
+    costs = [seconds - start for seconds, start in zip(whole, making)]
+    shown = ", ".join(f"{size}^3 {seconds:.3f} s ({seconds / whole[0]:.2f}; a vertex {cost / costs[0]:.2f})"
+                      for size, seconds, cost in zip(SIZES, whole, costs))
     print(f"GLB, box lattice by its size (ratio to {SIZES[0]}^3): {shown}", flush=True)
-    os.remove(target)
+    for path in (target, small, small_target):
+        os.remove(path)
 
 
 def print_attributes(bench, folder, lattices):
