@@ -3,13 +3,11 @@
 #ifndef FFD_BASE_LANES_H
 #define FFD_BASE_LANES_H
 
+#include "base/inline.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-
-/* Only where it knows degrees and wishes can the compiler keep sums in registers. */
-#define ALWAYS_INLINE inline __attribute__((always_inline))
 
 typedef double lanes __attribute__((vector_size(8 * FFD_LANES)));
 typedef int64_t mask __attribute__((vector_size(8 * FFD_LANES))); /* -1: yes, 0: no */

@@ -1,10 +1,9 @@
 /* extraction_kernel.c - compiled once for each instruction set: FFD_EXTRACTION_KERNEL is the function's name.
    From a cell's control points to its Bezier points (P&T 5.3): N_j = sum_r E_rj B_r, so that those along a
    direction are sum_j E_rj P_j, in ascending j. */
+#include "base/inline.h"
 #include "deform/kernel.h"
 #include <string.h>
-
-#define ALWAYS_INLINE inline __attribute__((always_inline))
 
 /* Rows of `inner` numbers: row r of `to` becomes sum_j E_rj row j of `from`. */
 static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, size_t inner,

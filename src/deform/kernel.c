@@ -5,8 +5,8 @@
    summed u first, then v, then w, each in ascending index (P&T A4.3's order by separation). */
 #include "deform/kernel.h"
 #if FFD_LANES == 1
+#include "base/inline.h"
 #include <stdbool.h>
-#define ALWAYS_INLINE inline __attribute__((always_inline))
 typedef double lanes;
 #else
 #include "base/lanes.h"
