@@ -170,6 +170,32 @@ static ALWAYS_INLINE void count_evaluation(mask which, region_lanes *result)
         result->evaluations[l] += which[l] != 0;
 }
 
+/* A bound of the distance from the root. */
+static ALWAYS_INLINE lanes radius_at(const double *inverse, const sample_lanes *at, lanes noise, double bound)
+{
+    lanes image[3];
+    lanes_apply(inverse, at->equation, image);
+    return (greatest(image) + noise) / (1 - bound);
+}
+
+/* The step -Y F of the contraction, for those lanes that Newton's does not serve. */
+static ALWAYS_INLINE void contract(const region_kernel_cell *cell, const int order[3], const lanes x[3],
+                                   const progress *now, const lanes image[3], mask which, lanes t[3],
+                                   sample_lanes *at)
+{
+    lanes to[3];
+    sample_lanes there;
+    for (int a = 0; a < 3; a++)
+        to[a] = clip_to_unit(now->t[a] + -image[a]);
+    evaluate(cell, order, x, to, &there);
+    for (int a = 0; a < 3; a++) {
+        t[a] = lanes_choose(which, to[a], t[a]);
+        at->equation[a] = lanes_choose(which, there.equation[a], at->equation[a]);
+    }
+    for (int i = 0; i < 9; i++)
+        at->jacobian[i] = lanes_choose(which, there.jacobian[i], at->jacobian[i]);
+}
+
 static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3], region_lanes *result)
 {
     const cell_region *const region = cell->region;
@@ -215,12 +241,16 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
             break;
         evaluate(cell, order, x, t, &at);
         count_evaluation(now.open, result);
-        lanes_apply(y, at.equation, image);
-        const lanes radius = (greatest(image) + noise) / (1 - bound);
+        lanes radius = radius_at(y, &at, noise, bound);
+        const mask slow = now.open & ~((mask)(radius <= shorter) | accepts(&at, accepted));
+        if (lanes_any(slow)) {
+            contract(cell, order, x, &now, image, slow, t, &at);
+            count_evaluation(slow, result);
+            radius = lanes_choose(slow, shorter, radius);
+        }
         const mask stands =
             ((mask)t[0] == (mask)now.t[0]) & ((mask)t[1] == (mask)now.t[1]) & ((mask)t[2] == (mask)now.t[2]);
-        settle(&now, ~((mask)(radius <= shorter) | accepts(&at, accepted)) | stands, REGION_UNCERTAIN,
-               result);
+        settle(&now, stands, REGION_UNCERTAIN, result);
         move(&now, now.open, t, &at);
         now.e = lanes_choose(now.open, radius, now.e);
     }

@@ -1,7 +1,7 @@
-/* search_many.c - points of a general lattice, several at a time. A point that has one leaf only, as nearly
-   all have, waits until others of its leaf are there; Newton's steps are then theirs together. Whatever is
-   not settled so is searched for alone (search.c), and what is settled has the bits that it would get there.
- */
+/* search_many.c - points of a general lattice, several at a time. A point waits until others of its leaf are
+   there; their steps are then taken together. One that has several leaves waits in each, and is judged when
+   all of them are through. Whatever is not settled so is searched for alone (search.c), and what is settled
+   has the bits that it would get there. */
 #include "base/memory.h"
 #include "base/vec.h"
 #include "embed/region_kernel.h"
@@ -11,13 +11,34 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Leaves of a point; with more it is searched for alone. */
+#define MOST_LEAVES 4
+
+/* What the steps in one leaf led to. */
+typedef struct leaf_result {
+    const cell_leaf *leaf;
+    region_outcome outcome;
+    uint32_t evaluations;
+    double t[3];
+    sample at;
+} leaf_result;
+
 typedef struct waiting_point {
     const cell_leaf *leaf;
     uint32_t number;
+    leaf_result *result; /* of a point with several leaves; NULL: the point has no other */
 } waiting_point;
 
+/* A point with several leaves. */
+typedef struct shared_point {
+    uint32_t number, count;
+    leaf_result *results; /* in the order in which it is in them */
+} shared_point;
+
 struct many_scratch {
-    waiting_point waiting[CELLS_AT_ONCE];
+    waiting_point waiting[2 * CELLS_AT_ONCE];
+    shared_point shared[CELLS_AT_ONCE / 2];
+    leaf_result results[CELLS_AT_ONCE];
     region_kernel_cell cell;
     double own[CELL_NUMBERS];
     region_lanes lanes;
@@ -28,12 +49,13 @@ struct many_scratch {
 #define PACKET 8
 #define CELLS_A_PACKET (1.0 / 8) /* of the mean side */
 
-/* The leaves of a point, as long as there is one at most. */
+/* The leaves of a point. */
 typedef struct leaf_search {
     point_search search;
     uint32_t number; /* of the point */
     uint32_t bricks; /* looked into */
-    const cell_leaf *leaf;
+    uint32_t count;
+    const cell_leaf *leaves[MOST_LEAVES];
     bool alone; /* it needs a search of its own */
 } leaf_search;
 
@@ -52,9 +74,10 @@ static void look_at_leaf(leaf_search *point, const cell_leaf *leaf)
     if (!bounds_hold(&leaf->hull, point->search.x, point->search.slack) ||
         (!leaf->hard && !ffd_search_image_holds(&point->search, leaf)))
         return;
-    if (leaf->hard || point->leaf)
+    if (leaf->hard || point->count == MOST_LEAVES)
         point->alone = true;
-    point->leaf = leaf;
+    else
+        point->leaves[point->count++] = leaf;
 }
 
 static bool visit_leaf(void *context, uint32_t number)
@@ -120,24 +143,33 @@ static void load_point(const point_search *search, int lane, region_lanes *lanes
     }
 }
 
-static void take_result(const ffd_locator *locator, const cell_region *region, const double p[3],
-                        const region_lanes *lanes, int lane, ffd_location *location)
+/* In its place: what is written number by number is slow to copy at once. */
+static void take_result(const cell_leaf *leaf, const region_lanes *lanes, int lane, leaf_result *result)
+{
+    result->leaf = leaf;
+    result->outcome = lanes->outcome[lane];
+    result->evaluations = lanes->evaluations[lane];
+    result->at.weight = 1;
+    for (int a = 0; a < 3; a++) {
+        result->t[a] = lanes->t[a][lane];
+        result->at.equation[a] = result->at.residual[a] = lanes->equation[a][lane];
+    }
+    for (int i = 0; i < 9; i++)
+        result->at.jacobian[i] = lanes->jacobian[i][lane];
+}
+
+/* Judges by the results of all leaves of a point. */
+static void judge(const ffd_locator *locator, const double p[3], const leaf_result *results, uint32_t count,
+                  ffd_location *location)
 {
     point_search search;
     ffd_search_begin(&search, locator);
-    search.evaluations = lanes->evaluations[lane];
-    search.leaves = 1;
     ffd_search_place(&search, p);
-    if (lanes->outcome[lane] == REGION_FOUND) {
-        double t[3];
-        sample at = {.weight = 1};
-        for (int a = 0; a < 3; a++) {
-            t[a] = lanes->t[a][lane];
-            at.equation[a] = at.residual[a] = lanes->equation[a][lane];
-        }
-        for (int i = 0; i < 9; i++)
-            at.jacobian[i] = lanes->jacobian[i][lane];
-        ffd_search_record(&search, region, t, &at, false);
+    search.leaves = count;
+    for (uint32_t i = 0; i < count; i++) {
+        search.evaluations += results[i].evaluations;
+        if (results[i].outcome == REGION_FOUND)
+            ffd_search_record(&search, &results[i].leaf->region, results[i].t, &results[i].at, false);
     }
     ffd_search_judge(&search, location);
 }
@@ -168,11 +200,15 @@ static ffd_status find_in_leaf(const ffd_locator *locator, const double *p, cons
         }
         locator->cells->region_kernel(&(*scratch)->many->cell, lanes);
         for (size_t l = 0; l < filled && !status; l++) {
-            const uint32_t number = waiting[first + l].number;
-            if (lanes->outcome[l] == REGION_UNCERTAIN)
-                status = find_alone(locator, p, number, scratch, locations, error);
+            const waiting_point *const point = &waiting[first + l];
+            leaf_result own, *const result = point->result ? point->result : &own;
+            take_result(point->leaf, lanes, (int)l, result);
+            if (point->result)
+                continue;
+            if (result->outcome == REGION_UNCERTAIN)
+                status = find_alone(locator, p, point->number, scratch, locations, error);
             else
-                take_result(locator, region, p + 3 * (size_t)number, lanes, (int)l, &locations[number]);
+                judge(locator, p + 3 * (size_t)point->number, result, 1, &locations[point->number]);
         }
     }
     return status;
@@ -232,8 +268,46 @@ typedef struct many_search {
     ffd_location *locations;
     ffd_error *error;
     packet packet;
-    size_t waiting;
+    size_t waiting, shared, results; /* in the scratch */
 } many_search;
+
+/* Lets a point wait in its leaves. False: there is no room for so many. */
+static bool wait_in_leaves(many_search *many, const leaf_search *point)
+{
+    struct many_scratch *const scratch = (*many->scratch)->many;
+    leaf_result *results = NULL;
+    if (point->count > 1) {
+        if (CELLS_AT_ONCE - many->results < point->count)
+            return false;
+        results = scratch->results + many->results;
+        many->results += point->count;
+        scratch->shared[many->shared++] = (shared_point){point->number, point->count, results};
+    }
+    for (uint32_t i = 0; i < point->count; i++)
+        scratch->waiting[many->waiting++] =
+            (waiting_point){point->leaves[i], point->number, results ? results + i : NULL};
+    return true;
+}
+
+/* The points with several leaves, which all are through. */
+static ffd_status judge_shared(const many_search *many)
+{
+    const struct many_scratch *const scratch = (*many->scratch)->many;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < many->shared && !status; i++) {
+        const shared_point *const point = &scratch->shared[i];
+        bool certain = true;
+        for (uint32_t l = 0; l < point->count; l++)
+            certain = certain && point->results[l].outcome != REGION_UNCERTAIN;
+        if (certain)
+            judge(many->locator, many->p + 3 * (size_t)point->number, point->results, point->count,
+                  &many->locations[point->number]);
+        else
+            status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,
+                                many->error);
+    }
+    return status;
+}
 
 /* Finds the leaves of the packet's points, and leaves it empty. */
 static ffd_status settle_packet(many_search *many)
@@ -243,12 +317,10 @@ static ffd_status settle_packet(many_search *many)
     ffd_box_tree_visit_box(&many->locator->cells->brick_tree, &p->places, p->slack, visit_brick, p);
     for (int i = 0; i < p->count && !status; i++) {
         const leaf_search *point = &p->points[i];
-        if (point->alone)
+        if (point->alone || !wait_in_leaves(many, point))
             status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,
                                 many->error);
-        else if (point->leaf)
-            (*many->scratch)->many->waiting[many->waiting++] = (waiting_point){point->leaf, point->number};
-        else
+        else if (point->count == 0)
             ffd_search_judge(&point->search, &many->locations[point->number]);
     }
     p->count = 0;
@@ -271,7 +343,7 @@ static ffd_status add_point(many_search *many, double side, uint32_t number)
     }
     point->number = number;
     point->bricks = 0;
-    point->leaf = NULL;
+    point->count = 0;
     point->alone = false;
     widen(p);
     return status || p->count < PACKET ? status : settle_packet(many);
@@ -312,6 +384,8 @@ ffd_status ffd_cells_find_many(const ffd_locator *locator, const double *p, size
         (*scratch)->many = ffd_alloc(1, sizeof *(*scratch)->many);
     if (!(*scratch)->many)
         return ffd_fail_memory(error);
-    const ffd_status status = find_leaves(&many, count);
-    return status ? status : find_waiting(locator, p, many.waiting, scratch, locations, error);
+    ffd_status status = find_leaves(&many, count);
+    if (!status)
+        status = find_waiting(locator, p, many.waiting, scratch, locations, error);
+    return status ? status : judge_shared(&many);
 }
