@@ -8,7 +8,6 @@
 #include "embed/search.h"
 #include "spline/basis.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Leaves of a point; with more it is searched for alone. */
@@ -35,8 +34,21 @@ typedef struct shared_point {
     leaf_result *results; /* in the order in which it is in them */
 } shared_point;
 
+/* The points that wait in one leaf. */
+typedef struct leaf_group {
+    const cell_leaf *leaf;
+    size_t first, count; /* among the grouped */
+} leaf_group;
+
+#define MOST_WAITING (2 * CELLS_AT_ONCE)
+#define BUCKETS (2 * MOST_WAITING)
+#define NO_GROUP UINT16_MAX
+
 struct many_scratch {
-    waiting_point waiting[2 * CELLS_AT_ONCE];
+    waiting_point waiting[MOST_WAITING], grouped[MOST_WAITING];
+    uint16_t group_of[MOST_WAITING]; /* of those waiting */
+    leaf_group groups[MOST_WAITING];
+    uint16_t buckets[BUCKETS]; /* groups by their leaves */
     shared_point shared[CELLS_AT_ONCE / 2];
     leaf_result results[CELLS_AT_ONCE];
     region_kernel_cell cell;
@@ -106,22 +118,42 @@ static bool visit_brick(void *context, uint32_t number)
     return !any || !p->brick || ffd_box_tree_visit_box(&p->brick->tree, &p->places, p->slack, visit_leaf, p);
 }
 
-static int compare_waiting(const void *a, const void *b)
+/* The group of the leaf, made where it is new. */
+static leaf_group *take_group(struct many_scratch *many, const cell_leaf *leaf, size_t *group_count)
 {
-    const waiting_point *x = a, *y = b;
-    if (x->leaf != y->leaf)
-        return (uintptr_t)x->leaf < (uintptr_t)y->leaf ? -1 : 1;
-    return (x->number > y->number) - (x->number < y->number);
+    size_t bucket = (size_t)((uintptr_t)leaf / sizeof *leaf) % BUCKETS;
+    for (; many->buckets[bucket] != NO_GROUP; bucket = (bucket + 1) % BUCKETS)
+        if (many->groups[many->buckets[bucket]].leaf == leaf)
+            return &many->groups[many->buckets[bucket]];
+    many->buckets[bucket] = (uint16_t)*group_count;
+    leaf_group *const made = &many->groups[(*group_count)++];
+    *made = (leaf_group){.leaf = leaf};
+    return made;
 }
 
-/* Points come leaf by leaf most often: what is in order already is not sorted. */
-static void sort_waiting(waiting_point *waiting, size_t count)
+/* Brings the points of each leaf together, in their order, into many->grouped. Returns how many leaves there
+   are. */
+static size_t group_waiting(struct many_scratch *many, size_t count)
 {
-    for (size_t i = 1; i < count; i++)
-        if (compare_waiting(&waiting[i - 1], &waiting[i]) > 0) {
-            qsort(waiting, count, sizeof *waiting, compare_waiting);
-            return;
-        }
+    size_t group_count = 0, first = 0;
+    memset(many->buckets, 0xff, sizeof many->buckets);
+    for (size_t i = 0; i < count; i++) {
+        const bool same = i > 0 && many->waiting[i].leaf == many->waiting[i - 1].leaf;
+        leaf_group *const group = same ? &many->groups[many->group_of[i - 1]]
+                                       : take_group(many, many->waiting[i].leaf, &group_count);
+        many->group_of[i] = (uint16_t)(group - many->groups);
+        group->count++;
+    }
+    for (size_t g = 0; g < group_count; g++) {
+        many->groups[g].first = first;
+        first += many->groups[g].count;
+        many->groups[g].count = 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        leaf_group *const group = &many->groups[many->group_of[i]];
+        many->grouped[group->first + group->count++] = many->waiting[i];
+    }
+    return group_count;
 }
 
 static void load_cell(const ffd_locator *locator, const cell_region *region, double *own,
@@ -218,15 +250,11 @@ static ffd_status find_waiting(const ffd_locator *locator, const double *p, size
                                search_scratch **scratch, ffd_location *locations, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    if (count == 0)
-        return FFD_OK;
-    waiting_point *const waiting = (*scratch)->many->waiting;
-    sort_waiting(waiting, count);
-    for (size_t first = 0, last; first < count && !status; first = last) {
-        for (last = first + 1; last < count && waiting[last].leaf == waiting[first].leaf;)
-            last++;
-        status = find_in_leaf(locator, p, waiting + first, last - first, scratch, locations, error);
-    }
+    struct many_scratch *const many = (*scratch)->many;
+    const size_t groups = group_waiting(many, count);
+    for (size_t g = 0; g < groups && !status; g++)
+        status = find_in_leaf(locator, p, many->grouped + many->groups[g].first, many->groups[g].count,
+                              scratch, locations, error);
     return status;
 }
 
