@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
-/* Blocks from this size on get large pages where the system has them: a page's first touch costs more than
-   filling it. */
+/* Blocks from this size on get large pages. */
 #define LARGE_BLOCK ((size_t)4 << 20)
 #define LARGE_PAGE ((uintptr_t)2 << 20)
 
@@ -45,24 +44,12 @@ bool ffd_multiply_size(size_t a, size_t b, size_t *result)
     return true;
 }
 
-static void *advised(void *block, size_t bytes)
-{
-#ifdef MADV_HUGEPAGE
-    if (block && bytes >= LARGE_BLOCK) {
-        const uintptr_t first = ((uintptr_t)block + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
-        const uintptr_t last = ((uintptr_t)block + bytes) / LARGE_PAGE * LARGE_PAGE;
-        madvise((void *)first, last - first, MADV_HUGEPAGE); /* advice only */
-    }
-#endif
-    return block;
-}
-
 void *ffd_alloc(size_t count, size_t size)
 {
     size_t bytes;
     if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
         return NULL;
-    return advised(malloc(bytes ? bytes : 1), bytes);
+    return malloc(bytes ? bytes : 1);
 }
 
 void *ffd_alloc_zero(size_t count, size_t size)
@@ -70,7 +57,7 @@ void *ffd_alloc_zero(size_t count, size_t size)
     size_t bytes;
     if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
         return NULL;
-    return advised(calloc(bytes ? bytes : 1, 1), bytes);
+    return calloc(bytes ? bytes : 1, 1);
 }
 
 void *ffd_realloc(void *block, size_t count, size_t size)
@@ -79,6 +66,22 @@ void *ffd_realloc(void *block, size_t count, size_t size)
     if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
         return NULL;
     return realloc(block, bytes ? bytes : 1);
+}
+
+void ffd_expect_all(void *block, size_t count, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    const size_t bytes = count * size;
+    if (block && bytes >= LARGE_BLOCK) {
+        const uintptr_t first = ((uintptr_t)block + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+        const uintptr_t last = ((uintptr_t)block + bytes) / LARGE_PAGE * LARGE_PAGE;
+        madvise((void *)first, last - first, MADV_HUGEPAGE); /* advice only */
+    }
+#else
+    (void)block;
+    (void)count;
+    (void)size;
+#endif
 }
 
 void ffd_free(void *block)

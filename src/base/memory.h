@@ -17,6 +17,11 @@ void *ffd_alloc_zero(size_t count, size_t size);
 void *ffd_realloc(void *block, size_t count, size_t size);
 void ffd_free(void *block);
 
+/* Tells the system that a new block (or NULL) of ffd_alloc or ffd_alloc_zero, of these sizes, will be used
+   from end to end: it may have large pages then, for a page's first touch costs more than filling it. Not for
+   memory of which little may be touched. */
+void ffd_expect_all(void *block, size_t count, size_t size);
+
 /* Makes room for at least `needed` elements of `size` bytes in *block, whose capacity is *capacity elements,
    growing by half at least. False when there is no memory; nothing is changed then. */
 bool ffd_grow(void **block, size_t *capacity, size_t needed, size_t size);

@@ -32,6 +32,7 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
     if (!stream->result)
         return ffd_fail_memory(error);
+    ffd_expect_all(stream->result, count, 3 * sizeof *stream->result);
     originals of = {d, stream};
     if (!d->morph_name)
         ffd_parallel_tiles(count, TILE, d->threads, copy_tile, &of);

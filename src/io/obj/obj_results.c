@@ -59,6 +59,7 @@ ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tan
         d->new_directions = ffd_alloc(d->part.normal_count, 3 * sizeof *d->new_directions);
         if (!d->new_directions)
             return ffd_fail_memory(error);
+        ffd_expect_all(d->new_directions, d->part.normal_count, 3 * sizeof *d->new_directions);
         ffd_parallel_tiles(d->part.normal_count, TILE, d->threads, copy_normals, d);
     }
     return FFD_OK;
