@@ -1,5 +1,6 @@
 #include "base/decimal.h"
 #include "base/little_endian.h"
+#include <float.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -28,6 +29,8 @@ const char *ffd_decimal_parse(const char *first, const char *last, double *value
     static const double powers[MOST_DIGITS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
                                                    1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
                                                    1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
+    if (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1) /* a longer quotient would be rounded twice */
+        return NULL;
     const bool negative = first < last && *first == '-';
     const char *const digits = first + negative;
     uint64_t number = 0;

@@ -14,7 +14,7 @@ extern "C" {
 const char *ffd_decimal_parse(const char *first, const char *last, double *value);
 
 /* Writes the shortest text as std::to_chars does. Returns its length, 24 at most (what stands behind it in
-   text is undefined); 0 where the number is none of those that this way is for: 2^-32 to 2^53 in size, and no
+   text is undefined); 0 where the number is none of those that this way is for: 2^-32 to 2^52 in size, and no
    power of two. */
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY]);
 

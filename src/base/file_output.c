@@ -223,8 +223,8 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     return FFD_OK;
 }
 
-/* Brings the pages of a mapped file into memory, where the system has a call for that. The system copies
-   without waiting for pages, clears what it could not fill, and begins again: once a page. */
+/* Brings the pages of a mapped file, if it is one, into memory, where the system has a call for that. The
+   system copies without waiting for pages, clears what it could not fill, and begins again: once a page. */
 static void bring_in(const unsigned char *bytes, size_t size)
 {
 #ifdef MADV_POPULATE_READ

@@ -112,9 +112,14 @@ typedef struct ordered_work {
     pthread_cond_t freed;
 } ordered_work;
 
+/* Tiles that may wait for their turn while threads go on. */
+#define MOST_WAITING 8
+
 int ffd_ordered_slots(int threads)
 {
-    return threads > 1 ? 2 * threads : 1;
+    if (threads <= 1)
+        return 1;
+    return threads + (threads < MOST_WAITING ? threads : MOST_WAITING);
 }
 
 /* The slot that has the tile, if it is made; -1: none. */

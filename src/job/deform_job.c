@@ -116,7 +116,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     arrays->room = job->document->room;
     if (!status && (wants_figures(job) || job->recomputes))
         status = ffd_figures_make_room(job, arrays, error);
-    job->threads = ffd_pass_threads(&arrays->room, &job->chain, job->threads);
+    job->threads = ffd_pass_threads(&arrays->room, job->check ? job->chain.count : 0, job->threads);
     return status;
 }
 

@@ -120,7 +120,7 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
     const mesh_pass pass = {.document = made->document,
                             .chain = &made->chain,
                             .links = 1,
-                            .threads = ffd_pass_threads(&room, &made->chain, threads),
+                            .threads = ffd_pass_threads(&room, 0, threads),
                             .uvw = made->uvw,
                             .statuses = made->statuses};
     return ffd_pass_run(&pass, totals, error);

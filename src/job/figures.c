@@ -12,19 +12,28 @@
 /* Of a vertex, in the arrays. */
 #define ARRAY_BYTES (12 * sizeof(double))
 
-/* Takes the memory that figures and normals from faces need, with the faces that are there. */
+/* What normals from faces take while they are made. */
+static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, mesh_room room,
+                                ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < job->document->part_count && status == FFD_OK; i++)
+        status = ffd_room_take(&room, job->document->parts[i].normal_count, NORMAL_BYTES, error);
+    return status ? status : ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
+}
+
+/* Takes the memory that figures need, with the faces that are there, and looks whether that suffices for
+   normals before. */
 static ffd_status take_room(const deform_job *job, const mesh_faces *faces, mesh_room *room, ffd_error *error)
 {
     const size_t corners = faces->start[faces->face_count];
     ffd_status status = ffd_room_take(room, ffd_pass_vertex_count(job->document), ARRAY_BYTES, error);
     if (status == FFD_OK)
         status = ffd_mesh_faces_take(faces, corners, room, error);
+    if (status == FFD_OK && job->recomputes)
+        status = check_normals(job, faces, *room, error);
     if (status == FFD_OK && job->check)
         status = ffd_room_take(room, corners, EDGE_LIST_BYTES, error);
-    for (size_t i = 0; i < job->document->part_count && status == FFD_OK && job->recomputes; i++)
-        status = ffd_room_take(room, job->document->parts[i].normal_count, NORMAL_BYTES, error);
-    if (status == FFD_OK && job->recomputes)
-        status = ffd_room_take(room, ffd_half_edge_bytes(faces), 1, error);
     return status;
 }
 

@@ -416,9 +416,9 @@ uint64_t ffd_pass_vertex_count(const mesh_document *document)
     return count;
 }
 
-int ffd_pass_threads(const mesh_room *room, const lattice_chain *chain, int threads)
+int ffd_pass_threads(const mesh_room *room, size_t edge_links, int threads)
 {
-    return ffd_room_threads(room, threads, THREAD_BYTES + chain->count * THREAD_LINK_BYTES);
+    return ffd_room_threads(room, threads, THREAD_BYTES + edge_links * THREAD_LINK_BYTES);
 }
 
 _Static_assert(sizeof(tile_scratch) - sizeof(kept_cells) + sizeof(shape_scratch) < THREAD_BYTES,

@@ -57,8 +57,9 @@ uint64_t ffd_pass_vertex_count(const mesh_document *document);
 #define THREAD_BYTES ((size_t)2 << 20)
 #define THREAD_LINK_BYTES ((size_t)400 << 10)
 
-/* How many of the threads there is memory for, beside what is taken of the room. */
-int ffd_pass_threads(const mesh_room *room, const lattice_chain *chain, int threads);
+/* How many of the threads there is memory for, beside what is taken of the room. edge_links: the lattices
+   through which they will look at edges; 0: they will not. */
+int ffd_pass_threads(const mesh_room *room, size_t edge_links, int threads);
 
 ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error);
 

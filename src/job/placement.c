@@ -26,7 +26,7 @@ static ffd_status check_reach(const lattice_chain *chain, size_t link, const mes
 
 ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
 {
-    const int usable = ffd_pass_threads(&document->room, chain, threads);
+    const int usable = ffd_pass_threads(&document->room, 0, threads);
     for (size_t l = 0; l < chain->count; l++) {
         chain_link *link = &chain->links[l];
         if (link->locator)

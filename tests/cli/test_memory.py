@@ -234,7 +234,8 @@ def more_vertices_than_memory(run):
         file.write(b"f 1 2 3\n")
     run.write("l.json", json.dumps(LATTICE))
     for normals in ("keep", "transform"):
-        code, peak, line = measure(run, [*COMMANDS["deform"][:1], "a.obj", "b.obj", "-l", "l.json", "--force", "--normals", normals])
+        code, peak, line = measure(run, [*COMMANDS["deform"][:1], "a.obj", "b.obj", "-l", "l.json", "--force", "--normals", normals,
+                                        "--threads", "4"])
         equal(code, OK, line)
         check(peak < 350e6, f"{peak / 1e6:.0f} MB, where positions and results have {16000000 * 48 / 1e6:.0f}")
 

@@ -134,10 +134,10 @@ static ffd_status check_common_corners(const obj_document *d, obj_walk *walk, bl
             return FFD_OK;
         if (at < last && *at == '/') {
             at = pass_digits(at + 1, last);
-            const char *const before = at + 1;
+            const char *const behind = at;
             if (at < last && *at == '/')
-                at = take_index(before, last, &normal);
-            if (at > before && d->normals > 0 && (normal == 0 || normal > d->normals))
+                at = take_index(at + 1, last, &normal);
+            if (at - behind > 1 && d->normals > 0 && (normal == 0 || normal > d->normals))
                 return FFD_OK;
         }
         if (at == last || (*at != ' ' && *at != '\n'))
