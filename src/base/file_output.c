@@ -189,7 +189,9 @@ static int open_locked(const char *path)
         }
         if (fstat(fd, &ours) == 0 && S_ISREG(ours.st_mode) && stat(path, &there) == 0 &&
             ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) {
-            if (ftruncate(fd, 0) == 0)
+            /* Of one that is empty nothing is cut off: ext4 would flush what is written next when it is
+             * closed. */
+            if (ours.st_size == 0 || ftruncate(fd, 0) == 0)
                 return fd;
             close(fd);
             return -1;

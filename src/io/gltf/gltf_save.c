@@ -9,7 +9,7 @@
 /* Bytes of a buffer written at once: a multiple of 3, so that pieces of base64 join. */
 #define BLOCK ((size_t)3 << 14)
 /* Most bytes of the input that are written at once, and written until those so far are given back. */
-#define LARGEST_WRITE ((size_t)1 << 20)
+#define LARGEST_WRITE ((size_t)4 << 20)
 #define MOST_HELD ((size_t)6 << 20)
 
 void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...)
