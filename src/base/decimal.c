@@ -59,6 +59,7 @@ __extension__ typedef unsigned __int128 uint128;
 #define MANTISSA_BITS 52
 #define LEAST_EXPONENT (-84) /* of the mantissa as a whole number */
 
+/* As many as LEAST_EXPONENT asks for. */
 static const uint64_t powers_of_five[] = {
     UINT64_C(1),
     UINT64_C(5),
