@@ -76,80 +76,17 @@ static bool is_first(first_normal *first, uint32_t normal)
     return there == normal;
 }
 
-static ffd_status note_normal(uint32_t vertex, uint32_t normal, block_faces *block, ffd_error *error)
-{
-    if (is_first(&block->firsts[vertex], normal))
-        return FFD_OK;
-    if (!ffd_grow((void **)&block->others, &block->capacity, block->count + 1, sizeof *block->others))
-        return ffd_fail_memory(error);
-    block->others[block->count++] = (vertex_normal){vertex, normal};
-    return FFD_OK;
-}
-
 static ffd_status add_normal(const obj_document *d, const obj_walk *walk, size_t vertex,
                              const obj_index *index, block_faces *block, ffd_error *error)
 {
     size_t normal;
     const ffd_status status = check_index(d, &walk->scan, *index, walk->normals, "normal", &normal, error);
-    if (status || !block->firsts)
+    if (status || !block->firsts || is_first(&block->firsts[vertex], (uint32_t)normal))
         return status;
-    return note_normal((uint32_t)vertex, (uint32_t)normal, block, error);
-}
-
-static bool is_digit(char c)
-{
-    return c >= '0' && c <= '9';
-}
-
-/* Digits, up to as many as an element's number may have and one more. */
-static const char *take_index(const char *at, const char *last, uint64_t *index)
-{
-    const char *const most = last - at > 11 ? at + 11 : last;
-    *index = 0;
-    for (; at < most && is_digit(*at); at++)
-        *index = *index * 10 + (uint64_t)(*at - '0');
-    return at;
-}
-
-static const char *pass_digits(const char *at, const char *last)
-{
-    while (at < last && is_digit(*at))
-        at++;
-    return at;
-}
-
-/* Corners of a face as nearly all are: in digits and slashes alone, of vertices and normals that are there,
-   with spaces between them. Stops in front of the first other one, which is looked at with more care. */
-static ffd_status check_common_corners(const obj_document *d, obj_walk *walk, block_faces *block,
-                                       ffd_error *error)
-{
-    const char *const last = walk->scan.last;
-    for (;;) {
-        uint64_t vertex, normal = 0;
-        const char *at = walk->scan.at;
-        while (at < last && *at == ' ')
-            at++;
-        at = take_index(at, last, &vertex);
-        if (vertex == 0 || vertex > d->vertices)
-            return FFD_OK;
-        if (at < last && *at == '/') {
-            at = pass_digits(at + 1, last);
-            const char *const behind = at;
-            if (at < last && *at == '/')
-                at = take_index(at + 1, last, &normal);
-            if (at - behind > 1 && d->normals > 0 && (normal == 0 || normal > d->normals))
-                return FFD_OK;
-        }
-        if (at == last || (*at != ' ' && *at != '\n'))
-            return FFD_OK;
-        if (normal > 0 && block->firsts) {
-            const ffd_status status = note_normal((uint32_t)vertex - 1, (uint32_t)normal - 1, block, error);
-            if (status)
-                return status;
-        }
-        block->corners++;
-        walk->scan.at = at;
-    }
+    if (!ffd_grow((void **)&block->others, &block->capacity, block->count + 1, sizeof *block->others))
+        return ffd_fail_memory(error);
+    block->others[block->count++] = (vertex_normal){(uint32_t)vertex, (uint32_t)normal};
+    return FFD_OK;
 }
 
 /* Checks the corners of a face, line or point. Only what is used is refused: a texcoord's index is not, nor a
@@ -160,7 +97,7 @@ static ffd_status check_corners(const obj_document *d, obj_walk *walk, block_fac
     const bool is_face = scan->keyword == OBJ_FACE;
     text_word word;
     obj_corner corner;
-    ffd_status status = is_face && scan->plain ? check_common_corners(d, walk, block, error) : FFD_OK;
+    ffd_status status = FFD_OK;
     while (status == FFD_OK) {
         size_t vertex;
         const bool plain = ffd_obj_scan_corner(scan, &corner);
