@@ -2,19 +2,18 @@
 #include "base/memory.h"
 #include <pthread.h>
 #include <stdatomic.h>
-#include <stdbool.h>
 #include <unistd.h>
 
-typedef struct worker {
+typedef struct worker_thread {
     void (*run)(void *work, int number);
     void *work;
     int number;
     pthread_t thread;
-} worker;
+} worker_thread;
 
 static void *start(void *argument)
 {
-    const worker *self = argument;
+    const worker_thread *self = argument;
     self->run(self->work, self->number);
     return NULL;
 }
@@ -22,11 +21,11 @@ static void *start(void *argument)
 /* Runs in so many threads. Worker 0 is this one; it alone suffices where the others cannot be had. */
 static void run_all(void (*run)(void *work, int number), void *work, int threads)
 {
-    worker *others = threads > 1 ? ffd_alloc_zero((size_t)threads - 1, sizeof *others) : NULL;
+    worker_thread *others = threads > 1 ? ffd_alloc_zero((size_t)threads - 1, sizeof *others) : NULL;
     int started = 0;
     while (others && started < threads - 1) {
-        worker *next = &others[started];
-        *next = (worker){.run = run, .work = work, .number = started + 1};
+        worker_thread *next = &others[started];
+        *next = (worker_thread){.run = run, .work = work, .number = started + 1};
         if (pthread_create(&next->thread, NULL, start, next) != 0)
             break;
         started++;
@@ -41,10 +40,15 @@ static void run_all(void (*run)(void *work, int number), void *work, int threads
 #define SHARE 8
 #define SHARES_A_THREAD 32
 
-typedef struct tile_work {
-    tile_function function;
+typedef struct tiling {
     void *context;
-    size_t count, tile_size, tiles, share;
+    size_t count, tile_size, tiles;
+} tiling;
+
+typedef struct tile_work {
+    tiling tiling;
+    tile_function function;
+    size_t share;
     atomic_size_t next;
 } tile_work;
 
@@ -54,9 +58,9 @@ static size_t share_of(size_t tiles, int threads)
     return share < 1 ? 1 : share < SHARE ? share : SHARE;
 }
 
-static size_t tiles_of(size_t count, size_t tile_size)
+static tiling tile(size_t count, size_t tile_size, void *context)
 {
-    return count / tile_size + (count % tile_size != 0);
+    return (tiling){context, count, tile_size, count / tile_size + (count % tile_size != 0)};
 }
 
 static int workers_for(size_t tiles, int threads)
@@ -64,35 +68,32 @@ static int workers_for(size_t tiles, int threads)
     return threads > 1 && (size_t)threads > tiles ? (int)tiles : threads;
 }
 
-static void call(tile_function function, const tile_work *work, size_t tile, int number)
+static void call(tile_function function, const tiling *of, size_t number, int worker)
 {
-    const size_t begin = tile * work->tile_size, rest = work->count - begin;
-    function(work->context, tile, begin, begin + (rest < work->tile_size ? rest : work->tile_size), number);
+    const size_t begin = number * of->tile_size, rest = of->count - begin;
+    function(of->context, number, begin, begin + (rest < of->tile_size ? rest : of->tile_size), worker);
 }
 
-static void run_tiles(void *context, int number)
+static void run_tiles(void *context, int worker)
 {
     tile_work *work = context;
+    const size_t tiles = work->tiling.tiles;
     for (;;) {
         const size_t first = atomic_fetch_add(&work->next, work->share);
-        if (first >= work->tiles)
+        if (first >= tiles)
             return;
-        const size_t last = work->tiles - first < work->share ? work->tiles : first + work->share;
-        for (size_t tile = first; tile < last; tile++)
-            call(work->function, work, tile, number);
+        const size_t last = tiles - first < work->share ? tiles : first + work->share;
+        for (size_t number = first; number < last; number++)
+            call(work->function, &work->tiling, number, worker);
     }
 }
 
 void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_function function, void *context)
 {
-    tile_work work = {.function = function,
-                      .context = context,
-                      .count = count,
-                      .tile_size = tile_size,
-                      .tiles = tiles_of(count, tile_size)};
-    work.share = share_of(work.tiles, threads);
+    tile_work work = {.tiling = tile(count, tile_size, context), .function = function};
+    work.share = share_of(work.tiling.tiles, threads);
     atomic_init(&work.next, 0);
-    run_all(run_tiles, &work, workers_for(work.tiles, threads));
+    run_all(run_tiles, &work, workers_for(work.tiling.tiles, threads));
 }
 
 /* A tile on its way. */
@@ -102,13 +103,14 @@ typedef struct tile_slot {
 } tile_slot;
 
 typedef struct ordered_work {
-    tile_work tiles; /* its next is under the lock */
-    tile_function finish;
-    tile_slot *slots;
+    tiling tiling;
+    tile_function function, finish;
     int slot_count;
-    size_t turn; /* the tile to be finished next */
+    /* Under the lock: */
+    tile_slot *slots;
+    size_t next, turn; /* the tiles to be taken and to be finished next */
     bool finishing;
-    pthread_mutex_t lock; /* of the slots and what follows tiles.next */
+    pthread_mutex_t lock;
     pthread_cond_t freed;
 } ordered_work;
 
@@ -134,18 +136,13 @@ static int find_made(const ordered_work *work, size_t tile)
 /* Takes the next tile into a free slot; waits for one. -1: no tile is left. Under the lock. */
 static int take_tile(ordered_work *work)
 {
-    for (;;) {
-        const size_t tile = atomic_load(&work->tiles.next);
-        if (tile >= work->tiles.tiles)
-            return -1;
+    for (; work->next < work->tiling.tiles; pthread_cond_wait(&work->freed, &work->lock))
         for (int i = 0; i < work->slot_count; i++)
             if (!work->slots[i].taken) {
-                work->slots[i] = (tile_slot){.taken = true, .tile = tile};
-                atomic_store(&work->tiles.next, tile + 1);
+                work->slots[i] = (tile_slot){.taken = true, .tile = work->next++};
                 return i;
             }
-        pthread_cond_wait(&work->freed, &work->lock);
-    }
+    return -1;
 }
 
 /* Finishes the tiles whose turn it is, one after the other, unless another thread is at it. Under the lock.
@@ -157,7 +154,7 @@ static void finish_made(ordered_work *work)
     work->finishing = true;
     for (int slot; (slot = find_made(work, work->turn)) >= 0;) {
         pthread_mutex_unlock(&work->lock);
-        call(work->finish, &work->tiles, work->turn, slot);
+        call(work->finish, &work->tiling, work->turn, slot);
         pthread_mutex_lock(&work->lock);
         work->slots[slot].taken = work->slots[slot].made = false;
         work->turn++;
@@ -166,15 +163,15 @@ static void finish_made(ordered_work *work)
     work->finishing = false;
 }
 
-static void run_ordered(void *context, int number)
+static void run_ordered(void *context, int worker)
 {
     ordered_work *work = context;
-    (void)number;
+    (void)worker; /* slots are numbered, not threads */
     pthread_mutex_lock(&work->lock);
     for (int slot; (slot = take_tile(work)) >= 0;) {
-        const size_t tile = work->slots[slot].tile;
+        const size_t number = work->slots[slot].tile;
         pthread_mutex_unlock(&work->lock);
-        call(work->tiles.function, &work->tiles, tile, slot);
+        call(work->function, &work->tiling, number, slot);
         pthread_mutex_lock(&work->lock);
         work->slots[slot].made = true;
         finish_made(work);
@@ -185,11 +182,8 @@ static void run_ordered(void *context, int number)
 bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_function function,
                            tile_function finish, void *context)
 {
-    ordered_work work = {.tiles = {.function = function,
-                                   .context = context,
-                                   .count = count,
-                                   .tile_size = tile_size,
-                                   .tiles = tiles_of(count, tile_size)},
+    ordered_work work = {.tiling = tile(count, tile_size, context),
+                         .function = function,
                          .finish = finish,
                          .slot_count = ffd_ordered_slots(threads),
                          .lock = PTHREAD_MUTEX_INITIALIZER,
@@ -197,8 +191,7 @@ bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_fun
     work.slots = ffd_alloc_zero((size_t)work.slot_count, sizeof *work.slots);
     if (!work.slots)
         return false;
-    atomic_init(&work.tiles.next, 0);
-    run_all(run_ordered, &work, workers_for(work.tiles.tiles, threads));
+    run_all(run_ordered, &work, workers_for(work.tiling.tiles, threads));
     pthread_cond_destroy(&work.freed);
     pthread_mutex_destroy(&work.lock);
     ffd_free(work.slots);
