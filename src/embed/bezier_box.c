@@ -197,7 +197,12 @@ static void centre_jacobian(const bezier_box *box, const double p[3], double jac
             }
 }
 
-/* The coefficients of column b of Y J_F (3 each, where the point has a next one along b) into column. */
+/* Where column b of Y J_F stands: 3 coefficients for each control point that has a next one along b. */
+static double *column_of(const bezier_box *box, int b, double *columns)
+{
+    return columns + (size_t)b * 3 * ffd_bezier_count(box->order);
+}
+
 static void column_coefficients(const bezier_box *box, int b, const double middle[3], const double inverse[9],
                                 double *column)
 {
@@ -340,7 +345,7 @@ static int widest(const bezier_box *box)
 }
 
 void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const double reach[3],
-                            double *scratch, contraction_bound *result)
+                            double *columns, contraction_bound *result)
 {
     double jacobian[9], sum[3] = {0, 0, 0};
     centre_jacobian(box, middle, jacobian);
@@ -348,9 +353,9 @@ void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const
     if (!result->regular)
         return;
     for (int b = 0; b < 3; b++) {
-        double distance[3];
-        column_coefficients(box, b, middle, result->inverse, scratch);
-        column_distance(box, b, reach, result->inverse, scratch, distance);
+        double distance[3], *const column = column_of(box, b, columns);
+        column_coefficients(box, b, middle, result->inverse, column);
+        column_distance(box, b, reach, result->inverse, column, distance);
         for (int r = 0; r < 3; r++)
             sum[r] += distance[r];
     }
@@ -360,15 +365,12 @@ void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const
             result->bound = sum[r];
 }
 
-int ffd_bezier_halving(const bezier_box *box, const double middle[3], const contraction_bound *found,
-                       double *scratch)
+int ffd_bezier_halving(const bezier_box *box, const contraction_bound *found, double *columns)
 {
     double spread[3][3][3];
     if (!found->regular)
         return widest(box);
-    for (int b = 0; b < 3; b++) {
-        column_coefficients(box, b, middle, found->inverse, scratch);
-        column_spread(box, b, scratch, spread[b]);
-    }
+    for (int b = 0; b < 3; b++)
+        column_spread(box, b, column_of(box, b, columns), spread[b]);
     return best_halving(box, spread);
 }

@@ -46,11 +46,10 @@ typedef struct contraction_bound {
     double bound;      /* L: the greatest row sum of |I - Y J_F| over the box and all p in middle +- reach */
 } contraction_bound;
 
-/* scratch: 3 * ffd_bezier_count doubles. */
+/* columns: 9 * ffd_bezier_count doubles, which become the coefficients of Y J_F. */
 void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const double reach[3],
-                            double *scratch, contraction_bound *result);
-/* The direction whose halving lowers that bound most. scratch: likewise. */
-int ffd_bezier_halving(const bezier_box *box, const double middle[3], const contraction_bound *found,
-                       double *scratch);
+                            double *columns, contraction_bound *result);
+/* The direction whose halving lowers that bound most. found, columns: as ffd_bezier_contraction left them. */
+int ffd_bezier_halving(const bezier_box *box, const contraction_bound *found, double *columns);
 
 #endif

@@ -75,7 +75,7 @@ typedef struct cell_cutter {
     int span[3];
     int budget;
     double *slots;   /* coefficients for each depth */
-    double *scratch; /* of the contraction_bound */
+    double *columns; /* of the contraction bound */
 } cell_cutter;
 
 static bool add_leaf(cell_cutter *cutter, const bezier_box *box, const bounds *hull,
@@ -112,14 +112,14 @@ static bool cut(cell_cutter *cutter, bezier_box *box, int depth)
     }
     contraction_bound found;
     cutter->budget--;
-    ffd_bezier_contraction(box, middle, reach, cutter->scratch, &found);
+    ffd_bezier_contraction(box, middle, reach, cutter->columns, &found);
     if (found.regular && found.bound <= LEAF_BOUND)
         return add_leaf(cutter, box, &hull, &found, false);
     if (depth == LEAF_DEPTH || cutter->budget <= 0)
         return add_leaf(cutter, box, &hull, &found, true);
     bezier_box lower = {.coefficients = cutter->slots + (size_t)(depth + 1) * ffd_bezier_size(box->order)};
     bezier_box upper = {.coefficients = box->coefficients};
-    ffd_bezier_halve(box, ffd_bezier_halving(box, middle, &found, cutter->scratch), &lower, &upper);
+    ffd_bezier_halve(box, ffd_bezier_halving(box, &found, cutter->columns), &lower, &upper);
     return cut(cutter, &lower, depth + 1) && cut(cutter, &upper, depth + 1);
 }
 
@@ -130,8 +130,8 @@ static bool cut_brick(const ffd_locator *locator, uint32_t number, cell_brick *b
     size_t first[3], last[3], cell[3];
     bool done = false;
     cutter.slots = ffd_alloc(LEAF_DEPTH + 2, ffd_bezier_size(cells->order) * sizeof(double));
-    cutter.scratch = ffd_alloc(3 * ffd_bezier_count(cells->order), sizeof(double));
-    if (!cutter.slots || !cutter.scratch)
+    cutter.columns = ffd_alloc(9 * ffd_bezier_count(cells->order), sizeof(double));
+    if (!cutter.slots || !cutter.columns)
         goto out;
     brick_cells(cells, number, first, last);
     for (cell[2] = first[2]; cell[2] <= last[2]; cell[2]++)
@@ -147,7 +147,7 @@ static bool cut_brick(const ffd_locator *locator, uint32_t number, cell_brick *b
     done = true;
 out:
     ffd_free(cutter.slots);
-    ffd_free(cutter.scratch);
+    ffd_free(cutter.columns);
     return done;
 }
 

@@ -24,9 +24,9 @@ static bool make_memory(point_search *search)
     search_scratch *scratch = search->scratch;
     if (!scratch->slots)
         scratch->slots = ffd_alloc(HARD_LEVELS + 1, ffd_bezier_size(order) * sizeof(double));
-    if (!scratch->numbers)
-        scratch->numbers = ffd_alloc(3 * ffd_bezier_count(order), sizeof(double));
-    if (scratch->slots && scratch->numbers)
+    if (!scratch->columns)
+        scratch->columns = ffd_alloc(9 * ffd_bezier_count(order), sizeof(double));
+    if (scratch->slots && scratch->columns)
         return true;
     search->status = ffd_fail_memory(search->error);
     return false;
@@ -135,7 +135,7 @@ static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bou
     bounds hull = ffd_bezier_equation_hull(box, search->x);
     if (!holds_zero(&hull, slack))
         return true;
-    ffd_bezier_contraction(box, search->x, no_reach, search->scratch->numbers, found);
+    ffd_bezier_contraction(box, search->x, no_reach, search->scratch->columns, found);
     ffd_cell_region(search->locator, hard->span, box, found, region);
     if (!found->regular)
         return false;
@@ -167,9 +167,7 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     if (settle_box(hard, box, &found, &region, &blurred))
         return;
     const int across =
-        blurred
-            ? -1
-            : direction_to_halve(box, ffd_bezier_halving(box, search->x, &found, search->scratch->numbers));
+        blurred ? -1 : direction_to_halve(box, ffd_bezier_halving(box, &found, search->scratch->columns));
     if (across < 0) {
         if (polish(search, &region))
             hard->singular++;

@@ -32,7 +32,7 @@ typedef struct region_kernel_cell {
 typedef enum region_outcome {
     REGION_EMPTY,    /* there is no root */
     REGION_FOUND,    /* t is within the tolerance */
-    REGION_UNCERTAIN /* Newton's steps alone do not decide: ffd_search_region must */
+    REGION_UNCERTAIN /* the kernel does not decide: ffd_search_region must */
 } region_outcome;
 
 /* One point a lane; all lanes are filled, if need be with points twice. */
@@ -44,7 +44,8 @@ typedef struct region_lanes {
     uint32_t evaluations[REGION_LANES];
 } region_lanes;
 
-/* Does what ffd_search_region does, with the same bits, as long as it takes Newton's steps. One function for
+/* Does what ffd_search_region does, with the same bits, in Newton's steps and those of the contraction; what
+   is left to a face of the region is uncertain, and so is a J that is nearly singular. One function for
    each instruction set that has lanes; a processor without takes the points one by one. */
 typedef void region_kernel(const region_kernel_cell *cell, region_lanes *lanes);
 

@@ -204,7 +204,7 @@ void ffd_search_scratch_free(search_scratch *scratch)
     ffd_own_bricks_free(&scratch->own);
     ffd_free(scratch->many);
     ffd_free(scratch->slots);
-    ffd_free(scratch->numbers);
+    ffd_free(scratch->columns);
     ffd_free(scratch);
 }
 

@@ -13,7 +13,7 @@
 struct search_scratch {
     struct many_scratch *many; /* search_many.c */
     double *slots;             /* coefficients of a hard leaf's halvings */
-    double *numbers;           /* of the contraction bound */
+    double *columns;           /* of the contraction bound */
     own_bricks own;
 };
 
