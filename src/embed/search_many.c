@@ -4,14 +4,11 @@
    has the bits that it would get there. */
 #include "base/memory.h"
 #include "base/vec.h"
+#include "embed/packet.h"
 #include "embed/region_kernel.h"
-#include "embed/search.h"
 #include "spline/basis.h"
 #include <math.h>
 #include <string.h>
-
-/* Leaves of a point; with more it is searched for alone. */
-#define MOST_LEAVES 4
 
 /* What the steps in one leaf led to. */
 typedef struct leaf_result {
@@ -55,68 +52,6 @@ struct many_scratch {
     double own[CELL_NUMBERS];
     region_lanes lanes;
 };
-
-/* Neighbours in a mesh mostly lie in the same leaves: they walk through the trees together, as long as they
-   are not farther apart than a small part of a cell. */
-#define PACKET 8
-#define CELLS_A_PACKET (1.0 / 8) /* of the mean side */
-
-/* The leaves of a point. */
-typedef struct leaf_search {
-    point_search search;
-    uint32_t number; /* of the point */
-    uint32_t bricks; /* looked into */
-    uint32_t count;
-    const cell_leaf *leaves[MOST_LEAVES];
-    bool alone; /* it needs a search of its own */
-} leaf_search;
-
-typedef struct packet {
-    leaf_search points[PACKET];
-    int count;
-    bounds places;
-    double slack[3]; /* the largest */
-    /* Of the brick that is being looked into: */
-    const cell_brick *brick;
-    bool enter[PACKET];
-} packet;
-
-static void look_at_leaf(leaf_search *point, const cell_leaf *leaf)
-{
-    if (!bounds_hold(&leaf->hull, point->search.x, point->search.slack) ||
-        (!leaf->hard && !ffd_search_image_holds(&point->search, leaf)))
-        return;
-    if (leaf->hard || point->count == MOST_LEAVES)
-        point->alone = true;
-    else
-        point->leaves[point->count++] = leaf;
-}
-
-static bool visit_leaf(void *context, uint32_t number)
-{
-    packet *p = context;
-    for (int i = 0; i < p->count; i++)
-        if (p->enter[i] && !p->points[i].alone)
-            look_at_leaf(&p->points[i], &p->brick->leaves[number]);
-    return true;
-}
-
-static bool visit_brick(void *context, uint32_t number)
-{
-    packet *p = context;
-    const cell_search *cells = p->points[0].search.locator->cells;
-    bool any = false;
-    /* A brick that is not kept, or not made yet, may not outlast this point. */
-    p->brick = atomic_load_explicit(&cells->made[number], memory_order_acquire);
-    for (int i = 0; i < p->count; i++) {
-        leaf_search *point = &p->points[i];
-        p->enter[i] = bounds_hold(&cells->brick_hulls[number], point->search.x, point->search.slack);
-        if (p->enter[i])
-            point->alone = point->alone || !p->brick || point->bricks++ >= SEARCH_BRICKS;
-        any = any || p->enter[i];
-    }
-    return !any || !p->brick || ffd_box_tree_visit_box(&p->brick->tree, &p->places, p->slack, visit_leaf, p);
-}
 
 /* The group of the leaf, made where it is new. */
 static leaf_group *take_group(struct many_scratch *many, const cell_leaf *leaf, size_t *group_count)
@@ -264,30 +199,6 @@ static bool has_lanes(const cell_search *cells)
     return cells->region_kernel && !cells->rational && cells->collapses.count == 0;
 }
 
-/* Whether the next point of the mesh is near those that are there. */
-static bool is_near(const packet *p, double side, const double x[3])
-{
-    for (int a = 0; a < 3; a++)
-        if (x[a] - p->places.lo[a] > side || p->places.hi[a] - x[a] > side)
-            return false;
-    return true;
-}
-
-/* Takes the point that stands behind the last of the packet into it. */
-static void widen(packet *p)
-{
-    const point_search *added = &p->points[p->count].search;
-    if (p->count == 0) {
-        memcpy(p->places.lo, added->x, sizeof added->x);
-        memcpy(p->places.hi, added->x, sizeof added->x);
-        memcpy(p->slack, added->slack, sizeof added->slack);
-    }
-    bounds_add(&p->places, added->x);
-    for (int a = 0; a < 3; a++)
-        p->slack[a] = added->slack[a] > p->slack[a] ? added->slack[a] : p->slack[a];
-    p->count++;
-}
-
 /* The points of a call on their way. */
 typedef struct many_search {
     const ffd_locator *locator;
@@ -295,12 +206,12 @@ typedef struct many_search {
     search_scratch **scratch;
     ffd_location *locations;
     ffd_error *error;
-    packet packet;
+    point_packet packet;
     size_t waiting, shared, results; /* in the scratch */
 } many_search;
 
 /* Lets a point wait in its leaves. False: there is no room for so many. */
-static bool wait_in_leaves(many_search *many, const leaf_search *point)
+static bool wait_in_leaves(many_search *many, const packet_point *point)
 {
     struct many_scratch *const scratch = (*many->scratch)->many;
     leaf_result *results = NULL;
@@ -340,11 +251,11 @@ static ffd_status judge_shared(const many_search *many)
 /* Finds the leaves of the packet's points, and leaves it empty. */
 static ffd_status settle_packet(many_search *many)
 {
-    packet *const p = &many->packet;
+    point_packet *const p = &many->packet;
     ffd_status status = FFD_OK;
-    ffd_box_tree_visit_box(&many->locator->cells->brick_tree, &p->places, p->slack, visit_brick, p);
+    ffd_packet_find_leaves(p);
     for (int i = 0; i < p->count && !status; i++) {
-        const leaf_search *point = &p->points[i];
+        const packet_point *point = &p->points[i];
         if (point->alone || !wait_in_leaves(many, point))
             status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,
                                 many->error);
@@ -355,38 +266,18 @@ static ffd_status settle_packet(many_search *many)
     return status;
 }
 
-static ffd_status add_point(many_search *many, double side, uint32_t number)
-{
-    packet *const p = &many->packet;
-    leaf_search *point = &p->points[p->count];
-    ffd_status status = FFD_OK;
-    ffd_search_begin(&point->search, many->locator);
-    if (!ffd_search_place(&point->search, many->p + 3 * (size_t)number))
-        return FFD_OK;
-    if (p->count > 0 && !is_near(p, side, point->search.x)) {
-        status = settle_packet(many);
-        memcpy(&p->points[0].search, &point->search, offsetof(point_search, roots));
-        p->points[0].search.roots.count = 0;
-        point = &p->points[0];
-    }
-    point->number = number;
-    point->bricks = 0;
-    point->count = 0;
-    point->alone = false;
-    widen(p);
-    return status || p->count < PACKET ? status : settle_packet(many);
-}
-
 static ffd_status find_leaves(many_search *many, size_t count)
 {
-    const cell_search *const cells = many->locator->cells;
-    const double side =
-        CELLS_A_PACKET / cbrt((double)cells->cells[0] * (double)cells->cells[1] * (double)cells->cells[2]);
     ffd_status status = FFD_OK;
-    for (uint32_t i = 0; i < count && !status; i++)
-        if (!isnan(many->p[3 * (size_t)i]))
-            status = add_point(many, side, i);
-    return status || many->packet.count == 0 ? status : settle_packet(many);
+    ffd_packet_begin(&many->packet, many->locator);
+    for (uint32_t i = 0; i < count && !status; i++) {
+        const double *const p = many->p + 3 * (size_t)i;
+        if (isnan(p[0]) || ffd_packet_add(&many->packet, p, i))
+            continue;
+        status = settle_packet(many);
+        ffd_packet_add(&many->packet, p, i);
+    }
+    return status ? status : settle_packet(many);
 }
 
 static ffd_status find_each(const ffd_locator *locator, const double *p, size_t count,
