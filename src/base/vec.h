@@ -9,6 +9,17 @@
 extern "C" {
 #endif
 
+/* fmin and fmax are calls. Where b is no number, it is a. */
+static inline double lesser_of(double a, double b)
+{
+    return b < a ? b : a;
+}
+
+static inline double larger_of(double a, double b)
+{
+    return b > a ? b : a;
+}
+
 static inline double vec_dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

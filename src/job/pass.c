@@ -40,12 +40,6 @@ static void widen(ffd_bounds *box, const double p[3])
     }
 }
 
-/* fmax is a call. A NaN does not count. */
-static double larger(double a, double b)
-{
-    return b > a ? b : a;
-}
-
 static uint64_t least(uint64_t a, uint64_t b)
 {
     return a < b ? a : b;
@@ -123,7 +117,7 @@ static void count_point(bool singular, const chain_point *point, const double be
         point->evaluations > totals->evaluations_max ? point->evaluations : totals->evaluations_max;
     if (point->located) {
         totals->located++;
-        totals->residual_square_max = larger(totals->residual_square_max, point->residual_square);
+        totals->residual_square_max = larger_of(totals->residual_square_max, point->residual_square);
         totals->residual_square_sum += point->residual_square;
     }
     if (!vec_is_finite(before)) {
@@ -137,7 +131,7 @@ static void count_point(bool singular, const chain_point *point, const double be
         return;
     }
     const double square = vec_dot(point->delta, point->delta);
-    totals->displacement_square_max = larger(totals->displacement_square_max, square);
+    totals->displacement_square_max = larger_of(totals->displacement_square_max, square);
     totals->displacement_square_sum += square;
 }
 

@@ -81,17 +81,6 @@ static void move_to_world(const move_work *work, lattice_move *move)
         matrix_to_world(work, move->matrix);
 }
 
-/* fmin and fmax are calls. */
-static double larger(double a, double b)
-{
-    return b > a ? b : a;
-}
-
-static double lesser(double a, double b)
-{
-    return b < a ? b : a;
-}
-
 /* Control points on a face of the box that `within` names belong to it, whatever their last bit: a
    coordinate's rounding is allowed for, as in the embedding's tolerance. */
 static void find_slack(move_work *work)
@@ -99,7 +88,7 @@ static void find_slack(move_work *work)
     double size[3] = {0, 0, 0};
     for (size_t i = 0; i < work->lattice->count; i++)
         for (int c = 0; c < 3; c++)
-            size[c] = larger(size[c], fabs(work->lattice->rest[3 * i + c]));
+            size[c] = larger_of(size[c], fabs(work->lattice->rest[3 * i + c]));
     for (int c = 0; c < 3; c++) {
         const double *const row = work->inverse + 3 * c;
         const double largest = work->box_units
@@ -168,8 +157,8 @@ static void find_extent(const move_work *work, ready_move *ready)
         if (!work->selected[i])
             continue;
         const double s = along_axis(&ready->move, work->points + 3 * i);
-        first = lesser(first, s);
-        last = larger(last, s);
+        first = lesser_of(first, s);
+        last = larger_of(last, s);
     }
     ready->first = first;
     ready->length = last - first;
