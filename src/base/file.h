@@ -3,6 +3,7 @@
 #define FFD_BASE_FILE_H
 
 #include "base/fail.h"
+#include "base/path_list.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -28,6 +29,9 @@ void ffd_file_unload(file_input *input);
    them again, by itself, from the file. Any thread. */
 void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
 
+/* Whether path names a stream of this process or nothing, and no file that stands somewhere: "-",
+   /dev/stdin, /dev/fd/N, /dev/null. */
+bool ffd_file_is_stream(const char *path);
 bool ffd_file_exists(const char *path);
 /* Whether both paths lead to one existing file. */
 bool ffd_file_same(const char *a, const char *b);
@@ -47,13 +51,9 @@ typedef struct file_output file_output;
 
 /* The files that a run has written so far. Two names can lead to one file (links, "./"), and names are
    derived from others (a .gltf's buffers): only the files themselves tell. */
-typedef struct written_files {
-    char **paths;
-    size_t count, capacity;
-} written_files;
+typedef path_list written_files;
 
 bool ffd_written_holds(const written_files *written, const char *path);
-void ffd_written_free(written_files *written);
 
 ffd_status ffd_output_create(file_output **output, ffd_error *error);
 /* From now on the set refuses targets that written holds (FFD_E_EXISTS), and its commit adds what it wrote.

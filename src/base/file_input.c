@@ -55,10 +55,11 @@ static ffd_status map_file(int fd, const char *name, size_t size, file_input *in
     return FFD_OK;
 }
 
-/* Names of streams: this process's own descriptors, as shells name them, and the empty file. */
-static bool names_stream(const char *path)
+bool ffd_file_is_stream(const char *path)
 {
     static const char *const names[] = {"/dev/stdin", "/dev/fd/", "/proc/self/fd/", "/dev/null"};
+    if (strcmp(path, "-") == 0)
+        return true;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (strncmp(path, names[i], strlen(names[i])) == 0)
             return true;
@@ -69,7 +70,7 @@ static bool names_stream(const char *path)
 static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
 {
     struct stat info;
-    if (names_stream(path) || fstat(fd, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))
+    if (ffd_file_is_stream(path) || fstat(fd, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_IO, path, "is a %s, not a file (- reads standard input)",
                          S_ISFIFO(info.st_mode) ? "pipe" : "device");
@@ -99,7 +100,7 @@ ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error)
     if (strcmp(path, "-") == 0)
         return load_descriptor(STDIN_FILENO, "standard input", input, error);
     /* A pipe is not waited for: it is refused. The flags of descriptors are left alone. */
-    const int fd = open(path, O_RDONLY | O_CLOEXEC | (names_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
     if (fd < 0)
         return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(errno));
     ffd_status status = refuse_special(fd, path, error);

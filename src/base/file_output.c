@@ -64,14 +64,6 @@ bool ffd_written_holds(const written_files *written, const char *path)
     return false;
 }
 
-void ffd_written_free(written_files *written)
-{
-    for (size_t i = 0; i < written->count; i++)
-        ffd_free(written->paths[i]);
-    ffd_free(written->paths);
-    *written = (written_files){NULL, 0, 0};
-}
-
 void ffd_output_record(file_output *output, written_files *written)
 {
     output->written = written;

@@ -88,6 +88,17 @@ char *ffd_path_join(const char *folder, const char *name)
     return text;
 }
 
+char *ffd_path_beside(const char *path, const char *name)
+{
+    const size_t folder = (size_t)(ffd_path_name(path) - path), length = strlen(name);
+    char *text = ffd_alloc(folder + length + 1, 1);
+    if (!text)
+        return NULL;
+    memcpy(text, path, folder);
+    memcpy(text + folder, name, length + 1);
+    return text;
+}
+
 char *ffd_text_copy(const char *text)
 {
     return copy_range(text, strlen(text));

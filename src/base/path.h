@@ -13,6 +13,7 @@ const char *ffd_path_shown(const char *path); /* for messages: "-" -> "standard 
 char *ffd_path_folder(const char *path); /* "a/b.obj" -> "a"; "b.obj" -> "." */
 char *ffd_path_stem(const char *path);   /* "a/b.x.obj" -> "b.x" */
 char *ffd_path_join(const char *folder, const char *name);
+char *ffd_path_beside(const char *path, const char *name); /* "a/b.obj", "c" -> "a/c" */
 char *ffd_text_copy(const char *text);
 
 #endif

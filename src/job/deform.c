@@ -17,7 +17,11 @@ void ffd_deform_desc_init(ffd_deform_desc *desc)
 static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options *options, ffd_error *error)
 {
     const char *input = desc->input.path;
-    *options = (mesh_save_options){desc->output, desc->output_format, desc->force, desc->resources, input};
+    *options = (mesh_save_options){.path = desc->output,
+                                   .format = desc->output_format,
+                                   .force = desc->force,
+                                   .resources = desc->resources,
+                                   .input = input};
     if (desc->in_place) {
         if (desc->output)
             return ffd_fail(error, FFD_E_ARGUMENT, "--in-place has no output \"%s\"", desc->output);

@@ -42,6 +42,17 @@ ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document 
     return status;
 }
 
+ffd_status ffd_source_files(const ffd_source *source, const mesh_document *document, path_list *files,
+                            ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    if (!ffd_file_is_stream(source->path))
+        status = ffd_paths_add(files, source->path, error);
+    if (!status && document->format->list_files)
+        status = document->format->list_files(document, files, error);
+    return status;
+}
+
 void ffd_source_close(mesh_document **document)
 {
     if (*document)

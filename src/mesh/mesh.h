@@ -94,6 +94,9 @@ typedef struct mesh_save_options {
     bool force;
     ffd_resources resources;
     const char *input; /* the document's file, which a conversion must not replace; NULL or "-": none */
+    /* Gets the further files that the output holds as they are: images that are copied beside it, or stand
+       there already. NULL: not wanted. */
+    path_list *copied;
 } mesh_save_options;
 
 typedef struct mesh_log {
@@ -111,6 +114,8 @@ void ffd_points_place(const double *transforms, size_t count, double *points);
 typedef ffd_status mesh_open_function(file_input *input, const ffd_source *source, mesh_document **document,
                                       ffd_error *error);
 typedef void mesh_close_function(mesh_document *document);
+typedef ffd_status mesh_list_files_function(const mesh_document *document, path_list *files,
+                                            ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
 typedef ffd_status mesh_check_reach_function(const mesh_document *document, const ffd_bounds *reach,
                                              ffd_error *error);
@@ -145,6 +150,9 @@ typedef struct mesh_format {
        messages and says where relative references lead ("-": nowhere). */
     mesh_open_function *open;
     mesh_close_function *close;
+    /* Adds the files that open has read beside the one it was given: a .gltf's buffers. One that is named
+       twice is added twice. NULL: there are none. */
+    mesh_list_files_function *list_files;
     /* Refuses (FFD_E_UNSUPPORTED) what the parts' streams do not show as it is, before anything is embedded
        or deformed: skins, morph targets, compressed data. A document that only is to be described need not
        pass. NULL: they show all. Called by ffd_mesh_check. */

@@ -297,6 +297,20 @@ void ffd_gltf_forget(const gltf_document *d)
             ffd_file_forget(&d->buffers[i].file, d->buffers[i].file.data, d->buffers[i].file.size);
 }
 
+static ffd_status list_files(const mesh_document *document, path_list *files, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
+        if (d->buffers[i].kind != BUFFER_FILE)
+            continue;
+        char *path = ffd_path_beside(d->path, d->buffers[i].path);
+        status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
+        ffd_free(path);
+    }
+    return status;
+}
+
 static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_error *error)
 {
     d->path = ffd_text_copy(source->path);
@@ -418,6 +432,7 @@ const mesh_format ffd_gltf_format = {
     .name = "glTF",
     .open = open_document,
     .close = close_document,
+    .list_files = list_files,
     .check = check,
     .check_reach = ffd_gltf_check_reach,
     .keep_base = ffd_gltf_keep_base,

@@ -95,6 +95,8 @@ static ffd_status copy_image(const resources *r, size_t image, const char *path,
             status ? reason.message : "it is outside the model's folder");
     else
         status = write_image(r, target, &bytes, error);
+    if (status == FFD_OK && r->saver->options->copied)
+        status = ffd_paths_add(r->saver->options->copied, source, error);
 done:
     if (bytes.data)
         ffd_file_unload(&bytes);

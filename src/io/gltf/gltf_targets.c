@@ -4,14 +4,6 @@
 #include "io/gltf/uri.h"
 #include <string.h>
 
-static char *beside(const char *path, const char *name)
-{
-    char *folder = ffd_path_folder(path);
-    char *joined = folder ? ffd_path_join(folder, name) : NULL;
-    ffd_free(folder);
-    return joined;
-}
-
 /* "OUT-stem.bin" for the first external buffer, "OUT-stem-1.bin" for the next. */
 static char *make_name(const char *path, size_t number)
 {
@@ -37,7 +29,7 @@ static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, f
     for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
-        char *own = beside(d->path, d->buffers[i].path);
+        char *own = ffd_path_beside(d->path, d->buffers[i].path);
         const bool same = own && ffd_file_same(own, target), failed = !own;
         ffd_free(own);
         if (failed)
@@ -70,7 +62,7 @@ static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_err
 static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_error *error)
 {
     char *name = make_name(saver->options->path, number);
-    char *target = name ? beside(saver->options->path, name) : NULL;
+    char *target = name ? ffd_path_beside(saver->options->path, name) : NULL;
     saver->buffers[b].target = target;
     ffd_status status = target ? refuse_own_file(saver, target, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
@@ -91,7 +83,7 @@ static ffd_status is_own_file(const gltf_document *d, size_t b, const char *targ
     for (size_t i = 0; i < d->buffer_values.count; i++) {
         if (d->buffers[i].kind != BUFFER_FILE)
             continue;
-        char *file = beside(d->path, d->buffers[i].path);
+        char *file = ffd_path_beside(d->path, d->buffers[i].path);
         const bool same = file && ffd_file_same(file, target), failed = !file;
         ffd_free(file);
         if (failed)
@@ -113,7 +105,7 @@ static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number
     ffd_status status = FFD_OK;
     while (saver->buffers[b].changed && !saver->buffers[b].target && status == FFD_OK) {
         bool own = false;
-        char *name = make_name(d->path, (*number)++), *target = name ? beside(d->path, name) : NULL;
+        char *name = make_name(d->path, (*number)++), *target = name ? ffd_path_beside(d->path, name) : NULL;
         const bool exists = target && ffd_file_exists(target);
         status = !target ? ffd_fail_memory(error) : exists ? is_own_file(d, b, target, &own, error) : FFD_OK;
         if (status == FFD_OK && (own || !exists)) {
