@@ -53,6 +53,11 @@ typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL }
 /* Takes one line without line break, in the calling thread. */
 typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *line);
 
+/* From now on SIGHUP, SIGINT, SIGPIPE, SIGQUIT and SIGTERM, where they would end the program, do so after the
+   temporary files of what is being written are gone. For programs, at their start: the library by itself does
+   nothing about signals. */
+FFD_API void ffd_cleanup_on_signals(void);
+
 /* A mesh file to read. */
 typedef struct ffd_source {
     const char *path;  /* "-": standard input */

@@ -1,4 +1,5 @@
 #define _DEFAULT_SOURCE /* flock, madvise, realpath */
+#include "base/cleanup.h"
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/path.h"
@@ -18,13 +19,15 @@
 typedef struct output_file {
     char *target;    /* where it shall appear; links are followed beforehand */
     char *temporary; /* NULL where bytes go straight to the target: standard output, devices */
-    int fd;          /* -1 when closed */
+    cleanup_entry *noted;
+    int fd; /* -1 when closed */
     bool committed, remove_first;
 } output_file;
 
 typedef struct output_folder {
     char *path;
     size_t made; /* as ffd_folder_make says it */
+    cleanup_entry *noted;
 } output_folder;
 
 struct file_output {
@@ -197,7 +200,12 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     file->temporary = temporary_name(file->target);
     if (!file->temporary)
         return ffd_fail_memory(error);
+    ffd_cleanup_hold();
     file->fd = open_locked(file->temporary);
+    file->noted = file->fd < 0 ? NULL : ffd_cleanup_note(file->temporary);
+    ffd_cleanup_release();
+    if (file->fd >= 0 && !file->noted)
+        return ffd_fail_memory(error);
     if (file->fd < 0) {
         const int reason = errno;
         ffd_free(file->temporary); /* not ours to remove */
@@ -306,7 +314,15 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
     if (!folder->path)
         return ffd_fail_memory(error);
     output->folder_count++;
-    return ffd_folder_make(path, &folder->made, error);
+    ffd_cleanup_hold();
+    ffd_status status = ffd_folder_make(path, &folder->made, error);
+    if (folder->made) {
+        folder->noted = ffd_cleanup_note_folder(path, folder->made);
+        if (!folder->noted && !status)
+            status = ffd_fail_memory(error);
+    }
+    ffd_cleanup_release();
+    return status;
 }
 
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error)
@@ -351,13 +367,9 @@ static void record_file(file_output *output, output_file *file)
     file->target = NULL;
 }
 
-ffd_status ffd_output_commit(file_output *output, ffd_error *error)
+/* All temporary files to their targets. */
+static ffd_status rename_all(file_output *output, ffd_error *error)
 {
-    ffd_status status = flush(output, error);
-    if (!status)
-        status = prepare_record(output, error);
-    if (status)
-        return status;
     for (size_t i = 0; i < output->count; i++) {
         output_file *file = &output->files[i];
         if (file->remove_first && file->temporary && unlink(file->target) != 0 && errno != ENOENT)
@@ -368,6 +380,7 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
         if (file->temporary && rename(file->temporary, file->target) != 0)
             return fail_errno(error, file->target, "cannot be written");
         file->committed = true;
+        ffd_cleanup_strike(&file->noted);
         /* Closing gives up the lock: only now may another run take the name. */
         const int fd = file->fd;
         file->fd = -1;
@@ -375,18 +388,36 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
             return fail_errno(error, file->target, "cannot be written");
         record_file(output, file);
     }
+    for (size_t i = 0; i < output->folder_count; i++)
+        ffd_cleanup_strike(&output->folders[i].noted);
     output->committed = true;
     return FFD_OK;
+}
+
+ffd_status ffd_output_commit(file_output *output, ffd_error *error)
+{
+    ffd_status status = flush(output, error);
+    if (!status)
+        status = prepare_record(output, error);
+    if (status)
+        return status;
+    /* A signal comes before all renames or after them: a set is not torn apart. */
+    ffd_cleanup_hold();
+    status = rename_all(output, error);
+    ffd_cleanup_release();
+    return status;
 }
 
 void ffd_output_destroy(file_output **output)
 {
     if (!output || !*output)
         return;
+    ffd_cleanup_hold();
     for (size_t i = 0; i < (*output)->count; i++) {
         output_file *file = &(*output)->files[i];
         if (file->temporary && !file->committed)
             unlink(file->temporary);
+        ffd_cleanup_strike(&file->noted);
         if (file->fd >= 0)
             close(file->fd);
         ffd_free(file->temporary);
@@ -395,8 +426,10 @@ void ffd_output_destroy(file_output **output)
     for (size_t i = (*output)->folder_count; i-- > 0;) {
         if (!(*output)->committed)
             ffd_folder_unmake((*output)->folders[i].path, (*output)->folders[i].made);
+        ffd_cleanup_strike(&(*output)->folders[i].noted);
         ffd_free((*output)->folders[i].path);
     }
+    ffd_cleanup_release();
     ffd_free((*output)->folders);
     ffd_free((*output)->files);
     ffd_free((*output)->block);

@@ -1,5 +1,6 @@
 #define _DEFAULT_SOURCE /* madvise */
 #include "base/spill.h"
+#include "base/cleanup.h"
 #include "base/memory.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -21,11 +22,13 @@ static int make_file(void)
         snprintf(path, sizeof path, "%s/ffd-spill-XXXXXX", folder && *folder ? folder : "/var/tmp");
     if (length < 0 || (size_t)length >= sizeof path)
         return -1;
+    ffd_cleanup_hold(); /* a signal finds it without a name */
     const int file = mkstemp(path);
     if (file >= 0) {
         unlink(path);
         fcntl(file, F_SETFD, FD_CLOEXEC);
     }
+    ffd_cleanup_release();
     return file;
 }
 

@@ -217,6 +217,7 @@ int main(int argc, char **argv)
 {
     occupy_closed_streams();
     ignore_size_signal();
+    ffd_cleanup_on_signals();
     int code = run(argc - 1, argv + 1);
     errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout)) {

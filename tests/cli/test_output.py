@@ -222,6 +222,47 @@ def killed_runs_leave_no_half_file(run):
 
 
 @case
+def interrupted_runs_leave_nothing(run):
+    """A run that a signal ends at any moment leaves the old file or the new one, and no temporary one; its parent sees the signal."""
+    run.write("a.obj", "".join(f"v {n % 97 / 97} {n % 89 / 89} {n % 83 / 83}\n" for n in range(60000)))
+    run.write("l.json", lattice(moves=[{"by": [0.1, 0.2, 0.3]}]))
+    begun = time.monotonic()
+    deform(run, "expected.obj")
+    whole = time.monotonic() - begun
+    ends = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+    interrupted = 0
+    for n in range(30):
+        run.write("b.obj", "old")
+        child = subprocess.Popen([FFD, "deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--report", "r.json"],
+                                 cwd=run.folder, stderr=subprocess.PIPE)
+        time.sleep(whole * n / 25)
+        child.send_signal(ends[n % 3])
+        equal(child.communicate(timeout=SECONDS)[1], b"")
+        check(child.returncode in (0, -ends[n % 3]), child.returncode)
+        interrupted += child.returncode < 0
+        check(run.read("b.obj") in (b"old", run.read("expected.obj")), "half a file")
+        check(set(run.names()) <= {"a.obj", "b.obj", "l.json", "expected.obj", "r.json"}, run.names())
+        if run.exists("r.json"):
+            json.loads(run.read("r.json"))
+    check(interrupted > 5, f"{interrupted} runs were interrupted before their end")
+
+
+@case
+def ignored_signals_stay_ignored(run):
+    """As under nohup: the hangup does not end the run, nor leave anything behind."""
+    expected = start(run)
+    child = subprocess.Popen([FFD, "deform", "-", "b.obj", "--input-format", "obj", "-l", "l.json", "--report", "r.json"], cwd=run.folder,
+                             stdin=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    while not run.exists(".r.json.ffd-tmp"):
+        time.sleep(0.01)
+    child.send_signal(signal.SIGHUP)
+    child.communicate(run.read("a.obj"), timeout=SECONDS)
+    equal(child.returncode, 0)
+    equal(run.read("b.obj"), expected)
+    run.check_no_leftovers()
+
+
+@case
 def pipes_and_sockets_as_files(run):
     expected = start(run)
     os.mkfifo(run.path("in.obj"))

@@ -181,8 +181,9 @@ def broken_pipes(run):
     for ignored in (False, True):
         def prepare(ignored=ignored):
             signal.signal(signal.SIGPIPE, signal.SIG_IGN if ignored else signal.SIG_DFL)
-        child = subprocess.Popen([FFD, "deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json"], cwd=run.folder,
-                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare, restore_signals=False)
+        child = subprocess.Popen([FFD, "deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json", "--report", "r.json"],
+                                 cwd=run.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare,
+                                 restore_signals=False)
         child.stdout.close()
         told = child.stderr.read().decode()
         child.stderr.close()

@@ -1,0 +1,174 @@
+/* test_cleanup.c - a signal that ends a program in the middle of its writing leaves no temporary file. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/test_folder.h"
+#include "base/cleanup.h"
+#include "base/file.h"
+#include <dirent.h>
+#include <ffd/job.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <time.h>
+
+static const int signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM};
+enum { SIGNALS = sizeof signals / sizeof *signals };
+
+/* The number of names in the folder, but for those of complete files. */
+static int leftovers(void)
+{
+    int count = 0;
+    DIR *list = opendir(folder);
+    assert_non_null(list);
+    for (const struct dirent *entry; (entry = readdir(list));)
+        count += entry->d_name[0] == '.' && entry->d_name[1] != 0 && strcmp(entry->d_name, "..") != 0;
+    closedir(list);
+    return count;
+}
+
+static void write_file(const char *path, bool commit)
+{
+    file_output *output;
+    if (ffd_output_create(&output, NULL) || ffd_output_begin(output, path, true, NULL) ||
+        ffd_output_write(output, "whole", 5, NULL) || (commit && ffd_output_commit(output, NULL)))
+        _exit(9);
+    if (commit)
+        ffd_output_destroy(&output);
+}
+
+/* How a child ends that does work and then sends itself a signal: its number, or 100 and its exit code. */
+static int end_of(void (*work)(void), int number)
+{
+    const pid_t child = fork();
+    int status;
+    assert_true(child >= 0);
+    if (child == 0) {
+        signal(number, SIG_DFL);
+        work();
+        raise(number);
+        _exit(8);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    return WIFSIGNALED(status) ? WTERMSIG(status) : 100 + WEXITSTATUS(status);
+}
+
+static void begin_two_files_in_a_folder(void)
+{
+    file_output *output;
+    ffd_cleanup_on_signals();
+    if (ffd_output_create(&output, NULL) || ffd_output_folder(output, in_folder("new/deep"), NULL) ||
+        ffd_output_begin(output, in_folder("new/deep/a"), false, NULL) ||
+        ffd_output_begin(output, in_folder("old"), true, NULL) || ffd_output_write(output, "new", 3, NULL))
+        _exit(9);
+}
+
+static void test_each_signal(void **state)
+{
+    put_text("old", "old");
+    for (int i = 0; i < SIGNALS; i++) {
+        assert_int_equal(end_of(begin_two_files_in_a_folder, signals[i]), signals[i]);
+        assert_int_equal(leftovers(), 0);
+        assert_false(ffd_file_exists(in_folder("new")));
+    }
+    file_input input;
+    assert_int_equal(ffd_file_load(in_folder("old"), &input, NULL), FFD_OK);
+    assert_memory_equal(input.data, "old", 3);
+    ffd_file_unload(&input);
+    (void)state;
+}
+
+static void ignore_hangup(void)
+{
+    signal(SIGHUP, SIG_IGN);
+    ffd_cleanup_on_signals();
+}
+
+static void do_nothing(void) {}
+
+/* What a program ignores it goes on to ignore, and without a call nothing is changed. */
+static void test_dispositions(void **state)
+{
+    assert_int_equal(end_of(ignore_hangup, SIGHUP), 108);
+    assert_int_equal(end_of(do_nothing, SIGTERM), SIGTERM);
+    (void)state;
+}
+
+/* A forked child leaves the files of its parent alone. */
+static void test_files_of_a_parent(void **state)
+{
+    file_output *output;
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, in_folder("mine"), false, NULL), FFD_OK);
+    assert_int_equal(end_of(begin_two_files_in_a_folder, SIGTERM), SIGTERM);
+    assert_int_equal(leftovers(), 1);
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    assert_true(ffd_file_exists(in_folder("mine")));
+    (void)state;
+}
+
+static void *write_on_and_on(void *name)
+{
+    for (;;)
+        write_file(name, true);
+    return NULL;
+}
+
+static void run_writers(void)
+{
+    static char names[3][200];
+    pthread_t thread;
+    for (int i = 0; i < 3; i++) {
+        snprintf(names[i], sizeof names[i], "%s/busy-%d", folder, i);
+        if (pthread_create(&thread, NULL, write_on_and_on, names[i]) != 0)
+            _exit(9);
+    }
+}
+
+/* Whatever the threads of a program are at: every name that is there is a complete file. */
+static void test_threads_at_work(void **state)
+{
+    for (int n = 0; n < 60; n++) {
+        const pid_t child = fork();
+        int status;
+        assert_true(child >= 0);
+        if (child == 0) {
+            ffd_cleanup_on_signals();
+            run_writers();
+            pause();
+            _exit(8);
+        }
+        nanosleep(&(struct timespec){.tv_nsec = 300000 + n * 50000}, NULL);
+        kill(child, signals[n % SIGNALS]);
+        assert_int_equal(waitpid(child, &status, 0), child);
+        assert_true(WIFSIGNALED(status));
+        assert_int_equal(leftovers(), 0);
+        for (int i = 0; i < 3; i++) {
+            char name[16];
+            file_input input;
+            snprintf(name, sizeof name, "busy-%d", i);
+            if (ffd_file_load(in_folder(name), &input, NULL))
+                continue;
+            assert_int_equal(input.size, 5);
+            ffd_file_unload(&input);
+        }
+    }
+    assert_true(ffd_file_exists(in_folder("busy-0")));
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_each_signal),
+        cmocka_unit_test(test_dispositions),
+        cmocka_unit_test(test_files_of_a_parent),
+        cmocka_unit_test(test_threads_at_work),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
