@@ -166,33 +166,56 @@ static char *temporary_name(const char *target)
     return text;
 }
 
-/* Opens the temporary file and locks it, so that a run that was killed leaves no obstacle and one that still
-   lives is not disturbed. The file may be renamed by its owner between our open and our lock: then it is no
-   longer the one of that name, and we try again. */
+/* Locks a file against other runs. 1: done; 0: it is no longer the one of that name, as its owner has renamed
+   or removed it between our open and our lock; -1: errno tells why not, EBUSY of a run that lives. */
+static int lock_named(int fd, const char *path)
+{
+    struct stat ours, there;
+    if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+        errno = errno == EWOULDBLOCK ? EBUSY : errno;
+        return -1;
+    }
+    if (fstat(fd, &ours) != 0)
+        return -1;
+    if (!S_ISREG(ours.st_mode)) {
+        errno = EEXIST;
+        return -1;
+    }
+    return stat(path, &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
+}
+
+/* Opens what a run has left, to be locked: for writing, which some file systems want for that, if it may be.
+ */
+static int open_left(const char *path)
+{
+    const int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    const int fd = open(path, O_WRONLY | flags);
+    return fd < 0 && errno == EACCES ? open(path, O_RDONLY | flags) : fd;
+}
+
+/* Makes the temporary file and locks it, so that a run that was killed leaves no obstacle and one that still
+   lives is not disturbed. What is there and not locked was left: it goes, for its permission bits are those
+   of another time. */
 static int open_locked(const char *path)
 {
-    for (;;) {
-        const int fd = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
-        if (fd < 0)
-            return -1;
-        struct stat ours, there;
-        if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
+    int fd, locked;
+    do {
+        bool is_new = true;
+        fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (fd < 0 && errno == EEXIST) {
+            is_new = false;
+            fd = open_left(path);
+        }
+        locked = fd >= 0 ? lock_named(fd, path) : is_new || errno != ENOENT ? -1 : 0;
+        if (locked > 0 && !is_new)
+            locked = unlink(path);
+        if (locked <= 0 && fd >= 0) {
             const int reason = errno;
             close(fd);
-            errno = reason == EWOULDBLOCK ? EBUSY : reason;
-            return -1;
+            errno = reason;
         }
-        if (fstat(fd, &ours) == 0 && S_ISREG(ours.st_mode) && stat(path, &there) == 0 &&
-            ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) {
-            /* Of one that is empty nothing is cut off: ext4 would flush what is written next when it is
-             * closed. */
-            if (ours.st_size == 0 || ftruncate(fd, 0) == 0)
-                return fd;
-            close(fd);
-            return -1;
-        }
-        close(fd);
-    }
+    } while (locked == 0);
+    return locked > 0 ? fd : -1;
 }
 
 static ffd_status open_beside(output_file *file, const char *path, const struct stat *old, ffd_error *error)
@@ -202,12 +225,12 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
         return ffd_fail_memory(error);
     ffd_cleanup_hold();
     file->fd = open_locked(file->temporary);
+    const int reason = errno;
     file->noted = file->fd < 0 ? NULL : ffd_cleanup_note(file->temporary);
     ffd_cleanup_release();
     if (file->fd >= 0 && !file->noted)
         return ffd_fail_memory(error);
     if (file->fd < 0) {
-        const int reason = errno;
         ffd_free(file->temporary); /* not ours to remove */
         file->temporary = NULL;
         if (reason == EBUSY)
@@ -367,6 +390,19 @@ static void record_file(file_output *output, output_file *file)
     file->target = NULL;
 }
 
+/* Some file systems tell of a full disk only when a file is closed. Closing a twin asks them, while the old
+   target is still there, and does not give up the lock. */
+static ffd_status check_written(const file_output *output, ffd_error *error)
+{
+    for (size_t i = 0; i < output->count; i++) {
+        const output_file *file = &output->files[i];
+        const int twin = file->temporary ? dup(file->fd) : -1;
+        if (file->temporary && (twin < 0 || close(twin) != 0))
+            return fail_errno(error, file->target, "cannot be written");
+    }
+    return FFD_OK;
+}
+
 /* All temporary files to their targets. */
 static ffd_status rename_all(file_output *output, ffd_error *error)
 {
@@ -399,6 +435,8 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
     ffd_status status = flush(output, error);
     if (!status)
         status = prepare_record(output, error);
+    if (!status)
+        status = check_written(output, error);
     if (status)
         return status;
     /* A signal comes before all renames or after them: a set is not torn apart. */

@@ -7,6 +7,7 @@
 
 #include "../support/test_folder.h"
 #include "base/file.h"
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -173,6 +174,32 @@ static void test_permissions_and_links(void **state)
     (void)state;
 }
 
+/* What a run left has the bits of the target that it was for. */
+static void test_bits_of_a_leftover(void **state)
+{
+    struct stat info;
+    put_text(".fresh.txt.ffd-tmp", "left");
+    assert_int_equal(chmod(in_folder(".fresh.txt.ffd-tmp"), 0400), 0);
+    const mode_t mask = umask(027);
+    file_output *output = begin("fresh.txt", false);
+    umask(mask);
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    assert_int_equal(stat(in_folder("fresh.txt"), &info), 0);
+    assert_int_equal(info.st_mode & 0777, 0640);
+    check_content("fresh.txt", "");
+    /* What is no file was not left by a run. */
+    assert_int_equal(mkfifo(in_folder(".fresh.txt.ffd-tmp"), 0600), 0);
+    const int reader = open(in_folder(".fresh.txt.ffd-tmp"), O_RDONLY | O_NONBLOCK);
+    assert_true(reader >= 0);
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, in_folder("fresh.txt"), true, NULL), FFD_E_IO);
+    ffd_output_destroy(&output);
+    close(reader);
+    assert_int_equal(unlink(in_folder(".fresh.txt.ffd-tmp")), 0);
+    (void)state;
+}
+
 /* Several files appear together, large ones in many blocks. */
 static void test_set(void **state)
 {
@@ -249,6 +276,7 @@ int main(void)
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_leftover_and_lock),
         cmocka_unit_test(test_permissions_and_links),
+        cmocka_unit_test(test_bits_of_a_leftover),
         cmocka_unit_test(test_set),
         cmocka_unit_test(test_folders),
         cmocka_unit_test(test_full_disk),
