@@ -35,6 +35,8 @@ bool ffd_file_is_stream(const char *path);
 bool ffd_file_exists(const char *path);
 /* Whether both paths lead to one existing file. */
 bool ffd_file_same(const char *a, const char *b);
+/* Whether path is a file of just these bytes. Errors: those of reading it. */
+ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *same, ffd_error *error);
 /* Makes a folder and those above it, where they do not exist. *made: the length of the first path that was
    made (0: none), also after a failure. */
 ffd_status ffd_folder_make(const char *path, size_t *made, ffd_error *error);
@@ -70,6 +72,9 @@ ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size,
 /* Removes the old target of the file begun last before the commit renames anything (a .gltf whose buffers are
    replaced). */
 void ffd_output_remove_first(file_output *output);
+/* From now on, where all files of the set have targets of the very same bytes, its commit leaves these as
+   they are, with their times. */
+void ffd_output_keep_equal(file_output *output);
 /* Makes all files appear. After a failure none that was not yet renamed does. */
 ffd_status ffd_output_commit(file_output *output, ffd_error *error);
 /* Frees; removes the temporary files of what was not committed. NULL and pointers to NULL are allowed. */

@@ -13,6 +13,8 @@
 
 /* What a stream without end is cut off at. */
 #define LONGEST_STREAM ((size_t)1 << 32)
+/* Bytes of two files that are in memory while they are compared: a multiple of any page. */
+#define COMPARED ((size_t)1 << 22)
 
 static const unsigned char nothing[1] = {0};
 
@@ -165,6 +167,23 @@ void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
     const size_t last = begin + size == input->size ? input->size : (begin + size) / page * page;
     if (input->mapped && first < last) /* a mapping begins at a page */
         madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
+}
+
+ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *same, ffd_error *error)
+{
+    file_input there;
+    const ffd_status status = ffd_file_load(path, &there, error);
+    if (status)
+        return status;
+    *same = there.size == bytes->size;
+    for (size_t at = 0, piece; at < bytes->size && *same; at += piece) {
+        piece = bytes->size - at < COMPARED ? bytes->size - at : COMPARED;
+        *same = memcmp(there.data + at, bytes->data + at, piece) == 0;
+        ffd_file_forget(&there, there.data + at, piece);
+        ffd_file_forget(bytes, bytes->data + at, piece);
+    }
+    ffd_file_unload(&there);
+    return FFD_OK;
 }
 
 bool ffd_file_exists(const char *path)

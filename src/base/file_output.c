@@ -35,7 +35,7 @@ struct file_output {
     size_t count, capacity;
     output_folder *folders; /* made for the files */
     size_t folder_count, folder_capacity;
-    bool committed;
+    bool committed, keeps_equal;
     unsigned char *block; /* bytes of the last file that are not yet written */
     size_t filled;
     written_files *written; /* or NULL */
@@ -403,26 +403,59 @@ static ffd_status check_written(const file_output *output, ffd_error *error)
     return FFD_OK;
 }
 
-/* All temporary files to their targets. */
-static ffd_status rename_all(file_output *output, ffd_error *error)
+void ffd_output_keep_equal(file_output *output)
 {
-    for (size_t i = 0; i < output->count; i++) {
+    output->keeps_equal = true;
+}
+
+/* Whether a target has the bytes already that were written for it. One that cannot be read has not. */
+static bool is_equal(const output_file *file)
+{
+    file_input bytes;
+    bool same = false;
+    if (!file->temporary || ffd_file_load(file->temporary, &bytes, NULL))
+        return false;
+    if (ffd_file_compare(file->target, &bytes, &same, NULL))
+        same = false;
+    ffd_file_unload(&bytes);
+    return same;
+}
+
+static bool is_to_stay(const file_output *output)
+{
+    for (size_t i = 0; i < output->count; i++)
+        if (!is_equal(&output->files[i]))
+            return false;
+    return true;
+}
+
+/* Takes the temporary file's name away: to the target or, where that stays, altogether. */
+static ffd_status settle_file(file_output *output, output_file *file, bool stays, ffd_error *error)
+{
+    if (file->temporary && (stays ? unlink(file->temporary) : rename(file->temporary, file->target)) != 0)
+        return fail_errno(error, file->target, "cannot be written");
+    file->committed = true;
+    ffd_cleanup_strike(&file->noted);
+    /* Closing gives up the lock: only now may another run take the name. */
+    const int fd = file->fd;
+    file->fd = -1;
+    if (close(fd) != 0)
+        return fail_errno(error, file->target, "cannot be written");
+    record_file(output, file);
+    return FFD_OK;
+}
+
+static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
+{
+    for (size_t i = 0; i < output->count && !stays; i++) {
         output_file *file = &output->files[i];
         if (file->remove_first && file->temporary && unlink(file->target) != 0 && errno != ENOENT)
             return fail_errno(error, file->target, "cannot be replaced");
     }
     for (size_t i = 0; i < output->count; i++) {
-        output_file *file = &output->files[i];
-        if (file->temporary && rename(file->temporary, file->target) != 0)
-            return fail_errno(error, file->target, "cannot be written");
-        file->committed = true;
-        ffd_cleanup_strike(&file->noted);
-        /* Closing gives up the lock: only now may another run take the name. */
-        const int fd = file->fd;
-        file->fd = -1;
-        if (close(fd) != 0)
-            return fail_errno(error, file->target, "cannot be written");
-        record_file(output, file);
+        const ffd_status status = settle_file(output, &output->files[i], stays, error);
+        if (status)
+            return status;
     }
     for (size_t i = 0; i < output->folder_count; i++)
         ffd_cleanup_strike(&output->folders[i].noted);
@@ -439,9 +472,10 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
         status = check_written(output, error);
     if (status)
         return status;
+    const bool stays = output->keeps_equal && is_to_stay(output);
     /* A signal comes before all renames or after them: a set is not torn apart. */
     ffd_cleanup_hold();
-    status = rename_all(output, error);
+    status = settle_all(output, stays, error);
     ffd_cleanup_release();
     return status;
 }

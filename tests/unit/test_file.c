@@ -200,6 +200,60 @@ static void test_bits_of_a_leftover(void **state)
     (void)state;
 }
 
+static struct timespec time_of(const char *name)
+{
+    struct stat info;
+    assert_int_equal(stat(in_folder(name), &info), 0);
+    return info.st_mtim;
+}
+
+/* Writes two files, which stay where both are equal; whether the first, then the second, was replaced. */
+static void keep_equal(const char *a, const char *b, bool *replaced)
+{
+    static const struct timespec old[2] = {{.tv_sec = 1000}, {.tv_sec = 1000}};
+    static const char *const names[] = {"keep-a.txt", "keep-b.txt"};
+    const char *const texts[] = {a, b};
+    file_output *output;
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    ffd_output_keep_equal(output);
+    for (int i = 0; i < 2; i++) {
+        utimensat(AT_FDCWD, in_folder(names[i]), old, 0);
+        assert_int_equal(ffd_output_begin(output, in_folder(names[i]), true, NULL), FFD_OK);
+        assert_int_equal(ffd_output_write(output, texts[i], strlen(texts[i]), NULL), FFD_OK);
+    }
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    for (int i = 0; i < 2; i++) {
+        check_content(names[i], texts[i]);
+        replaced[i] = time_of(names[i]).tv_sec != 1000;
+    }
+    assert_false(ffd_file_exists(in_folder(".keep-a.txt.ffd-tmp")));
+}
+
+static void test_keep_equal(void **state)
+{
+    enum { LARGE = 9000000 };
+    char *text = malloc(LARGE + 1);
+    bool replaced[2];
+    assert_non_null(text);
+    memset(text, 'x', LARGE);
+    text[LARGE] = 0;
+    keep_equal(text, "", replaced);
+    assert_true(replaced[0] && replaced[1]);
+    keep_equal(text, "", replaced);
+    assert_true(!replaced[0] && !replaced[1]);
+    text[LARGE - 1] = 'y'; /* one byte of one of them */
+    keep_equal(text, "", replaced);
+    assert_true(replaced[0] && replaced[1]);
+    keep_equal(text, "z", replaced);
+    assert_true(replaced[0] && replaced[1]);
+    assert_int_equal(unlink(in_folder("keep-b.txt")), 0);
+    keep_equal(text, "z", replaced);
+    assert_true(replaced[0] && replaced[1]);
+    free(text);
+    (void)state;
+}
+
 /* Several files appear together, large ones in many blocks. */
 static void test_set(void **state)
 {
@@ -277,6 +331,7 @@ int main(void)
         cmocka_unit_test(test_leftover_and_lock),
         cmocka_unit_test(test_permissions_and_links),
         cmocka_unit_test(test_bits_of_a_leftover),
+        cmocka_unit_test(test_keep_equal),
         cmocka_unit_test(test_set),
         cmocka_unit_test(test_folders),
         cmocka_unit_test(test_full_disk),

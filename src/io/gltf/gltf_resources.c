@@ -40,24 +40,12 @@ static ffd_status image_path(const gltf_document *d, size_t image, char **path, 
     return FFD_OK;
 }
 
-/* Whether target holds just these bytes. */
-static ffd_status compare_file(const char *target, const file_input *bytes, bool *same, ffd_error *error)
-{
-    file_input there;
-    const ffd_status status = ffd_file_load(target, &there, error);
-    if (status)
-        return status;
-    *same = there.size == bytes->size && memcmp(there.data, bytes->data, bytes->size) == 0;
-    ffd_file_unload(&there);
-    return FFD_OK;
-}
-
 static ffd_status write_image(const resources *r, const char *target, const file_input *bytes,
                               ffd_error *error)
 {
     if (ffd_file_exists(target)) {
         bool same = false;
-        const ffd_status status = compare_file(target, bytes, &same, error);
+        const ffd_status status = ffd_file_compare(target, bytes, &same, error);
         if (status || same)
             return status;
         return ffd_fail_file(error, FFD_E_IO, target,
