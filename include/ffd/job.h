@@ -85,6 +85,21 @@ FFD_API ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
 /* Frees the record and clears the pointer. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_written_destroy(ffd_written **written);
 
+/* The files that outputs were made from, as make and ninja read them: a rule "OUT: MESH BUFFERS IMAGES
+   LATTICES EMBEDDING" for each job that succeeds. Streams are left out, and images but those that the output
+   holds as they are. One thread at a time. */
+typedef struct ffd_depfile ffd_depfile;
+
+/* Starts a depfile that will be written to path ("-": standard output), under a temporary name until it is
+   complete: what cannot be written is known before the first job. Of existing files it replaces depfiles only
+   (FFD_E_EXISTS). Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error);
+/* Frees a depfile; one that was not written leaves an old one, and nothing else behind. NULL and pointers to
+   NULL are allowed. */
+FFD_API void ffd_depfile_destroy(ffd_depfile **depfile);
+/* Writes the depfile. At most once, after the jobs. */
+FFD_API ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error);
+
 typedef struct ffd_deform_desc {
     size_t struct_size; /* sizeof(ffd_deform_desc) of the caller */
     ffd_source input;
@@ -110,11 +125,15 @@ typedef struct ffd_deform_desc {
     const char *const *only;
     size_t only_count;
     ffd_resources resources;
-    int threads;          /* 0: all cores. Never changes a byte of the output. */
-    ffd_isa isa;          /* nor does this. FFD_E_ARGUMENT for one that is not available. */
-    bool force;           /* overwrite an existing output */
+    int threads; /* 0: all cores. Never changes a byte of the output. */
+    ffd_isa isa; /* nor does this. FFD_E_ARGUMENT for one that is not available. */
+    bool force;  /* overwrite an existing output */
+    /* Overwrite an existing output only if it, or a file that belongs to it, would get other bytes: else all
+       of them stay untouched. */
+    bool if_changed;
     bool in_place;        /* output is the input (output is NULL then) */
     ffd_written *written; /* of the run, or NULL */
+    ffd_depfile *depfile; /* gets the rule of the output, which is neither "-" nor in place; or NULL */
     ffd_log_function log; /* may be NULL */
     void *log_user;
 } ffd_deform_desc;

@@ -6,7 +6,8 @@
 typedef struct settings {
     cli_job job;
     int resources;
-    bool force, in_place;
+    const char *depfile;
+    bool force, if_changed, in_place;
 } settings;
 
 static const char *const resources_names[] = {"copy", "reference", NULL};
@@ -16,6 +17,8 @@ static const char *const resources_names[] = {"copy", "reference", NULL};
 static const cli_option options[] = {
     {"in-place", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(in_place), NULL},
     {"force", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(force), NULL},
+    {"if-changed", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(if_changed), NULL},
+    {"depfile", 0, "FILE", "without effect: nothing is written", cli_set_text, AT(depfile), NULL},
     {"resources", 0, "copy|reference", "without effect: nothing is written", cli_set_choice, AT(resources),
      resources_names},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},

@@ -9,9 +9,11 @@ typedef struct settings {
     cli_job job;
     const char *output; /* of the one IN; NULL where there may be many */
     const char *out_dir;
+    const char *depfile_path;
+    ffd_depfile *depfile; /* NULL: none is wanted */
     int resources;
     ffd_format output_format;
-    bool force, in_place;
+    bool force, if_changed, in_place;
 } settings;
 
 static const char *const resources_names[] = {"copy", "reference", NULL};
@@ -22,6 +24,10 @@ static const cli_option options[] = {
      NULL},
     {"in-place", 0, NULL, "overwrite IN", cli_set_flag, AT(in_place), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
+    {"if-changed", 0, NULL, "as --force, but leave an output that would stay the same untouched",
+     cli_set_flag, AT(if_changed), NULL},
+    {"depfile", 0, "FILE", "write what OUT was made from, for make and ninja", cli_set_text, AT(depfile_path),
+     NULL},
     {"resources", 0, "copy|reference",
      "images of a .gltf written elsewhere: copied, or referred to; default copy", cli_set_choice,
      AT(resources), resources_names},
@@ -106,6 +112,8 @@ static int deform(const settings *s, const char *input, const char *output, ffd_
     desc->output_format = s->output_format;
     desc->resources = (ffd_resources)s->resources;
     desc->force = s->force;
+    desc->if_changed = s->if_changed;
+    desc->depfile = s->depfile;
     desc->in_place = s->in_place;
     if (!ffd_deform_run(desc, &result, NULL) && s->job.talk.verbose && !s->job.talk.quiet)
         cli_complain("%s: %llu of %llu vertices moved, by %g at most", cli_shown(input),
@@ -144,6 +152,23 @@ static const char *wrong_words(const settings *s, const cli_words *words)
     return words->count > 2 ? "more than IN and OUT: several IN need --out-dir or --in-place" : NULL;
 }
 
+/* A depfile is of files that are made anew, and is none of those of the job. */
+static const char *wrong_depfile(const settings *s, const cli_words *words)
+{
+    const bool stream = cli_is_stream(s->depfile_path);
+    if (s->in_place)
+        return "--depfile has no meaning with --in-place: a file cannot depend on itself";
+    if (s->output && cli_is_stream(s->output))
+        return "--depfile needs a file name as OUT";
+    if (s->job.report && strcmp(s->job.report, s->depfile_path) == 0)
+        return stream ? "the depfile and the report cannot both go to standard output"
+                      : "the depfile and the report have one name";
+    for (size_t i = 0; i < words->count && !stream; i++)
+        if (strcmp(words->words[i], s->depfile_path) == 0)
+            return "the depfile would replace a mesh";
+    return NULL;
+}
+
 static const char *wrong_outputs(const settings *s, const cli_words *words, size_t inputs)
 {
     bool stream = false;
@@ -159,7 +184,7 @@ static const char *wrong_outputs(const settings *s, const cli_words *words, size
         return "standard input cannot be overwritten";
     if (s->job.report && cli_is_stream(s->job.report) && s->output && cli_is_stream(s->output))
         return "the mesh and the report cannot both go to standard output";
-    return NULL;
+    return s->depfile_path ? wrong_depfile(s, words) : NULL;
 }
 
 /* All that can be refused before the first job. Returns 0 or an exit code, after a complaint. */
@@ -186,6 +211,19 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     return code || !s->out_dir || words->count == 1 ? code : refuse_missing_folder(s->out_dir);
 }
 
+/* The jobs and, if all of them succeed, the depfile. */
+static int run_all(settings *s, const cli_words *words, size_t inputs)
+{
+    ffd_error error;
+    if (s->depfile_path && ffd_depfile_create(s->depfile_path, &s->depfile, &error))
+        return cli_fail(&error);
+    int code = cli_job_run_all(&s->job, words, inputs, run_job);
+    if (!code && s->depfile && ffd_depfile_write(s->depfile, &error))
+        code = cli_fail(&error);
+    ffd_depfile_destroy(&s->depfile);
+    return code;
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
@@ -196,7 +234,7 @@ static int run(const cli_command *command, int count, char **arguments)
     const size_t inputs = has_many(&s) || !words.count ? words.count : 1;
     code = refuse(command, &s, &words, inputs);
     if (!code)
-        code = cli_job_run_all(&s.job, &words, inputs, run_job);
+        code = run_all(&s, &words, inputs);
     cli_job_end(&s.job, &words);
     return code;
 }

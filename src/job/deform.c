@@ -3,6 +3,7 @@
 #include "io/formats.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"
+#include "job/depfile.h"
 #include "job/source.h"
 #include "job/written.h"
 #include <string.h>
@@ -19,9 +20,11 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
     const char *input = desc->input.path;
     *options = (mesh_save_options){.path = desc->output,
                                    .format = desc->output_format,
-                                   .force = desc->force,
+                                   .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
                                    .input = input};
+    if (desc->depfile && (desc->in_place || (desc->output && strcmp(desc->output, "-") == 0)))
+        return ffd_fail(error, FFD_E_ARGUMENT, "a depfile is of a file that is made anew");
     if (desc->in_place) {
         if (desc->output)
             return ffd_fail(error, FFD_E_ARGUMENT, "--in-place has no output \"%s\"", desc->output);
@@ -48,23 +51,80 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
             return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
     if (desc->embedding && strcmp(desc->output, "-") != 0 && ffd_file_same(desc->embedding, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
-    return ffd_output_check(desc->output, desc->force, error);
+    return ffd_output_check(desc->output, options->force, error);
+}
+
+static ffd_status write_mesh(deform_job *job, const mesh_save_options *options, file_output *output,
+                             ffd_error *error)
+{
+    const conversion_morph morph = {job->desc->as_morph, &job->base};
+    if (!ffd_conversion_needed(job->document, options->format))
+        return job->document->format->save(job->document, options, output, &job->log, error);
+    return ffd_conversion_save(job->document, job->desc->as_morph ? &morph : NULL, options, output, &job->log,
+                               error);
+}
+
+static void warn_of_name(const deform_job *job, const char *name)
+{
+    if (ffd_depfile_troubles(name))
+        ffd_log_line(&job->log, FFD_LOG_WARNING,
+                     "the depfile names \"%s\": make or ninja cannot read such a name", name);
+}
+
+/* The rule of the output, given the files of the mesh. */
+static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffer *rule, ffd_error *error)
+{
+    const ffd_deform_desc *desc = job->desc;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < desc->lattice_count && !status; i++)
+        if (!ffd_file_is_stream(desc->lattices[i]))
+            status = ffd_paths_add(inputs, desc->lattices[i], error);
+    if (!status && desc->embedding && !ffd_file_is_stream(desc->embedding))
+        status = ffd_paths_add(inputs, desc->embedding, error);
+    if (!status)
+        status = ffd_depfile_rule(desc->output, inputs, rule, error);
+    if (status)
+        return status;
+    warn_of_name(job, desc->output);
+    for (size_t i = 0; i < inputs->count; i++)
+        warn_of_name(job, inputs->paths[i]);
+    return FFD_OK;
+}
+
+/* Writes the mesh and, where a depfile is wanted, makes its rule. */
+static ffd_status write_all(deform_job *job, const mesh_save_options *options, file_output *output,
+                            byte_buffer *rule, ffd_error *error)
+{
+    if (!job->desc->depfile)
+        return write_mesh(job, options, output, error);
+    path_list inputs = {0};
+    mesh_save_options listing = *options;
+    listing.copied = &inputs;
+    ffd_status status = ffd_source_files(&job->desc->input, job->document, &inputs, error);
+    if (!status)
+        status = write_mesh(job, &listing, output, error);
+    if (!status)
+        status = make_rule(job, &inputs, rule, error);
+    ffd_paths_free(&inputs);
+    return status;
 }
 
 static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
-    const conversion_morph morph = {job->desc->as_morph, &job->base};
+    byte_buffer rule = {0};
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
     if (status)
         return status;
     ffd_output_record(output, ffd_written_list(job->desc->written));
-    status = ffd_conversion_needed(job->document, options->format)
-                 ? ffd_conversion_save(job->document, job->desc->as_morph ? &morph : NULL, options, output,
-                                       &job->log, error)
-                 : job->document->format->save(job->document, options, output, &job->log, error);
+    if (job->desc->if_changed)
+        ffd_output_keep_equal(output);
+    status = write_all(job, options, output, &rule, error);
     if (!status)
         status = ffd_output_commit(output, error);
+    if (!status && job->desc->depfile)
+        ffd_depfile_add(job->desc->depfile, &rule);
+    ffd_buffer_free(&rule);
     ffd_output_destroy(&output);
     return status;
 }

@@ -2,6 +2,7 @@
 #include "base/json_text.h"
 #include "base/memory.h"
 #include "base/path.h"
+#include "job/replace.h"
 #include "job/written.h"
 #include "mesh/mesh.h"
 #include <string.h>
@@ -18,30 +19,20 @@ struct ffd_report {
     size_t count, capacity;
 };
 
-/* A file that stands in the way may be replaced if it is a report itself, or empty. */
-static ffd_status check_replaced(const char *path, ffd_error *error)
+static bool is_report(const file_input *old)
 {
     static const char mark[] = "\"ffd-report\"";
-    file_input old;
-    if (strcmp(path, "-") == 0 || ffd_output_check(path, false, NULL) != FFD_E_EXISTS)
-        return FFD_OK;
-    const ffd_status status = ffd_file_load(path, &old, error);
-    if (status)
-        return status;
-    bool is_report = old.size == 0;
-    for (size_t i = 0; !is_report && i + sizeof mark <= old.size && i < 64; i++)
-        is_report = memcmp(old.data + i, mark, sizeof mark - 1) == 0;
-    ffd_file_unload(&old);
-    return is_report
-               ? FFD_OK
-               : ffd_fail_file(error, FFD_E_EXISTS, path, "exists and is no report: it is not replaced");
+    for (size_t i = 0; i + sizeof mark <= old->size && i < 64; i++)
+        if (memcmp(old->data + i, mark, sizeof mark - 1) == 0)
+            return true;
+    return false;
 }
 
 ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                              ffd_error *error)
 {
     *report = NULL;
-    ffd_status status = check_replaced(path, error);
+    ffd_status status = ffd_replace_check(path, is_report, "report", error);
     if (status)
         return status;
     ffd_report *made = ffd_alloc_zero(1, sizeof *made);

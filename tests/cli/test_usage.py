@@ -7,10 +7,10 @@ from harness import CUBE, USAGE, case, check, equal, lattice, main
 COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new"]
 OPTIONS = {
     "deform": {"--lattice", "--out-dir", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
-               "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format", "--memory",
+               "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory",
                "--output-format"},
     "check": {"--lattice", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
-              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--input-format", "--memory"},
+              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory"},
     "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format", "--memory"},
     "compare": {"--tolerance", "--input-format", "--memory"},
     "info": {"--json", "--input-format", "--memory"},
@@ -106,7 +106,7 @@ def unknown_options(run):
 @case
 def options_of_later_versions_are_absent(run):
     work = files(run)
-    for option in ("--refine=0.1", "--seam=C1", "--depfile=d"):
+    for option in ("--refine=0.1", "--seam=C1"):
         refused(run, *work, option, says="unknown option")
 
 
@@ -124,7 +124,7 @@ def values(run):
                           ("--fail-on", "folds outside"), ("--fail-on", "OUTSIDE"), ("--fail-on", "x" * 5000),
                           ("--threads", "1.5"), ("--threads", " 2"), ("--threads", "+2"), ("--threads", ""),
                           ("--only", ""), ("--only", "node"), ("--only", "node:"), ("--only", "nodes:x"), ("--only", ":"),
-                          ("--only", "x" * 5000), ("--threads", "99999999999999999999"), ("--lattice", ""), ("--report", ""), ("--out-dir", "")):
+                          ("--only", "x" * 5000), ("--threads", "99999999999999999999"), ("--lattice", ""), ("--report", ""), ("--out-dir", ""), ("--depfile", "")):
         refused(run, *work, option, value, says=option)
         refused(run, *work, f"{option}={value}", says=option)
     refused(run, *work, "-j", "x", says='"x"')

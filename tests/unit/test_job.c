@@ -150,10 +150,51 @@ static void fail_everywhere(ffd_status (*run)(const ffd_deform_desc *, ffd_job_r
     unlink(output);
 }
 
+/* A job with a depfile, and the writing of that. */
+static ffd_status run_with_depfile(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)
+{
+    ffd_deform_desc with = *desc;
+    ffd_status status = ffd_depfile_create(in_folder("d"), &with.depfile, error);
+    if (!status)
+        status = ffd_deform_run(&with, result, error);
+    if (!status) {
+        status = ffd_depfile_write(with.depfile, error);
+        if (status)
+            unlink(output); /* which is complete */
+    }
+    ffd_depfile_destroy(&with.depfile);
+    assert_null(with.depfile);
+    assert_int_equal(access(in_folder("d"), F_OK), status ? -1 : 0);
+    assert_int_not_equal(access(in_folder(".d.ffd-tmp"), F_OK), 0);
+    return status;
+}
+
+static void test_depfile(void **state)
+{
+    ffd_deform_desc desc = describe();
+    ffd_job_result result;
+    char expected[400];
+    assert_int_equal(run_with_depfile(&desc, &result, NULL), FFD_OK);
+    FILE *file = fopen(in_folder("d"), "r");
+    char text[400] = "";
+    assert_non_null(file);
+    assert_non_null(fgets(text, sizeof text, file));
+    fclose(file);
+    snprintf(expected, sizeof expected, "%s: %s %s\n", output, mesh, lattice);
+    assert_string_equal(text, expected);
+    unlink(in_folder("d"));
+    desc.in_place = true;
+    desc.output = NULL;
+    assert_int_equal(run_with_depfile(&desc, &result, NULL), FFD_E_ARGUMENT);
+    (void)state;
+}
+
 static void test_memory(void **state)
 {
     ffd_deform_desc desc = describe();
     unlink(output);
+    fail_everywhere(run_with_depfile, &desc);
+    unlink(in_folder("d"));
     fail_everywhere(ffd_check_run, &desc);
     desc.quality = true;
     fail_everywhere(ffd_deform_run, &desc);
@@ -195,10 +236,8 @@ static void test_selection(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_descriptions),
-        cmocka_unit_test(test_figures),
-        cmocka_unit_test(test_memory),
-        cmocka_unit_test(test_selection),
+        cmocka_unit_test(test_descriptions), cmocka_unit_test(test_figures),   cmocka_unit_test(test_depfile),
+        cmocka_unit_test(test_memory),       cmocka_unit_test(test_selection),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }
