@@ -61,7 +61,10 @@ ffd_status ffd_output_create(file_output **output, ffd_error *error);
 /* From now on the set refuses targets that written holds (FFD_E_EXISTS), and its commit adds what it wrote.
    written may be NULL and must outlive the set. */
 void ffd_output_record(file_output *output, written_files *written);
-/* Starts the next file. path "-" is standard output, to which bytes go at the commit's time or before. An
+/* Whether path names an open stream of this process: "-" (standard output), /dev/stdout, /dev/stderr,
+   /dev/fd/N. */
+bool ffd_output_is_stream(const char *path);
+/* Starts the next file. To a stream bytes go at the commit's time or before, behind what it holds. An
    existing target is refused with FFD_E_EXISTS unless force. Permission bits of an existing target are kept.
    Targets that are neither file nor link (/dev/null) are written straight. */
 ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error);

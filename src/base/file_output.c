@@ -96,9 +96,33 @@ static ffd_status prepare_record(const file_output *output, ffd_error *error)
     return FFD_OK;
 }
 
-static bool is_stdout(const char *path)
+/* The descriptor of a stream; -1 for other paths. A stream that was led into a file is written like any
+   other, and not replaced under that file's name. */
+static int stream_of(const char *path)
 {
-    return strcmp(path, "-") == 0;
+    static const char *const names[] = {"/dev/fd/", "/proc/self/fd/"};
+    if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)
+        return STDOUT_FILENO;
+    if (strcmp(path, "/dev/stderr") == 0)
+        return STDERR_FILENO;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const char *number = path + strlen(names[i]);
+        if (strncmp(path, names[i], strlen(names[i])) == 0 && *number && strlen(number) < 9 &&
+            number[strspn(number, "0123456789")] == 0)
+            return atoi(number);
+    }
+    return -1;
+}
+
+bool ffd_output_is_stream(const char *path)
+{
+    return stream_of(path) >= 0;
+}
+
+/* The name of a target in messages. */
+static const char *shown(const char *path)
+{
+    return stream_of(path) == STDOUT_FILENO ? "standard output" : path;
 }
 
 static ffd_status check_target(const char *path, bool force, struct stat *info, bool *exists,
@@ -121,7 +145,7 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
 {
     struct stat info;
     bool exists;
-    if (is_stdout(path))
+    if (ffd_output_is_stream(path))
         return FFD_OK;
     const ffd_status status = check_target(path, force, &info, &exists, error);
     if (status || exists)
@@ -271,8 +295,7 @@ static ffd_status write_all(const output_file *file, const unsigned char *bytes,
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
-            return fail_errno(error, is_stdout(file->target) ? "standard output" : file->target,
-                              "cannot be written");
+            return fail_errno(error, shown(file->target), "cannot be written");
         done += (size_t)written;
     }
     return FFD_OK;
@@ -301,7 +324,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 
     struct stat info;
     bool exists = false;
-    if (!is_stdout(path)) {
+    if (!ffd_output_is_stream(path)) {
         status = check_target(path, force, &info, &exists, error);
         if (status)
             return status;
@@ -313,9 +336,9 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         return ffd_fail_memory(error);
     output->count++;
 
-    if (is_stdout(path)) {
-        file->fd = dup(STDOUT_FILENO);
-        return file->fd < 0 ? fail_errno(error, "standard output", "cannot be written") : FFD_OK;
+    if (ffd_output_is_stream(path)) {
+        file->fd = dup(stream_of(path));
+        return file->fd < 0 ? fail_errno(error, shown(path), "cannot be written") : FFD_OK;
     }
     status = exists ? refuse_written(output, path, error) : FFD_OK;
     if (status)

@@ -132,7 +132,7 @@ void cli_job_end(cli_job *job, cli_words *words)
 
 bool cli_is_stream(const char *path)
 {
-    return strcmp(path, "-") == 0;
+    return strcmp(path, "-") == 0 || strcmp(path, "/dev/stdin") == 0 || strcmp(path, "/dev/stdout") == 0;
 }
 
 static const char *wrong_streams(const cli_job *job, const cli_words *words, size_t inputs)

@@ -23,12 +23,12 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .force = desc->force || desc->if_changed,
                                    .resources = desc->resources,
                                    .input = input};
-    if (desc->depfile && (desc->in_place || (desc->output && strcmp(desc->output, "-") == 0)))
+    if (desc->depfile && (desc->in_place || (desc->output && ffd_output_is_stream(desc->output))))
         return ffd_fail(error, FFD_E_ARGUMENT, "a depfile is of a file that is made anew");
     if (desc->in_place) {
         if (desc->output)
             return ffd_fail(error, FFD_E_ARGUMENT, "--in-place has no output \"%s\"", desc->output);
-        if (strcmp(input, "-") == 0)
+        if (ffd_file_is_stream(input))
             return ffd_fail(error, FFD_E_ARGUMENT, "standard input cannot be overwritten in place");
         options->path = input;
         options->force = true;
@@ -38,18 +38,19 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_fail(error, FFD_E_ARGUMENT, "no output is given");
     if (options->format == FFD_FORMAT_AUTO)
         options->format = ffd_format_from_name(desc->output);
-    if (options->format == FFD_FORMAT_AUTO && strcmp(desc->output, "-") == 0)
+    if (options->format == FFD_FORMAT_AUTO && ffd_output_is_stream(desc->output))
         return ffd_fail(error, FFD_E_ARGUMENT, "standard output needs --output-format " FORMAT_NAMES);
     if (options->format == FFD_FORMAT_AUTO)
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
                              "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")",
                              ffd_path_ending(desc->output));
-    if (strcmp(input, "-") != 0 && strcmp(desc->output, "-") != 0 && ffd_file_same(input, desc->output))
+    if (!ffd_output_is_stream(desc->output) && ffd_file_same(input, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
-    for (size_t i = 0; i < desc->lattice_count && strcmp(desc->output, "-") != 0; i++)
+    for (size_t i = 0; i < desc->lattice_count && !ffd_output_is_stream(desc->output); i++)
         if (ffd_file_same(desc->lattices[i], desc->output))
             return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
-    if (desc->embedding && strcmp(desc->output, "-") != 0 && ffd_file_same(desc->embedding, desc->output))
+    if (desc->embedding && !ffd_output_is_stream(desc->output) &&
+        ffd_file_same(desc->embedding, desc->output))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
     return ffd_output_check(desc->output, options->force, error);
 }

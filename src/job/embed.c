@@ -69,7 +69,7 @@ static bool is_one_file(const char *a, const char *b)
 {
     if (strcmp(a, b) == 0)
         return true;
-    if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0)
+    if (ffd_output_is_stream(a) || ffd_output_is_stream(b))
         return false;
     if (ffd_file_same(a, b))
         return true;

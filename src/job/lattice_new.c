@@ -47,7 +47,7 @@ static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *d
 ffd_status ffd_lattice_new_run(const ffd_source *mesh, const ffd_lattice_desc *desc, const char *output,
                                bool force, ffd_error *error)
 {
-    if (strcmp(mesh->path, "-") != 0 && strcmp(output, "-") != 0 && ffd_file_same(mesh->path, output))
+    if (!ffd_output_is_stream(output) && ffd_file_same(mesh->path, output))
         return ffd_fail_file(error, FFD_E_ARGUMENT, output, "the lattice would replace its mesh");
     ffd_lattice *lattice = NULL;
     ffd_status status = ffd_output_check(output, force, error);

@@ -1,11 +1,10 @@
 #include "job/replace.h"
-#include <string.h>
 
 ffd_status ffd_replace_check(const char *path, bool (*is_own)(const file_input *old), const char *kind,
                              ffd_error *error)
 {
     file_input old;
-    if (strcmp(path, "-") == 0 || ffd_output_check(path, false, NULL) != FFD_E_EXISTS)
+    if (ffd_output_is_stream(path) || ffd_output_check(path, false, NULL) != FFD_E_EXISTS)
         return FFD_OK;
     const ffd_status status = ffd_file_load(path, &old, error);
     if (status)

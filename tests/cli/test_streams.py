@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Standard input and output: data in and out, closed streams, full devices, broken pipes."""
+import base64
+import json
 import os
+import re
 import signal
 import subprocess
 
@@ -35,6 +38,59 @@ def glb_through(run):
     run.ffd("deform", "a.glb", "b.glb", "-l", "l.json")
     done = run.ffd("deform", "-", "-", "--input-format", "glb", "--output-format", "glb", "-l", "l.json", stdin=file)
     equal(done.out, run.read("b.glb"))
+
+
+@case
+def every_format_through(run):
+    """In and out by pipes and by redirected files, under the names - and /dev/..., gives what files give."""
+    start(run)
+    run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
+    for ending in ("ply", "off", "stl"):
+        run.ffd("deform", "a.obj", f"a.{ending}", "-l", "l.json", "-q")
+    run.ffd("deform", "a.glb", "embedded.gltf", "-l", "l.json")
+    asset = json.loads(run.read("embedded.gltf"))
+    asset["buffers"][0]["uri"] = "data:application/octet-stream;base64," + base64.b64encode(run.read("embedded.bin")).decode()
+    run.write("a.gltf", asset)
+    for ending in ("obj", "glb", "gltf", "ply", "off", "stl"):
+        name, formats = f"a.{ending}", ["--input-format", ending, "--output-format", ending, "-l", "l.json", "-q"]
+        run.ffd("deform", name, f"expected.{ending}", "-l", "l.json", "-q", "--force")
+        expected = run.read(f"expected.{ending}")
+        check(expected != run.read(name), f"{name}: nothing has moved")
+        for source, target in (("-", "-"), ("/dev/stdin", "/dev/stdout"), ("/dev/fd/0", "/proc/self/fd/1")):
+            equal(run.ffd("deform", source, target, *formats, stdin=run.read(name)).out, expected, f"{ending} {source}")
+            with open(run.path(name), "rb") as given, open(run.path("out"), "wb") as taken:
+                taken.write(b"before ")
+                taken.flush()
+                subprocess.run([FFD, "deform", source, target, *formats], cwd=run.folder, stdin=given, stdout=taken, check=True,
+                               timeout=SECONDS)
+            equal(run.read("out"), b"before " + expected, f"{ending} {target}, a file")
+    equal([name for name in run.names() if name.startswith(".")], [])
+
+
+@case
+def other_streams(run):
+    """Reports, lattices and arrays to a stream that was led into a file go behind what is there, as text would."""
+    start(run)
+    for arguments in (["lattice", "new", "a.obj", "-o"], ["embed", "a.obj", "-l", "l.json", "-o"],
+                      ["deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--report-stable", "--report"],
+                      ["deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--depfile"]):
+        expected = run.ffd(*arguments, "-").out
+        check(len(expected) > 10, arguments[0])
+        for name in ("-", "/dev/stdout", "/dev/fd/1"):
+            with open(run.path("out"), "wb") as taken:
+                taken.write(b"before ")
+                taken.flush()
+                run.ffd(*arguments, name, stdout=taken)
+            equal(run.read("out"), b"before " + expected, name)
+    run.ffd("deform", "a.obj", "/dev/fd/77", "--output-format", "obj", "-l", "l.json", code=IO,
+            err="/dev/fd/77: cannot be written: Bad file descriptor")
+    with open(run.path("third"), "wb") as third:
+        run.ffd("deform", "a.obj", f"/dev/fd/{third.fileno()}", "--output-format", "obj", "-l", "l.json", pass_fds=[third.fileno()])
+    equal(run.text("third"), run.text("expected.obj"))
+    run.ffd("deform", "a.obj", "/dev/stdout", "-l", "l.json", code=USAGE,
+            err="standard output needs --output-format obj, gltf, glb, ply, off or stl")
+    run.ffd("deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json", "--report", "/dev/stdout", code=USAGE)
+    run.ffd("deform", "/dev/stdin", "b.obj", "--input-format", "obj", "-l", "-", code=USAGE)
 
 
 @case
@@ -124,7 +180,11 @@ def a_gltf_to_standard_output(run):
     asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")
     run.write("a.gltf", asset)
     run.write("a.bin", data)
-    run.ffd("deform", "a.gltf", "-", "--output-format", "gltf", "-l", "l.json", code=(USAGE, IO, UNSUPPORTED))
+    for name in ("-", "/dev/stdout"):
+        run.ffd("deform", "a.gltf", name, "--output-format", "gltf", "-l", "l.json", code=(USAGE, IO, UNSUPPORTED))
+    for name in ("-", "/dev/stdin"):
+        run.ffd("deform", name, "b.gltf", "--input-format", "gltf", "-l", "l.json", stdin=run.read("a.gltf"), code=IO,
+                err=re.compile("standard input has no folder"))
     equal(run.names(), ["a.bin", "a.gltf", "a.obj", "expected.obj", "l.json"])
 
 
@@ -173,26 +233,35 @@ def closed_standard_input(run):
     check(not run.exists("b.obj"), "an output")
 
 
+def run_without_reader(run, arguments, ignored):
+    """Exit code and stderr of a run whose reader goes away before the first byte."""
+    def prepare():
+        signal.signal(signal.SIGPIPE, signal.SIG_IGN if ignored else signal.SIG_DFL)
+    child = subprocess.Popen([FFD, *arguments], cwd=run.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                             preexec_fn=prepare, restore_signals=False)
+    child.stdout.close()
+    told = child.stderr.read().decode()
+    child.stderr.close()
+    return child.wait(timeout=SECONDS), told
+
+
 @case
 def broken_pipes(run):
-    """A reader that goes away: a quiet end by the signal, or exit 3 with a message where it is ignored."""
+    """A reader that goes away: a quiet end by the signal, or exit 3 with a message where it is ignored. Nothing is left."""
     run.write("a.obj", CUBE + "v 0.123 0.456 0.789\n" * 20000)
     run.write("l.json", lattice(moves=[{"by": [1e-3, 0, 0]}]))
-    for ignored in (False, True):
-        def prepare(ignored=ignored):
-            signal.signal(signal.SIGPIPE, signal.SIG_IGN if ignored else signal.SIG_DFL)
-        child = subprocess.Popen([FFD, "deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json", "--report", "r.json"],
-                                 cwd=run.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=prepare,
-                                 restore_signals=False)
-        child.stdout.close()
-        told = child.stderr.read().decode()
-        child.stderr.close()
-        code = child.wait(timeout=SECONDS)
-        if ignored:
-            equal((code, told), (IO, "ffd: standard output: cannot be written: Broken pipe\n"))
-        else:
-            equal((code, told), (-signal.SIGPIPE, ""))
-    run.check_no_leftovers()
+    for ending in ("glb", "gltf", "ply", "off", "stl"):
+        run.ffd("deform", "a.obj", f"a.{ending}", "-l", "l.json", "-q")
+    jobs = [["deform", f"a.{ending}", out, "--output-format", ending, "-l", "l.json", "-q", "--report", f"{ending}.json"]
+            for ending in ("obj", "glb", "ply", "off", "stl") for out in ("-", "/dev/stdout")]
+    for arguments in (*jobs, ["embed", "a.obj", "-l", "l.json", "-o", "-"], ["info", "a.obj"], ["lattice", "new", "a.obj", "-o", "-"]):
+        equal(run_without_reader(run, arguments, False), (-signal.SIGPIPE, ""), arguments)
+        equal([name for name in run.names() if name.endswith("json")], ["l.json"], "a report of a run that was ended")
+        equal(run_without_reader(run, arguments, True), (IO, "ffd: standard output: cannot be written: Broken pipe\n"), arguments)
+        run.check_no_leftovers()
+        for name in run.names():
+            if name.endswith(".json") and name != "l.json":
+                run.remove(name)
 
 
 @case

@@ -50,7 +50,7 @@ static ffd_status load_data_uri(const loader *l, char *uri, size_t size, gltf_bu
 
 static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer *buffer)
 {
-    if (strcmp(l->model, "-") == 0)
+    if (ffd_file_is_stream(l->model))
         return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_IO, l->error,
                                   "the buffer is the file \"%s\", and standard input has no folder", uri);
     if (ffd_uri_is_absolute(uri))

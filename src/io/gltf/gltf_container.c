@@ -18,7 +18,7 @@ static gltf_buffer_kind kind_in_text(const gltf_buffer *buffer, bool stream)
 void ffd_gltf_place_buffers(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
-    const bool stream = strcmp(saver->options->path, "-") == 0;
+    const bool stream = ffd_output_is_stream(saver->options->path);
     for (size_t b = 0; b < d->buffer_values.count && saver->binary != d->binary; b++)
         saver->buffers[b].kind =
             saver->binary ? kind_in_glb(&d->buffers[b], b) : kind_in_text(&d->buffers[b], stream);

@@ -204,7 +204,7 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    if (strcmp(d->path, "-") == 0 || strcmp(saver->options->path, "-") == 0)
+    if (ffd_file_is_stream(d->path) || ffd_output_is_stream(saver->options->path))
         return FFD_OK;
     resources r = {
         .saver = saver, .from = ffd_path_folder(d->path), .to = ffd_path_folder(saver->options->path)};

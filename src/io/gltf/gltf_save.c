@@ -260,7 +260,7 @@ static ffd_status put_files(gltf_saver *saver, ffd_error *error)
         status = ffd_output_begin(saver->output, path, overwrites(saver), error);
     if (status)
         return status;
-    if (saver->replaces && strcmp(path, "-") != 0)
+    if (saver->replaces && !ffd_output_is_stream(path))
         ffd_output_remove_first(saver->output);
     if (saver->binary)
         return put_glb(saver, error);
@@ -284,8 +284,8 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
         return ffd_gltf_save_as_morph(document, options, output, log, error);
     gltf_saver saver = {.document = d, .options = options, .output = output, .log = log};
     saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;
-    saver.in_place =
-        strcmp(options->path, "-") != 0 && strcmp(d->path, "-") != 0 && ffd_file_same(options->path, d->path);
+    saver.in_place = !ffd_output_is_stream(options->path) && !ffd_file_is_stream(d->path) &&
+                     ffd_file_same(options->path, d->path);
     ffd_status status = ffd_gltf_make_plan(d, &saver.plan, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_content(&saver, error);

@@ -23,7 +23,7 @@ static char *make_name(const char *path, size_t number)
 static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    if (strcmp(d->path, "-") != 0 && strcmp(target, saver->options->path) != 0 &&
+    if (!ffd_file_is_stream(d->path) && strcmp(target, saver->options->path) != 0 &&
         ffd_file_same(d->path, target))
         return ffd_fail_file(error, FFD_E_EXISTS, target, "is the input and is not overwritten by a buffer");
     for (size_t i = 0; i < d->buffer_values.count; i++) {
@@ -123,7 +123,7 @@ static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number
 ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
-    const bool stream = strcmp(saver->options->path, "-") == 0;
+    const bool stream = ffd_output_is_stream(saver->options->path);
     size_t number = 0;
     ffd_status status = FFD_OK;
     if (!stream && !saver->in_place)

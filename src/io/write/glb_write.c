@@ -147,7 +147,7 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options)
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
                         bool binary, ffd_error *error)
 {
-    const bool files = !binary && strcmp(options->path, "-") != 0;
+    const bool files = !binary && !ffd_output_is_stream(options->path);
     gltf_writer *w = ffd_alloc_zero(1, sizeof *w);
     if (!w)
         return ffd_fail_memory(error);
