@@ -95,6 +95,16 @@ def read_only_folder(run):
     run.ffd("deform", "a.obj", "--out-dir", "locked", "-l", "l.json", code=IO, **user)
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "locked/e.npy", code=IO, **user)
     run.ffd("lattice", "new", "a.obj", "-o", "locked/n.json", code=IO, **user)
+    for ending in ("ply", "off", "stl", "glb", "gltf"):
+        run.ffd("deform", "a.obj", f"a.{ending}", "-l", "l.json", "-q")
+        for mesh in ("a.obj", f"a.{ending}"):
+            done = run.ffd("deform", mesh, f"locked/b.{ending}", "-l", "l.json", "-q", code=IO, **user)
+            check("Permission denied" in done.err[0], done.err)
+    os.chmod(run.folder, 0o777)
+    for n, option in enumerate(("--report", "--depfile")):
+        deform(run, f"b{n}.obj", option, "locked/x", code=IO, err="locked/x: cannot be written: Permission denied", **user)
+        check(not run.exists(f"b{n}.obj"), "work was done although it was known to fail")
+    deform(run, "locked/old.obj", "--if-changed", code=IO, **user)
     os.chmod(run.path("locked"), 0o755)
     equal(run.names("locked"), ["old.obj"])
     equal(run.read("locked/old.obj"), b"old")
@@ -127,9 +137,38 @@ def permissions(run):
     finally:
         os.umask(old)
     equal(stat.S_IMODE(os.stat(run.path("new.obj")).st_mode), 0o640, "a new file follows the umask")
+    # What a killed run left had the bits of another file.
+    run.write(".fresh.obj.ffd-tmp", "left")
+    os.chmod(run.path(".fresh.obj.ffd-tmp"), 0o400)
+    old = os.umask(0o022)
+    try:
+        deform(run, "fresh.obj")
+    finally:
+        os.umask(old)
+    equal(stat.S_IMODE(os.stat(run.path("fresh.obj")).st_mode), 0o644, "a new file over one that was left")
     os.chmod(run.path("a.obj"), 0o604)
     run.ffd("deform", "a.obj", "--in-place", "-l", "l.json")
     equal(stat.S_IMODE(os.stat(run.path("a.obj")).st_mode), 0o604, "in place")
+
+
+@case
+def permissions_of_every_file(run):
+    """Of each format, of a .gltf's buffer, and of what is written beside a mesh."""
+    start(run)
+    jobs = [([f"b.{ending}"] + (["b.bin"] if ending == "gltf" else []), ["deform", "a.obj", f"b.{ending}", "-l", "l.json", "-q"])
+            for ending in ("ply", "off", "stl", "glb", "gltf")]
+    jobs += [(["e.npy", "s.npy"], ["embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy"]),
+             (["n.json"], ["lattice", "new", "a.obj", "-o", "n.json"]),
+             (["c.obj", "r.json", "d"], ["deform", "a.obj", "c.obj", "-l", "l.json", "--report", "r.json", "--depfile", "d"])]
+    for files, arguments in jobs:
+        run.ffd(*arguments)
+        for mode in (0o600, 0o640, 0o666):
+            for name in files:
+                os.chmod(run.path(name), mode)
+            inodes = [os.stat(run.path(name)).st_ino for name in files]
+            run.ffd(*arguments, "--force")
+            equal([stat.S_IMODE(os.stat(run.path(name)).st_mode) for name in files], [mode] * len(files), str(files))
+            check(all(a != os.stat(run.path(name)).st_ino for a, name in zip(inodes, files)), f"{files}: not written anew")
 
 
 @case
