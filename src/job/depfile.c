@@ -70,8 +70,10 @@ static void put_name(byte_buffer *rules, const char *name)
 
 bool ffd_depfile_troubles(const char *name)
 {
-    const size_t length = strlen(name);
-    return name[strcspn(name, "\"%&'*;<=>?^`|\t")] || (length && name[length - 1] == '\\');
+    for (const char *backslash = strchr(name, '\\'); backslash; backslash = strchr(backslash + 1, '\\'))
+        if (strchr("#:$", backslash[1])) /* or the name's end */
+            return true;
+    return name[strcspn(name, "\"%&'*;<=>?^`|\t")] != 0;
 }
 
 static ffd_status refuse_line_break(const char *name, ffd_error *error)

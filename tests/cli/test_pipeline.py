@@ -171,10 +171,11 @@ def names_that_no_depfile_can_hold(run):
     run.ffd("deform", "a\nb.obj", "b.obj", "-l", "l.json", "--depfile", "d", code=IO,
             err="a?b.obj: cannot stand in a depfile: its name has a line break")
     check(not run.exists("b.obj") and not run.exists("d"), "something was written")
-    run.write("it's.obj", CUBE)
-    run.ffd("deform", "it's.obj", "b.obj", "-l", "l.json", "--depfile", "d",
-            err='it\'s.obj: the depfile names "it\'s.obj": make or ninja cannot read such a name')
-    equal(run.text("d"), "b.obj: it's.obj l.json\n")
+    for name in ("it's.obj", "a=b.obj", "a\\#b.obj", "a\\:b.obj", "50%.obj", "a|b.obj"):
+        run.write(name, CUBE)
+        run.ffd("deform", name, "b.obj", "-l", "l.json", "--depfile", "d", "--force",
+                err=f'{name}: the depfile names "{name}": make or ninja cannot read such a name')
+    equal(run.text("d"), "b.obj: a|b.obj l.json\n")
 
 
 @case

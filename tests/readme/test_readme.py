@@ -4,7 +4,8 @@
     test_readme.py tutorial FFD SOURCE     the tutorial, in a copy of data/, with the program FFD
     test_readme.py build SOURCE            the build and the C example, in a copy of the source
 
-Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME and ```c NAME (files).
+Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```ninja NAME, ```make NAME and ```c NAME
+(files).
 Commands that stand indented are compared with a list: a new one must find its test here."""
 import os
 import re
@@ -53,7 +54,7 @@ def tutorial(text, ffd, source):
         os.symlink(os.path.abspath(ffd), os.path.join(tools, "ffd"))
         environment = dict(os.environ, PATH=tools + os.pathsep + os.environ["PATH"])
         for language, name, content in blocks(text):
-            if language == "json":
+            if language in ("json", "ninja", "make"):
                 with open(os.path.join(data, name), "w", encoding="utf-8") as file:
                     file.write(content)
             elif language == "sh" and not name:

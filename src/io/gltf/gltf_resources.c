@@ -63,7 +63,7 @@ static ffd_status write_image(const resources *r, const char *target, const file
 static ffd_status copy_image(const resources *r, size_t image, const char *path, ffd_error *error)
 {
     const gltf_document *d = r->saver->document;
-    char *source = ffd_path_join(r->from, path), *target = ffd_path_join(r->to, path);
+    char *source = ffd_path_beside(d->path, path), *target = ffd_path_join(r->to, path);
     file_input bytes = {0};
     ffd_error reason = {0};
     ffd_status status = source && target ? FFD_OK : ffd_fail_memory(error);
