@@ -156,6 +156,12 @@ void ffd_json_null(json_text *json, const char *key)
     ffd_json_string(json, key, NULL);
 }
 
+void ffd_json_raw(json_text *json, const char *key, const char *text, size_t size)
+{
+    lead_in(json, key);
+    ffd_buffer_append(json->out, text, size);
+}
+
 void ffd_json_vector(json_text *json, const char *key, const double *values, size_t count)
 {
     ffd_json_array(json, key, true);

@@ -32,6 +32,8 @@ void ffd_json_count(json_text *json, const char *key, uint64_t value);
 void ffd_json_counts(json_text *json, const json_count *members, size_t count);
 void ffd_json_bool(json_text *json, const char *key, bool value);
 void ffd_json_null(json_text *json, const char *key);
+/* A value that is JSON already, with its line breaks. */
+void ffd_json_raw(json_text *json, const char *key, const char *text, size_t size);
 void ffd_json_vector(json_text *json, const char *key, const double *values, size_t count); /* on one line */
 
 #endif

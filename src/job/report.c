@@ -1,5 +1,4 @@
-/* report.c - the JSON report of interface 4. */
-#include "base/json_text.h"
+#include "job/report.h"
 #include "base/memory.h"
 #include "base/path.h"
 #include "job/replace.h"
@@ -7,16 +6,11 @@
 #include "mesh/mesh.h"
 #include <string.h>
 
-typedef struct report_entry {
-    char *input, *output; /* output may be NULL */
-    ffd_job_result result;
-} report_entry;
-
 struct ffd_report {
     bool stable;
     file_output *output; /* begun when the report is created */
-    report_entry *entries;
-    size_t count, capacity;
+    byte_buffer text;    /* what has not gone there yet */
+    json_text json;      /* writes into it */
 };
 
 static bool is_report(const file_input *old)
@@ -26,6 +20,15 @@ static bool is_report(const file_input *old)
         if (memcmp(old->data + i, mark, sizeof mark - 1) == 0)
             return true;
     return false;
+}
+
+static void begin_text(ffd_report *report)
+{
+    ffd_json_begin(&report->json, &report->text);
+    ffd_json_object(&report->json, NULL, false);
+    ffd_json_string(&report->json, "format", "ffd-report");
+    ffd_json_count(&report->json, "version", 1);
+    ffd_json_array(&report->json, "jobs", false);
 }
 
 ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
@@ -46,6 +49,8 @@ ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written
     }
     if (status)
         ffd_report_destroy(&made);
+    else
+        begin_text(made);
     *report = made;
     return status;
 }
@@ -54,42 +59,23 @@ void ffd_report_destroy(ffd_report **report)
 {
     if (!report || !*report)
         return;
-    for (size_t i = 0; i < (*report)->count; i++) {
-        ffd_free((*report)->entries[i].input);
-        ffd_free((*report)->entries[i].output);
-    }
     ffd_output_destroy(&(*report)->output);
-    ffd_free((*report)->entries);
+    ffd_buffer_free(&(*report)->text);
     ffd_free(*report);
     *report = NULL;
 }
 
-ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
-                          const ffd_job_result *result, ffd_error *error)
+static void write_outcome(json_text *json, const report_entry *entry)
 {
-    if (!ffd_grow((void **)&report->entries, &report->capacity, report->count + 1, sizeof *report->entries))
-        return ffd_fail_memory(error);
-    report_entry *entry = &report->entries[report->count];
-    entry->result = *result;
-    entry->input = ffd_text_copy(input);
-    entry->output = output ? ffd_text_copy(output) : NULL;
-    if (!entry->input || (output && !entry->output)) {
-        ffd_free(entry->input);
-        ffd_free(entry->output);
-        return ffd_fail_memory(error);
-    }
-    report->count++;
-    return FFD_OK;
-}
-
-static void write_error(json_text *json, const ffd_job_result *result)
-{
+    const ffd_status status = entry->result->status;
     char line[2048];
-    if (!result->status) {
+    ffd_json_string(json, "status", entry->skipped ? "skipped" : status ? "failed" : "ok");
+    ffd_json_count(json, "exit", (uint64_t)ffd_status_exit_code(status));
+    if (!status) {
         ffd_json_null(json, "error");
         return;
     }
-    ffd_error_format(&result->error, line, sizeof line);
+    ffd_error_format(&entry->result->error, line, sizeof line);
     ffd_json_string(json, "error", line);
 }
 
@@ -199,17 +185,17 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
-static void write_entry(json_text *json, const report_entry *entry, bool stable)
+static void write_entry(json_text *json, const report_entry *entry)
 {
-    const ffd_job_result *result = &entry->result;
+    const ffd_job_result *result = entry->result;
     ffd_json_object(json, NULL, false);
+    if (entry->line)
+        ffd_json_count(json, "line", entry->line);
     ffd_json_string(json, "input", entry->input);
     ffd_json_string(json, "output", entry->output);
-    ffd_json_string(json, "status", result->status ? "failed" : "ok");
-    ffd_json_count(json, "exit", (uint64_t)ffd_status_exit_code(result->status));
-    write_error(json, result);
+    write_outcome(json, entry);
     write_figures(json, result);
-    if (!stable) {
+    if (!entry->stable) {
         ffd_json_object(json, "seconds", true);
         ffd_json_number(json, "read", result->seconds_read);
         ffd_json_number(json, "embed", result->seconds_embed);
@@ -221,25 +207,50 @@ static void write_entry(json_text *json, const report_entry *entry, bool stable)
     ffd_json_end(json, '}');
 }
 
+/* Hands over what is there. */
+static ffd_status flush(ffd_report *report, ffd_error *error)
+{
+    if (report->text.failed)
+        return ffd_fail_memory(error);
+    const ffd_status status = ffd_output_write(report->output, report->text.data, report->text.size, error);
+    report->text.size = 0;
+    return status;
+}
+
+ffd_status ffd_report_add_text(ffd_report *report, const char *text, size_t size, ffd_error *error)
+{
+    ffd_json_raw(&report->json, NULL, text, size);
+    return flush(report, error);
+}
+
+ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
+                          const ffd_job_result *result, ffd_error *error)
+{
+    const report_entry entry = {.input = input, .output = output, .result = result, .stable = report->stable};
+    write_entry(&report->json, &entry);
+    return flush(report, error);
+}
+
+void ffd_report_entry_text(const report_entry *entry, byte_buffer *text)
+{
+    byte_buffer whole = {0};
+    json_text json;
+    ffd_json_begin(&json, &whole);
+    ffd_json_object(&json, NULL, false);
+    ffd_json_array(&json, NULL, false);
+    const size_t before = whole.size; /* it has the depth of a report's entry */
+    write_entry(&json, entry);
+    const char *const start = whole.failed ? NULL : memchr(whole.data + before, '{', whole.size - before);
+    if (start)
+        ffd_buffer_append(text, start, whole.size - (size_t)(start - whole.data));
+    text->failed = text->failed || !start;
+    ffd_buffer_free(&whole);
+}
+
 ffd_status ffd_report_write(ffd_report *report, ffd_error *error)
 {
-    byte_buffer text = {0};
-    json_text json;
-    ffd_json_begin(&json, &text);
-    ffd_json_object(&json, NULL, false);
-    ffd_json_string(&json, "format", "ffd-report");
-    ffd_json_count(&json, "version", 1);
-    ffd_json_array(&json, "jobs", false);
-    for (size_t i = 0; i < report->count; i++)
-        write_entry(&json, &report->entries[i], report->stable);
-    ffd_json_end(&json, ']');
-    ffd_json_end(&json, '}');
-
-    ffd_status status = text.failed ? ffd_fail_memory(error) : FFD_OK;
-    if (!status)
-        status = ffd_output_write(report->output, text.data, text.size, error);
-    if (!status)
-        status = ffd_output_commit(report->output, error);
-    ffd_buffer_free(&text);
-    return status;
+    ffd_json_end(&report->json, ']');
+    ffd_json_end(&report->json, '}');
+    const ffd_status status = flush(report, error);
+    return status ? status : ffd_output_commit(report->output, error);
 }
