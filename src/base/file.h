@@ -33,6 +33,13 @@ void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
    /dev/stdin, /dev/fd/N, /dev/null. */
 bool ffd_file_is_stream(const char *path);
 bool ffd_file_exists(const char *path);
+/* Tells whether a file is the one that it was: which it is, its size and when it was written. */
+typedef struct file_stamp {
+    uint64_t device, number, size;
+    int64_t seconds, nanoseconds;
+} file_stamp;
+bool ffd_file_stamp(const char *path, file_stamp *stamp);
+bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b);
 /* Whether both paths lead to one existing file. */
 bool ffd_file_same(const char *a, const char *b);
 /* Whether path is a file of just these bytes. Errors: those of reading it. */
@@ -80,6 +87,9 @@ void ffd_output_remove_first(file_output *output);
 void ffd_output_keep_equal(file_output *output);
 /* Makes all files appear. After a failure none that was not yet renamed does. */
 ffd_status ffd_output_commit(file_output *output, ffd_error *error);
+/* Removes what a process that ended in the middle of writing path left beside it (and of the buffers beside a
+   .gltf), unless another one is writing it. */
+void ffd_output_discard(const char *path);
 /* Frees; removes the temporary files of what was not committed. NULL and pointers to NULL are allowed. */
 void ffd_output_destroy(file_output **output);
 /* The refusals of ffd_output_begin, before any work is done. */

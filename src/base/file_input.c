@@ -57,6 +57,22 @@ static ffd_status map_file(int fd, const char *name, size_t size, file_input *in
     return FFD_OK;
 }
 
+bool ffd_file_stamp(const char *path, file_stamp *stamp)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return false;
+    *stamp = (file_stamp){(uint64_t)info.st_dev, (uint64_t)info.st_ino, (uint64_t)info.st_size,
+                          (int64_t)info.st_mtim.tv_sec, (int64_t)info.st_mtim.tv_nsec};
+    return true;
+}
+
+bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
+{
+    return a->device == b->device && a->number == b->number && a->size == b->size &&
+           a->seconds == b->seconds && a->nanoseconds == b->nanoseconds;
+}
+
 bool ffd_file_is_stream(const char *path)
 {
     static const char *const names[] = {"/dev/stdin", "/dev/fd/", "/proc/self/fd/", "/dev/null"};

@@ -503,6 +503,39 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
     return status;
 }
 
+static void discard_one(const char *target)
+{
+    char *const name = temporary_name(target);
+    const int fd = name && ffd_file_exists(name) ? open_locked(name) : -1;
+    if (fd >= 0) {
+        unlink(name);
+        close(fd);
+    }
+    ffd_free(name);
+}
+
+void ffd_output_discard(const char *path)
+{
+    char *const place = realpath(path, NULL), *const stem = ffd_path_stem(path);
+    discard_one(place ? place : path);
+    free(place);
+    const size_t capacity = stem ? strlen(stem) + 40 : 0;
+    char *const name = stem ? ffd_alloc(capacity, 1) : NULL;
+    bool more = name && ffd_path_has_ending(path, ".gltf");
+    for (unsigned i = 0; more; i++) {
+        snprintf(name, capacity, i ? "%s-%u.bin" : "%s.bin", stem, i);
+        char *const buffer = ffd_path_beside(path, name), *const begun =
+                                                              buffer ? temporary_name(buffer) : NULL;
+        more = begun && (i == 0 || ffd_file_exists(begun));
+        if (more)
+            discard_one(buffer);
+        ffd_free(begun);
+        ffd_free(buffer);
+    }
+    ffd_free(name);
+    ffd_free(stem);
+}
+
 void ffd_output_destroy(file_output **output)
 {
     if (!output || !*output)

@@ -25,6 +25,15 @@ const char *ffd_path_name(const char *path)
     return name;
 }
 
+bool ffd_path_is_absolute(const char *path)
+{
+#ifdef _WIN32
+    if (path[0] && path[1] == ':')
+        return true;
+#endif
+    return is_separator(path[0]);
+}
+
 const char *ffd_path_shown(const char *path)
 {
     return strcmp(path, "-") == 0 ? "standard input" : path;

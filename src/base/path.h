@@ -8,6 +8,7 @@
 const char *ffd_path_name(const char *path);                    /* "a/b.obj" -> "b.obj" (inside path) */
 const char *ffd_path_ending(const char *path);                  /* "a/b.obj" -> ".obj", or "" (inside path) */
 bool ffd_path_has_ending(const char *path, const char *ending); /* letters in any case */
+bool ffd_path_is_absolute(const char *path);
 const char *ffd_path_shown(const char *path); /* for messages: "-" -> "standard input"; others as they are */
 /* New strings (free with ffd_free), NULL when there is no memory. */
 char *ffd_path_folder(const char *path); /* "a/b.obj" -> "a"; "b.obj" -> "." */
