@@ -53,7 +53,20 @@ FFD_API void ffd_lattice_desc_init(ffd_lattice_desc *desc);
    Errors: FFD_E_IO; FFD_E_INVALID with line (syntax) or JSON pointer (meaning); FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
 
-/* The same from memory: text of size bytes (no final 0 needed); name stands in messages. text is not kept. */
+/* The value of a placeholder: a lattice file can have {"$": "NAME"} in place of any value within its moves.
+   value is JSON ("0.5", "[1, 2, 3]"), or else a text ("x"). */
+typedef struct ffd_setting {
+    const char *name, *value;
+} ffd_setting;
+
+/* The same with values for the placeholders of the file's moves. used (count, NULL only where count is 0):
+   set to true for those that the file has; the others are left as they are. Errors also: FFD_E_INVALID for a
+   placeholder without a value. */
+FFD_API ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                        ffd_lattice **lattice, ffd_error *error);
+
+/* The same as ffd_lattice_load from memory: text of size bytes (no final 0 needed); name stands in messages.
+ * text is not kept. */
 FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
                                      ffd_error *error);
 

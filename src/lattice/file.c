@@ -3,12 +3,12 @@
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 
-ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
-                             ffd_error *error)
+static ffd_status parse(const char *text, size_t size, const char *name, const spec_settings *settings,
+                        ffd_lattice **lattice, ffd_error *error)
 {
     *lattice = NULL;
     lattice_spec *spec;
-    ffd_status status = ffd_spec_parse(text, size, name, &spec, error);
+    ffd_status status = ffd_spec_parse(text, size, name, settings, &spec, error);
     if (status)
         return status;
     status = ffd_spec_build(spec, NULL, NULL, lattice, error);
@@ -17,14 +17,27 @@ ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ff
     return status;
 }
 
+ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
+                             ffd_error *error)
+{
+    return parse(text, size, name, NULL, lattice, error);
+}
+
 ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error)
 {
+    return ffd_lattice_load_set(path, NULL, 0, NULL, lattice, error);
+}
+
+ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                ffd_lattice **lattice, ffd_error *error)
+{
+    const spec_settings settings = {values, used, count};
     *lattice = NULL;
     file_input input;
     ffd_status status = ffd_file_load(path, &input, error);
     if (status)
         return status;
-    status = ffd_lattice_parse((const char *)input.data, input.size, path, lattice, error);
+    status = parse((const char *)input.data, input.size, path, &settings, lattice, error);
     ffd_file_unload(&input);
     return status;
 }

@@ -67,9 +67,17 @@ static inline bool ffd_spec_full_turn(const lattice_spec *spec)
     return spec->angle[1] - spec->angle[0] >= 360 - SPEC_TURN_TOLERANCE;
 }
 
-/* Reads the JSON text of interface 3. Errors as ffd_lattice_parse. */
-ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, lattice_spec **spec,
-                          ffd_error *error);
+/* Values of placeholders, and which of them a file had a placeholder for. */
+typedef struct spec_settings {
+    const ffd_setting *values; /* count */
+    bool *used;                /* likewise; marked, never cleared */
+    size_t count;
+} spec_settings;
+
+/* Reads the JSON text of interface 3, with these values for placeholders (NULL: none). Errors as
+   ffd_lattice_parse. */
+ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
+                          lattice_spec **spec, ffd_error *error);
 #define SPEC_FORMAT "ffd-lattice"
 #define SPEC_VERSION 1
 

@@ -4,6 +4,7 @@
 #include "base/path.h"
 #include "lattice/direction.h"
 #include "lattice/lattice.h"
+#include "lattice/spec_set.h"
 #include <string.h>
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
@@ -345,8 +346,19 @@ static json_t *load_json(const char *text, size_t size, const char *name, ffd_er
     return NULL;
 }
 
-ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, lattice_spec **spec,
-                          ffd_error *error)
+/* Placeholders stand in moves only. */
+static ffd_status fill_placeholders(json_place *place, json_t *root, const spec_settings *settings)
+{
+    static const spec_settings none = {NULL, NULL, 0};
+    const size_t before = ffd_place_enter(place, "moves");
+    const ffd_status status =
+        ffd_spec_set(place, json_object_get(root, "moves"), settings ? settings : &none);
+    ffd_place_leave(place, before);
+    return status;
+}
+
+ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
+                          lattice_spec **spec, ffd_error *error)
 {
     ffd_status status;
     *spec = NULL;
@@ -360,7 +372,9 @@ ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, latti
         goto out;
     }
     json_place place = {.file = name, .error = error};
-    status = read_root(&place, root, result);
+    status = fill_placeholders(&place, root, settings);
+    if (!status)
+        status = read_root(&place, root, result);
     if (!status) {
         *spec = result;
         result = NULL;

@@ -28,7 +28,7 @@ static bool is_small(const char *text, size_t size)
 {
     lattice_spec *spec, *again;
     ffd_error error;
-    const ffd_status status = ffd_spec_parse(text, size, "input", &spec, &error);
+    const ffd_status status = ffd_spec_parse(text, size, "input", NULL, &spec, &error);
     if (status) {
         check_refusal(status, &error);
         return false;
@@ -41,7 +41,7 @@ static bool is_small(const char *text, size_t size)
         size_t saved_size, second_size;
         char *const saved = ffd_spec_text(spec, &saved_size);
         PROMISE(saved, "no text");
-        PROMISE(ffd_spec_parse(saved, saved_size, "saved", &again, &error) == FFD_OK,
+        PROMISE(ffd_spec_parse(saved, saved_size, "saved", NULL, &again, &error) == FFD_OK,
                 "what was saved is refused, %s: %s", error.pointer, error.message);
         char *const second = ffd_spec_text(again, &second_size);
         PROMISE(second && saved_size == second_size && !memcmp(saved, second, saved_size),
