@@ -85,6 +85,16 @@ FFD_API ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
 /* Frees the record and clears the pointer. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_written_destroy(ffd_written **written);
 
+/* What a job leaves for the next one: its mesh, where that stays as it is, what the rest lattices are
+   searched with, and the mesh's u,v,w in the rest lattice where there is only one. A job that needs the same
+   again does not read or make it anew; its output and its figures but for the seconds are the same either
+   way. One job at a time. */
+typedef struct ffd_share ffd_share;
+
+FFD_API ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
+/* Frees what is kept and clears the pointer. NULL and pointers to NULL are allowed. */
+FFD_API void ffd_share_destroy(ffd_share **share);
+
 /* The files that outputs were made from, as make and ninja read them: a rule "OUT: MESH BUFFERS IMAGES
    LATTICES EMBEDDING" for each job that succeeds. Streams are left out, and images but those that the output
    holds as they are. One thread at a time. */
@@ -109,6 +119,10 @@ typedef struct ffd_deform_desc {
     ffd_format output_format;
     const char *const *lattices; /* lattice_count paths, applied in that order; at least one */
     size_t lattice_count;
+    /* set_count values for placeholders of the lattices' moves, or NULL. FFD_E_INVALID for one that no
+       lattice has. */
+    const ffd_setting *set;
+    size_t set_count;
     ffd_outside outside;
     double falloff;        /* EXTEND: the displacement fades to nothing over this distance, world units; 0: it
                               does not */
@@ -133,6 +147,7 @@ typedef struct ffd_deform_desc {
     bool if_changed;
     bool in_place;        /* output is the input (output is NULL then) */
     ffd_written *written; /* of the run, or NULL */
+    ffd_share *share;     /* with the jobs before and after, or NULL */
     ffd_depfile *depfile; /* gets the rule of the output, which is neither "-" nor in place; or NULL */
     ffd_log_function log; /* may be NULL */
     void *log_user;
@@ -221,7 +236,7 @@ FFD_API ffd_status ffd_info_run(const ffd_source *file, bool json, char **text, 
 FFD_API ffd_status ffd_lattice_new_run(const ffd_source *mesh, const ffd_lattice_desc *desc,
                                        const char *output, bool force, ffd_error *error);
 
-/* The report of interface 4. Entries are added in the order of the jobs; the strings are copied. */
+/* The report of interface 4. Entries are added in the order of the jobs, and go to its file at once. */
 typedef struct ffd_report ffd_report;
 
 /* Starts a report that will be written to path ("-": standard output), under a temporary name until it is

@@ -10,6 +10,32 @@ static bool add_lattice(void *context, const cli_option *option, const char *val
     return cli_set_text(&job->lattices[job->lattice_count++], option, value);
 }
 
+/* NAME=VALUE. */
+static bool add_setting(void *context, const cli_option *option, const char *value)
+{
+    cli_job *job = context;
+    const char *equals = strchr(value, '=');
+    if (!equals || equals == value) {
+        cli_complain("--%s: \"%s\" is not NAME=VALUE", option->name, value);
+        return false;
+    }
+    const size_t length = (size_t)(equals - value);
+    for (size_t i = 0; i < job->set_count; i++)
+        if (strlen(job->set[i].name) == length && memcmp(job->set[i].name, value, length) == 0) {
+            cli_complain("--%s: \"%.*s\" is set twice", option->name, (int)length, value);
+            return false;
+        }
+    char *name = malloc(length + 1);
+    if (!name) {
+        cli_complain("out of memory");
+        return false;
+    }
+    memcpy(name, value, length);
+    name[length] = 0;
+    job->set[job->set_count++] = (ffd_setting){name, equals + 1};
+    return true;
+}
+
 static bool add_selector(void *context, const cli_option *option, const char *value)
 {
     cli_job *job = context;
@@ -69,6 +95,9 @@ static const char *const space_names[] = {"scene", "mesh", NULL};
 #define AT(field) offsetof(cli_job, field)
 const cli_option cli_job_options[] = {
     {"lattice", 'l', "FILE", "lattice file; several are applied in this order", add_lattice, 0, NULL},
+    {"set", 0, "NAME=VALUE",
+     "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", add_setting, 0,
+     NULL},
     {"outside", 0, "keep|extend|error",
      "vertices outside the lattice: stay, follow its border, or fail (exit 5); default keep", cli_set_choice,
      AT(outside), outside_names},
@@ -104,30 +133,37 @@ const cli_option cli_job_options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
+static void free_lists(cli_job *job)
+{
+    for (size_t i = 0; i < job->set_count; i++)
+        free((char *)(uintptr_t)job->set[i].name);
+    free(job->set);
+    free(job->lattices);
+    free(job->only);
+}
+
 bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
                    int *exit_code)
 {
     job->lattices = calloc((size_t)count + 1, sizeof *job->lattices);
     job->only = calloc((size_t)count + 1, sizeof *job->only);
-    if (!job->lattices || !job->only) {
-        free(job->lattices);
-        free(job->only);
+    job->set = calloc((size_t)count + 1, sizeof *job->set);
+    if (!job->lattices || !job->only || !job->set) {
+        free_lists(job);
         cli_complain("out of memory");
         *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
         return false;
     }
     if (cli_begin(command, job, &job->help, count, arguments, words, exit_code))
         return true;
-    free(job->lattices);
-    free(job->only);
+    free_lists(job);
     return false;
 }
 
 void cli_job_end(cli_job *job, cli_words *words)
 {
     free(words->words);
-    free(job->lattices);
-    free(job->only);
+    free_lists(job);
 }
 
 bool cli_is_stream(const char *path)
@@ -192,6 +228,8 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
         .path = input, .format = job->input_format, .space = (ffd_space)job->space, .memory = job->memory};
     desc->lattices = job->lattices;
     desc->lattice_count = job->lattice_count;
+    desc->set = job->set;
+    desc->set_count = job->set_count;
     desc->outside = (ffd_outside)job->outside;
     desc->falloff = job->falloff;
     desc->embedding = job->embedding;

@@ -10,6 +10,8 @@ typedef struct cli_job {
     size_t lattice_count;
     const char **only;
     size_t only_count;
+    ffd_setting *set; /* their names are owned */
+    size_t set_count;
     int outside, normals, space;
     double falloff; /* 0: not given */
     const char *embedding;

@@ -10,9 +10,8 @@ void ffd_vectors_read(const double *vectors, size_t first, size_t count, double 
 
 ffd_status ffd_vectors_copy(const double *vectors, size_t count, double **results, ffd_error *error)
 {
-    if (*results)
-        return FFD_OK;
-    *results = ffd_alloc(count, 3 * sizeof **results);
+    if (!*results)
+        *results = ffd_alloc(count, 3 * sizeof **results);
     if (!*results)
         return ffd_fail_memory(error);
     ffd_vectors_read(vectors, 0, count, *results);

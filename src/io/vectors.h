@@ -6,7 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Makes *results a copy of count vectors, unless there is one. Freed by ffd_free. Errors: FFD_E_MEMORY. */
+/* Makes *results a copy of count vectors, in its old place where it had one. Freed by ffd_free. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_vectors_copy(const double *vectors, size_t count, double **results, ffd_error *error);
 /* Copies count vectors from number first on, if any, to xyz. */
 void ffd_vectors_read(const double *vectors, size_t first, size_t count, double *xyz);

@@ -4,38 +4,60 @@
 #include "base/vec.h"
 #include "deform/extension.h"
 #include "embed/locator.h"
+#include "job/embedding_file.h"
+#include "job/share.h"
 #include "lattice/lattice.h"
 #include <string.h>
 
-ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside, ffd_isa isa,
-                          lattice_chain *chain, ffd_error *error)
+static ffd_status load_link(const chain_files *files, bool *used, lattice_chain *chain, size_t i,
+                            ffd_error *error)
 {
-    *chain = (lattice_chain){.outside = *outside, .isa = isa};
-    if (count == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "no lattice is given");
-    chain->links = ffd_alloc_zero(count, sizeof *chain->links);
-    if (!chain->links)
-        return ffd_fail_memory(error);
-    chain->count = count;
-    for (size_t i = 0; i < count; i++) {
-        chain_link *link = &chain->links[i];
-        ffd_status status = ffd_lattice_load(paths[i], &link->lattice, error);
-        if (!status && !ffd_lattice_needs_bounds(link->lattice))
-            status = ffd_chain_prepare(chain, i, error);
-        if (status) {
-            ffd_fail_name_file(error, paths[i]);
-            ffd_chain_free(chain);
-            return status;
-        }
-    }
+    chain_link *link = &chain->links[i];
+    ffd_status status =
+        ffd_lattice_load_set(files->paths[i], files->set, files->set_count, used, &link->lattice, error);
+    if (!status && !ffd_lattice_needs_bounds(link->lattice))
+        status = ffd_chain_prepare(chain, i, error);
+    if (status)
+        ffd_fail_name_file(error, files->paths[i]);
+    return status;
+}
+
+static ffd_status refuse_unused(const chain_files *files, const bool *used, ffd_error *error)
+{
+    for (size_t i = 0; i < files->set_count; i++)
+        if (!used[i])
+            return ffd_fail_file(error, FFD_E_INVALID, files->paths[0],
+                                 "there is no placeholder {\"$\": \"%.60s\"} that could be set",
+                                 files->set[i].name);
     return FFD_OK;
+}
+
+ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
+                          ffd_share *share, lattice_chain *chain, ffd_error *error)
+{
+    *chain = (lattice_chain){.outside = *outside, .isa = isa, .share = share};
+    if (files->count == 0)
+        return ffd_fail(error, FFD_E_ARGUMENT, "no lattice is given");
+    bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
+    chain->links = ffd_alloc_zero(files->count, sizeof *chain->links);
+    ffd_status status = used && chain->links ? FFD_OK : ffd_fail_memory(error);
+    chain->count = status ? 0 : files->count;
+    for (size_t i = 0; i < chain->count && !status; i++)
+        status = load_link(files, used, chain, i, error);
+    if (!status)
+        status = refuse_unused(files, used, error);
+    ffd_free(used);
+    if (status)
+        ffd_chain_free(chain);
+    return status;
 }
 
 void ffd_chain_free(lattice_chain *chain)
 {
     for (size_t i = 0; i < chain->count; i++) {
         ffd_boundary_destroy(&chain->links[i].border);
-        ffd_locator_destroy(&chain->links[i].locator);
+        if (!chain->links[i].locator_is_lent)
+            ffd_locator_destroy(&chain->links[i].locator);
         ffd_lattice_destroy(&chain->links[i].lattice);
     }
     ffd_free(chain->links);
@@ -45,7 +67,14 @@ void ffd_chain_free(lattice_chain *chain)
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error)
 {
     chain_link *made = &chain->links[link];
-    const ffd_status status = ffd_locator_create_for(made->lattice, chain->isa, &made->locator, error);
+    ffd_status status = FFD_OK;
+    if (chain->share) {
+        made->rest = ffd_embedding_hash_lattice(made->lattice);
+        made->locator = ffd_share_find_locator(chain->share, &made->rest, chain->isa);
+        made->locator_is_lent = made->locator;
+    }
+    if (!made->locator)
+        status = ffd_locator_create_for(made->lattice, chain->isa, &made->locator, error);
     if (status || !chain->outside.extend)
         return status;
     made->falloff = chain->outside.falloff;

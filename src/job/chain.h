@@ -3,10 +3,12 @@
 #define FFD_JOB_CHAIN_H
 
 #include "base/fail.h"
+#include "base/hash.h"
 #include "deform/displacement.h"
 #include "embed/boundary.h"
 #include "embed/box_tree.h"
 #include <ffd/embedding.h>
+#include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -20,6 +22,8 @@ typedef struct chain_outside {
 typedef struct chain_link {
     ffd_lattice *lattice;
     ffd_locator *locator; /* NULL until the lattice has its place */
+    bool locator_is_lent; /* by the chain's share */
+    hash128 rest;         /* of the rest volume, once there is a locator; only in a chain with a share */
     boundary *border;     /* likewise; NULL too where points outside stay */
     double falloff;       /* chain_outside's */
 } chain_link;
@@ -28,11 +32,22 @@ typedef struct lattice_chain {
     chain_link *links;
     size_t count;
     chain_outside outside;
-    ffd_isa isa; /* of the kernels; changes no bit */
+    ffd_isa isa;      /* of the kernels; changes no bit */
+    ffd_share *share; /* with jobs before and after, or NULL */
 } lattice_chain;
 
-ffd_status ffd_chain_load(const char *const *paths, size_t count, const chain_outside *outside, ffd_isa isa,
-                          lattice_chain *chain, ffd_error *error);
+/* The lattice files of a chain, with the values of their placeholders. */
+typedef struct chain_files {
+    const char *const *paths; /* count */
+    size_t count;
+    const ffd_setting *set; /* set_count, or NULL */
+    size_t set_count;
+} chain_files;
+
+/* Makes a chain of these lattice files. share may be NULL; else it must outlive the chain, and gets what the
+   chain made by ffd_share_keep_chain. */
+ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
+                          ffd_share *share, lattice_chain *chain, ffd_error *error);
 void ffd_chain_free(lattice_chain *chain);
 
 /* Makes what a link whose lattice has its place searches with. */

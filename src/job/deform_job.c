@@ -7,12 +7,13 @@
 #include "job/placement.h"
 #include "job/recompute.h"
 #include "job/selection.h"
+#include "job/share.h"
 #include "job/source.h"
 #include "job/written.h"
 #include <math.h>
 #include <string.h>
 
-static void clear_result(ffd_job_result *result)
+void ffd_result_clear(ffd_job_result *result)
 {
     memset(result, 0, sizeof *result);
     for (int a = 0; a < 3; a++) {
@@ -59,7 +60,7 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result)
 {
-    clear_result(result);
+    ffd_result_clear(result);
     *job = (deform_job){.desc = desc, .check = check};
     const ffd_status status = check_desc(desc, &result->error);
     if (status)
@@ -69,22 +70,30 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
     return FFD_OK;
 }
 
+static ffd_status open_mesh(deform_job *job, ffd_error *error)
+{
+    const ffd_deform_desc *desc = job->desc;
+    ffd_source source = desc->input;
+    source.only_positions = job->only_positions;
+    const ffd_status status = ffd_source_open(&source, job->threads, &job->document, error);
+    return status ? status : ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
+}
+
 ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
+    const chain_files files = {desc->lattices, desc->lattice_count, desc->set, desc->set_count};
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff};
     const double start = ffd_clock_seconds();
     if (desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
-    ffd_status status =
-        ffd_chain_load(desc->lattices, desc->lattice_count, &outside, desc->isa, &job->chain, error);
-    ffd_source source = desc->input;
-    source.only_positions = job->only_positions;
+    ffd_status status = ffd_chain_load(&files, &outside, desc->isa, desc->share, &job->chain, error);
     if (!status)
-        status = ffd_source_open(&source, job->threads, &job->document, error);
-    if (!status)
-        status = ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
+        job->document = ffd_share_take_mesh(desc->share, desc, job->only_positions);
+    job->document_is_shared = job->document;
+    if (!status && !job->document)
+        status = open_mesh(job, error);
     result->seconds_read = ffd_clock_seconds() - start;
     return status;
 }
@@ -132,10 +141,16 @@ static ffd_status place(deform_job *job, ffd_error *error)
 
 static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error *error)
 {
+    ffd_share *const share = job->chain.count == 1 && !job->desc->embedding ? job->desc->share : NULL;
+    bool is_located;
+    ffd_location *const locations = ffd_share_locations(share, job->document, job->document_is_shared,
+                                                        &job->chain.links[0].rest, &is_located);
     const mesh_pass pass = {.document = job->document,
                             .chain = &job->chain,
                             .links = job->chain.count,
                             .threads = job->threads,
+                            .locations = locations,
+                            .is_located = is_located,
                             .embedding = job->desc->embedding ? &job->embedding : NULL,
                             .write = true,
                             .attributes = job->desc->normals != FFD_NORMALS_KEEP,
@@ -145,6 +160,8 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .determinants = wants_figures(job)};
     recompute_counts counts = {0};
     ffd_status status = ffd_pass_run(&pass, &job->totals, error);
+    if (!status)
+        ffd_share_located(share);
     if (!status && job->recomputes && job->totals.moved)
         status = ffd_recompute_normals(job->document, &arrays->faces, arrays->deformed, arrays->gradients,
                                        &counts, error);
@@ -202,7 +219,11 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
     ffd_model_free(&job->base);
-    ffd_source_close(&job->document);
+    if (status == FFD_OK)
+        ffd_share_keep_mesh(job->desc->share, job->desc, job->only_positions, job->document);
+    else
+        ffd_source_close(&job->document);
+    ffd_share_keep_chain(job->desc->share, &job->chain);
     ffd_chain_free(&job->chain);
     if (status && error)
         *error = result->error;

@@ -15,10 +15,14 @@ typedef struct deform_job {
     mesh_log log;
     lattice_chain chain;
     mesh_document *document;
+    bool document_is_shared;  /* it is the last job's */
     embedding_file embedding; /* where one is named */
     pass_totals totals;
     mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
 } deform_job;
+
+/* No figures yet. */
+void ffd_result_clear(ffd_job_result *result);
 
 /* Clears result and takes desc, after a look at what does not concern the output. Errors: FFD_E_ARGUMENT,
    FFD_E_EXISTS, in result. */

@@ -160,11 +160,12 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
 static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     const double start = ffd_clock_seconds();
+    const chain_files files = {.paths = &desc->lattice, .count = 1};
     const chain_outside outside = {.extend = false};
     embedding made = {0};
     ffd_status status = check_outputs(desc, error);
     if (!status)
-        status = ffd_chain_load(&desc->lattice, 1, &outside, FFD_ISA_AUTO, &made.chain, error);
+        status = ffd_chain_load(&files, &outside, FFD_ISA_AUTO, NULL, &made.chain, error);
     if (status)
         return status;
     status = embed(desc, &made, start, result, error);

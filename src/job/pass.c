@@ -291,18 +291,31 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
         deform_tangents(work, scratch, first, count);
 }
 
-/* Takes the first link's locations from the embedding, in which repeated positions do not stand again.
-   Returns whether it did. */
+/* Takes the first link's locations from the embedding, or from those that are there, in which repeated
+   positions do not stand again. Returns whether it did. */
 static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
 {
     const mesh_pass *pass = work->pass;
-    if (!pass->embedding || work->part->repeats_positions)
+    if (work->part->repeats_positions || (!pass->embedding && !pass->is_located))
         return false;
-    for (size_t i = 0; i < scratch->chosen_count; i++)
+    const ffd_location *const there = pass->locations + work->first_vertex + first;
+    for (size_t i = 0; i < scratch->chosen_count && pass->is_located; i++)
+        scratch->chain.locations[i] = there[scratch->chosen[i]];
+    for (size_t i = 0; i < scratch->chosen_count && pass->embedding; i++)
         ffd_embedding_locate(pass->embedding, (size_t)work->first_vertex + first + scratch->chosen[i],
                              pass->chain->links[0].lattice, scratch->place + 3 * i,
                              &scratch->chain.locations[i]);
     return true;
+}
+
+static void keep_locations(const part_work *work, const tile_scratch *scratch, size_t first)
+{
+    const mesh_pass *pass = work->pass;
+    if (!pass->locations || pass->is_located || work->part->repeats_positions)
+        return;
+    ffd_location *const there = pass->locations + work->first_vertex + first;
+    for (size_t i = 0; i < scratch->chosen_count; i++)
+        there[scratch->chosen[i]] = scratch->chain.locations[i];
 }
 
 /* Puts the selected vertices' places at the front. */
@@ -373,6 +386,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         atomic_store(&work->stopped, true);
         return;
     }
+    keep_locations(work, scratch, first);
     spread(scratch, count);
     if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);
@@ -431,9 +445,14 @@ static tile_scratch *make_scratch(const mesh_pass *pass)
     bool shapes = false;
     for (size_t i = 0; i < pass->document->part_count; i++)
         shapes = shapes || (pass->write && pass->document->parts[i].shape_count > 0);
-    tile_scratch *scratch = ffd_alloc_zero((size_t)pass->threads, sizeof *scratch);
-    for (int i = 0; scratch && i < pass->threads; i++)
+    /* Megabytes, of which a small mesh needs little: what need not be cleared is not. */
+    tile_scratch *scratch = ffd_alloc((size_t)pass->threads, sizeof *scratch);
+    for (int i = 0; scratch && i < pass->threads; i++) {
+        ffd_displacement_scratch_clear(&scratch[i].chain.displacement);
         scratch[i].chain.displacement.kept.threads = pass->threads;
+        scratch[i].shape = NULL;
+        scratch[i].status = FFD_OK;
+    }
     for (int i = 0; shapes && scratch && i < pass->threads; i++) {
         scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
         if (!scratch[i].shape) {

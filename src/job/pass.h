@@ -36,8 +36,12 @@ typedef struct mesh_pass {
     size_t links; /* how many of the chain's lattices act */
     int threads;
     const embedding_file *embedding; /* of the document in the first link, or NULL: u,v,w is searched for */
-    bool write;                      /* hand positions back to the document (after begin_results) */
-    bool attributes;                 /* and normals and tangents */
+    /* One a vertex: in the chain's only link, filled by the pass or, where is_located, there already; or
+       NULL. Not with an embedding. */
+    ffd_location *locations;
+    bool is_located;
+    bool write;        /* hand positions back to the document (after begin_results) */
+    bool attributes;   /* and normals and tangents */
     bool only_offsets; /* with attributes: only those of morph targets; the base's are not handed back */
     double *uvw;       /* 3 a vertex, or NULL: u,v,w in the last link, NaN where there is none */
     uint8_t *statuses; /* one a vertex, or NULL */

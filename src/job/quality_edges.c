@@ -232,7 +232,10 @@ static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
 {
     memset(scratch->delta, 0, 3 * scratch->requested * sizeof(double));
     for (size_t k = 0; k < work->chain->count; k++) {
-        const lattice_chain link = {&work->chain->links[k], 1, work->chain->outside, work->chain->isa};
+        const lattice_chain link = {.links = &work->chain->links[k],
+                                    .count = 1,
+                                    .outside = work->chain->outside,
+                                    .isa = work->chain->isa};
         chain_run run = {.x = scratch->x,
                          .count = scratch->requested,
                          .scratch = &scratch->chain,

@@ -187,8 +187,9 @@ typedef struct mesh_format {
        show no morph targets. At most once, before begin_results. NULL: the format has no morph targets. */
     mesh_keep_base_function *keep_base;
 
-    /* Results. begin_results must come first (it makes room); the writers may run in several threads
-       on disjoint ranges. changed: one byte a vector, 0: kept as it was (its values are then not read). */
+    /* Results. begin_results must come first: it makes room, and lets go what an earlier deformation of the
+       document has left. The writers may run in several threads on disjoint ranges. changed: one byte a
+       vector, 0: kept as it was (its values are then not read). */
     mesh_begin_results_function *begin_results;
     mesh_write_function *write_positions;
     mesh_write_function *write_normals;

@@ -63,6 +63,11 @@ ffd_status ffd_room_take(mesh_room *room, uint64_t count, uint64_t size, ffd_err
     return status;
 }
 
+void ffd_room_return(mesh_room *room, uint64_t count, uint64_t size)
+{
+    room->taken -= count * size;
+}
+
 int ffd_room_threads(const mesh_room *room, int threads, uint64_t size)
 {
     const uint64_t most = ffd_room_left(room) / size;

@@ -32,6 +32,8 @@ uint64_t ffd_room_left(const mesh_room *room);
 ffd_status ffd_room_check(const mesh_room *room, uint64_t count, uint64_t size, ffd_error *error);
 /* Takes them, for as long as the document is open. Errors: FFD_E_LIMIT; nothing is taken then. */
 ffd_status ffd_room_take(mesh_room *room, uint64_t count, uint64_t size, ffd_error *error);
+/* Gives back what was taken so. */
+void ffd_room_return(mesh_room *room, uint64_t count, uint64_t size);
 /* How many of the threads, 1 at least, it has room for where each takes size bytes. */
 int ffd_room_threads(const mesh_room *room, int threads, uint64_t size);
 

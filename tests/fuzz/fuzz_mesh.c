@@ -184,7 +184,8 @@ static bool deform(const trial *of, mesh_document *document, uint64_t *moved)
     ffd_status status = ffd_deform_job_begin(&job, &desc, false, &result);
     job.document = document;
     if (!status)
-        status = ffd_chain_load(lattices, 1, &(chain_outside){0}, FFD_ISA_AUTO, &job.chain, &result.error);
+        status = ffd_chain_load(&(chain_files){.paths = lattices, .count = 1}, &(chain_outside){0},
+                                FFD_ISA_AUTO, NULL, &job.chain, &result.error);
     PROMISE(!status, "%s", result.error.message);
     status = ffd_deform_job_run(&job, &result, &result.error);
     if (!status)
@@ -280,7 +281,8 @@ static double *deformed_positions(const trial *of, const uint8_t *data, size_t s
     ffd_error error;
     pass_totals totals;
     mesh_document *document = open_again(of, of->input, data, size);
-    PROMISE(ffd_chain_load(lattices, 1, &(chain_outside){0}, FFD_ISA_AUTO, &chain, &error) == FFD_OK &&
+    PROMISE(ffd_chain_load(&(chain_files){.paths = lattices, .count = 1}, &(chain_outside){0}, FFD_ISA_AUTO,
+                           NULL, &chain, &error) == FFD_OK &&
                 ffd_chain_place(&chain, document, 1, &error) == FFD_OK,
             "no lattice");
     double *const deformed = malloc((size_t)ffd_pass_vertex_count(document) * 3 * sizeof *deformed + 1);

@@ -197,7 +197,7 @@ static void test_gradients_of_a_chain(void **state)
     add_link(&chain, BOX MOVES);
     add_link(&chain, "\"size\":[4,4,4],\"rest\":{\"box\":{\"min\":[-9,-9,-9],\"max\":[9,9,9]}},\"moves\":["
                      "{\"matrix\":[2,0,0,0,0,1,0.5,0,0,0,1,0,0,0,0,1]}]");
-    const lattice_chain one = {chain.links, 1, chain.outside, FFD_ISA_AUTO};
+    const lattice_chain one = {.links = chain.links, .count = 1, .outside = chain.outside};
     const double second[9] = {2, 0, 0, 0, 1, 0.5, 0, 0, 1};
     outcome *first = run(&one, NULL, 1), *both = run(&chain, NULL, 1);
     for (size_t i = 0; i < MOST; i++) {

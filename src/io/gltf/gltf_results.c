@@ -24,19 +24,31 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
 {
     gltf_stream *stream = &d->parts[part].streams[semantic];
     const size_t count = d->mesh_parts[part].vertex_count;
-    if (stream->accessor == GLTF_NONE || stream->result)
+    if (stream->accessor == GLTF_NONE)
         return FFD_OK;
-    const ffd_status status = ffd_room_take(&d->base.room, count, 3 * sizeof *stream->result, error);
-    if (status)
-        return status;
-    stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
-    if (!stream->result)
-        return ffd_fail_memory(error);
-    ffd_expect_all(stream->result, count, 3 * sizeof *stream->result);
+    if (!stream->result) {
+        const ffd_status status = ffd_room_take(&d->base.room, count, 3 * sizeof *stream->result, error);
+        if (status)
+            return status;
+        stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
+        if (!stream->result)
+            return ffd_fail_memory(error);
+        ffd_expect_all(stream->result, count, 3 * sizeof *stream->result);
+    }
     originals of = {d, stream};
     if (!d->morph_name)
         ffd_parallel_tiles(count, TILE, d->threads, copy_tile, &of);
     return FFD_OK;
+}
+
+/* Of an earlier deformation that wanted it. */
+static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
+{
+    gltf_stream *stream = &d->parts[part].streams[semantic];
+    if (stream->result)
+        ffd_room_return(&d->base.room, d->mesh_parts[part].vertex_count, 3 * sizeof *stream->result);
+    ffd_free(stream->result);
+    stream->result = NULL;
 }
 
 ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
@@ -49,8 +61,9 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     d->morph_normals = normals;
     for (size_t i = 0; i < (d->morph_name ? d->base.part_count : ffd_gltf_part_count(d)); i++)
         for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
-            if (wanted[s] && !d->mesh_parts[i].skipped &&
-                !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
+            if (!wanted[s])
+                drop_result(d, i, (gltf_semantic)s);
+            else if (!d->mesh_parts[i].skipped && !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
                 status = make_result(d, i, (gltf_semantic)s, error);
     return status;
 }

@@ -55,13 +55,17 @@ ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tan
         return ffd_fail_memory(error);
     d->new_positions = d->result_store.data;
     ffd_parallel_tiles(d->vertices, TILE, d->threads, copy_tile, d);
-    if (normals && d->pair_normal && !d->new_directions) {
-        d->new_directions = ffd_alloc(d->part.normal_count, 3 * sizeof *d->new_directions);
-        if (!d->new_directions)
-            return ffd_fail_memory(error);
-        ffd_expect_all(d->new_directions, d->part.normal_count, 3 * sizeof *d->new_directions);
-        ffd_parallel_tiles(d->part.normal_count, TILE, d->threads, copy_normals, d);
+    if (!normals || !d->pair_normal) {
+        ffd_free(d->new_directions);
+        d->new_directions = NULL;
+        return FFD_OK;
     }
+    if (!d->new_directions)
+        d->new_directions = ffd_alloc(d->part.normal_count, 3 * sizeof *d->new_directions);
+    if (!d->new_directions)
+        return ffd_fail_memory(error);
+    ffd_expect_all(d->new_directions, d->part.normal_count, 3 * sizeof *d->new_directions);
+    ffd_parallel_tiles(d->part.normal_count, TILE, d->threads, copy_normals, d);
     return FFD_OK;
 }
 

@@ -1,3 +1,4 @@
+#include "base/memory.h"
 #include "io/off/off_document.h"
 #include "io/vectors.h"
 
@@ -19,8 +20,11 @@ ffd_status ffd_off_begin_results(mesh_document *document, bool normals, bool tan
     off_document *d = (off_document *)document;
     (void)tangents; /* there are none */
     const ffd_status status = ffd_vectors_copy(d->positions, d->header.vertices, &d->new_positions, error);
-    if (status || !normals || !d->directions)
+    if (status || !normals || !d->directions) {
+        ffd_free(d->new_directions);
+        d->new_directions = NULL;
         return status;
+    }
     return ffd_vectors_copy(d->directions, d->header.vertices, &d->new_directions, error);
 }
 

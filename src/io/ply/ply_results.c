@@ -1,3 +1,4 @@
+#include "base/memory.h"
 #include "io/ply/ply_document.h"
 #include "io/vectors.h"
 
@@ -22,8 +23,11 @@ ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tan
         return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
                              "nx ny nz are not all float or double: such normals can only be kept");
     const ffd_status status = ffd_vectors_copy(d->positions, d->part.vertex_count, &d->new_positions, error);
-    if (status || !normals || !d->has_normals)
+    if (status || !normals || !d->has_normals) {
+        ffd_free(d->new_directions);
+        d->new_directions = NULL;
         return status;
+    }
     return ffd_vectors_copy(d->directions, d->part.normal_count, &d->new_directions, error);
 }
 

@@ -43,9 +43,8 @@ ffd_status ffd_stl_begin_results(mesh_document *document, bool normals, bool tan
     stl_document *d = (stl_document *)document;
     (void)tangents; /* there are none */
     d->renew_normals = normals;
-    if (d->new_positions)
-        return FFD_OK;
-    d->new_positions = ffd_alloc(d->facets, 9 * sizeof *d->new_positions);
+    if (!d->new_positions)
+        d->new_positions = ffd_alloc(d->facets, 9 * sizeof *d->new_positions);
     if (!d->new_positions)
         return ffd_fail_memory(error);
     ffd_stl_read_positions(document, 0, 0, 3 * d->facets, d->new_positions);

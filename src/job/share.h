@@ -1,0 +1,33 @@
+/* share.h - what jobs that follow each other have in common (public: ffd/job.h): the last one's mesh, what
+   its lattices' rest volumes are searched with, and where the mesh's vertices are in one of them. */
+#ifndef FFD_JOB_SHARE_H
+#define FFD_JOB_SHARE_H
+
+#include "base/hash.h"
+#include "job/chain.h"
+#include "mesh/mesh.h"
+
+/* The mesh that desc asks for, opened and with its selection applied, if it is the one that is kept and its
+   files have not changed since: it is the caller's now. Else NULL, and none is kept any more. share may be
+   NULL, here and below. */
+mesh_document *ffd_share_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions);
+/* Takes over a document that desc asked for, where the next job can begin results on it again; else closes
+   it. */
+void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
+                         mesh_document *document);
+
+/* The locator of a rest volume with this hash (ffd_embedding_hash_lattice) for these instructions, lent until
+   the next ffd_share_keep_chain; NULL: there is none. */
+ffd_locator *ffd_share_find_locator(const ffd_share *share, const hash128 *rest, ffd_isa isa);
+/* Takes the locators that the chain made, with their lattices, and lets those go that it did not use. */
+void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain);
+
+/* Room for the locations of a document's vertices in a rest volume, for ffd_pass_run to fill or, *filled, to
+   take from. NULL: they are not kept. `taken` tells whether the document was one of
+   ffd_share_take_mesh. */
+ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, bool taken, const hash128 *rest,
+                                  bool *filled);
+/* They are there. */
+void ffd_share_located(ffd_share *share);
+
+#endif
