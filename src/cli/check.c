@@ -111,5 +111,5 @@ const cli_command cli_check = {"check",
                                "what a deformation would do: folds, statuses, quality",
                                "usage: ffd check IN... -l LATTICE [-l LATTICE ...] [options]\n"
                                "       exit 1: a gate of --fail-on is violated\n",
-                               {cli_job_options, options},
+                               {cli_job_options, options, NULL, NULL},
                                run};

@@ -17,7 +17,7 @@ typedef struct cli_command {
     int (*run)(const struct cli_command *command, int count, char **arguments);
 } cli_command;
 
-extern const cli_command cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new;
+extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new;
 
 void cli_print_help(const cli_command *command);
 

@@ -80,5 +80,5 @@ const cli_command cli_compare = {"compare",
                                  "are two files the same mesh?",
                                  "usage: ffd compare A B [--tolerance T] [options]\n"
                                  "       exit 0: the same, 1: not\n",
-                                 {options, NULL},
+                                 {options, NULL, NULL, NULL},
                                  run};

@@ -1,25 +1,16 @@
-/* deform.c - ffd deform: one mesh to a file, many to a folder. */
-#include "cli/job.h"
+/* deform.c - ffd deform: one mesh to a file, many to a folder; and the same for the jobs of a batch. */
+#include "cli/deform.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct settings {
-    cli_job job;
-    const char *output; /* of the one IN; NULL where there may be many */
-    const char *out_dir;
-    const char *depfile_path;
-    ffd_depfile *depfile; /* NULL: none is wanted */
-    int resources;
-    ffd_format output_format;
-    bool force, if_changed, in_place;
-} settings;
+typedef cli_deform_settings settings;
 
 static const char *const resources_names[] = {"copy", "reference", NULL};
 
 #define AT(field) offsetof(settings, field)
-static const cli_option options[] = {
+const cli_option cli_deform_options[] = {
     {"out-dir", 0, "DIR", "write every IN under its own name into this folder", cli_set_text, AT(out_dir),
      NULL},
     {"in-place", 0, NULL, "overwrite IN", cli_set_flag, AT(in_place), NULL},
@@ -104,10 +95,9 @@ static int refuse_missing_folder(const char *folder)
     return ffd_status_exit_code(FFD_E_IO);
 }
 
-static int deform(const settings *s, const char *input, const char *output, ffd_report *report,
-                  ffd_deform_desc *desc)
+static void describe(settings *s, const char *input, const char *output, ffd_deform_desc *desc)
 {
-    ffd_job_result result;
+    cli_job_describe(&s->job, input, desc);
     desc->output = s->in_place ? NULL : output;
     desc->output_format = s->output_format;
     desc->resources = (ffd_resources)s->resources;
@@ -115,7 +105,14 @@ static int deform(const settings *s, const char *input, const char *output, ffd_
     desc->if_changed = s->if_changed;
     desc->depfile = s->depfile;
     desc->in_place = s->in_place;
-    if (!ffd_deform_run(desc, &result, NULL) && s->job.talk.verbose && !s->job.talk.quiet)
+}
+
+static int deform(settings *s, const char *input, const char *output, ffd_report *report)
+{
+    ffd_job_result result;
+    ffd_deform_desc desc;
+    describe(s, input, output, &desc);
+    if (!ffd_deform_run(&desc, &result, NULL) && s->job.talk.verbose && !s->job.talk.quiet)
         cli_complain("%s: %llu of %llu vertices moved, by %g at most", cli_shown(input),
                      (unsigned long long)result.moved, (unsigned long long)result.vertices,
                      result.displacement_max);
@@ -124,15 +121,13 @@ static int deform(const settings *s, const char *input, const char *output, ffd_
 
 static int run_job(cli_job *job, const char *input, ffd_report *report)
 {
-    const settings *s = (const settings *)job;
-    ffd_deform_desc desc;
-    cli_job_describe(job, input, &desc);
+    settings *s = (settings *)job;
     if (!s->out_dir)
-        return deform(s, input, s->output, report, &desc);
+        return deform(s, input, s->output, report);
     char *output = join(s->out_dir, name_of(input));
     if (!output)
         return ffd_status_exit_code(FFD_E_MEMORY);
-    const int code = deform(s, input, output, report, &desc);
+    const int code = deform(s, input, output, report);
     free(output);
     return code;
 }
@@ -244,5 +239,41 @@ const cli_command cli_deform = {"deform",
                                 "usage: ffd deform IN OUT -l LATTICE [-l LATTICE ...] [options]\n"
                                 "       ffd deform IN... --out-dir DIR -l LATTICE [options]\n"
                                 "       ffd deform IN... --in-place -l LATTICE [options]\n",
-                                {cli_job_options, options},
+                                {cli_job_options, cli_deform_options, NULL, NULL},
                                 run};
+
+/* A job of a batch. */
+typedef struct batch_opened {
+    settings settings;
+    cli_words words;
+} batch_opened;
+
+void *cli_deform_open(int count, char **words, ffd_deform_desc *desc, ffd_error *error)
+{
+    char complaint[512] = "out of memory";
+    batch_opened *opened = calloc(1, sizeof *opened);
+    int code = ffd_status_exit_code(FFD_E_MEMORY);
+    settings *s = opened ? &opened->settings : NULL;
+    cli_capture(complaint, sizeof complaint);
+    const bool begun = s && cli_job_begin(&cli_deform, &s->job, count, words, &opened->words, &code);
+    if (begun)
+        code = refuse(&cli_deform, s, &opened->words, 1);
+    cli_capture(NULL, 0);
+    if (!begun || code) {
+        if (begun)
+            cli_job_end(&s->job, &opened->words);
+        free(opened);
+        *error = (ffd_error){.status = code == EXIT_USAGE ? FFD_E_ARGUMENT : FFD_E_MEMORY};
+        snprintf(error->message, sizeof error->message, "%s", complaint);
+        return NULL;
+    }
+    describe(s, opened->words.words[0], s->output, desc);
+    return opened;
+}
+
+void cli_deform_close(void *context)
+{
+    batch_opened *opened = context;
+    cli_job_end(&opened->settings.job, &opened->words);
+    free(opened);
+}

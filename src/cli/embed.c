@@ -96,5 +96,5 @@ static int run(const cli_command *command, int count, char **arguments)
 const cli_command cli_embed = {"embed",
                                "u,v,w of every vertex",
                                "usage: ffd embed IN -l LATTICE -o FILE.npy [--status FILE.npy] [options]\n",
-                               {options, NULL},
+                               {options, NULL, NULL, NULL},
                                run};

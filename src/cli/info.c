@@ -45,5 +45,8 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
-const cli_command cli_info = {
-    "info", "what is in a mesh or a lattice file", "usage: ffd info FILE [--json]\n", {options, NULL}, run};
+const cli_command cli_info = {"info",
+                              "what is in a mesh or a lattice file",
+                              "usage: ffd info FILE [--json]\n",
+                              {options, NULL, NULL, NULL},
+                              run};

@@ -206,5 +206,5 @@ const cli_command cli_lattice_new = {"lattice new",
                                      "make a lattice round a mesh",
                                      "usage: ffd lattice new MESH -o LATTICE [--size 4,4,4] [--degree 3,3,3] "
                                      "[--shape box|cylinder] [options]\n",
-                                     {options, NULL},
+                                     {options, NULL, NULL, NULL},
                                      run};

@@ -1,5 +1,7 @@
 /* main.c - the program ffd: finds the command and runs it. */
+#include "batch/worker.h"
 #include "cli/command.h"
+#include "cli/deform.h"
 #include "cli/nearest.h"
 #include <errno.h>
 #include <signal.h>
@@ -7,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const cli_command *const commands[] = {&cli_deform,  &cli_check, &cli_embed,
-                                              &cli_compare, &cli_info,  &cli_lattice_new};
+static const cli_command *const commands[] = {&cli_deform, &cli_check,       &cli_embed, &cli_compare,
+                                              &cli_info,   &cli_lattice_new, &cli_batch};
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 void cli_print_help(const cli_command *command)
@@ -218,7 +220,8 @@ int main(int argc, char **argv)
     occupy_closed_streams();
     ignore_size_signal();
     ffd_cleanup_on_signals();
-    int code = run(argc - 1, argv + 1);
+    static const worker_program program = {cli_deform_open, cli_deform_close};
+    int code = argc == 1 && ffd_worker_is(argv[0]) ? ffd_worker_run(&program) : run(argc - 1, argv + 1);
     errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout)) {
         cli_complain("standard output: cannot be written%s%s", errno ? ": " : "",

@@ -8,6 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Where complaints go in place of standard error. */
+static char *captured;
+static size_t captured_capacity;
+
+void cli_capture(char *text, size_t capacity)
+{
+    captured = text;
+    captured_capacity = capacity;
+}
+
 void cli_complain(const char *format, ...)
 {
     char line[2048];
@@ -19,7 +29,10 @@ void cli_complain(const char *format, ...)
     for (char *c = line; *c; c++)
         if ((unsigned char)*c < 0x20 || *c == 0x7f)
             *c = '?';
-    fprintf(stderr, "ffd: %s\n", line);
+    if (captured)
+        snprintf(captured, captured_capacity, "%s", line);
+    else
+        fprintf(stderr, "ffd: %s\n", line);
 }
 
 static void *field(void *settings, const cli_option *option)
@@ -130,24 +143,43 @@ bool cli_parse_number(const char *text, double *value)
     return *end == 0 && isfinite(*value);
 }
 
-/* The way through both parts of a table. */
+/* The way through the parts of a table. */
 typedef struct option_walk {
-    const cli_option *at, *more;
+    const cli_table *options;
+    const cli_option *at;
+    int part;
 } option_walk;
 
 static option_walk begin_walk(const cli_table *options)
 {
-    return (option_walk){options->first, options->more};
+    return (option_walk){options, options->first, 0};
 }
 
-/* The next option; NULL behind the last. */
+static const cli_option *by_name(const cli_table *options, const char *name, size_t length)
+{
+    const cli_option *const parts[] = {options->first, options->more, options->base};
+    for (int i = 0; i < 3; i++)
+        for (const cli_option *option = parts[i]; option && option->name; option++)
+            if (strlen(option->name) == length && memcmp(option->name, name, length) == 0)
+                return option;
+    return NULL;
+}
+
+/* The next option that counts; NULL behind the last. */
 static const cli_option *next_option(option_walk *walk)
 {
-    if (!walk->at->name && walk->more) {
-        walk->at = walk->more;
-        walk->more = NULL;
+    const cli_option *const parts[] = {walk->options->more, walk->options->base};
+    for (;;) {
+        if (walk->at && walk->at->name) {
+            const cli_option *const option = walk->at++;
+            if (by_name(walk->options, option->name, strlen(option->name)) == option)
+                return option;
+        } else if (walk->part < 2) {
+            walk->at = parts[walk->part++];
+        } else {
+            return NULL;
+        }
     }
-    return walk->at->name ? walk->at++ : NULL;
 }
 
 static bool unknown_option(const cli_table *options, const char *name, size_t length)
@@ -174,15 +206,6 @@ static bool unknown_letter(const cli_table *options, char letter)
     return false;
 }
 
-static const cli_option *by_name(const cli_table *options, const char *name, size_t length)
-{
-    option_walk walk = begin_walk(options);
-    for (const cli_option *option; (option = next_option(&walk));)
-        if (strlen(option->name) == length && memcmp(option->name, name, length) == 0)
-            return option;
-    return NULL;
-}
-
 static const cli_option *by_letter(const cli_table *options, char letter)
 {
     option_walk walk = begin_walk(options);
@@ -190,6 +213,11 @@ static const cli_option *by_letter(const cli_table *options, char letter)
         if (option->letter == letter)
             return option;
     return NULL;
+}
+
+static bool set(const cli_table *options, void *settings, const cli_option *option, const char *value)
+{
+    return option->set(settings, option, value) && (!options->note || options->note(settings, option, value));
 }
 
 /* --name, --name=value, --name value. *next is the argument after it. */
@@ -212,7 +240,7 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
         }
         value = *(*next)++;
     }
-    return option->set(settings, option, value);
+    return set(options, settings, option, value);
 }
 
 /* -q, -lFILE, -l FILE; letters without values may stand together. */
@@ -224,7 +252,7 @@ static bool parse_letters(const cli_table *options, void *settings, const char *
         if (!option)
             return unknown_letter(options, *text);
         if (!option->value) {
-            if (!option->set(settings, option, NULL))
+            if (!set(options, settings, option, NULL))
                 return false;
             continue;
         }
@@ -236,7 +264,7 @@ static bool parse_letters(const cli_table *options, void *settings, const char *
             }
             value = *(*next)++;
         }
-        return option->set(settings, option, value);
+        return set(options, settings, option, value);
     }
     return true;
 }
@@ -265,7 +293,7 @@ void cli_print_options(const cli_table *options)
     option_walk walk = begin_walk(options);
     for (const cli_option *option; (option = next_option(&walk));) {
         char left[64], letter[8] = "    ";
-        if (option->letter)
+        if (option->letter && by_letter(options, option->letter) == option)
             snprintf(letter, sizeof letter, "-%c, ", option->letter);
         snprintf(left, sizeof left, "%s--%s%s%s", letter, option->name, option->value ? " " : "",
                  option->value ? option->value : "");

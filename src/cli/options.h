@@ -27,9 +27,12 @@ struct cli_option {
     const char *const *choices; /* of cli_set_choice: names in the order of the enum, ended by NULL */
 };
 
-/* The options of a command, in one or two parts that end with a name of NULL. */
+/* The options of a command, in parts that end with a name of NULL. Of options with one name, or one letter,
+   the first counts. */
 typedef struct cli_table {
-    const cli_option *first, *more; /* more may be NULL */
+    const cli_option *first, *more, *base; /* more and base may be NULL */
+    /* Told of every option that was set; or NULL. */
+    bool (*note)(void *settings, const cli_option *option, const char *value);
 } cli_table;
 
 /* Arguments that are no options, in their order. */
@@ -63,6 +66,9 @@ bool cli_parse(const cli_table *options, void *settings, const bool *help, int c
 __attribute__((__format__(__printf__, 1, 2)))
 #endif
 void cli_complain(const char *format, ...);
+
+/* From now on a complaint goes to text, without "ffd: "; NULL: to stderr again. */
+void cli_capture(char *text, size_t capacity);
 
 void cli_print_options(const cli_table *options);
 

@@ -6,8 +6,9 @@
 The meshes are made first (at the default size a GLB of 48 MB and an OBJ of v, vt, vn and quads of about 160 MB).
 Before that: what it takes to start. Each run of the program is followed by one of `dd bs=64M` on the same file, so that both meet the same machine;
 read and written data stay in the page cache. Time is wall-clock, memory the largest resident set of the process.
-Then what the lattice's size and normals with tangents cost, what a second thread brings to four million vertices, and
-what others take that are installed (assimp; SciPy and VTK, if the Python that runs this has them).
+Then what the lattice's size and normals with tangents cost, what a second thread brings to four million vertices, how
+many small meshes a second a batch does, and what others take that are installed (assimp; SciPy and VTK, if the Python
+that runs this has them).
 """
 
 import argparse
@@ -26,6 +27,7 @@ import time
 
 
 STARTS = 31
+JOBS, ALONE = 1000, 100
 SIZES = (4, 8, 16, 32, 64)
 
 
@@ -282,6 +284,46 @@ def print_threads(bench, folder, lattices):
     os.remove(target)
 
 
+def write_manifest(path, jobs):
+    with open(path, "w", encoding="ascii") as file:
+        for source, lattice, target in jobs:
+            file.write(json.dumps({"in": source, "lattice": lattice, "out": target}) + "\n")
+
+
+def print_batch(bench, folder, lattices):
+    """Meshes of about 1,000 vertices a second: different ones; one, with a thousand outputs, which is read and embedded
+    once; and by a command each."""
+    meshes, out = os.path.join(folder, "meshes"), os.path.join(folder, "outputs")
+    os.mkdir(meshes)
+    for ending, write in (("obj", write_obj), ("glb", write_glb)):
+        sources = [os.path.join(meshes, f"{k}.{ending}") for k in range(JOBS)]
+        make(write, sources[0], 32)
+        for source in sources[1:]:
+            shutil.copyfile(sources[0], source)
+        for name, lattice in lattices.items():
+            rates = {}
+            for kind, shared in (("meshes", False), ("outputs of one mesh", True)):
+                manifest = os.path.join(folder, "jobs.jsonl")
+                write_manifest(manifest, [(sources[0 if shared else k], lattice, os.path.join(out, f"{k}.{ending}"))
+                                          for k in range(JOBS)])
+                times = []
+                for _ in range(bench.runs):
+                    os.mkdir(out)
+                    command = [bench.ffd, "batch", manifest, "--quiet", "--journal", os.path.join(folder, "journal")]
+                    times.append(measure(command)[0])
+                    shutil.rmtree(out)
+                rates[kind] = JOBS / statistics.median(times)
+            os.mkdir(out)
+            start = time.perf_counter()
+            for k in range(ALONE):
+                subprocess.run(bench.command(sources[k], os.path.join(out, f"{k}.{ending}"), lattice), check=True)
+            rates["commands"] = ALONE / (time.perf_counter() - start)
+            shutil.rmtree(out)
+            print(f"batch {ending} {name}: " + ", ".join(f"{rate:.0f} {kind}/s" for kind, rate in rates.items()),
+                  flush=True)
+    shutil.rmtree(meshes)
+
+
 def print_peers(bench, folder, lattice):
     """Others that are installed, with the same OBJ: reading and writing it without any deformation."""
     source, target = os.path.join(folder, "in.obj"), os.path.join(folder, "peer.obj")
@@ -406,6 +448,7 @@ def main():
                 os.remove(path)
         print_attributes(bench, folder, lattices)
         print_threads(bench, folder, lattices)
+        print_batch(bench, folder, lattices)
         print_scipy(bench)
         print_vtk(bench)
     if arguments.csv:

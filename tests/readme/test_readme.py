@@ -54,7 +54,7 @@ def tutorial(text, ffd, source):
         os.symlink(os.path.abspath(ffd), os.path.join(tools, "ffd"))
         environment = dict(os.environ, PATH=tools + os.pathsep + os.environ["PATH"])
         for language, name, content in blocks(text):
-            if language in ("json", "ninja", "make"):
+            if language in ("json", "csv", "ninja", "make"):
                 with open(os.path.join(data, name), "w", encoding="utf-8") as file:
                     file.write(content)
             elif language == "sh" and not name:

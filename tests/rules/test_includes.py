@@ -27,7 +27,8 @@ LAYERS = {
     "io/openmesh": {"mesh", "base"},
     "job": {"base", "spline", "lattice", "embed", "deform", "fold", "mesh", "io", "io/obj", "io/gltf", "io/npy",
             "io/off", "io/openmesh", "io/ply", "io/stl", "io/write"},
-    "cli": set(),
+    "batch": {"base", "io", "mesh", "job"},
+    "cli": {"batch"},
 }
 
 # <header> pattern -> folders that may include it.
@@ -35,10 +36,10 @@ OUTSIDE = [
     (r"OpenMesh/", {"io/openmesh"}),
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf"}),
     (r"draco/|meshoptimizer\.h", {"io/gltf"}),
-    (r"jansson\.h", {"lattice", "io/gltf", "job"}),
+    (r"jansson\.h", {"lattice", "io/gltf", "job", "batch"}),
     (r"charconv", {"base"}),
     (r"xxhash\.h|xxh3\.h", {"base"}),
-    (r"unistd\.h|fcntl\.h|pthread\.h|sys/|dirent\.h|dlfcn\.h|sched\.h|windows\.h", {"base"}),
+    (r"unistd\.h|fcntl\.h|pthread\.h|sys/|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h", {"base"}),
 ]
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?:"([^"]+)"|<([^>]+)>)', re.M)

@@ -1,0 +1,302 @@
+#include "batch/batch.h"
+#include "base/file.h"
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include "batch/journal.h"
+#include "batch/progress.h"
+#include "job/deform_job.h"
+#include "job/depfile.h"
+#include "job/report.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Jobs that are known at a time: from the first one that has not ended. What ends before it waits here for
+   its turn in the report. */
+#define WINDOW ((size_t)1024)
+
+/* Jobs that wait for a worker; further ones are not read yet. */
+#define AHEAD ((size_t)256)
+
+/* Seconds between looks at the clock. */
+#define LOOK 0.1
+
+typedef struct batch_run {
+    const batch_desc *desc;
+    job_source *source;
+    worker_pool *pool;
+    job_journal *journal; /* NULL: there is none */
+    ffd_report *report;   /* likewise */
+    ffd_depfile *depfile; /* likewise */
+    batch_progress progress;
+    batch_counts counts;
+    pool_task *tasks[WINDOW]; /* in their order; count of them */
+    size_t count, waiting;
+    bool ended;   /* the source has no more jobs */
+    bool ending;  /* no more jobs are begun */
+    bool dropped; /* some were not begun */
+} batch_run;
+
+/* Reading jobs */
+
+static void fail_task(pool_task *task, const ffd_error *error)
+{
+    task->failure = *error;
+    task->state = TASK_ENDED;
+    task->outcome = OUTCOME_FAILED;
+}
+
+static ffd_status add_task(batch_run *run, pool_task *task)
+{
+    batch_job *const job = &task->job;
+    run->tasks[run->count++] = task;
+    if (job->error.status) {
+        fail_task(task, &job->error);
+        return FFD_OK;
+    }
+    task->mesh = ffd_hash(job->input, strlen(job->input));
+    if (run->journal)
+        task->has_record = ffd_journal_find(run->journal, job->target, &task->record);
+    run->waiting++;
+    return FFD_OK;
+}
+
+static ffd_status read_jobs(batch_run *run, ffd_error *error)
+{
+    while (!run->ended && !run->ending && run->count < WINDOW && run->waiting < AHEAD) {
+        bool more;
+        pool_task *const task = ffd_alloc_zero(1, sizeof *task);
+        if (!task)
+            return ffd_fail_memory(error);
+        const ffd_status status = ffd_jobs_next(run->source, &task->job, &more, error);
+        if (status || !more) {
+            ffd_task_free(task);
+            run->ended = true;
+            return status;
+        }
+        add_task(run, task);
+    }
+    return FFD_OK;
+}
+
+/* Jobs that have ended */
+
+static void say_error(batch_run *run, const ffd_error *error)
+{
+    char line[2100];
+    const size_t length = ffd_error_format(error, line, sizeof line - 1);
+    memcpy(line + (length < sizeof line - 2 ? length : sizeof line - 2), "\n", 2);
+    ffd_progress_print(&run->progress, line);
+}
+
+static void print_plan(const pool_task *task)
+{
+    const batch_job *const job = &task->job;
+    printf("%s %s -> %s\n", task->outcome == OUTCOME_SKIPPED ? "up to date:" : "to do:", job->input,
+           ffd_job_output_name(job));
+}
+
+static ffd_status report_task(batch_run *run, const pool_task *task, ffd_error *error)
+{
+    if (!run->report)
+        return FFD_OK;
+    if (task->entry.size)
+        return ffd_report_add_text(run->report, task->entry.data, task->entry.size, error);
+    ffd_job_result result;
+    byte_buffer text = {0};
+    ffd_result_clear(&result);
+    result.status = task->failure.status;
+    result.error = task->failure;
+    const report_entry entry = {.line = task->job.line,
+                                .input = task->job.input ? task->job.input : "",
+                                .output = ffd_job_output_name(&task->job),
+                                .result = &result,
+                                .stable = run->desc->pool.stable};
+    ffd_report_entry_text(&entry, &text);
+    const ffd_status status =
+        text.failed ? ffd_fail_memory(error) : ffd_report_add_text(run->report, text.data, text.size, error);
+    ffd_buffer_free(&text);
+    return status;
+}
+
+static ffd_status end_task(batch_run *run, pool_task *task, ffd_error *error)
+{
+    uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
+    ++*counts[task->outcome];
+    if (task->log.size && !task->log.failed) {
+        ffd_buffer_append(&task->log, "", 1);
+        ffd_progress_print(&run->progress, task->log.data);
+    }
+    if (task->failure.status)
+        say_error(run, &task->failure);
+    if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
+        print_plan(task);
+    if (task->outcome == OUTCOME_FAILED && run->desc->stop)
+        run->ending = true;
+    if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
+        ffd_journal_put(run->journal, task->job.target, &task->record);
+    if (run->depfile && task->rule.size)
+        ffd_depfile_add(run->depfile, &task->rule);
+    return report_task(run, task, error);
+}
+
+/* A job that is not valid is not begun either once no more are. */
+static void drop_invalid(batch_run *run, pool_task *task)
+{
+    if (run->ending && task->job.error.status) {
+        task->state = TASK_DROPPED;
+        run->dropped = true;
+    }
+}
+
+/* Takes the jobs that have ended, and none before them has not, out of the window. */
+static ffd_status take_ended(batch_run *run, ffd_error *error)
+{
+    size_t taken = 0;
+    ffd_status status = FFD_OK;
+    for (; taken < run->count && !status; taken++) {
+        pool_task *const task = run->tasks[taken];
+        if (task->state != TASK_ENDED && task->state != TASK_DROPPED)
+            break;
+        drop_invalid(run, task);
+        if (task->state == TASK_ENDED)
+            status = end_task(run, task, error);
+        ffd_task_free(task);
+    }
+    run->count -= taken;
+    memmove(run->tasks, run->tasks + taken, run->count * sizeof *run->tasks);
+    return status;
+}
+
+/* The whole */
+
+static void count_waiting(batch_run *run)
+{
+    run->waiting = 0;
+    for (size_t i = 0; i < run->count; i++)
+        run->waiting += run->tasks[i]->state == TASK_WAITS;
+}
+
+static void drop_waiting(batch_run *run)
+{
+    run->dropped = run->dropped || !run->ended;
+    for (size_t i = 0; i < run->count; i++)
+        if (run->tasks[i]->state == TASK_WAITS) {
+            run->tasks[i]->state = TASK_DROPPED;
+            run->dropped = true;
+        }
+    run->waiting = 0;
+}
+
+static void heed_interrupts(batch_run *run)
+{
+    const interrupt_wish wish = ffd_interrupt_wished();
+    if (wish != INTERRUPT_NONE)
+        run->ending = true;
+    if (run->ending)
+        drop_waiting(run);
+    if (wish == INTERRUPT_STOP)
+        ffd_pool_stop(run->pool);
+}
+
+static ffd_status run_jobs(batch_run *run, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    while (!status) {
+        status = read_jobs(run, error);
+        if (!status && !run->ending)
+            status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
+        if (!status && ffd_pool_running(run->pool) > 0)
+            ffd_pool_wait(run->pool, LOOK);
+        heed_interrupts(run);
+        if (!status)
+            status = take_ended(run, error);
+        count_waiting(run);
+        ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
+        if (run->count == 0 && (run->ended || run->ending))
+            break;
+    }
+    return status;
+}
+
+static ffd_status open_journal(batch_run *run, ffd_error *error)
+{
+    const batch_desc *const desc = run->desc;
+    const job_source_desc *const jobs = &desc->jobs;
+    const char *const origin = jobs->manifest ? jobs->manifest : jobs->table ? jobs->table : jobs->pattern;
+    char *const place =
+        desc->journal ? ffd_text_copy(desc->journal) : ffd_journal_place(origin, jobs->shard, jobs->shards);
+    ffd_error reason;
+    if (place && desc->pool.dry && !(desc->pool.resume && ffd_file_exists(place))) {
+        ffd_free(place); /* nothing is written, not even there */
+        return FFD_OK;
+    }
+    ffd_status status =
+        place ? ffd_journal_open(place, &run->journal, &reason)
+              : ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal (--journal names one)");
+    ffd_free(place);
+    if (!status)
+        return FFD_OK;
+    if (!desc->journal) { /* a journal only saves time */
+        if (desc->pool.resume)
+            say_error(run, &reason);
+        return FFD_OK;
+    }
+    if (error)
+        *error = reason;
+    return status;
+}
+
+static ffd_status open_all(batch_run *run, ffd_error *error)
+{
+    const batch_desc *const desc = run->desc;
+    pool_desc pool = desc->pool;
+    ffd_status status = ffd_jobs_open(&desc->jobs, &run->source, error);
+    if (!status)
+        status = open_journal(run, error);
+    if (!status && desc->report)
+        status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
+    if (!status && desc->depfile && !pool.dry)
+        status = ffd_depfile_create(desc->depfile, &run->depfile, error);
+    pool.report = run->report != NULL;
+    pool.depfile = run->depfile != NULL;
+    pool.records = run->journal != NULL;
+    pool.origin = status ? NULL : ffd_jobs_name(run->source);
+    return status ? status : ffd_pool_create(&pool, &run->pool, error);
+}
+
+static const char *remark_of(const batch_run *run)
+{
+    if (!run->dropped)
+        return "";
+    return ffd_interrupt_wished() == INTERRUPT_NONE ? "; the others were not begun (--stop)"
+                                                    : "; interrupted, the others were not begun";
+}
+
+ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
+{
+    batch_run run = {.desc = desc};
+    ffd_interrupt_watch();
+    ffd_progress_begin(&run.progress, desc->quiet);
+    ffd_status status = open_all(&run, error);
+    if (!status) {
+        status = run_jobs(&run, error);
+        if (status)
+            ffd_pool_stop(run.pool);
+        if (!status && run.report)
+            status = ffd_report_write(run.report, error);
+        if (!status && run.depfile && !run.counts.failed && !run.dropped)
+            status = ffd_depfile_write(run.depfile, error);
+        if (!status)
+            ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done", remark_of(&run));
+    }
+    *failed = run.counts.failed > 0 || run.dropped;
+    for (size_t i = 0; i < run.count; i++)
+        ffd_task_free(run.tasks[i]);
+    ffd_pool_destroy(&run.pool);
+    ffd_report_destroy(&run.report);
+    ffd_depfile_destroy(&run.depfile);
+    ffd_journal_close(&run.journal);
+    ffd_jobs_close(&run.source);
+    return status;
+}

@@ -1,0 +1,23 @@
+/* csv.h - one row of a table of values separated by commas (RFC 4180). */
+#ifndef FFD_BATCH_CSV_H
+#define FFD_BATCH_CSV_H
+
+#include "base/buffer.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct csv_row {
+    byte_buffer text; /* the cells, each ended by 0 */
+    size_t count;
+} csv_row;
+
+/* Whether the text ends within quotes: its row goes on in the next line. */
+bool ffd_csv_is_open(const char *text, size_t size);
+/* Splits a row that is whole. False where a quote stands in the middle of a cell, or the cell goes on behind
+   one. */
+bool ffd_csv_split(const char *text, size_t size, csv_row *row);
+/* The cell behind this one; the first for NULL. */
+const char *ffd_csv_next(const csv_row *row, const char *cell);
+void ffd_csv_free(csv_row *row);
+
+#endif

@@ -1,0 +1,104 @@
+#include "batch/fingerprint.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "io/formats.h"
+#include "job/source.h"
+#include <ffd/version.h>
+
+/* The hashes that a fingerprint is the hash of. */
+typedef struct hash_list {
+    hash128 *hashes;
+    size_t count, capacity;
+} hash_list;
+
+static ffd_status add_hash(hash_list *list, const hash128 *hash, ffd_error *error)
+{
+    if (!ffd_grow((void **)&list->hashes, &list->capacity, list->count + 1, sizeof *list->hashes))
+        return ffd_fail_memory(error);
+    list->hashes[list->count++] = *hash;
+    return FFD_OK;
+}
+
+static ffd_status add_file(hash_list *list, const char *path, ffd_error *error)
+{
+    file_input input;
+    const ffd_status status = ffd_file_load(path, &input, error);
+    if (status)
+        return status;
+    const hash128 hash = ffd_hash(input.data, input.size);
+    ffd_file_unload(&input);
+    return add_hash(list, &hash, error);
+}
+
+/* The mesh and what it refers to. Only formats that can refer to files are opened for that. */
+static ffd_status list_mesh(const ffd_source *source, path_list *files, ffd_error *error)
+{
+    ffd_format format;
+    mesh_document *document = NULL;
+    ffd_status status = ffd_source_format(source, &format, error);
+    if (!status && !ffd_format_table(format)->list_files)
+        return ffd_paths_add(files, source->path, error);
+    if (!status)
+        status = ffd_source_open(source, 1, &document, error);
+    if (!status)
+        status = ffd_source_files(source, document, files, error);
+    ffd_source_close(&document);
+    return status;
+}
+
+static ffd_status add_files(hash_list *list, const path_list *files, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < files->count && !status; i++)
+        status = add_file(list, files->paths[i], error);
+    return status;
+}
+
+static ffd_status add_words(hash_list *list, const fingerprint_words *words, ffd_error *error)
+{
+    const char *const version = ffd_version(), *end = words->first;
+    for (uint32_t i = 0; i < words->count; i++)
+        end += strlen(end) + 1;
+    const hash_block blocks[] = {{version, strlen(version) + 1},
+                                 {words->first, (size_t)(end - words->first)}};
+    const hash128 hash = ffd_hash_blocks(blocks, 2);
+    return add_hash(list, &hash, error);
+}
+
+static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
+{
+    if (!status)
+        *hash = ffd_hash(list->hashes, list->count * sizeof *list->hashes);
+    ffd_free(list->hashes);
+    return status;
+}
+
+ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
+                                  path_list *files, hash128 *hash, ffd_error *error)
+{
+    hash_list list = {0};
+    ffd_status status = add_words(&list, words, error);
+    if (!status)
+        status = list_mesh(&desc->input, files, error);
+    for (size_t i = 0; i < desc->lattice_count && !status; i++)
+        status = ffd_paths_add(files, desc->lattices[i], error);
+    if (!status && desc->embedding)
+        status = ffd_paths_add(files, desc->embedding, error);
+    if (!status)
+        status = add_files(&list, files, error);
+    return finish(&list, status, hash);
+}
+
+ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ffd_error *error)
+{
+    const ffd_source output = {.path = desc->in_place ? desc->input.path : desc->output,
+                               .format = desc->in_place ? desc->input.format : desc->output_format,
+                               .memory = desc->input.memory};
+    hash_list list = {0};
+    path_list files = {0};
+    ffd_status status = list_mesh(&output, &files, error);
+    if (!status)
+        status = add_files(&list, &files, error);
+    ffd_paths_free(&files);
+    return finish(&list, status, hash);
+}

@@ -1,0 +1,24 @@
+/* fingerprint.h - what tells whether an output is up to date: by content, not by time. */
+#ifndef FFD_BATCH_FINGERPRINT_H
+#define FFD_BATCH_FINGERPRINT_H
+
+#include "base/hash.h"
+#include "base/path_list.h"
+#include <ffd/job.h>
+#include <stdint.h>
+
+/* What a job says (batch_job's content). */
+typedef struct fingerprint_words {
+    const char *first; /* each ended by 0 */
+    uint32_t count;
+} fingerprint_words;
+
+/* Hashes all that the output depends on: the program's version, what the job says, and the bytes of the mesh,
+   the buffers that it refers to, the lattices and the embedding, which are added to files. Errors: those of
+   reading. */
+ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
+                                  path_list *files, hash128 *hash, ffd_error *error);
+/* Hashes the output and the buffers that it refers to. Errors: those of reading. */
+ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ffd_error *error);
+
+#endif

@@ -1,0 +1,299 @@
+#include "batch/job_source.h"
+#include "base/glob.h"
+#include "base/memory.h"
+#include "base/path.h"
+#include "batch/csv.h"
+#include "batch/lines.h"
+#include <string.h>
+
+struct job_source {
+    job_source_desc desc;
+    batch_frame frame;
+    char *folder;       /* the frame's */
+    uint64_t count;     /* of jobs so far, in all shards */
+    uint64_t line;      /* that the last one begins in */
+    line_reader reader; /* of manifest or table */
+    csv_row columns, row;
+    file_list files; /* of a pattern */
+};
+
+/* Lines */
+
+/* Blank ones are no jobs. */
+static bool is_blank(const byte_buffer *line)
+{
+    for (size_t i = 0; i < line->size; i++)
+        if (!strchr(" \t\r", line->data[i]))
+            return false;
+    return true;
+}
+
+/* A byte order mark, which editors write, is let pass. */
+static void skip_mark(line_reader *reader)
+{
+    byte_buffer *const line = &reader->line;
+    if (reader->number != 1 || line->size < 3 || memcmp(line->data, "\xef\xbb\xbf", 3) != 0)
+        return;
+    line->size -= 3;
+    memmove(line->data, line->data + 3, line->size + 1);
+}
+
+/* The next line that is not blank. */
+static ffd_status next_line(line_reader *reader, bool *more, ffd_error *error)
+{
+    ffd_status status;
+    do {
+        status = ffd_lines_next(reader, false, more, error);
+        if (!status && *more)
+            skip_mark(reader);
+    } while (!status && *more && is_blank(&reader->line));
+    return status;
+}
+
+static ffd_status read_manifest_line(job_source *source, batch_job *job)
+{
+    const line_reader *const reader = &source->reader;
+    if (!reader->too_long)
+        return ffd_job_parse(&source->frame, reader->line.data, reader->line.size, job);
+    ffd_fail_line(&job->error, FFD_E_INVALID, reader->name, (size_t)reader->number,
+                  "the line has more than %zu bytes", LINE_MOST);
+    return FFD_OK;
+}
+
+/* Tables */
+
+/* A row can go on over several lines. */
+static ffd_status next_row(job_source *source, csv_row *row, bool *more, bool *valid, ffd_error *error)
+{
+    line_reader *const reader = &source->reader;
+    ffd_status status = next_line(reader, more, error);
+    bool goes_on = *more;
+    source->line = reader->number;
+    while (!status && goes_on && !reader->too_long && ffd_csv_is_open(reader->line.data, reader->line.size))
+        status = ffd_lines_next(reader, true, &goes_on, error);
+    *valid = !status && !reader->too_long && ffd_csv_split(reader->line.data, reader->line.size, row);
+    return !status && row->text.failed ? ffd_fail_memory(error) : status;
+}
+
+/* A cell is what it says as JSON, or else a text. */
+static json_t *cell_value(const char *cell)
+{
+    json_t *const value = json_loads(cell, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, NULL);
+    return value ? value : json_string(cell);
+}
+
+static json_t *list_lattices(const job_source_desc *desc)
+{
+    json_t *const list = json_array();
+    for (size_t i = 0; i < desc->lattice_count; i++)
+        json_array_append_new(list, json_string(desc->lattices[i]));
+    return list;
+}
+
+/* Sets a member to the path of a cell, which stands in folder ("": the current one). */
+static void set_path(json_t *job, const char *member, const char *folder, const char *cell)
+{
+    char *const path = *folder && !ffd_path_is_absolute(cell) ? ffd_path_join(folder, cell) : NULL;
+    json_object_set_new(job, member, json_string(path ? path : cell));
+    ffd_free(path);
+}
+
+/* "in", "out", "lattice" are files, other columns numbers that are set. Files of the table stand beside it,
+   or go to the batch's folder. Free with json_decref. */
+static json_t *row_value(const job_source *source)
+{
+    const job_source_desc *const desc = &source->desc;
+    json_t *const job = json_object(), *const settings = json_object();
+    const char *column = NULL, *cell = NULL;
+    for (size_t i = 0; i < source->row.count; i++) {
+        column = ffd_csv_next(&source->columns, column);
+        cell = ffd_csv_next(&source->row, cell);
+        const bool is_file =
+            strcmp(column, "in") == 0 || strcmp(column, "out") == 0 || strcmp(column, "lattice") == 0;
+        if (is_file && *cell)
+            set_path(job, column, *column == 'o' && desc->out_dir ? desc->out_dir : source->folder, cell);
+        else if (!is_file)
+            json_object_set_new(settings, column, cell_value(cell));
+    }
+    if (desc->pattern && !json_object_get(job, "in"))
+        json_object_set_new(job, "in", json_string(desc->pattern));
+    if (desc->lattice_count && !json_object_get(job, "lattice"))
+        json_object_set_new(job, "lattice", list_lattices(desc));
+    json_object_set_new(job, "set", settings);
+    return job;
+}
+
+static ffd_status read_row(job_source *source, bool valid, batch_job *job)
+{
+    const size_t line = (size_t)job->line;
+    if (!valid) {
+        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line, "not a row of a CSV table");
+        return FFD_OK;
+    }
+    if (source->row.count != source->columns.count) {
+        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line,
+                      "a row of %zu cells in a table of %zu columns", source->row.count,
+                      source->columns.count);
+        return FFD_OK;
+    }
+    json_t *const value = row_value(source);
+    const ffd_status status = ffd_job_read(&source->frame, value, job);
+    json_decref(value);
+    return status;
+}
+
+static ffd_status read_columns(job_source *source, ffd_error *error)
+{
+    bool more, valid;
+    const ffd_status status = next_row(source, &source->columns, &more, &valid, error);
+    if (status)
+        return status;
+    if (!more || !valid)
+        return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, 1,
+                             "the first row of the table must name its columns");
+    return FFD_OK;
+}
+
+/* Patterns */
+
+static ffd_status read_file(const job_source *source, const char *path, batch_job *job)
+{
+    const job_source_desc *const desc = &source->desc;
+    json_t *const value = json_object();
+    char *const out = desc->out_dir ? ffd_path_join(desc->out_dir, ffd_path_name(path)) : NULL;
+    json_object_set_new(value, "in", json_string(path));
+    if (out)
+        json_object_set_new(value, "out", json_string(out));
+    json_object_set_new(value, "lattice", list_lattices(desc));
+    ffd_free(out);
+    const ffd_status status = ffd_job_read(&source->frame, value, job);
+    json_decref(value);
+    return status;
+}
+
+static int compare_names(const void *a, const void *b)
+{
+    return strcmp(ffd_path_name(*(const char *const *)a), ffd_path_name(*(const char *const *)b));
+}
+
+/* Two jobs with one output would overwrite each other's. */
+static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
+{
+    const file_list *const files = &source->files;
+    char **const sorted = ffd_alloc(files->count, sizeof *sorted);
+    ffd_status status = FFD_OK;
+    if (!sorted)
+        return ffd_fail_memory(error);
+    memcpy(sorted, files->paths, files->count * sizeof *sorted);
+    qsort(sorted, files->count, sizeof *sorted, compare_names);
+    for (size_t i = 1; i < files->count && !status; i++)
+        if (compare_names(&sorted[i - 1], &sorted[i]) == 0)
+            status = ffd_fail(error, FFD_E_ARGUMENT, "%s and %s would both be written as \"%s\"",
+                              sorted[i - 1], sorted[i], ffd_path_name(sorted[i]));
+    ffd_free(sorted);
+    return status;
+}
+
+static ffd_status find_files(job_source *source, ffd_error *error)
+{
+    const ffd_status status = ffd_glob(source->desc.pattern, &source->files, error);
+    if (status)
+        return status;
+    if (source->files.count == 0)
+        return ffd_fail_file(error, FFD_E_IO, source->desc.pattern, "no file matches this pattern");
+    return source->desc.out_dir ? refuse_equal_names(source, error) : FFD_OK;
+}
+
+/* All of them */
+
+static ffd_status open_text(job_source *source, const char *path, ffd_error *error)
+{
+    source->frame.name = ffd_path_shown(path);
+    source->folder =
+        strcmp(path, "-") == 0 || ffd_path_name(path) == path ? ffd_text_copy("") : ffd_path_folder(path);
+    if (!source->folder)
+        return ffd_fail_memory(error);
+    /* What the command line names beside a table does not stand beside that. */
+    source->frame.folder = source->desc.table ? "" : source->folder;
+    return ffd_lines_open(path, source->frame.name, &source->reader, error);
+}
+
+ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_error *error)
+{
+    *source = ffd_alloc_zero(1, sizeof **source);
+    if (!*source)
+        return ffd_fail_memory(error);
+    (*source)->desc = *desc;
+    (*source)->frame = (batch_frame){desc->pattern, "", desc->defaults, desc->default_count};
+    ffd_status status;
+    if (desc->manifest)
+        status = open_text(*source, desc->manifest, error);
+    else if (desc->table)
+        status = open_text(*source, desc->table, error);
+    else
+        status = find_files(*source, error);
+    if (!status && desc->table)
+        status = read_columns(*source, error);
+    if (status)
+        ffd_jobs_close(source);
+    return status;
+}
+
+/* The next job of any shard: whether there is one. */
+static ffd_status advance(job_source *source, bool *more, bool *valid, ffd_error *error)
+{
+    *valid = true;
+    if (source->desc.manifest) {
+        const ffd_status status = next_line(&source->reader, more, error);
+        source->line = source->reader.number;
+        return status;
+    }
+    if (source->desc.table)
+        return next_row(source, &source->row, more, valid, error);
+    *more = source->count < source->files.count;
+    source->line = source->count + 1;
+    return FFD_OK;
+}
+
+ffd_status ffd_jobs_next(job_source *source, batch_job *job, bool *more, ffd_error *error)
+{
+    bool valid, mine;
+    *job = (batch_job){0};
+    do {
+        const ffd_status status = advance(source, more, &valid, error);
+        if (status || !*more)
+            return status;
+        mine = source->count++ % source->desc.shards == source->desc.shard;
+    } while (!mine);
+    job->line = source->line;
+    const ffd_status status = source->desc.manifest ? read_manifest_line(source, job)
+                              : source->desc.table
+                                  ? read_row(source, valid, job)
+                                  : read_file(source, source->files.paths[source->count - 1], job);
+    return status ? ffd_fail_memory(error) : FFD_OK;
+}
+
+double ffd_jobs_fraction(const job_source *source)
+{
+    if (source->files.count)
+        return (double)source->count / (double)source->files.count;
+    return source->reader.size ? (double)source->reader.read / (double)source->reader.size : -1;
+}
+
+const char *ffd_jobs_name(const job_source *source)
+{
+    return source->frame.name;
+}
+
+void ffd_jobs_close(job_source **source)
+{
+    if (!*source)
+        return;
+    ffd_lines_close(&(*source)->reader);
+    ffd_csv_free(&(*source)->columns);
+    ffd_csv_free(&(*source)->row);
+    ffd_glob_free(&(*source)->files);
+    ffd_free((*source)->folder);
+    ffd_free(*source);
+    *source = NULL;
+}

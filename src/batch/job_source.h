@@ -1,0 +1,33 @@
+/* job_source.h - the jobs of a batch, one after the other: lines of a manifest, rows of a table, or the files
+   that a pattern names. */
+#ifndef FFD_BATCH_JOB_SOURCE_H
+#define FFD_BATCH_JOB_SOURCE_H
+
+#include "batch/job_words.h"
+
+typedef struct job_source_desc {
+    const char *manifest; /* JSON Lines, "-": standard input; or NULL */
+    const char *table;    /* CSV: a row a job, its first row names the columns; or NULL */
+    const char *pattern;  /* of a table's rows that have no "in": the mesh; else a pattern for meshes */
+    const char *const *lattices; /* with table and pattern: of all jobs that name none */
+    size_t lattice_count;
+    const char *out_dir; /* with pattern: where files keep their names; with table: the folder of "out" */
+    const batch_default *defaults;
+    size_t default_count;
+    uint64_t shard, shards; /* jobs shard, shard + shards, ... of all, counted from 0 */
+} job_source_desc;
+
+typedef struct job_source job_source;
+
+/* desc's texts must outlive the source. Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_ARGUMENT, FFD_E_MEMORY. */
+ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_error *error);
+/* Fills an empty job, to be freed by the caller in every case, with the next one; *more false: there is none.
+   What is wrong with the job itself is no failure. Errors: FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_jobs_next(job_source *source, batch_job *job, bool *more, ffd_error *error);
+/* The part of the jobs that was handed out, by bytes or files: 0 to 1; negative where it is not known. */
+double ffd_jobs_fraction(const job_source *source);
+/* What the jobs stand in, for messages. */
+const char *ffd_jobs_name(const job_source *source);
+void ffd_jobs_close(job_source **source);
+
+#endif

@@ -1,0 +1,46 @@
+/* job_words.h - a job as a line of a manifest says it (interface 5), and as the words of `ffd deform` that do
+   it. */
+#ifndef FFD_BATCH_JOB_WORDS_H
+#define FFD_BATCH_JOB_WORDS_H
+
+#include "base/buffer.h"
+#include "base/fail.h"
+#include <jansson.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+/* An option that holds for all jobs that do not have it themselves. */
+typedef struct batch_default {
+    const char *name;  /* "normals" */
+    const char *value; /* NULL: it takes none */
+} batch_default;
+
+/* What all jobs of a batch have in common. */
+typedef struct batch_frame {
+    const char *name;   /* of the manifest, in messages; lent, as all here */
+    const char *folder; /* that relative paths start from; "" for the current one */
+    const batch_default *defaults;
+    size_t default_count;
+} batch_frame;
+
+typedef struct batch_job {
+    uint64_t line;     /* in the manifest, from 1 */
+    char *input;       /* as the manifest names it; NULL where it does not */
+    char *output;      /* likewise; NULL too where the input is overwritten */
+    char *target;      /* where the output goes; NULL likewise */
+    byte_buffer words; /* arguments of `ffd deform`, each ended by 0 */
+    size_t word_count;
+    byte_buffer content; /* what the job says, but for where files are: each word ended by 0 */
+    ffd_error error;     /* what is wrong with the line; FFD_OK: nothing */
+} batch_job;
+
+/* Takes the members of value into an empty job whose line is set. What is wrong with them comes into its
+   error; returns only FFD_E_MEMORY. */
+ffd_status ffd_job_read(const batch_frame *frame, const json_t *value, batch_job *job);
+/* The same from a line of text. */
+ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size, batch_job *job);
+/* What its output is called: NULL where it has none. */
+const char *ffd_job_output_name(const batch_job *job);
+void ffd_job_free(batch_job *job);
+
+#endif

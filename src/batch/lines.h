@@ -1,0 +1,31 @@
+/* lines.h - a text file or stream line by line, in the memory of one line. */
+#ifndef FFD_BATCH_LINES_H
+#define FFD_BATCH_LINES_H
+
+#include "base/buffer.h"
+#include "base/fail.h"
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Longest line, in bytes. */
+#define LINE_MOST ((size_t)1 << 20)
+
+typedef struct line_reader {
+    FILE *file;
+    const char *name; /* for messages, lent */
+    uint64_t number;  /* of the line read last, from 1 */
+    uint64_t read;    /* bytes so far */
+    uint64_t size;    /* of the file; 0: not known */
+    byte_buffer line; /* the line read last, without its end, a 0 behind it */
+    bool too_long;    /* only its first LINE_MOST bytes are there */
+} line_reader;
+
+/* path "-": standard input. name must outlive the reader. Errors: FFD_E_IO. */
+ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reader, ffd_error *error);
+/* Reads the next line; *more false: there is none. append: behind what is there, after a line break. Errors:
+   FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_error *error);
+void ffd_lines_close(line_reader *reader);
+
+#endif

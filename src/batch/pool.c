@@ -1,0 +1,337 @@
+#include "batch/pool.h"
+#include "base/clock.h"
+#include "base/file.h"
+#include "base/memory.h"
+#include "base/thread.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Seconds that a worker has for tidying up, before it is ended without. */
+#define GRACE 1.0
+
+typedef struct pool_worker {
+    worker_process *process; /* NULL: not started, or ended */
+    pool_task *task;         /* NULL: idle */
+    byte_buffer answer;      /* what has come of it */
+    hash128 mesh;            /* of the task before or now */
+    bool has_mesh, timed_out, stopped;
+    double begin, deadline; /* deadline 0: none. Once stopped: when it is ended */
+} pool_worker;
+
+struct worker_pool {
+    pool_desc desc;             /* its workers above 0 */
+    int processors;             /* that they share */
+    pool_worker *workers;       /* desc.workers */
+    worker_process **processes; /* the same, for waiting */
+};
+
+ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error)
+{
+    *pool = ffd_alloc_zero(1, sizeof **pool);
+    if (!*pool)
+        return ffd_fail_memory(error);
+    (*pool)->desc = *desc;
+    (*pool)->processors = ffd_processor_count();
+    if (desc->workers == 0)
+        (*pool)->desc.workers = (*pool)->processors;
+    const size_t workers = (size_t)(*pool)->desc.workers;
+    (*pool)->workers = ffd_alloc_zero(workers, sizeof *(*pool)->workers);
+    (*pool)->processes = ffd_alloc_zero(workers, sizeof *(*pool)->processes);
+    if ((*pool)->workers && (*pool)->processes)
+        return FFD_OK;
+    ffd_pool_destroy(pool);
+    return ffd_fail_memory(error);
+}
+
+/* Sending */
+
+static void append_word(byte_buffer *text, const char *word)
+{
+    if (word)
+        ffd_buffer_append(text, word, strlen(word) + 1);
+}
+
+static uint32_t count_words(const byte_buffer *words)
+{
+    uint32_t count = 0;
+    for (size_t i = 0; i < words->size; i++)
+        count += words->data[i] == 0;
+    return count;
+}
+
+static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_task *task, int threads)
+{
+    const pool_desc *const desc = &pool->desc;
+    const batch_job *const job = &task->job;
+    byte_buffer text = {0};
+    ffd_buffer_append(&text, job->words.data, job->words.size);
+    ffd_buffer_append(&text, job->content.data, job->content.size);
+    append_word(&text, pool->desc.origin);
+    append_word(&text, job->input);
+    append_word(&text, ffd_job_output_name(job));
+    wire_task head;
+    memset(&head, 0, sizeof head); /* the bytes between members too: they go through a pipe */
+    head.line = job->line;
+    head.text_size = text.size;
+    head.word_count = (uint32_t)job->word_count;
+    head.content_words = count_words(&job->content);
+    head.threads = threads;
+    head.record = task->record;
+    head.has_record = task->has_record;
+    head.records = desc->records;
+    head.resume = desc->resume;
+    head.dry = desc->dry;
+    head.depfile = desc->depfile;
+    head.report = desc->report;
+    head.stable = desc->stable;
+    head.quiet = desc->quiet;
+    head.verbose = desc->verbose;
+    const bool sent = !text.failed && ffd_process_send(worker->process, &head, sizeof head) &&
+                      ffd_process_send(worker->process, text.data, text.size);
+    ffd_buffer_free(&text);
+    return sent;
+}
+
+/* Which worker does what */
+
+static bool is_of(const pool_worker *worker, const pool_task *task)
+{
+    return worker->has_mesh && ffd_hash_equal(&worker->mesh, &task->mesh);
+}
+
+/* Whether another worker has the task's mesh already. */
+static bool is_taken(const worker_pool *pool, const pool_worker *worker, const pool_task *task)
+{
+    for (int i = 0; i < pool->desc.workers; i++)
+        if (&pool->workers[i] != worker && is_of(&pool->workers[i], task))
+            return true;
+    return false;
+}
+
+static pool_task *choose(const worker_pool *pool, const pool_worker *worker, pool_task *const *tasks,
+                         size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (tasks[i] && tasks[i]->state == TASK_WAITS && !is_taken(pool, worker, tasks[i]))
+            return tasks[i];
+    return NULL;
+}
+
+/* Tasks that can run at once, this one among them: meshes that differ, as far as workers go. */
+static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size_t count)
+{
+    int found = 0;
+    const hash128 *last = NULL;
+    for (int i = 0; i < pool->desc.workers; i++)
+        found += pool->workers[i].task != NULL;
+    for (size_t i = 0; i < count && found < pool->desc.workers; i++) {
+        const pool_task *const task = tasks[i];
+        if (!task || task->state != TASK_WAITS || (last && ffd_hash_equal(last, &task->mesh)) ||
+            is_taken(pool, NULL, task))
+            continue;
+        found++;
+        last = &task->mesh;
+    }
+    return found < 1 ? 1 : found;
+}
+
+static void begin_task(worker_pool *pool, pool_worker *worker, pool_task *task, int threads)
+{
+    worker->task = task;
+    worker->mesh = task->mesh;
+    worker->has_mesh = true;
+    worker->timed_out = worker->stopped = false;
+    worker->begin = ffd_clock_seconds();
+    worker->deadline = pool->desc.timeout > 0 ? worker->begin + pool->desc.timeout : 0;
+    task->state = TASK_RUNS;
+    /* Where it cannot be sent the worker has ended, which shows when its answer is read. */
+    send_task(pool, worker, task, threads);
+}
+
+ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error)
+{
+    const pool_desc *const desc = &pool->desc;
+    for (int i = 0; i < desc->workers; i++) {
+        pool_worker *const worker = &pool->workers[i];
+        pool_task *const task = worker->task ? NULL : choose(pool, worker, tasks, count);
+        if (!task)
+            continue;
+        const ffd_status status =
+            worker->process ? FFD_OK : ffd_process_start(WORKER_NAME, &worker->process, error);
+        if (status && ffd_pool_running(pool) > 0)
+            return FFD_OK; /* with those that there are */
+        if (status)
+            return status;
+        task->state = TASK_RUNS;
+        worker->task = task; /* counted as one that runs */
+        const int runnable = count_runnable(pool, tasks, count), share = pool->processors / runnable;
+        begin_task(pool, worker, task, desc->threads ? desc->threads : share < 1 ? 1 : share);
+    }
+    return FFD_OK;
+}
+
+/* Ends */
+
+static void end_task(pool_worker *worker, wire_outcome outcome)
+{
+    worker->task->state = TASK_ENDED;
+    worker->task->outcome = outcome;
+    worker->task = NULL;
+    worker->deadline = 0;
+}
+
+/* Takes the answer, once it is whole. False where it is none. */
+static bool take_answer(pool_worker *worker)
+{
+    byte_buffer *const bytes = &worker->answer;
+    wire_answer head;
+    if (bytes->size < sizeof head)
+        return true;
+    memcpy(&head, bytes->data, sizeof head);
+    if (!worker->task || head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST ||
+        head.rule_size > WIRE_MOST)
+        return false;
+    if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size)
+        return true;
+    const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size;
+    pool_task *const task = worker->task;
+    ffd_buffer_append(&task->log, log, head.log_size);
+    ffd_buffer_append(&task->entry, entry, head.entry_size);
+    ffd_buffer_append(&task->rule, entry + head.entry_size, head.rule_size);
+    task->record = head.record;
+    task->has_record = head.has_record;
+    bytes->size = 0;
+    end_task(worker, (wire_outcome)head.outcome);
+    return true;
+}
+
+/* A job's failure that its worker could not tell. */
+static void describe_failure(const worker_pool *pool, const pool_worker *worker, const process_end *end,
+                             ffd_error *error)
+{
+    const char *const name = worker->task->job.input;
+    if (worker->timed_out)
+        ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g seconds (--timeout)",
+                      pool->desc.timeout);
+    else if (worker->stopped)
+        ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before its end");
+    else if (end->killed)
+        ffd_fail_file(error, FFD_E_MEMORY, name, "was ended by the system (%s), probably for want of memory",
+                      end->text);
+    else
+        ffd_fail_file(error, FFD_E_LIMIT, name, "crashed: %s", end->text);
+}
+
+static void end_worker(const worker_pool *pool, pool_worker *worker)
+{
+    process_end end;
+    ffd_process_finish(&worker->process, &end);
+    worker->answer.size = 0;
+    worker->has_mesh = false;
+    if (!worker->task)
+        return;
+    pool_task *const task = worker->task;
+    describe_failure(pool, worker, &end, &task->failure);
+    if (task->job.target)
+        ffd_output_discard(task->job.target);
+    end_task(worker, OUTCOME_FAILED);
+}
+
+static void receive(const worker_pool *pool, pool_worker *worker)
+{
+    const bool alive = ffd_process_receive(worker->process, &worker->answer);
+    if (take_answer(worker) && !worker->answer.failed && alive)
+        return;
+    if (alive)
+        ffd_process_kill(worker->process); /* what it says is no answer */
+    end_worker(pool, worker);
+}
+
+/* Time is up: the worker is asked to end, and if it does not, ended. */
+static void check_time(pool_worker *worker, double now)
+{
+    if (!worker->task || worker->deadline <= 0 || now < worker->deadline)
+        return;
+    if (worker->timed_out || worker->stopped) {
+        ffd_process_kill(worker->process);
+        worker->deadline = 0;
+        return;
+    }
+    worker->timed_out = true;
+    worker->deadline = now + GRACE;
+    ffd_process_stop(worker->process);
+}
+
+/* Seconds until the next deadline, at most `seconds`. */
+static double time_left(const worker_pool *pool, double seconds)
+{
+    const double now = ffd_clock_seconds();
+    for (int i = 0; i < pool->desc.workers; i++) {
+        const double deadline = pool->workers[i].task ? pool->workers[i].deadline : 0;
+        if (deadline > 0 && deadline - now < seconds)
+            seconds = deadline > now ? deadline - now : 0;
+    }
+    return seconds;
+}
+
+void ffd_pool_wait(worker_pool *pool, double seconds)
+{
+    for (int i = 0; i < pool->desc.workers; i++)
+        pool->processes[i] = pool->workers[i].process;
+    ffd_process_wait(pool->processes, (size_t)pool->desc.workers, time_left(pool, seconds));
+    const double now = ffd_clock_seconds();
+    for (int i = 0; i < pool->desc.workers; i++) {
+        if (!pool->workers[i].process)
+            continue;
+        receive(pool, &pool->workers[i]);
+        check_time(&pool->workers[i], now);
+    }
+}
+
+size_t ffd_pool_running(const worker_pool *pool)
+{
+    size_t count = 0;
+    for (int i = 0; i < pool->desc.workers; i++)
+        count += pool->workers[i].task != NULL;
+    return count;
+}
+
+void ffd_pool_stop(worker_pool *pool)
+{
+    const double end = ffd_clock_seconds() + GRACE;
+    for (int i = 0; i < pool->desc.workers; i++) {
+        pool_worker *const worker = &pool->workers[i];
+        if (!worker->task)
+            continue;
+        worker->stopped = true;
+        worker->deadline = end;
+        ffd_process_stop(worker->process);
+    }
+    while (ffd_pool_running(pool) > 0)
+        ffd_pool_wait(pool, GRACE);
+}
+
+void ffd_pool_destroy(worker_pool **pool)
+{
+    if (!pool || !*pool)
+        return;
+    for (int i = 0; (*pool)->workers && i < (*pool)->desc.workers; i++) {
+        ffd_process_finish(&(*pool)->workers[i].process, NULL);
+        ffd_buffer_free(&(*pool)->workers[i].answer);
+    }
+    ffd_free((*pool)->workers);
+    ffd_free((*pool)->processes);
+    ffd_free(*pool);
+    *pool = NULL;
+}
+
+void ffd_task_free(pool_task *task)
+{
+    if (!task)
+        return;
+    ffd_job_free(&task->job);
+    ffd_buffer_free(&task->log);
+    ffd_buffer_free(&task->entry);
+    ffd_buffer_free(&task->rule);
+    ffd_free(task);
+}

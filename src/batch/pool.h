@@ -1,0 +1,49 @@
+/* pool.h - the workers of a batch: which job each does, and how it ended. */
+#ifndef FFD_BATCH_POOL_H
+#define FFD_BATCH_POOL_H
+
+#include "batch/job_words.h"
+#include "batch/wire.h"
+
+typedef struct pool_desc {
+    int workers;        /* jobs at once; 0: one a processor */
+    int threads;        /* of a job; 0: what the others leave it */
+    double timeout;     /* seconds that a job may take; 0: any */
+    const char *origin; /* what the jobs stand in, for messages */
+    bool records, resume, dry, depfile, report, stable, quiet, verbose; /* as in wire_task */
+} pool_desc;
+
+typedef enum task_state { TASK_WAITS, TASK_RUNS, TASK_ENDED, TASK_DROPPED } task_state;
+
+/* A job on its way through the pool. */
+typedef struct pool_task {
+    batch_job job;
+    hash128 mesh;      /* of the name of its input: neighbours with the same one are left to one worker */
+    job_record record; /* before: of the last time, where has_record; afterwards: of this time, likewise */
+    bool has_record;
+    task_state state;
+    /* Once it has ended: */
+    wire_outcome outcome;
+    byte_buffer log;   /* lines for people */
+    byte_buffer rule;  /* of the depfile */
+    byte_buffer entry; /* of the report; empty where only `failure` is known */
+    ffd_error failure; /* of a job whose worker ended, or that was not valid from the start */
+} pool_task;
+
+typedef struct worker_pool worker_pool;
+
+ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error);
+/* Gives waiting tasks, which stand in their order in a list with gaps (NULL), to idle workers. Errors: no
+   worker can be started. */
+ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
+/* Waits until a task has ended, for so many seconds at most, and takes note of what has happened. */
+void ffd_pool_wait(worker_pool *pool, double seconds);
+/* The number of tasks that run. */
+size_t ffd_pool_running(const worker_pool *pool);
+/* Ends all running tasks, as failures. */
+void ffd_pool_stop(worker_pool *pool);
+void ffd_pool_destroy(worker_pool **pool);
+
+void ffd_task_free(pool_task *task);
+
+#endif

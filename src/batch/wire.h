@@ -1,0 +1,52 @@
+/* wire.h - what a batch and its workers say to each other. Both are one program on one machine: numbers go as
+   they are in memory. */
+#ifndef FFD_BATCH_WIRE_H
+#define FFD_BATCH_WIRE_H
+
+#include "base/hash.h"
+#include "base/process.h"
+#include <stdint.h>
+
+/* By this name a worker knows that it is one. */
+#define WORKER_NAME "ffd batch worker"
+
+/* What a finished job was made of, and what it made. */
+typedef struct job_record {
+    hash128 inputs, outputs;
+} job_record;
+
+/* To a worker: a task, and its texts behind it, each ended by 0: words, content, what the jobs stand in, and
+   what input and output are called. */
+typedef struct wire_task {
+    uint64_t line;     /* of the job */
+    job_record record; /* of the last time, where has_record */
+    uint64_t text_size;
+    uint32_t word_count, content_words;
+    int32_t threads;
+    bool has_record;
+    bool records; /* records are wanted */
+    bool resume;  /* outputs that are up to date stay, others are replaced */
+    bool dry;     /* nothing is to be deformed */
+    bool depfile; /* the rule of a depfile is wanted */
+    bool report;  /* the entry of a report is wanted */
+    bool stable;  /* without times */
+    bool quiet;   /* no warnings */
+    bool verbose; /* what else there is to say */
+} wire_task;
+
+typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire_outcome;
+
+/* From a worker: an answer, and its texts behind it. */
+typedef struct wire_answer {
+    uint64_t log_size;   /* lines for people, each with its line break */
+    uint64_t entry_size; /* of the report */
+    uint64_t rule_size;  /* of the depfile */
+    job_record record;
+    uint8_t outcome;
+    bool has_record;
+} wire_answer;
+
+/* Lengths beyond this are none. */
+#define WIRE_MOST ((uint64_t)1 << 28)
+
+#endif

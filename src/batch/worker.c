@@ -1,0 +1,206 @@
+#include "batch/worker.h"
+#include "base/fail.h"
+#include "base/interrupt.h"
+#include "base/memory.h"
+#include "batch/fingerprint.h"
+#include "batch/wire.h"
+#include "job/deform_job.h"
+#include "job/depfile.h"
+#include "job/report.h"
+#include <string.h>
+
+typedef struct batch_worker {
+    const worker_program *program;
+    ffd_share *share; /* what the next job may have in common with the last */
+    byte_buffer text; /* of the task: words, then content, then what input and output are called */
+    char **words;
+    size_t word_capacity;
+    byte_buffer log, entry, rule; /* of the answer */
+} batch_worker;
+
+/* The word behind this one. */
+static const char *behind(const char *word)
+{
+    return word + strlen(word) + 1;
+}
+
+static bool read_task(batch_worker *worker, wire_task *task)
+{
+    if (!ffd_process_take(task, sizeof *task) || task->text_size > WIRE_MOST)
+        return false;
+    worker->text.size = 0;
+    char *const text = ffd_buffer_room(&worker->text, task->text_size + 1);
+    if (!text || !ffd_process_take(text, task->text_size))
+        return false;
+    text[task->text_size] = 0;
+    worker->text.size = task->text_size;
+    return ffd_grow((void **)&worker->words, &worker->word_capacity, task->word_count + 1,
+                    sizeof *worker->words);
+}
+
+/* A line of the job's log. */
+typedef struct job_log {
+    byte_buffer *lines;
+    const char *subject;
+    bool quiet, verbose;
+} job_log;
+
+/* One line, whatever files are called. */
+static void add_line(byte_buffer *lines, const char *subject, const char *line)
+{
+    const size_t before = lines->size;
+    ffd_buffer_format(lines, "%s%s%s", subject, *subject ? ": " : "", line);
+    for (size_t i = before; i < lines->size; i++)
+        if ((unsigned char)lines->data[i] < 0x20 || lines->data[i] == 0x7f)
+            lines->data[i] = '?';
+    ffd_buffer_text(lines, "\n");
+}
+
+static void log_line(void *user, ffd_log_level level, const char *line)
+{
+    const job_log *const log = user;
+    if (level == FFD_LOG_WARNING ? !log->quiet : log->verbose)
+        add_line(log->lines, log->subject, line);
+}
+
+static void log_error(batch_worker *worker, const ffd_error *error)
+{
+    char line[2048];
+    ffd_error_format(error, line, sizeof line);
+    add_line(&worker->log, "", line);
+}
+
+/* Whether the output is there, and what it would become. */
+static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, wire_answer *answer)
+{
+    return task->resume && task->has_record && ffd_hash_equal(&answer->record.inputs, &task->record.inputs) &&
+           ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK &&
+           ffd_hash_equal(&answer->record.outputs, &task->record.outputs);
+}
+
+/* Deforms, or sees that it need not; files become those that the output is made of. */
+static ffd_status do_job(const wire_task *task, const fingerprint_words *words, ffd_deform_desc *desc,
+                         path_list *files, wire_answer *answer, ffd_job_result *result)
+{
+    ffd_status status = FFD_OK;
+    /* For a plan it also shows that they can be read. */
+    if (task->records || task->dry || task->depfile)
+        status = ffd_fingerprint_inputs(desc, words, files, &answer->record.inputs, &result->error);
+    if (status)
+        return status;
+    if (is_up_to_date(task, desc, answer)) {
+        answer->outcome = OUTCOME_SKIPPED;
+        return FFD_OK;
+    }
+    if (task->dry)
+        return FFD_OK;
+    /* What an earlier run left is this one's to replace. */
+    desc->force = desc->force || task->resume;
+    status = ffd_deform_run(desc, result, NULL);
+    if (!status && task->records)
+        answer->has_record = ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK;
+    return status;
+}
+
+/* What is wrong with the words is wrong with the line that they come from. Returns the status. */
+static ffd_status blame_manifest(const char *origin, const wire_task *task, ffd_error *error)
+{
+    char what[sizeof error->message];
+    if (error->status != FFD_E_ARGUMENT)
+        return error->status;
+    ffd_error_format(error, what, sizeof what);
+    return ffd_fail_line(error, FFD_E_INVALID, origin, (size_t)task->line, "%s", what);
+}
+
+static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_answer *answer,
+                            ffd_job_result *result)
+{
+    char *word = worker->text.data;
+    for (uint32_t i = 0; i < task->word_count; i++, word += strlen(word) + 1)
+        worker->words[i] = word;
+    const fingerprint_words words = {word, task->content_words};
+    const char *origin = word;
+    for (uint32_t i = 0; i < task->content_words; i++)
+        origin = behind(origin);
+    ffd_deform_desc desc;
+    void *const opened = worker->program->open((int)task->word_count, worker->words, &desc, &result->error);
+    if (!opened)
+        return blame_manifest(origin, task, &result->error);
+    job_log log = {&worker->log, desc.input.path, task->quiet, task->verbose};
+    desc.log = log_line;
+    desc.log_user = &log;
+    desc.quality = task->report;
+    desc.share = worker->share;
+    if (desc.threads == 0)
+        desc.threads = task->threads;
+    path_list files = {0};
+    ffd_status status = do_job(task, &words, &desc, &files, answer, result);
+    if (!status && task->depfile && !task->dry && desc.output)
+        status = ffd_depfile_rule(desc.output, &files, &worker->rule, &result->error);
+    ffd_paths_free(&files);
+    worker->program->close(opened);
+    return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
+}
+
+static void answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
+{
+    ffd_job_result result;
+    ffd_result_clear(&result);
+    result.status = run_words(worker, task, answer, &result);
+    if (result.status) {
+        answer->outcome = OUTCOME_FAILED;
+        log_error(worker, &result.error);
+    }
+    if (!task->report)
+        return;
+    const char *name = worker->text.data;
+    for (uint32_t i = 0; i < task->word_count + task->content_words + 1; i++)
+        name = behind(name);
+    const report_entry entry = {.line = task->line,
+                                .input = name,
+                                .output = behind(name),
+                                .result = &result,
+                                .skipped = answer->outcome == OUTCOME_SKIPPED,
+                                .stable = task->stable};
+    ffd_report_entry_text(&entry, &worker->entry);
+}
+
+static bool send_answer(batch_worker *worker, wire_answer *answer)
+{
+    if (worker->log.failed || worker->entry.failed || worker->rule.failed)
+        return false; /* without memory a worker ends; another one takes its place */
+    answer->log_size = worker->log.size;
+    answer->entry_size = worker->entry.size;
+    answer->rule_size = worker->rule.size;
+    return ffd_process_give(answer, sizeof *answer) && ffd_process_give(worker->log.data, worker->log.size) &&
+           ffd_process_give(worker->entry.data, worker->entry.size) &&
+           ffd_process_give(worker->rule.data, worker->rule.size);
+}
+
+bool ffd_worker_is(const char *name)
+{
+    return strcmp(name, WORKER_NAME) == 0;
+}
+
+int ffd_worker_run(const worker_program *program)
+{
+    batch_worker worker = {.program = program};
+    wire_task task;
+    ffd_interrupt_ignore();
+    ffd_process_follow_parent();
+    bool going = ffd_share_create(&worker.share, NULL) == FFD_OK;
+    while (going && read_task(&worker, &task)) {
+        wire_answer answer;
+        memset(&answer, 0, sizeof answer); /* the bytes between members too: they go through a pipe */
+        worker.log.size = worker.entry.size = worker.rule.size = 0;
+        answer_task(&worker, &task, &answer);
+        going = send_answer(&worker, &answer);
+    }
+    ffd_share_destroy(&worker.share);
+    ffd_buffer_free(&worker.text);
+    ffd_buffer_free(&worker.log);
+    ffd_buffer_free(&worker.entry);
+    ffd_buffer_free(&worker.rule);
+    ffd_free(worker.words);
+    return 0;
+}

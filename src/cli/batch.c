@@ -1,0 +1,176 @@
+/* batch.c - ffd batch: many jobs, from a manifest, a table or a pattern. */
+#include "batch/batch.h"
+#include "cli/command.h"
+#include "cli/deform.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct settings {
+    cli_deform_settings jobs; /* what the options that each job can have are checked with */
+    const char *journal, *table, *pattern;
+    int at_once;
+    uint64_t shard, shards;
+    double timeout;
+    bool resume, stop, keep_going, dry;
+    batch_default *defaults; /* what was given of them */
+    size_t default_count;
+} settings;
+
+/* Options that a job can have and that say something of the batch here. */
+static const char *const common[] = {"lattice",      "out-dir", "report",  "report-stable",
+                                     "threads",      "quiet",   "verbose", "help",
+                                     "input-format", "depfile", NULL};
+
+static bool set_shard(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    char *end;
+    errno = 0;
+    const unsigned long long shard = strtoull(value, &end, 10);
+    const bool slash = *value >= '0' && *value <= '9' && *end == '/' && end[1] >= '0' && end[1] <= '9';
+    const unsigned long long shards = slash ? strtoull(end + 1, &end, 10) : 0;
+    if (!slash || *end || errno || shard >= shards) {
+        cli_complain("--%s: \"%s\" is not I/N with I from 0 to N-1", option->name, value);
+        return false;
+    }
+    s->shard = shard;
+    s->shards = shards;
+    return true;
+}
+
+#define AT(field) offsetof(settings, field)
+static const cli_option own_options[] = {
+    {"jobs", 'j', "N", "jobs at once; default one a processor", cli_set_count, AT(at_once), NULL},
+    {"shard", 0, "I/N", "only every N-th job, from job I on; I from 0", set_shard, 0, NULL},
+    {"resume", 0, NULL, "leave outputs that are up to date by content; replace others", cli_set_flag,
+     AT(resume), NULL},
+    {"journal", 0, "FILE", "where --resume remembers what outputs were made of; default in the user's cache",
+     cli_set_text, AT(journal), NULL},
+    {"timeout", 0, "SECONDS", "that a job may take", cli_set_positive, AT(timeout), NULL},
+    {"stop", 0, NULL, "begin no more jobs after one has failed", cli_set_flag, AT(stop), NULL},
+    {"keep-going", 0, NULL, "do all jobs, whatever becomes of others; the default", cli_set_flag,
+     AT(keep_going), NULL},
+    {"dry-run", 0, NULL, "only tell what would be done", cli_set_flag, AT(dry), NULL},
+    {"in", 0, "GLOB", "without MANIFEST: these meshes; with --csv: the mesh of all rows", cli_set_text,
+     AT(pattern), NULL},
+    {"csv", 0, "TABLE", "a job a row: columns in, lattice, out; others set placeholders of the lattice",
+     cli_set_text, AT(table), NULL},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+static bool is_own(const char *name)
+{
+    for (int i = 0; common[i]; i++)
+        if (strcmp(common[i], name) == 0)
+            return true;
+    for (int i = 0; own_options[i].name; i++)
+        if (strcmp(own_options[i].name, name) == 0)
+            return true;
+    return false;
+}
+
+/* What is said of all jobs. */
+static bool note_default(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    if (is_own(option->name))
+        return true;
+    batch_default *grown = realloc(s->defaults, (s->default_count + 1) * sizeof *grown);
+    if (!grown) {
+        cli_complain("out of memory");
+        return false;
+    }
+    s->defaults = grown;
+    s->defaults[s->default_count++] = (batch_default){option->name, value};
+    return true;
+}
+
+static const char *wrong(const settings *s, const cli_words *words)
+{
+    const cli_deform_settings *jobs = &s->jobs;
+    const bool manifest = words->count == 1;
+    if (words->count > 1)
+        return "more than one MANIFEST";
+    if (!manifest && !s->table && !s->pattern)
+        return "needs MANIFEST, or --in, or --csv";
+    if (manifest && (s->table || s->pattern || jobs->out_dir || jobs->job.lattice_count))
+        return "MANIFEST says what --in, --csv, --lattice and --out-dir say";
+    if (!manifest && !s->table && !jobs->job.lattice_count)
+        return "--in needs a lattice (-l FILE)";
+    if (!manifest && !s->table && !jobs->out_dir && !jobs->in_place)
+        return "--in needs --out-dir or --in-place";
+    if (jobs->in_place && jobs->out_dir)
+        return "--in-place and --out-dir exclude each other";
+    if (s->stop && s->keep_going)
+        return "--stop and --keep-going exclude each other";
+    if (jobs->job.stable && !jobs->job.report)
+        return "--report-stable needs --report";
+    if (jobs->depfile_path && jobs->in_place)
+        return "--depfile has no meaning with --in-place: a file cannot depend on itself";
+    if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
+        return "what would be done and the report cannot both go to standard output";
+    if (manifest && jobs->job.report && strcmp(jobs->job.report, words->words[0]) == 0 &&
+        !cli_is_stream(jobs->job.report))
+        return "the report would replace the manifest";
+    return NULL;
+}
+
+static int run_batch(const settings *s, const cli_words *words)
+{
+    const cli_job *job = &s->jobs.job;
+    const batch_desc desc = {.jobs = {.manifest = words->count ? words->words[0] : NULL,
+                                      .table = s->table,
+                                      .pattern = s->pattern,
+                                      .lattices = job->lattices,
+                                      .lattice_count = job->lattice_count,
+                                      .out_dir = s->jobs.out_dir,
+                                      .defaults = s->defaults,
+                                      .default_count = s->default_count,
+                                      .shard = s->shard,
+                                      .shards = s->shards ? s->shards : 1},
+                             .pool = {.workers = s->at_once,
+                                      .threads = job->threads,
+                                      .timeout = s->timeout,
+                                      .resume = s->resume,
+                                      .dry = s->dry,
+                                      .stable = job->stable,
+                                      .quiet = job->talk.quiet,
+                                      .verbose = job->talk.verbose && !job->talk.quiet},
+                             .report = job->report,
+                             .depfile = s->jobs.depfile_path,
+                             .journal = s->journal,
+                             .stop = s->stop,
+                             .quiet = job->talk.quiet};
+    bool failed;
+    ffd_error error;
+    if (ffd_batch_run(&desc, &failed, &error))
+        return cli_fail(&error);
+    return failed ? EXIT_NO : EXIT_DONE;
+}
+
+static int run(const cli_command *command, int count, char **arguments)
+{
+    settings s = {0};
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (cli_job_begin(command, &s.jobs.job, count, arguments, &words, &code)) {
+        const char *why = wrong(&s, &words);
+        code = why ? cli_usage(command, why) : run_batch(&s, &words);
+        cli_job_end(&s.jobs.job, &words);
+    }
+    free(s.defaults);
+    return code;
+}
+
+const cli_command cli_batch = {
+    "batch",
+    "many jobs, unattended",
+    "usage: ffd batch MANIFEST [options]\n"
+    "       ffd batch --in GLOB -l LATTICE --out-dir DIR [options]\n"
+    "       ffd batch --csv TABLE [--in IN] [-l LATTICE] [--out-dir DIR] [options]\n"
+    "       MANIFEST: a job a line, as {\"in\": \"a.glb\", \"lattice\": \"x.json\",\n"
+    "       \"out\": \"o/a.glb\", \"options\": {\"normals\": \"keep\"}}; - is standard input\n"
+    "       exit 1: a job failed\n",
+    {own_options, cli_job_options, cli_deform_options, note_default},
+    run};

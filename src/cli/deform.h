@@ -1,0 +1,26 @@
+/* deform.h - what a batch takes over from ffd deform: its options, and single jobs by its words. */
+#ifndef FFD_CLI_DEFORM_H
+#define FFD_CLI_DEFORM_H
+
+#include "cli/job.h"
+
+/* Begins with what ffd check has too. */
+typedef struct cli_deform_settings {
+    cli_job job;
+    const char *output; /* of the one IN; NULL where there may be many */
+    const char *out_dir;
+    const char *depfile_path;
+    ffd_depfile *depfile; /* NULL: none is wanted */
+    int resources;
+    ffd_format output_format;
+    bool force, if_changed, in_place;
+} cli_deform_settings;
+
+/* Those of ffd deform alone; cli_job_options are the others. */
+extern const cli_option cli_deform_options[];
+
+/* The members of a worker_program (batch/worker.h). */
+void *cli_deform_open(int count, char **words, ffd_deform_desc *desc, ffd_error *error);
+void cli_deform_close(void *opened);
+
+#endif

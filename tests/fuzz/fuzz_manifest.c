@@ -1,0 +1,84 @@
+/* fuzz_manifest.c - lines of a manifest, and the same text as a table: what comes of a line is a job whose
+   words are those of a command, or one line that says what is wrong. */
+#include "batch/csv.h"
+#include "batch/job_words.h"
+#include "fuzz_target.h"
+#include "mutate_text.h"
+#include "promise.h"
+#include <string.h>
+
+static size_t count_words(const byte_buffer *words)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < words->size; i++)
+        count += words->data[i] == 0;
+    PROMISE(words->size == 0 || words->data[words->size - 1] == 0, "the last word has no end");
+    return count;
+}
+
+/* IN, OUT where there is one, and options. */
+static void check_words(const batch_job *job)
+{
+    const char *word = job->words.data;
+    const size_t count = count_words(&job->words), files = job->output ? 2 : 1;
+    PROMISE(count == job->word_count && count > files, "%zu words, said to be %zu", count, job->word_count);
+    for (size_t i = 0; i < count; i++, word += strlen(word) + 1)
+        PROMISE((i < files) == (word[0] != '-' || word[1] != '-'), "word %zu is %s", i, word);
+    PROMISE(job->input && *job->input && job->target && *job->target, "a job without files");
+    PROMISE(count_words(&job->content) >= 2, "the content lacks files");
+}
+
+static void check_line(const char *text, size_t size)
+{
+    static const batch_default defaults[] = {{"normals", "keep"}, {"force", NULL}, {"set", "A=1"}};
+    const batch_frame frame = {"m", "folder", defaults, 3};
+    batch_job job = {.line = 1};
+    PROMISE(ffd_job_parse(&frame, text, size, &job) == FFD_OK, "no memory");
+    if (job.error.status == FFD_OK)
+        check_words(&job);
+    else
+        PROMISE(job.error.status == FFD_E_INVALID && job.error.line == 1 && job.error.message[0] &&
+                    !strpbrk(job.error.message, "\r\n"),
+                "status %d says '%s'", job.error.status, job.error.message);
+    ffd_job_free(&job);
+}
+
+/* A row's cells, written again within quotes, are the same row. */
+static void check_row(const char *text, size_t size)
+{
+    csv_row row = {0}, again = {0};
+    byte_buffer quoted = {0};
+    if (memchr(text, 0, size) || !ffd_csv_split(text, size, &row)) {
+        ffd_csv_free(&row);
+        return;
+    }
+    PROMISE(!ffd_csv_is_open(text, size), "a whole row is said to go on");
+    const char *cell = NULL;
+    for (size_t i = 0; i < row.count; i++) {
+        cell = ffd_csv_next(&row, cell);
+        ffd_buffer_text(&quoted, i ? ",\"" : "\"");
+        for (const char *c = cell; *c; c++)
+            ffd_buffer_append(&quoted, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
+        ffd_buffer_text(&quoted, "\"");
+    }
+    PROMISE(ffd_csv_split(quoted.data, quoted.size, &again), "a row that was written is refused");
+    PROMISE(again.count == row.count && again.text.size == row.text.size &&
+                memcmp(again.text.data, row.text.data, row.text.size) == 0,
+            "a row that was written is another");
+    ffd_buffer_free(&quoted);
+    ffd_csv_free(&again);
+    ffd_csv_free(&row);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    const char *text = (const char *)data, *const end = text + size;
+    check_row(text, size);
+    while (text < end) {
+        const char *line = memchr(text, '\n', (size_t)(end - text));
+        line = line ? line : end;
+        check_line(text, (size_t)(line - text));
+        text = line + 1;
+    }
+    return 0;
+}

@@ -1,0 +1,246 @@
+/* test_job_source.c - jobs out of manifests and tables: their words, and what is refused. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/test_folder.h"
+#include "batch/job_source.h"
+#include "batch/lines.h"
+
+/* The words of a list, with bars between them. */
+static const char *joined(const byte_buffer *words)
+{
+    static char text[1000];
+    assert_true(words->size < sizeof text);
+    memcpy(text, words->data, words->size);
+    for (size_t i = 0; i + 1 < words->size; i++)
+        text[i] = text[i] ? text[i] : '|';
+    text[words->size] = 0;
+    return text;
+}
+
+static batch_job parsed(const batch_frame *frame, const char *text)
+{
+    batch_job job = {.line = 7};
+    assert_int_equal(ffd_job_parse(frame, text, strlen(text), &job), FFD_OK);
+    return job;
+}
+
+static void check_words(const batch_frame *frame, const char *text, const char *words, const char *content)
+{
+    batch_job job = parsed(frame, text);
+    if (job.error.status)
+        fail_msg("%s: %s", text, job.error.message);
+    assert_string_equal(joined(&job.words), words);
+    assert_string_equal(joined(&job.content), content);
+    size_t count = 0;
+    for (size_t i = 0; i < job.words.size; i++)
+        count += job.words.data[i] == 0;
+    assert_int_equal(job.word_count, count);
+    ffd_job_free(&job);
+}
+
+static void test_words(void **state)
+{
+    const batch_frame frame = {.name = "m", .folder = "f"}, here = {.name = "m", .folder = ""};
+    check_words(&frame, "{\"in\": \"a.obj\", \"lattice\": \"l.json\", \"out\": \"o/b.obj\"}",
+                "f/a.obj|f/o/b.obj|--lattice=f/l.json", "a.obj|o/b.obj");
+    check_words(&here, "{\"in\": \"-a.obj\", \"lattice\": [\"/l\", \"k\"], \"out\": \"b.obj\"}",
+                "./-a.obj|b.obj|--lattice=/l|--lattice=k", "-a.obj|b.obj");
+    check_words(
+        &frame,
+        "{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"options\": {\"falloff\": 0.1, \"x\": 12, "
+        "\"only\": [\"node:a\", \"node:b\"], \"yes\": true, \"no\": false, \"embedding\": \"e.npy\", "
+        "\"threads\": 2}, \"set\": {\"A\": [1, 0.5], \"B\": \"t\"}}",
+        "f/a|f/b|--lattice=f/l|--falloff=0.1|--x=12|--only=node:a|--only=node:b|--yes|"
+        "--embedding=f/e.npy|--threads=2|--set=A=[1,0.5]|--set=B=\"t\"",
+        "a|b|--falloff=0.1|--x=12|--only=node:a|--only=node:b|--yes|--embedding=e.npy|"
+        "--set=A=[1,0.5]|--set=B=\"t\"");
+    check_words(&here, "{\"in\": \"a\", \"lattice\": \"l\", \"options\": {\"in-place\": true}}",
+                "a|--lattice=l|--in-place", "a||--in-place");
+    (void)state;
+}
+
+/* A job's own options come in the place of the batch's. */
+static void test_defaults(void **state)
+{
+    static const batch_default defaults[] = {
+        {"normals", "keep"}, {"force", NULL}, {"set", "A=1"}, {"set", "B=2"}};
+    const batch_frame frame = {"m", "", defaults, 4};
+    check_words(&frame, "{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\"}",
+                "a|b|--lattice=l|--normals=keep|--force|--set=A=1|--set=B=2",
+                "a|b|--normals=keep|--set=A=1|--set=B=2");
+    check_words(
+        &frame,
+        "{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"options\": {\"normals\": \"recompute\", "
+        "\"force\": false}, \"set\": {\"B\": 3}}",
+        "a|b|--lattice=l|--set=A=1|--normals=recompute|--set=B=3",
+        "a|b|--set=A=1|--normals=recompute|--set=B=3");
+    (void)state;
+}
+
+static void test_refused(void **state)
+{
+    static const struct {
+        const char *text, *says;
+    } cases[] = {
+        {"[]", "a job is an object: {\"in\": ..., \"lattice\": ..., \"out\": ...}"},
+        {"{\"lattice\": \"l\", \"out\": \"b\"}", "\"in\" is missing"},
+        {"{\"in\": 1, \"lattice\": \"l\", \"out\": \"b\"}", "\"in\" is not the name of a file"},
+        {"{\"in\": \"\", \"lattice\": \"l\", \"out\": \"b\"}", "\"in\" is empty"},
+        {"{\"in\": \"-\", \"lattice\": \"l\", \"out\": \"b\"}",
+         "\"in\" is \"-\": jobs of a batch have no standard streams"},
+        {"{\"in\": \"a\", \"out\": \"b\"}", "\"lattice\" is missing"},
+        {"{\"in\": \"a\", \"lattice\": [], \"out\": \"b\"}", "\"lattice\" is an empty list"},
+        {"{\"in\": \"a\", \"lattice\": [\"l\", 2], \"out\": \"b\"}", "\"lattice\" is not the name of a file"},
+        {"{\"in\": \"a\", \"lattice\": \"l\"}", "\"out\" is missing"},
+        {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"option\": {}}",
+         "unknown key \"option\" (nearest: \"options\")"},
+        {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"options\": []}",
+         "\"options\" is not an object"},
+        {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"options\": {\"report\": \"r\"}}",
+         "\"report\" is not an option of a job"},
+        {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"options\": {\"falloff\": null}}",
+         "option \"falloff\" is neither a text, a number, true, false nor a list of these"},
+        {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"set\": 1}", "\"set\" is not an object"},
+    };
+    const batch_frame frame = {.name = "m", .folder = ""};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        batch_job job = parsed(&frame, cases[i].text);
+        assert_int_equal(job.error.status, FFD_E_INVALID);
+        assert_string_equal(job.error.message, cases[i].says);
+        assert_string_equal(job.error.file, "m");
+        assert_int_equal(job.error.line, 7);
+        ffd_job_free(&job);
+    }
+    (void)state;
+}
+
+/* Line numbers and inputs of all jobs: "1 a, 3 b"; a job that is refused has none. */
+static const char *listed(const job_source_desc *desc)
+{
+    static char text[1000];
+    job_source *source;
+    batch_job job;
+    bool more;
+    ffd_error error;
+    if (ffd_jobs_open(desc, &source, &error))
+        fail_msg("%s", error.message);
+    *text = 0;
+    for (;;) {
+        assert_int_equal(ffd_jobs_next(source, &job, &more, &error), FFD_OK);
+        if (!more)
+            break;
+        const size_t length = strlen(text);
+        snprintf(text + length, sizeof text - length, "%s%d %s", length ? ", " : "", (int)job.line,
+                 job.error.status ? "?" : job.input);
+        ffd_job_free(&job);
+    }
+    assert_true(ffd_jobs_fraction(source) >= 1);
+    ffd_jobs_close(&source);
+    return text;
+}
+
+#define JOB(in) "{\"in\": \"" in "\", \"lattice\": \"l\", \"out\": \"o\"}"
+
+static void test_manifest(void **state)
+{
+    put_text("m.jsonl", "\xef\xbb\xbf" JOB("a") "\n\n \t\r\n" JOB("b") "\r\nnothing\n" JOB("c"));
+    const char *const path = in_folder("m.jsonl");
+    assert_string_equal(listed(&(job_source_desc){.manifest = path, .shards = 1}), "1 a, 4 b, 5 ?, 6 c");
+    assert_string_equal(listed(&(job_source_desc){.manifest = path, .shards = 3}), "1 a, 6 c");
+    assert_string_equal(listed(&(job_source_desc){.manifest = path, .shard = 1, .shards = 3}), "4 b");
+    assert_string_equal(listed(&(job_source_desc){.manifest = path, .shard = 2, .shards = 3}), "5 ?");
+    assert_string_equal(listed(&(job_source_desc){.manifest = path, .shard = 4, .shards = 9}), "");
+    put_text("m.jsonl", "");
+    job_source *source;
+    assert_int_equal(
+        ffd_jobs_open(&(job_source_desc){.manifest = in_folder("no"), .shards = 1}, &source, NULL), FFD_E_IO);
+    (void)state;
+}
+
+/* A line without end costs no more memory than is said. */
+static void test_long_line(void **state)
+{
+    const size_t size = LINE_MOST + 100;
+    char *text = malloc(size);
+    assert_non_null(text);
+    memset(text, 'x', size);
+    memcpy(text + size - 60, "\n" JOB("z"), sizeof JOB("z"));
+    put("long.jsonl", text, size - 60 + sizeof JOB("z"));
+    free(text);
+    assert_string_equal(listed(&(job_source_desc){.manifest = in_folder("long.jsonl"), .shards = 1}),
+                        "1 ?, 2 z");
+    (void)state;
+}
+
+static void test_table(void **state)
+{
+    put_text("t.csv",
+             "in,out,A,\"B \"\"2\"\"\"\na,o1,1,x\n\n\"b\",o2,\"[1,\n2]\",\"y,z\"\nc,o3,1\nd\"e,o,1,2\n");
+    static const char *const lattices[] = {"l.json"};
+    job_source_desc desc = {
+        .table = in_folder("t.csv"), .lattices = lattices, .lattice_count = 1, .out_dir = "dir", .shards = 1};
+    job_source *source;
+    batch_job job;
+    bool more;
+    char expected[1000];
+    assert_int_equal(ffd_jobs_open(&desc, &source, NULL), FFD_OK);
+    static const char *const settings[] = {"--set=A=1|--set=B \"2\"=\"x\"",
+                                           "--set=A=[1,2]|--set=B \"2\"=\"y,z\""};
+    static const int lines[] = {2, 4, 6, 7};
+    for (int i = 0; i < 4; i++) {
+        assert_int_equal(ffd_jobs_next(source, &job, &more, NULL), FFD_OK);
+        assert_true(more);
+        assert_int_equal(job.line, lines[i]);
+        if (i < 2) {
+            snprintf(expected, sizeof expected, "%s/%c|dir/o%d|--lattice=l.json|%s", folder, "ab"[i], i + 1,
+                     settings[i]);
+            assert_string_equal(joined(&job.words), expected);
+        } else {
+            assert_string_equal(job.error.message, i == 2 ? "a row of 3 cells in a table of 4 columns"
+                                                          : "not a row of a CSV table");
+        }
+        ffd_job_free(&job);
+    }
+    assert_int_equal(ffd_jobs_next(source, &job, &more, NULL), FFD_OK);
+    assert_false(more);
+    ffd_jobs_close(&source);
+    put_text("empty.csv", "\n");
+    assert_int_equal(
+        ffd_jobs_open(&(job_source_desc){.table = in_folder("empty.csv"), .shards = 1}, &source, NULL),
+        FFD_E_INVALID);
+    (void)state;
+}
+
+static void test_pattern(void **state)
+{
+    static const char *const lattices[] = {"l.json"};
+    put_text("g2.obj", "");
+    put_text("g1.obj", "");
+    job_source_desc desc = {.pattern = in_folder("g*.obj"),
+                            .lattices = lattices,
+                            .lattice_count = 1,
+                            .out_dir = "dir",
+                            .shards = 1};
+    char expected[500];
+    snprintf(expected, sizeof expected, "1 %s/g1.obj, 2 %s/g2.obj", folder, folder);
+    assert_string_equal(listed(&desc), expected);
+    job_source *source;
+    desc.pattern = in_folder("nothing*");
+    assert_int_equal(ffd_jobs_open(&desc, &source, NULL), FFD_E_IO);
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_words),    cmocka_unit_test(test_defaults),  cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_manifest), cmocka_unit_test(test_long_line), cmocka_unit_test(test_table),
+        cmocka_unit_test(test_pattern),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
