@@ -57,13 +57,15 @@ static int end_of(void (*work)(void), int number)
     return WIFSIGNALED(status) ? WTERMSIG(status) : 100 + WEXITSTATUS(status);
 }
 
+static file_output *unfinished; /* of a child that ends */
+
 static void begin_two_files_in_a_folder(void)
 {
-    file_output *output;
     ffd_cleanup_on_signals();
-    if (ffd_output_create(&output, NULL) || ffd_output_folder(output, in_folder("new/deep"), NULL) ||
-        ffd_output_begin(output, in_folder("new/deep/a"), false, NULL) ||
-        ffd_output_begin(output, in_folder("old"), true, NULL) || ffd_output_write(output, "new", 3, NULL))
+    if (ffd_output_create(&unfinished, NULL) || ffd_output_folder(unfinished, in_folder("new/deep"), NULL) ||
+        ffd_output_begin(unfinished, in_folder("new/deep/a"), false, NULL) ||
+        ffd_output_begin(unfinished, in_folder("old"), true, NULL) ||
+        ffd_output_write(unfinished, "new", 3, NULL))
         _exit(9);
 }
 
@@ -134,16 +136,23 @@ static void run_writers(void)
 static void test_threads_at_work(void **state)
 {
     for (int n = 0; n < 60; n++) {
+        int ready[2], status;
+        assert_int_equal(pipe(ready), 0);
         const pid_t child = fork();
-        int status;
         assert_true(child >= 0);
         if (child == 0) {
             ffd_cleanup_on_signals();
+            write_file(in_folder("busy-0"), true);
             run_writers();
-            pause();
+            if (write(ready[1], "r", 1) == 1)
+                pause();
             _exit(8);
         }
-        nanosleep(&(struct timespec){.tv_nsec = 300000 + n * 50000}, NULL);
+        close(ready[1]);
+        char letter;
+        assert_int_equal(read(ready[0], &letter, 1), 1);
+        close(ready[0]);
+        nanosleep(&(struct timespec){.tv_nsec = n * 50000}, NULL);
         kill(child, signals[n % SIGNALS]);
         assert_int_equal(waitpid(child, &status, 0), child);
         assert_true(WIFSIGNALED(status));
