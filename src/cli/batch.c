@@ -163,6 +163,13 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
+static const cli_example examples[] = {
+    {"the jobs of a manifest, two at a time", "ffd batch jobs.jsonl -j 2 --report report.json"},
+    {"go on where a run was stopped", "ffd batch jobs.jsonl --resume"},
+    {"a folder of meshes", "ffd batch --in 'meshes/*.obj' -l bend.json --out-dir out"},
+    {NULL, NULL},
+};
+
 const cli_command cli_batch = {
     "batch",
     "many jobs, unattended",
@@ -173,4 +180,6 @@ const cli_command cli_batch = {
     "       \"out\": \"o/a.glb\", \"options\": {\"normals\": \"keep\"}}; - is standard input\n"
     "       exit 1: a job failed\n",
     {own_options, cli_job_options, cli_deform_options, note_default},
-    run};
+    run,
+    "MANIFEST",
+    examples};

@@ -107,9 +107,18 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
+static const cli_example examples[] = {
+    {"what a deformation would do", "ffd check cow.obj -l bend.json"},
+    {"fail where the deformed volume folds, or is not proven not to",
+     "ffd check cow.obj vase.obj -l bend.json --fail-on folds --quiet"},
+    {NULL, NULL},
+};
+
 const cli_command cli_check = {"check",
                                "what a deformation would do: folds, statuses, quality",
                                "usage: ffd check IN... -l LATTICE [-l LATTICE ...] [options]\n"
                                "       exit 1: a gate of --fail-on is violated\n",
-                               {cli_job_options, options, NULL, NULL},
-                               run};
+                               {.first = cli_job_options, .more = options},
+                               run,
+                               "MESH",
+                               examples};

@@ -8,6 +8,12 @@
 /* Exit codes that are not those of a status. */
 enum { EXIT_DONE = 0, EXIT_NO = 1, EXIT_USAGE = 2 };
 
+typedef struct cli_example {
+    const char *what; /* it does, as "deform a mesh" */
+    const char *line; /* of a shell, "ffd deform ..." */
+} cli_example;
+
+/* What there is to know of a command: help, the man page and the completions of shells are made from it. */
 typedef struct cli_command {
     const char *name;     /* "lattice new" */
     const char *summary;  /* one line */
@@ -15,9 +21,15 @@ typedef struct cli_command {
     cli_table options;
     /* Gets the arguments behind the name. Returns the exit code. */
     int (*run)(const struct cli_command *command, int count, char **arguments);
+    /* What arguments that are no options stand for, in the words of options' values: "MESH". */
+    const char *arguments;
+    const cli_example *examples; /* ended by NULL; a test runs them, one after the other */
 } cli_command;
 
 extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new;
+
+/* All of them, in the order of the help, ended by NULL. */
+extern const cli_command *const cli_commands[];
 
 void cli_print_help(const cli_command *command);
 

@@ -76,9 +76,17 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
+static const cli_example examples[] = {
+    {"the same, to the bit?", "ffd compare old.obj new.obj"},
+    {"the same to a millionth of a unit?", "ffd compare old.obj new.obj --tolerance 1e-6"},
+    {NULL, NULL},
+};
+
 const cli_command cli_compare = {"compare",
                                  "are two files the same mesh?",
                                  "usage: ffd compare A B [--tolerance T] [options]\n"
                                  "       exit 0: the same, 1: not\n",
-                                 {options, NULL, NULL, NULL},
-                                 run};
+                                 {.first = options},
+                                 run,
+                                 "MESH",
+                                 examples};

@@ -234,13 +234,24 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
+static const cli_example examples[] = {
+    {"bend a mesh", "ffd deform robot.glb bent.glb -l bend.json"},
+    {"many meshes into a folder, with a report",
+     "mkdir -p bent && ffd deform cow.obj vase.obj --out-dir bent -l twist.json --report report.json"},
+    {"from a stream to a stream",
+     "ffd deform - - --input-format obj --output-format ply -l bend.json <cow.obj >cow.ply"},
+    {NULL, NULL},
+};
+
 const cli_command cli_deform = {"deform",
                                 "move meshes with a lattice",
                                 "usage: ffd deform IN OUT -l LATTICE [-l LATTICE ...] [options]\n"
                                 "       ffd deform IN... --out-dir DIR -l LATTICE [options]\n"
                                 "       ffd deform IN... --in-place -l LATTICE [options]\n",
-                                {cli_job_options, cli_deform_options, NULL, NULL},
-                                run};
+                                {.first = cli_job_options, .more = cli_deform_options},
+                                run,
+                                "MESH",
+                                examples};
 
 /* A job of a batch. */
 typedef struct batch_opened {

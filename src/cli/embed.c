@@ -16,7 +16,7 @@ static const char *const space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
-    {"lattice", 'l', "FILE", "lattice file", cli_set_text, AT(lattice), NULL},
+    {"lattice", 'l', "LATTICE", "lattice file", cli_set_text, AT(lattice), NULL},
     {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside; statuses and hashes behind it",
      cli_set_text, AT(output), NULL},
     {"status", 0, "FILE.npy", "uint8 a vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
@@ -93,8 +93,18 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
+static const cli_example examples[] = {
+    {"u,v,w and the status of every vertex",
+     "ffd embed cow.obj -l bend.json -o cow.npy --status cow-status.npy"},
+    {"embed once, deform often", "ffd embed vase.obj -l bend.json -o vase.npy && ffd deform vase.obj "
+                                 "bent.obj -l bend.json --embedding vase.npy"},
+    {NULL, NULL},
+};
+
 const cli_command cli_embed = {"embed",
                                "u,v,w of every vertex",
                                "usage: ffd embed IN -l LATTICE -o FILE.npy [--status FILE.npy] [options]\n",
-                               {options, NULL, NULL, NULL},
-                               run};
+                               {.first = options},
+                               run,
+                               "MESH",
+                               examples};

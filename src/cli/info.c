@@ -45,8 +45,16 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
+static const cli_example examples[] = {
+    {"what is in a mesh", "ffd info robot.glb"},
+    {"a lattice, for a program to read", "ffd info bend.json --json"},
+    {NULL, NULL},
+};
+
 const cli_command cli_info = {"info",
                               "what is in a mesh or a lattice file",
                               "usage: ffd info FILE [--json]\n",
-                              {options, NULL, NULL, NULL},
-                              run};
+                              {.first = options},
+                              run,
+                              "MESH|LATTICE",
+                              examples};

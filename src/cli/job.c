@@ -49,24 +49,18 @@ static bool add_selector(void *context, const cli_option *option, const char *va
     return true;
 }
 
-static const struct {
-    const char *name;
-    ffd_gate gate;
-} gates[] = {{"folds", FFD_GATE_FOLDS},
-             {"outside", FFD_GATE_OUTSIDE},
-             {"multiple", FFD_GATE_MULTIPLE},
-             {"singular", FFD_GATE_SINGULAR}};
-enum { GATES = sizeof gates / sizeof *gates };
+static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", NULL};
+static const ffd_gate gates[] = {FFD_GATE_FOLDS, FFD_GATE_OUTSIDE, FFD_GATE_MULTIPLE, FFD_GATE_SINGULAR};
 
 static bool add_gate(cli_job *job, const cli_option *option, const char *word, size_t length)
 {
     cli_nearest nearest = {.word = word, .length = length};
-    for (int i = 0; i < GATES; i++) {
-        if (strlen(gates[i].name) == length && memcmp(gates[i].name, word, length) == 0) {
-            job->fail_on |= (unsigned)gates[i].gate;
+    for (int i = 0; gate_names[i]; i++) {
+        if (strlen(gate_names[i]) == length && memcmp(gate_names[i], word, length) == 0) {
+            job->fail_on |= (unsigned)gates[i];
             return true;
         }
-        cli_nearest_offer(&nearest, gates[i].name);
+        cli_nearest_offer(&nearest, gate_names[i]);
     }
     cli_complain("--%s: unknown gate \"%.*s\" (nearest: %s)", option->name, (int)(length < 60 ? length : 60),
                  word, nearest.best);
@@ -94,7 +88,7 @@ static const char *const space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(cli_job, field)
 const cli_option cli_job_options[] = {
-    {"lattice", 'l', "FILE", "lattice file; several are applied in this order", add_lattice, 0, NULL},
+    {"lattice", 'l', "LATTICE", "lattice file; several are applied in this order", add_lattice, 0, NULL},
     {"set", 0, "NAME=VALUE",
      "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", add_setting, 0,
      NULL},
@@ -118,7 +112,7 @@ const cli_option cli_job_options[] = {
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_text, AT(embedding), NULL},
     {"fail-on", 0, "GATES", "of folds,outside,multiple,singular: exit 1, nothing written, if there are any",
-     add_gates, 0, NULL},
+     add_gates, 0, gate_names},
     {"report", 0, "FILE|-", "JSON report", cli_set_text, AT(report), NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
     {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),

@@ -76,22 +76,21 @@ static bool set_degree(void *context, const cli_option *option, const char *valu
     return right;
 }
 
+static const char *const knots_names[] = {"clamped", "open",     "unclamped", "uniform",
+                                          "closed",  "periodic", NULL};
+
 static bool set_knots(void *context, const cli_option *option, const char *value)
 {
-    static const struct {
-        const char *name;
-        ffd_knots knots;
-    } known[] = {{"clamped", FFD_KNOTS_CLAMPED}, {"open", FFD_KNOTS_OPEN},
-                 {"unclamped", FFD_KNOTS_OPEN},  {"uniform", FFD_KNOTS_UNIFORM},
-                 {"closed", FFD_KNOTS_CLOSED},   {"periodic", FFD_KNOTS_CLOSED}};
+    static const ffd_knots known[] = {FFD_KNOTS_CLAMPED, FFD_KNOTS_OPEN,   FFD_KNOTS_OPEN,
+                                      FFD_KNOTS_UNIFORM, FFD_KNOTS_CLOSED, FFD_KNOTS_CLOSED};
     settings *s = context;
     char part[3][32];
     bool right = split_three(value, part);
     for (int a = 0; right && a < 3; a++) {
         right = false;
-        for (size_t i = 0; !right && i < sizeof known / sizeof *known; i++)
-            if (strcmp(part[a], known[i].name) == 0) {
-                s->desc.knots[a] = known[i].knots;
+        for (int i = 0; !right && knots_names[i]; i++)
+            if (strcmp(part[a], knots_names[i]) == 0) {
+                s->desc.knots[a] = known[i];
                 right = true;
             }
     }
@@ -145,7 +144,7 @@ static const cli_option options[] = {
     {"output", 'o', "LATTICE", "the file to write", cli_set_text, AT(output), NULL},
     {"size", 0, "N,M,O", "control points along u, v, w; default 4,4,4", set_size, 0, NULL},
     {"degree", 0, "N,M,O", "1 to 9; default 3, or less where there are fewer points", set_degree, 0, NULL},
-    {"knots", 0, "K,K,K", "clamped, open, uniform or closed; default clamped", set_knots, 0, NULL},
+    {"knots", 0, "K,K,K", "clamped, open, uniform or closed; default clamped", set_knots, 0, knots_names},
     {"margin", 0, "F", "room on every side, as a fraction of the extent; default 0.05", set_margin, 0, NULL},
     {"spacing", 0, "greville|uniform", "of the control points of a box; default greville", cli_set_choice,
      AT(spacing), spacing_names},
@@ -202,9 +201,18 @@ static int run(const cli_command *command, int count, char **arguments)
     return code;
 }
 
+static const cli_example examples[] = {
+    {"a box with more control points along y", "ffd lattice new cow.obj -o cow.json --size 4,6,4"},
+    {"a cylinder round an upright column",
+     "ffd lattice new column.obj -o column.json --shape cylinder --axis y"},
+    {NULL, NULL},
+};
+
 const cli_command cli_lattice_new = {"lattice new",
                                      "make a lattice round a mesh",
                                      "usage: ffd lattice new MESH -o LATTICE [--size 4,4,4] [--degree 3,3,3] "
                                      "[--shape box|cylinder] [options]\n",
-                                     {options, NULL, NULL, NULL},
-                                     run};
+                                     {.first = options},
+                                     run,
+                                     "MESH",
+                                     examples};

@@ -6,84 +6,13 @@
 #include <errno.h>
 #include <signal.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-static const cli_command *const commands[] = {&cli_deform, &cli_check,       &cli_embed, &cli_compare,
-                                              &cli_info,   &cli_lattice_new, &cli_batch};
-enum { COMMANDS = sizeof commands / sizeof *commands };
-
-void cli_print_help(const cli_command *command)
-{
-    printf("%s\n\n%s\nOptions:\n", command->summary, command->synopsis);
-    cli_print_options(&command->options);
-}
-
-const char *cli_shown(const char *path)
-{
-    return strcmp(path, "-") == 0 ? "standard input" : path;
-}
-
-bool cli_knows_format(const char *path, ffd_format given)
-{
-    if (given != FFD_FORMAT_AUTO || ffd_format_from_name(path) != FFD_FORMAT_AUTO)
-        return true;
-    if (strcmp(path, "-") == 0)
-        cli_complain("standard input needs --input-format " CLI_FORMATS);
-    else
-        cli_complain("%s: the ending is not that of a mesh format (" CLI_FORMATS ")", path);
-    return false;
-}
-
-void cli_log(void *user, ffd_log_level level, const char *line)
-{
-    const cli_talk *talk = user;
-    if (talk->quiet || (level != FFD_LOG_WARNING && !talk->verbose))
-        return;
-    cli_complain("%s: %s", cli_shown(talk->subject), line);
-}
-
-int cli_fail(const ffd_error *error)
-{
-    char line[2048];
-    ffd_error_format(error, line, sizeof line);
-    cli_complain("%s", line);
-    return ffd_status_exit_code(error->status);
-}
-
-int cli_usage(const cli_command *command, const char *why)
-{
-    cli_complain("%s: %s (ffd %s --help shows how)", command->name, why, command->name);
-    return EXIT_USAGE;
-}
-
-bool cli_begin(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
-               cli_words *words, int *exit_code)
-{
-    words->words = calloc((size_t)count + 1, sizeof *words->words);
-    if (!words->words) {
-        cli_complain("out of memory");
-        *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
-        return false;
-    }
-    if (!cli_parse(&command->options, settings, help, count, arguments, words)) {
-        *exit_code = EXIT_USAGE;
-    } else if (*help) {
-        cli_print_help(command);
-        *exit_code = EXIT_DONE;
-    } else {
-        return true;
-    }
-    free(words->words);
-    words->words = NULL;
-    return false;
-}
 
 static void print_overview(void)
 {
     printf("ffd %s - free-form deformation of meshes with B-spline lattices\n\nCommands:\n", ffd_version());
-    for (int i = 0; i < COMMANDS; i++)
-        printf("  ffd %-12s  %s\n", commands[i]->name, commands[i]->summary);
+    for (int i = 0; cli_commands[i]; i++)
+        printf("  ffd %-12s  %s\n", cli_commands[i]->name, cli_commands[i]->summary);
     printf("  ffd %-12s  %s\n  ffd %-12s  %s\n\nffd help COMMAND and ffd COMMAND --help tell more.\n", "help",
            "what there is, or one command", "--version", "the version");
 }
@@ -102,10 +31,10 @@ static int name_words(const cli_command *command, int count, char **arguments)
 
 static const cli_command *find_command(int count, char **arguments, int *words)
 {
-    for (int i = 0; i < COMMANDS; i++) {
-        *words = name_words(commands[i], count, arguments);
+    for (int i = 0; cli_commands[i]; i++) {
+        *words = name_words(cli_commands[i], count, arguments);
         if (*words)
-            return commands[i];
+            return cli_commands[i];
     }
     return NULL;
 }
@@ -116,8 +45,8 @@ static int unknown_command(int count, char **arguments)
     const bool two = strcmp(arguments[0], "lattice") == 0 && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
     cli_nearest nearest = {.word = typed, .length = strlen(typed)};
-    for (int i = 0; i < COMMANDS; i++)
-        cli_nearest_offer(&nearest, commands[i]->name);
+    for (int i = 0; cli_commands[i]; i++)
+        cli_nearest_offer(&nearest, cli_commands[i]->name);
     cli_nearest_offer(&nearest, "help");
     cli_complain("unknown command \"%s\" (nearest: %s)", typed, nearest.best);
     return EXIT_USAGE;

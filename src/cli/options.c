@@ -143,16 +143,9 @@ bool cli_parse_number(const char *text, double *value)
     return *end == 0 && isfinite(*value);
 }
 
-/* The way through the parts of a table. */
-typedef struct option_walk {
-    const cli_table *options;
-    const cli_option *at;
-    int part;
-} option_walk;
-
-static option_walk begin_walk(const cli_table *options)
+cli_option_walk cli_begin_walk(const cli_table *options)
 {
-    return (option_walk){options, options->first, 0};
+    return (cli_option_walk){options, options->first, 0};
 }
 
 static const cli_option *by_name(const cli_table *options, const char *name, size_t length)
@@ -165,8 +158,7 @@ static const cli_option *by_name(const cli_table *options, const char *name, siz
     return NULL;
 }
 
-/* The next option that counts; NULL behind the last. */
-static const cli_option *next_option(option_walk *walk)
+const cli_option *cli_next_option(cli_option_walk *walk)
 {
     const cli_option *const parts[] = {walk->options->more, walk->options->base};
     for (;;) {
@@ -185,8 +177,8 @@ static const cli_option *next_option(option_walk *walk)
 static bool unknown_option(const cli_table *options, const char *name, size_t length)
 {
     cli_nearest nearest = {.word = name, .length = length};
-    option_walk walk = begin_walk(options);
-    for (const cli_option *option; (option = next_option(&walk));)
+    cli_option_walk walk = cli_begin_walk(options);
+    for (const cli_option *option; (option = cli_next_option(&walk));)
         cli_nearest_offer(&nearest, option->name);
     cli_complain("unknown option --%.*s (nearest: --%s)", (int)(length < 60 ? length : 60), name,
                  nearest.best);
@@ -196,8 +188,8 @@ static bool unknown_option(const cli_table *options, const char *name, size_t le
 /* The nearest to a letter is the name that begins with it. */
 static bool unknown_letter(const cli_table *options, char letter)
 {
-    option_walk walk = begin_walk(options);
-    for (const cli_option *option; (option = next_option(&walk));)
+    cli_option_walk walk = cli_begin_walk(options);
+    for (const cli_option *option; (option = cli_next_option(&walk));)
         if (option->name[0] == letter) {
             cli_complain("unknown option -%c (nearest: --%s)", letter, option->name);
             return false;
@@ -208,8 +200,8 @@ static bool unknown_letter(const cli_table *options, char letter)
 
 static const cli_option *by_letter(const cli_table *options, char letter)
 {
-    option_walk walk = begin_walk(options);
-    for (const cli_option *option; (option = next_option(&walk));)
+    cli_option_walk walk = cli_begin_walk(options);
+    for (const cli_option *option; (option = cli_next_option(&walk));)
         if (option->letter == letter)
             return option;
     return NULL;
@@ -290,8 +282,8 @@ bool cli_parse(const cli_table *options, void *settings, const bool *help, int c
 
 void cli_print_options(const cli_table *options)
 {
-    option_walk walk = begin_walk(options);
-    for (const cli_option *option; (option = next_option(&walk));) {
+    cli_option_walk walk = cli_begin_walk(options);
+    for (const cli_option *option; (option = cli_next_option(&walk));) {
         char left[64], letter[8] = "    ";
         if (option->letter && by_letter(options, option->letter) == option)
             snprintf(letter, sizeof letter, "-%c, ", option->letter);

@@ -18,13 +18,16 @@ typedef struct cli_option cli_option;
 typedef bool (*cli_setter)(void *settings, const cli_option *option, const char *value);
 
 struct cli_option {
-    const char *name;  /* "lattice", without the dashes */
-    char letter;       /* 'l', or 0 */
-    const char *value; /* what stands for the value in the help, NULL: the option takes none */
+    const char *name; /* "lattice", without the dashes */
+    char letter;      /* 'l', or 0 */
+    /* What stands for the value in the help, NULL: the option takes none. Shells complete what words and
+       names of files they know in it (cli/pages/value.h). */
+    const char *value;
     const char *help;
     cli_setter set;
-    size_t offset;              /* of the field that set fills, for the common setters */
-    const char *const *choices; /* of cli_set_choice: names in the order of the enum, ended by NULL */
+    size_t offset; /* of the field that set fills, for the common setters */
+    /* Ended by NULL. Of cli_set_choice: names in the order of the enum; of others: what a list may hold. */
+    const char *const *choices;
 };
 
 /* The options of a command, in parts that end with a name of NULL. Of options with one name, or one letter,
@@ -34,6 +37,18 @@ typedef struct cli_table {
     /* Told of every option that was set; or NULL. */
     bool (*note)(void *settings, const cli_option *option, const char *value);
 } cli_table;
+
+/* The way through the parts of a table. */
+typedef struct cli_option_walk {
+    const cli_table *options;
+    const cli_option *at;
+    int part;
+} cli_option_walk;
+
+cli_option_walk cli_begin_walk(const cli_table *options);
+
+/* The next option that counts; NULL behind the last. */
+const cli_option *cli_next_option(cli_option_walk *walk);
 
 /* Arguments that are no options, in their order. */
 typedef struct cli_words {

@@ -1,0 +1,76 @@
+#include "cli/command.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const cli_command *const cli_commands[] = {&cli_deform,  &cli_batch, &cli_check,       &cli_embed,
+                                           &cli_compare, &cli_info,  &cli_lattice_new, NULL};
+
+void cli_print_help(const cli_command *command)
+{
+    printf("%s\n\n%s\nOptions:\n", command->summary, command->synopsis);
+    cli_print_options(&command->options);
+    printf("\nExamples:\n");
+    for (const cli_example *example = command->examples; example && example->line; example++)
+        printf("  %s:\n      %s\n", example->what, example->line);
+}
+
+const char *cli_shown(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+bool cli_knows_format(const char *path, ffd_format given)
+{
+    if (given != FFD_FORMAT_AUTO || ffd_format_from_name(path) != FFD_FORMAT_AUTO)
+        return true;
+    if (strcmp(path, "-") == 0)
+        cli_complain("standard input needs --input-format " CLI_FORMATS);
+    else
+        cli_complain("%s: the ending is not that of a mesh format (" CLI_FORMATS ")", path);
+    return false;
+}
+
+void cli_log(void *user, ffd_log_level level, const char *line)
+{
+    const cli_talk *talk = user;
+    if (talk->quiet || (level != FFD_LOG_WARNING && !talk->verbose))
+        return;
+    cli_complain("%s: %s", cli_shown(talk->subject), line);
+}
+
+int cli_fail(const ffd_error *error)
+{
+    char line[2048];
+    ffd_error_format(error, line, sizeof line);
+    cli_complain("%s", line);
+    return ffd_status_exit_code(error->status);
+}
+
+int cli_usage(const cli_command *command, const char *why)
+{
+    cli_complain("%s: %s (ffd %s --help shows how)", command->name, why, command->name);
+    return EXIT_USAGE;
+}
+
+bool cli_begin(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
+               cli_words *words, int *exit_code)
+{
+    words->words = calloc((size_t)count + 1, sizeof *words->words);
+    if (!words->words) {
+        cli_complain("out of memory");
+        *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
+        return false;
+    }
+    if (!cli_parse(&command->options, settings, help, count, arguments, words)) {
+        *exit_code = EXIT_USAGE;
+    } else if (*help) {
+        cli_print_help(command);
+        *exit_code = EXIT_DONE;
+    } else {
+        return true;
+    }
+    free(words->words);
+    words->words = NULL;
+    return false;
+}

@@ -1,0 +1,66 @@
+#!/usr/bin/env python3
+"""The examples of every command's help are right: at least two, one line each, run one after the other in a folder
+with the files that they speak of. FFD_DATA names data/."""
+
+import json
+import os
+import shutil
+import subprocess
+
+from harness import FFD, SECONDS, case, check, main
+
+DATA = os.environ["FFD_DATA"]
+FILES = {"cow.obj": "models/spot.obj", "robot.glb": "models/character.glb", "vase.obj": "models/vase.obj",
+         "old.obj": "models/vase.obj", "new.obj": "models/vase.obj", "column.obj": "models/column.obj",
+         "bend.json": "lattices/bend.json", "twist.json": "lattices/twist.json"}
+
+
+def commands(run):
+    lines = [line for line in run.ffd("help").text.splitlines() if line.startswith("  ffd ")]
+    names = [line[len("  ffd "):].split("  ")[0] for line in lines]
+    return [name for name in names if name not in ("help", "--version")]
+
+
+def examples(run, command):
+    """(what it does, line) of each."""
+    text = run.ffd("help", *command.split()).text.split("\nExamples:\n")[1]
+    lines = text.splitlines()
+    check(len(lines) % 2 == 0, f"{command}: an example without its line")
+    for what, line in zip(lines[::2], lines[1::2]):
+        check(what.startswith("  ") and what.endswith(":") and line.startswith("      "), f"{command}: {what!r}, {line!r}")
+        yield what.strip(), line.strip()
+
+
+def write_batch(work):
+    """A manifest, and a folder of meshes."""
+    with open(os.path.join(work, "jobs.jsonl"), "w", encoding="ascii") as file:
+        for name in ("cow.obj", "vase.obj"):
+            file.write(json.dumps({"in": name, "lattice": "bend.json", "out": "bent-" + name}) + "\n")
+    os.mkdir(os.path.join(work, "out"))
+    os.mkdir(os.path.join(work, "meshes"))
+    for name in ("cow.obj", "column.obj"):
+        shutil.copy(os.path.join(work, name), os.path.join(work, "meshes", name))
+
+
+@case
+def examples_run(run):
+    tools = run.folder_of("tools")
+    os.symlink(FFD, run.path(os.path.join(tools, "ffd")))
+    environment = dict(os.environ, PATH=run.path(tools) + os.pathsep + os.environ["PATH"])
+    for command in commands(run):
+        work = run.path(run.folder_of(f"work {command}"))
+        for name, source in FILES.items():
+            shutil.copy(os.path.join(DATA, source), os.path.join(work, name))
+        shutil.copytree(os.path.join(DATA, "models/Textures"), os.path.join(work, "Textures"))
+        write_batch(work)
+        count = 0
+        for what, line in examples(run, command):
+            check(f"ffd {command} " in line, f"{command}: not an example of it: {line}")
+            done = subprocess.run(["sh", "-eu", "-c", line], cwd=work, env=environment, stdin=subprocess.DEVNULL,
+                                  capture_output=True, timeout=SECONDS, check=False)
+            check(done.returncode == 0, f"{command}: {what} {line}: exit {done.returncode}, {done.stderr.decode()}")
+            count += 1
+        check(count >= 2, f"{command}: {count} examples")
+
+
+main()
