@@ -29,6 +29,7 @@ LAYERS = {
             "io/off", "io/openmesh", "io/ply", "io/stl", "io/write"},
     "batch": {"base", "io", "mesh", "job"},
     "cli": {"batch"},
+    "cli/pages": {"cli"},
 }
 
 # <header> pattern -> folders that may include it.

@@ -1,0 +1,90 @@
+#include "cli/pages/value.h"
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The names of kinds of files, and their endings. */
+static const struct {
+    const char *name, *endings;
+} kinds[] = {
+    {"MESH", "obj|gltf|glb|ply|off|stl"},
+    {"LATTICE", "json"},
+    {"REPORT", "json"},
+    {"MANIFEST", "jsonl"},
+    {"TABLE", "csv"},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static void append(char text[200], const char *separator, const char *more, size_t length)
+{
+    const size_t before = strlen(text);
+    const int needed =
+        snprintf(text + before, 200 - before, "%s%.*s", before ? separator : "", (int)length, more);
+    if (before + (size_t)needed >= 200) {
+        fprintf(stderr, "ffd-pages: no room for \"%s\"\n", more);
+        exit(1);
+    }
+}
+
+static bool is(const char *part, size_t length, const char *name)
+{
+    return strlen(name) == length && memcmp(part, name, length) == 0;
+}
+
+static bool is_word(const char *part, size_t length)
+{
+    for (size_t i = 0; i < length; i++)
+        if (!islower((unsigned char)part[i]) && !isdigit((unsigned char)part[i]))
+            return false;
+    return length > 0;
+}
+
+/* One of the parts that | separates. */
+static void take(pages_value *value, const char *part, size_t length)
+{
+    static const char file[] = "FILE";
+    if (is(part, length, "FORMAT"))
+        append(value->words, " ", "obj gltf glb ply off stl", 24);
+    else if (is_word(part, length))
+        append(value->words, " ", part, length);
+    else if (is(part, length, "DIR"))
+        value->folders = true;
+    else if (length >= 4 && memcmp(part, file, 4) == 0 && (length == 4 || part[4] == '.')) {
+        value->files = true;
+        if (length > 5)
+            append(value->endings, "|", part + 5, length - 5);
+    }
+    for (int i = 0; i < KINDS; i++)
+        if (is(part, length, kinds[i].name)) {
+            value->files = true;
+            append(value->endings, "|", kinds[i].endings, strlen(kinds[i].endings));
+        }
+}
+
+static pages_value parse(const char *text)
+{
+    pages_value value = {.words = ""};
+    while (text && *text) {
+        const size_t length = strcspn(text, "|");
+        take(&value, text, length);
+        text += length + (text[length] == '|');
+    }
+    return value;
+}
+
+pages_value pages_option_value(const cli_option *option)
+{
+    pages_value value = parse(option->value);
+    if (!option->choices || option->set == cli_set_choice)
+        return value;
+    value.list = true;
+    for (int i = 0; option->choices[i]; i++)
+        append(value.words, " ", option->choices[i], strlen(option->choices[i]));
+    return value;
+}
+
+pages_value pages_command_arguments(const cli_command *command)
+{
+    return parse(command->arguments);
+}

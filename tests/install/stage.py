@@ -1,0 +1,61 @@
+"""What the tests of the installed program share: a copy of what `meson install` puts down, and how commands run."""
+
+import json
+import os
+import subprocess
+import sys
+
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+
+def run(command, **more):
+    """Runs a command (a list, or a line for sh); returns its stdout. A failure ends the test, with all that was said."""
+    shell = isinstance(command, str)
+    done = subprocess.run(["sh", "-eu", "-c", command] if shell else command, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", errors="replace",
+                          check=False, **more)
+    if done.returncode != 0:
+        print(command if shell else " ".join(command))
+        print(done.stdout[-20000:] + done.stderr[-20000:])
+        sys.exit(f"exit {done.returncode} from the command above")
+    return done.stdout
+
+
+class Stage:
+    """A build installed below a folder (DESTDIR)."""
+
+    def __init__(self, build, root):
+        run(["meson", "install", "-C", build, "--no-rebuild", "--destdir", root])
+        self.root = root
+        self.options = {option["name"]: option["value"]
+                        for option in json.loads(run(["meson", "introspect", "--buildoptions", build]))}
+
+    def path(self, option, *more):
+        """Where a folder of Meson's ("bindir") lies now."""
+        return os.path.join(self.root + self.options["prefix"], self.options[option], *more)
+
+    def environment(self):
+        """In which programs are built with the installed library and run with it."""
+        libraries = self.path("libdir")
+        return dict(os.environ, PKG_CONFIG_PATH=os.path.join(libraries, "pkgconfig"), PKG_CONFIG_SYSROOT_DIR=self.root,
+                    LD_LIBRARY_PATH=libraries, PATH=self.path("bindir") + os.pathsep + os.environ["PATH"],
+                    PYTHONDONTWRITEBYTECODE="1")
+
+
+def commands(ffd):
+    """Command -> the text of its help; "" -> the overview."""
+    texts = {"": run([ffd, "help"])}
+    for line in texts[""].splitlines():
+        name = line[len("  ffd "):].split("  ")[0]
+        if line.startswith("  ffd ") and name not in ("help", "--version"):
+            texts[name] = run([ffd, "help", *name.split()])
+    if len(texts) < 2:
+        sys.exit("ffd help lists no commands")
+    return texts
+
+
+def finish(checked, what, findings):
+    for finding in findings:
+        print(finding)
+    print(f"{checked} {what} checked, {len(findings)} findings")
+    sys.exit(1 if findings or checked == 0 else 0)
