@@ -2,10 +2,19 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 
-SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../rules"))
+from tree import ROOT, files, finish, skip  # what the tests of rules share, too
+
+
+def need(*tools):
+    """Skips the test where a program is not there."""
+    for tool in tools:
+        if not shutil.which(tool):
+            skip(f"{tool} is not there")
 
 
 def run(command, **more):
@@ -19,6 +28,14 @@ def run(command, **more):
         print(done.stdout[-20000:] + done.stderr[-20000:])
         sys.exit(f"exit {done.returncode} from the command above")
     return done.stdout
+
+
+def copy_source(target):
+    """A copy of the files that are or would be in the repository; returns target."""
+    for path in files():
+        os.makedirs(os.path.dirname(os.path.join(target, path)), exist_ok=True)
+        shutil.copy(os.path.join(ROOT, path), os.path.join(target, path), follow_symlinks=False)
+    return target
 
 
 class Stage:
@@ -53,9 +70,3 @@ def commands(ffd):
         sys.exit("ffd help lists no commands")
     return texts
 
-
-def finish(checked, what, findings):
-    for finding in findings:
-        print(finding)
-    print(f"{checked} {what} checked, {len(findings)} findings")
-    sys.exit(1 if findings or checked == 0 else 0)

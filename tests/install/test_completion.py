@@ -128,6 +128,7 @@ def check(shell, folder, environment, texts):
 
 
 def main():
+    stage.need(*SETUP)
     findings, checked = [], 0
     with tempfile.TemporaryDirectory() as folder:
         folder = os.path.realpath(folder)

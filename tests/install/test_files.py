@@ -21,9 +21,9 @@ def expected(installed):
              f"{library}/pkgconfig/ffd.pc",
              f"{options['mandir']}/man1/ffd.1",
              f"{options['datadir']}/bash-completion/completions/ffd", f"{options['datadir']}/zsh/site-functions/_ffd"]
-    for header in glob.glob(os.path.join(stage.SOURCE, "include/ffd/*.h")):
+    for header in glob.glob(os.path.join(stage.ROOT, "include/ffd/*.h")):
         paths.append(f"{options['includedir']}/ffd/{os.path.basename(header)}")
-    for schema in glob.glob(os.path.join(stage.SOURCE, "data/**/*.schema.json"), recursive=True):
+    for schema in glob.glob(os.path.join(stage.ROOT, "data/**/*.schema.json"), recursive=True):
         paths.append(f"{options['datadir']}/ffd/{os.path.basename(schema)}")
     paths.append(f"{options['bindir']}/ffd")
     return {path: 0o755 if path.endswith("bin/ffd") or "libffd.so" in path else 0o644 for path in paths}

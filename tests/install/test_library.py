@@ -14,7 +14,7 @@ import tempfile
 
 import stage
 
-DATA = os.path.join(stage.SOURCE, "data")
+DATA = os.path.join(stage.ROOT, "data")
 
 
 def points_of(obj):
@@ -106,6 +106,7 @@ def python_example(folder, environment, findings):
 
 
 def main():
+    stage.need("pkg-config", "make")
     findings = []
     with tempfile.TemporaryDirectory() as folder:
         installed = stage.Stage(sys.argv[1], os.path.join(folder, "root"))

@@ -44,6 +44,7 @@ def pieces(text):
 
 
 def main():
+    stage.need("man", "mandoc")
     findings, checked = [], 0
     with tempfile.TemporaryDirectory() as folder:
         installed = stage.Stage(sys.argv[1], folder)
