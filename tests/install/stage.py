@@ -6,8 +6,10 @@ import shutil
 import subprocess
 import sys
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../rules"))
-from tree import ROOT, files, finish, skip  # what the tests of rules share, too
+for other in ("rules", "readme"):
+    sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), other))
+from test_readme import block
+from tree import ROOT, files, finish, read, skip
 
 
 def need(*tools):
@@ -28,6 +30,11 @@ def run(command, **more):
         print(done.stdout[-20000:] + done.stderr[-20000:])
         sys.exit(f"exit {done.returncode} from the command above")
     return done.stdout
+
+
+def readme(name):
+    """The commands of README.md's block ```sh NAME."""
+    return block(read("README.md"), name)
 
 
 def copy_source(target):

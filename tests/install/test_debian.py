@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""A Debian package is built from the source with data/packaging/debian as its debian/, lintian finds no error in it,
-and in a clean root, of nothing but Debian's essential packages and apt, it is installed with what it depends on, runs,
-and is removed again.
+"""Debian packages are built as README.md says, lintian finds no error in them, and in a clean root, of nothing but
+Debian's essential packages and apt, they are installed with what they depend on, run, and are removed again.
 
     test_debian.py FFD
 """
@@ -35,12 +34,11 @@ find / -xdev -path /check -prune -o -path /proc -prune -o -path /var/lib -prune 
 def build(folder):
     """Builds the packages into folder; returns their files by name."""
     source = stage.copy_source(os.path.join(folder, "ffd"))
-    shutil.copytree(os.path.join(source, "data/packaging/debian"), os.path.join(source, "debian"))
     # Without the packages of debug symbols, which take long.
     environment = dict(os.environ, DEB_BUILD_OPTIONS=f"noautodbgsym parallel={os.cpu_count()}")
     for name in ("CFLAGS", "CXXFLAGS", "LDFLAGS", "DESTDIR"):
         environment.pop(name, None)
-    stage.run(["dpkg-buildpackage", "-us", "-uc", "-b"], cwd=source, env=environment)
+    stage.run(stage.readme("package"), cwd=source, env=environment)
     return {os.path.basename(path).split("_")[0]: path for path in glob.glob(os.path.join(folder, "*.deb"))}
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The examples of data/examples are built and run as their readers would do it, against an installed copy of the
-library, and what they put out is what the program ffd makes of the same points and meshes.
+"""The examples of data/examples are built and run as README.md says, against an installed copy of the library, and
+what they put out is what the program ffd makes of the same points and meshes.
 
     test_library.py BUILD-FOLDER
 """
@@ -14,23 +14,50 @@ import tempfile
 
 import stage
 
-DATA = os.path.join(stage.ROOT, "data")
+
+class Place:
+    """A copy of data/, in a folder of its own, and the installed ffd."""
+
+    def __init__(self, folder, installed):
+        self.folder, self.environment = folder, installed.environment()
+        shutil.copytree(os.path.join(stage.ROOT, "data"), self.path("data"))
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def run(self, command):
+        return stage.run(command, cwd=self.folder, env=self.environment)
+
+    def fails(self, command, given=""):
+        """Exit code and stderr."""
+        done = subprocess.run(command, cwd=self.folder, env=self.environment, input=given, text=True,
+                              capture_output=True, check=False)
+        return done.returncode, done.stderr
+
+    def read(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
+    def rows(self, name):
+        return [[float(x) for x in line.split()] for line in self.read(name).splitlines()]
+
+    def write_json(self, name, content):
+        with open(self.path(name), "w", encoding="ascii") as file:
+            json.dump(content, file)
+
+    def deformed(self, mesh, lattice):
+        """What ffd makes of a mesh."""
+        output = "expected" + os.path.splitext(mesh)[1]
+        self.run(["ffd", "deform", mesh, output, "-l", lattice, "--force"])
+        return self.read(output)
+
+
+VASE = "data/models/vase.obj"
 
 
 def points_of(obj):
-    with open(obj, encoding="ascii") as file:
-        return [[float(x) for x in line.split()[1:4]] for line in file if line.startswith("v ")]
-
-
-def rows(text):
-    return [[float(x) for x in line.split()] for line in text.splitlines()]
-
-
-def deformed(mesh, lattice, environment, folder):
-    """Where ffd carries the vertices of an OBJ: their numbers are written in full."""
-    output = os.path.join(folder, "expected.obj")
-    stage.run(["ffd", "deform", mesh, output, "-l", lattice, "--force"], env=environment)
-    return points_of(output)
+    """ffd writes the coordinates of an OBJ in full."""
+    return [[float(x) for x in line.split()[1:4]] for line in obj.splitlines() if line.startswith(b"v ")]
 
 
 def equal(findings, found, expected, what):
@@ -41,80 +68,53 @@ def equal(findings, found, expected, what):
         findings.append(f"{what}: point {i} is {found[i]} instead of {expected[i]}")
 
 
-def write_points(path, points):
-    with open(path, "w", encoding="ascii") as file:
-        file.writelines("%r %r %r\n" % tuple(point) for point in points)
+def check_c(place, findings):
+    equal(findings, place.rows("moved.txt"), points_of(place.deformed(VASE, "data/lattices/twist.json")), "C")
+    for name in ("local.json", "wave.json"):
+        lattice = f"data/lattices/{name}"
+        place.run(f"data/examples/c/deform_points {lattice} <points.txt >moved.txt")
+        equal(findings, place.rows("moved.txt"), points_of(place.deformed(VASE, lattice)), f"C, {name}")
+    code, said = place.fails(["data/examples/c/deform_points", "missing.json"], "0 0 0\n")
+    if code != 3 or not said.startswith("deform_points: missing.json: "):
+        findings.append(f"C: exit {code} without a lattice: {said!r}")
 
 
-def c_example(folder, environment, findings):
-    work = shutil.copytree(os.path.join(DATA, "examples/c"), os.path.join(folder, "c"))
-    mesh = os.path.join(DATA, "models/vase.obj")
-    write_points(os.path.join(work, "points"), points_of(mesh))
-    stage.run("make", cwd=work, env=environment)
-    for name in ("twist.json", "local.json", "wave.json"):
-        lattice = os.path.join(DATA, "lattices", name)
-        output = stage.run(f"./deform_points '{lattice}' <points", cwd=work, env=environment)
-        equal(findings, rows(output), deformed(mesh, lattice, environment, folder), f"C, {name}")
-    missing = subprocess.run(["./deform_points", "missing.json"], cwd=work, env=environment, text=True,
-                             input="0 0 0\n", capture_output=True, check=False)
-    if missing.returncode != 3 or not missing.stderr.startswith("deform_points: missing.json: "):
-        findings.append(f"C: exit {missing.returncode} without a lattice, {missing.stderr!r}")
-
-
-def cpp_example(folder, environment, findings):
-    work = shutil.copytree(os.path.join(DATA, "examples/cpp"), os.path.join(folder, "cpp"))
-    stage.run("meson setup build && ninja -C build && mkdir out", cwd=work, env=environment)
-    meshes = [os.path.join(DATA, "models", name) for name in ("spot.obj", "character.glb")]
-    lattice = os.path.join(DATA, "lattices/bulge.json")
-    stage.run(["build/deform_files", lattice, "out", *meshes], cwd=work, env=environment)
-    for mesh in meshes:
-        other = os.path.join(folder, os.path.basename(mesh))
-        stage.run(["ffd", "deform", mesh, other, "-l", lattice], env=environment)
-        with open(other, "rb") as first, open(os.path.join(work, "out", os.path.basename(mesh)), "rb") as second:
-            if first.read() != second.read():
-                findings.append(f"C++: {mesh} came out otherwise than from ffd")
-    with open(os.path.join(work, "out/report.json"), encoding="utf-8") as file:
-        jobs = json.load(file)["jobs"]
+def check_cpp(place, findings):
+    for name in ("spot.obj", "character.glb"):
+        if place.read(f"out/{name}") != place.deformed(f"data/models/{name}", "data/lattices/bulge.json"):
+            findings.append(f"C++: {name} came out otherwise than from ffd")
+    jobs = json.loads(place.read("out/report.json"))["jobs"]
     if [(job["status"], job["folds"]["verdict"]) for job in jobs] != [("ok", "none")] * 2:
         findings.append(f"C++: the report says {jobs}")
-    # A lattice that turns the volume inside out: the gate closes, nothing is written.
-    folding = {"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"box": "mesh"},
-               "moves": [{"scale": {"factor": [-1, 1, 1]}}]}
-    with open(os.path.join(work, "folding.json"), "w", encoding="ascii") as file:
-        json.dump(folding, file)
-    os.mkdir(os.path.join(work, "none"))
-    code = subprocess.run(["build/deform_files", "folding.json", "none", meshes[0]], cwd=work, env=environment,
-                          capture_output=True, check=False).returncode
-    if code != 1 or os.listdir(os.path.join(work, "none")) != ["report.json"]:
-        findings.append(f"C++: exit {code} of a folding lattice, which left {os.listdir(os.path.join(work, 'none'))}")
+    # A lattice that turns the volume inside out: the gate closes, nothing but the report is written.
+    place.write_json("folding.json", {"format": "ffd-lattice", "version": 1, "size": [4, 4, 4],
+                                      "rest": {"box": "mesh"}, "moves": [{"scale": {"factor": [-1, 1, 1]}}]})
+    os.mkdir(place.path("none"))
+    code, said = place.fails(["build-cpp/deform_files", "folding.json", "none", VASE])
+    if code != 1 or VASE not in said or os.listdir(place.path("none")) != ["report.json"]:
+        findings.append(f"C++: exit {code} of a folding lattice, {os.listdir(place.path('none'))}: {said!r}")
 
 
-def python_example(folder, environment, findings):
-    work = shutil.copytree(os.path.join(DATA, "examples/python"), os.path.join(folder, "python"))
-    mesh = os.path.join(DATA, "models/vase.obj")
-    points = points_of(mesh)
-    write_points(os.path.join(work, "points"), points)
-    stage.run(["python3", "twist_frames.py", "points", "60", "3"], cwd=work, env=environment)
-    box = {"min": [min(c) for c in zip(*points)], "max": [max(c) for c in zip(*points)]}
+def check_python(place, findings):
+    columns = list(zip(*place.rows("points.txt")))
+    box = {"min": [min(column) for column in columns], "max": [max(column) for column in columns]}
     for frame in (1, 2, 3):
-        lattice = os.path.join(work, "twist.json")
-        with open(lattice, "w", encoding="ascii") as file:
-            json.dump({"format": "ffd-lattice", "version": 1, "size": [4, 6, 4], "rest": {"box": box},
-                       "moves": [{"twist": {"axis": "y", "degrees": 20.0 * frame}}]}, file)
-        with open(os.path.join(work, f"frame-{frame}.txt"), encoding="ascii") as file:
-            equal(findings, rows(file.read()), deformed(mesh, lattice, environment, folder), f"Python, frame {frame}")
+        place.write_json("twist.json", {"format": "ffd-lattice", "version": 1, "size": [4, 6, 4], "rest": {"box": box},
+                                        "moves": [{"twist": {"axis": "y", "degrees": 20.0 * frame}}]})
+        equal(findings, place.rows(f"frame-{frame}.txt"), points_of(place.deformed(VASE, "twist.json")),
+              f"Python, frame {frame}")
 
 
 def main():
-    stage.need("pkg-config", "make")
+    stage.need("pkg-config", "make", "meson")
     findings = []
     with tempfile.TemporaryDirectory() as folder:
-        installed = stage.Stage(sys.argv[1], os.path.join(folder, "root"))
-        environment = installed.environment()
-        examples = (c_example, cpp_example, python_example)
-        for example in examples:
-            example(folder, environment, findings)
-    stage.finish(len(examples), "examples", findings)
+        place = Place(folder, stage.Stage(sys.argv[1], os.path.join(folder, "root")))
+        place.run(stage.readme("library"))
+        checks = (check_c, check_cpp, check_python)
+        for check in checks:
+            check(place, findings)
+    stage.finish(len(checks), "examples", findings)
 
 
 main()

@@ -4,8 +4,8 @@
     test_readme.py tutorial FFD SOURCE     the tutorial, in a copy of data/, with the program FFD
     test_readme.py build SOURCE            the build and the C example, in a copy of the source
 
-Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```ninja NAME, ```make NAME and ```c NAME
-(files).
+Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```ninja NAME,
+```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install.
 Commands that stand indented are compared with a list: a new one must find its test here."""
 import os
 import re
@@ -26,6 +26,11 @@ def blocks(text):
         yield match.group(1), match.group(2), match.group(3)
 
 
+def block(text, name):
+    """The commands of ```sh NAME."""
+    return next(content for language, other, content in blocks(text) if (language, other) == ("sh", name))
+
+
 def run(script, folder, environment):
     result = subprocess.run(["sh", "-eu", "-c", script], cwd=folder, env=environment, text=True,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=1500)
@@ -35,6 +40,9 @@ def run(script, folder, environment):
 
 
 def check_indented(text):
+    names = {name for language, name, content in blocks(text) if language == "sh"}
+    if names - {"", "build", "package", "library"}:
+        sys.exit(f"README.md has blocks of commands that no test runs: {names}")
     outside = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     found = [line.strip() for line in outside.splitlines() if re.match(r"^    (sh|cc|ffd|meson|python3) ", line)]
     for line in found:
