@@ -82,9 +82,10 @@ class Terminal:
         text = ""
         end = time.monotonic() + SECONDS
         while not re.search(r"> DONE\r?\n", text):
-            if time.monotonic() > end or not select.select([self.master], [], [], 1)[0] and self.process.poll():
+            if time.monotonic() > end or self.process.poll() is not None:
                 sys.exit(f"no answer for {what!r}: {text[-2000:]!r}")
-            text += os.read(self.master, 65536).decode("utf-8", "replace")
+            if select.select([self.master], [], [], 1)[0]:
+                text += os.read(self.master, 65536).decode("utf-8", "replace")
         return re.findall(r"<([^<>]*)>", re.findall(r"((?:<[^<>]*>)+) DONE\r?\n", text)[-1])
 
     def offered(self, typed):
