@@ -216,17 +216,75 @@ typedef struct ffd_embed_desc {
 FFD_API void ffd_embed_desc_init(ffd_embed_desc *desc);
 FFD_API ffd_status ffd_embed_run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error);
 
-/* `ffd compare`: are a and b the same mesh, positions within tolerance (world units, per coordinate) and all
-   else equal? Fills *comparison unless it fails. */
+/* What it is that differs between two files. A position, normal, tangent or texture coordinate is one
+   difference however many of its numbers differ, and so is a face, line or point. */
+typedef enum ffd_difference_kind {
+    FFD_DIFFERENCE_POSITION = 0,
+    FFD_DIFFERENCE_NORMAL,
+    FFD_DIFFERENCE_TANGENT,
+    FFD_DIFFERENCE_TEXCOORD,
+    FFD_DIFFERENCE_TOPOLOGY, /* faces, lines, points (glTF: indices); the number of vertices or faces */
+    FFD_DIFFERENCE_OTHER,    /* colours, names, materials, JSON values, headers, the format, ... */
+    FFD_DIFFERENCE_KIND_COUNT
+} ffd_difference_kind;
+
+/* "position", "normal", "tangent", "texcoord", "topology", "other"; NULL for no kind. Not to be freed. */
+FFD_API const char *ffd_difference_kind_name(ffd_difference_kind kind);
+
+typedef struct ffd_difference {
+    ffd_difference_kind kind;
+    bool measured;  /* a position, normal or tangent of both files: the next three are set */
+    double a, b;    /* its coordinate that differs most, in each file */
+    double amount;  /* |a - b|: world units for positions; infinite where only one of them is finite */
+    char text[512]; /* one line: where and what; "": there is no such difference */
+} ffd_difference;
+
 typedef struct ffd_comparison {
-    bool equal;
-    uint64_t positions_compared;
-    double position_difference_max; /* largest |a - b| of a coordinate */
-    char difference[512];           /* the first difference in words, "" where equal */
+    bool equal; /* no differences */
+    /* false: the differences keep what follows from being matched (other formats, other numbers of vertices,
+       another kind of statement): there may be more of them than were counted. */
+    bool complete;
+    uint64_t differences;                       /* all of them */
+    uint64_t counts[FFD_DIFFERENCE_KIND_COUNT]; /* of each kind */
+    ffd_difference first;                       /* in the order in which the files are compared */
+    /* That of the largest amount: of the positions; where none differs of the normals, else of the tangents.
+       text is "" where nothing measured differs. */
+    ffd_difference worst;
+    uint64_t positions_compared;     /* glTF: once for each node that shows them */
+    double position_difference_max;  /* largest |a - b| of a coordinate, within the tolerance or not */
+    double direction_difference_max; /* the same of normals and tangents */
+    double tolerance;                /* in world units: a relative one as it came out */
+    double direction_tolerance;
+    double
+        diagonal; /* of a's bounding box, in world units; 0 without vertices; only for a relative tolerance */
 } ffd_comparison;
 
-FFD_API ffd_status ffd_compare_run(const ffd_source *a, const ffd_source *b, double tolerance,
-                                   ffd_comparison *comparison, ffd_error *error);
+typedef struct ffd_compare_desc {
+    size_t struct_size; /* sizeof(ffd_compare_desc) of the caller */
+    ffd_source a, b;    /* only one of them may be "-" */
+    /* Positions may differ by this much in each coordinate: world units, or, relative, parts of the diagonal
+       of a's bounding box (of its finite vertices, as the default pose shows them). Not negative, not NaN. */
+    double tolerance;
+    bool relative;
+    /* Normals and tangents may differ by this much in each component, which has no unit. */
+    double direction_tolerance;
+} ffd_compare_desc;
+
+/* No tolerances: both must be equal as numbers (0 and -0 are, two NaN are). */
+FFD_API void ffd_compare_desc_init(ffd_compare_desc *desc);
+
+/* `ffd compare`: are a and b the same mesh, positions and directions within their tolerances and all else
+   equal? What is not part of a mesh is not compared: blanks, comments, the way a number is written, the
+   encoding of PLY and STL, where the buffers of a glTF lie. A NaN equals a NaN only, an infinity itself.
+   Morph targets are positions, normals and tangents like others. Fills *comparison (not NULL) unless it
+   fails. Errors: FFD_E_ARGUMENT for tolerances, and those of reading a mesh. */
+FFD_API ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison,
+                                   ffd_error *error);
+
+/* The comparison of the files a and b (names as they are to be shown) as JSON ("ffd-comparison", version 1).
+ *text is the caller's, freed with ffd_text_free, ends in a line break and 0. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b,
+                                       char **text, ffd_error *error);
 
 /* `ffd info`: describes a mesh or lattice file as text or JSON. *text is the caller's, freed with
    ffd_text_free, ends in a line break and 0. */

@@ -5,17 +5,37 @@
 #include <string.h>
 
 typedef struct settings {
-    double tolerance;
+    double tolerance, normal_tolerance;
+    bool relative, has_normal_tolerance;
     ffd_format input_format;
     uint64_t memory;
-    bool help;
+    bool json, help;
     cli_talk talk;
 } settings;
 
+/* "0.01", or "1e-6r": relative. */
 static bool set_tolerance(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    if (cli_parse_number(value, &s->tolerance) && s->tolerance >= 0)
+    char number[512];
+    size_t length = strlen(value);
+    s->relative = length > 0 && value[length - 1] == 'r';
+    length -= s->relative;
+    if (length < sizeof number) {
+        memcpy(number, value, length);
+        number[length] = 0;
+        if (cli_parse_number(number, &s->tolerance) && s->tolerance >= 0)
+            return true;
+    }
+    cli_complain("--%s: \"%s\" is not a number from 0 on, nor one with r behind it", option->name, value);
+    return false;
+}
+
+static bool set_normal_tolerance(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    s->has_normal_tolerance = true;
+    if (cli_parse_number(value, &s->normal_tolerance) && s->normal_tolerance >= 0)
         return true;
     cli_complain("--%s: \"%s\" is not a number from 0 on", option->name, value);
     return false;
@@ -23,12 +43,21 @@ static bool set_tolerance(void *context, const cli_option *option, const char *v
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
-    {"tolerance", 0, "T", "positions may differ by this much in a coordinate; default 0", set_tolerance, 0,
-     NULL},
+    {"tolerance", 0, "T",
+     "positions may differ by this much in a coordinate; with r behind it (1e-6r) relative to the diagonal "
+     "of "
+     "A's bounding box; default 0",
+     set_tolerance, 0, NULL},
+    {"normal-tolerance", 0, "T",
+     "normals and tangents may differ by this much in a component; default: the number of a relative "
+     "--tolerance, else 0",
+     set_normal_tolerance, 0, NULL},
+    {"json", 0, NULL, "the result as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; of - where one of them is, else of both", cli_set_format,
      AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors and the exit code", cli_set_flag, AT(talk.quiet), NULL},
+    {"quiet", 'q', NULL, "only errors and the exit code, and the JSON where it is asked for", cli_set_flag,
+     AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
@@ -42,21 +71,67 @@ static ffd_source source(const settings *s, const char *file, const char *other)
     return (ffd_source){.path = file, .format = format, .memory = s->memory};
 }
 
+/* "3 differences: 2 positions, 1 other" */
+static void print_counts(const ffd_comparison *comparison)
+{
+    static const char *const names[FFD_DIFFERENCE_KIND_COUNT] = {
+        " position", " normal", " tangent", " texture coordinate", " in the topology", " other"};
+    printf("%s%llu difference%s", comparison->complete ? "" : "at least ",
+           (unsigned long long)comparison->differences, comparison->differences == 1 ? "" : "s");
+    for (int kind = 0, shown = 0; kind < FFD_DIFFERENCE_KIND_COUNT; kind++) {
+        const uint64_t count = comparison->counts[kind];
+        const bool plural = count > 1 && kind < FFD_DIFFERENCE_TOPOLOGY;
+        if (count)
+            printf("%s%llu%s%s", shown++ ? ", " : ": ", (unsigned long long)count, names[kind],
+                   plural ? "s" : "");
+    }
+    printf("\n");
+}
+
+static int print_json(const ffd_comparison *comparison, const char *a, const char *b)
+{
+    ffd_error error;
+    char *text;
+    if (ffd_comparison_json(comparison, a, b, &text, &error))
+        return cli_fail(&error);
+    fputs(text, stdout);
+    ffd_text_free(text);
+    return comparison->equal ? EXIT_DONE : EXIT_NO;
+}
+
+static int tell(const settings *s, const ffd_comparison *comparison, const char *a, const char *b)
+{
+    if (s->talk.verbose && !s->talk.quiet)
+        cli_complain("%llu positions compared, largest difference of a coordinate %g",
+                     (unsigned long long)comparison->positions_compared, comparison->position_difference_max);
+    if (s->json)
+        return print_json(comparison, a, b);
+    if (s->talk.quiet || comparison->equal)
+        return comparison->equal ? EXIT_DONE : EXIT_NO;
+    printf("%s and %s differ: %s\n", cli_shown(a), cli_shown(b), comparison->first.text);
+    if (comparison->differences > 1 && comparison->worst.text[0])
+        printf("worst: %s\n", comparison->worst.text);
+    if (comparison->differences > 1 || !comparison->complete)
+        print_counts(comparison);
+    return EXIT_NO;
+}
+
 static int compare(const settings *s, const char *a, const char *b)
 {
-    const ffd_source first = source(s, a, b), second = source(s, b, a);
-    if (!cli_knows_format(a, first.format) || !cli_knows_format(b, second.format))
+    ffd_compare_desc desc;
+    ffd_compare_desc_init(&desc);
+    desc.a = source(s, a, b);
+    desc.b = source(s, b, a);
+    desc.tolerance = s->tolerance;
+    desc.relative = s->relative;
+    desc.direction_tolerance = s->has_normal_tolerance ? s->normal_tolerance : s->relative ? s->tolerance : 0;
+    if (!cli_knows_format(a, desc.a.format) || !cli_knows_format(b, desc.b.format))
         return EXIT_USAGE;
     ffd_comparison comparison;
     ffd_error error;
-    if (ffd_compare_run(&first, &second, s->tolerance, &comparison, &error))
+    if (ffd_compare_run(&desc, &comparison, &error))
         return cli_fail(&error);
-    if (s->talk.verbose && !s->talk.quiet)
-        cli_complain("%llu positions compared, largest difference of a coordinate %g",
-                     (unsigned long long)comparison.positions_compared, comparison.position_difference_max);
-    if (!s->talk.quiet && !comparison.equal)
-        printf("%s and %s differ: %s\n", cli_shown(a), cli_shown(b), comparison.difference);
-    return comparison.equal ? EXIT_DONE : EXIT_NO;
+    return tell(s, &comparison, a, b);
 }
 
 static int run(const cli_command *command, int count, char **arguments)
@@ -78,15 +153,16 @@ static int run(const cli_command *command, int count, char **arguments)
 
 static const cli_example examples[] = {
     {"the same, to the bit?", "ffd compare old.obj new.obj"},
-    {"the same to a millionth of a unit?", "ffd compare old.obj new.obj --tolerance 1e-6"},
+    {"the same to a millionth of its size?", "ffd compare old.obj new.obj --tolerance 1e-6r"},
     {NULL, NULL},
 };
 
-const cli_command cli_compare = {"compare",
-                                 "are two files the same mesh?",
-                                 "usage: ffd compare A B [--tolerance T] [options]\n"
-                                 "       exit 0: the same, 1: not\n",
-                                 {.first = options},
-                                 run,
-                                 "MESH",
-                                 examples};
+const cli_command cli_compare = {
+    "compare",
+    "are two files the same mesh?",
+    "usage: ffd compare A B [--tolerance T] [options]\n"
+    "       exit 0: the same; 1: not, with the first and the worst difference and their number\n",
+    {.first = options},
+    run,
+    "MESH",
+    examples};

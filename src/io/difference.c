@@ -4,18 +4,45 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-void ffd_difference_say(ffd_comparison *comparison, const char *format, ...)
+const char *ffd_difference_kind_name(ffd_difference_kind kind)
 {
-    char *text = comparison->difference;
-    va_list arguments;
-    if (text[0])
-        return;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof comparison->difference, format, arguments);
-    va_end(arguments);
+    static const char *const names[FFD_DIFFERENCE_KIND_COUNT] = {"position", "normal",   "tangent",
+                                                                 "texcoord", "topology", "other"};
+    return (unsigned)kind < FFD_DIFFERENCE_KIND_COUNT ? names[kind] : NULL;
+}
+
+void ffd_difference_begin(ffd_comparison *comparison, double tolerance, double direction_tolerance)
+{
+    *comparison = (ffd_comparison){
+        .equal = true, .complete = true, .tolerance = tolerance, .direction_tolerance = direction_tolerance};
+}
+
+static void without_control_characters(char *text)
+{
     for (; *text; text++)
         if ((unsigned char)*text < 0x20 || *text == 0x7f)
             *text = '?';
+}
+
+/* True: it is the first one, and its words are wanted. */
+static bool count(ffd_comparison *comparison, ffd_difference_kind kind)
+{
+    comparison->equal = false;
+    comparison->counts[kind]++;
+    return comparison->differences++ == 0;
+}
+
+void ffd_difference_say(ffd_comparison *comparison, ffd_difference_kind kind, const char *format, ...)
+{
+    ffd_difference *first = &comparison->first;
+    va_list arguments;
+    if (!count(comparison, kind))
+        return;
+    first->kind = kind;
+    va_start(arguments, format);
+    vsnprintf(first->text, sizeof first->text, format, arguments);
+    va_end(arguments);
+    without_control_characters(first->text);
 }
 
 double ffd_difference_of(double a, double b)
@@ -25,19 +52,53 @@ double ffd_difference_of(double a, double b)
     return a < b || a > b ? fabs(a - b) : 0;
 }
 
-bool ffd_difference_coordinate(ffd_comparison *comparison, const char *place, int axis, double a, double b,
-                               double tolerance)
+static void describe(ffd_difference *difference, int axis, difference_place *place, const void *context)
 {
-    const double difference = ffd_difference_of(a, b);
-    if (difference > comparison->position_difference_max)
-        comparison->position_difference_max = difference;
-    if (difference <= tolerance)
-        return true;
-    if (isfinite(difference))
-        ffd_difference_say(comparison, "%s: %c differs by %s", place, "xyz"[axis],
-                           ffd_number_text(difference).text);
+    static const char *const subjects[] = {"", " of the normal", " of the tangent"};
+    const char *subject = subjects[difference->kind];
+    char where[320];
+    place(context, where, sizeof where);
+    if (isfinite(difference->amount))
+        snprintf(difference->text, sizeof difference->text, "%s: %c%s differs by %s", where, "xyzw"[axis],
+                 subject, ffd_number_text(difference->amount).text);
     else
-        ffd_difference_say(comparison, "%s: %c: %s and %s", place, "xyz"[axis], ffd_number_text(a).text,
-                           ffd_number_text(b).text);
-    return false;
+        snprintf(difference->text, sizeof difference->text, "%s: %c%s: %s and %s", where, "xyzw"[axis],
+                 subject, ffd_number_text(difference->a).text, ffd_number_text(difference->b).text);
+    without_control_characters(difference->text);
+}
+
+static bool is_worse(const ffd_difference *worst, ffd_difference_kind kind, double amount)
+{
+    return !worst->measured || kind < worst->kind || (kind == worst->kind && amount > worst->amount);
+}
+
+void ffd_difference_vector(ffd_comparison *comparison, ffd_difference_kind kind, int components,
+                           const double *a, const double *b, difference_place *place, const void *context)
+{
+    const bool is_position = kind == FFD_DIFFERENCE_POSITION;
+    double *largest =
+        is_position ? &comparison->position_difference_max : &comparison->direction_difference_max;
+    ffd_difference found = {.kind = kind, .measured = true};
+    int axis = 0;
+    for (int i = 0; i < components; i++) {
+        const double amount = ffd_difference_of(a[i], b[i]);
+        if (amount > found.amount) {
+            found.amount = amount;
+            axis = i;
+        }
+    }
+    if (found.amount > *largest)
+        *largest = found.amount;
+    if (found.amount <= (is_position ? comparison->tolerance : comparison->direction_tolerance))
+        return;
+    const bool is_first = count(comparison, kind);
+    if (!is_first && !is_worse(&comparison->worst, kind, found.amount))
+        return;
+    found.a = a[axis];
+    found.b = b[axis];
+    describe(&found, axis, place, context);
+    if (is_first)
+        comparison->first = found;
+    if (is_worse(&comparison->worst, kind, found.amount))
+        comparison->worst = found;
 }

@@ -1,22 +1,84 @@
+#include "base/vec.h"
+#include "io/difference.h"
+#include "job/info.h"
 #include "job/source.h"
-#include <stdio.h>
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
-ffd_status ffd_compare_run(const ffd_source *a, const ffd_source *b, double tolerance,
-                           ffd_comparison *comparison, ffd_error *error)
+/* Positions read at once. */
+#define BLOCK 256
+
+void ffd_compare_desc_init(ffd_compare_desc *desc)
+{
+    memset(desc, 0, sizeof *desc);
+    desc->struct_size = sizeof *desc;
+}
+
+static ffd_status open_source(const ffd_source *given, mesh_document **document, ffd_error *error)
+{
+    ffd_source source = *given;
+    source.only_positions = false;
+    return ffd_source_open(&source, 0, document, error);
+}
+
+static ffd_bounds find_bounds(const mesh_document *document)
+{
+    ffd_bounds bounds = ffd_info_no_bounds();
+    double points[3 * BLOCK];
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *part = &document->parts[i];
+        const size_t vertices = part->repeats_positions ? 0 : part->vertex_count;
+        for (size_t first = 0; first < vertices; first += BLOCK) {
+            const size_t size = vertices - first < BLOCK ? vertices - first : BLOCK;
+            ffd_source_positions(document, i, first, size, points);
+            for (size_t k = 0; k < size; k++)
+                if (vec_is_finite(points + 3 * k))
+                    ffd_info_widen(&bounds, points + 3 * k);
+        }
+    }
+    return bounds;
+}
+
+/* No more than the largest number, also where the box's sides are more. */
+static double find_diagonal(const mesh_document *document)
+{
+    const ffd_bounds box = find_bounds(document);
+    double half[3];
+    if (box.min[0] > box.max[0])
+        return 0;
+    for (int c = 0; c < 3; c++)
+        half[c] = box.max[c] / 2 - box.min[c] / 2;
+    return fmin(2 * hypot(hypot(half[0], half[1]), half[2]), DBL_MAX);
+}
+
+static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, const mesh_document *b,
+                          ffd_comparison *comparison, ffd_error *error)
+{
+    const double diagonal = desc->relative ? find_diagonal(a) : 0;
+    const double tolerance = desc->relative ? desc->tolerance * diagonal : desc->tolerance;
+    /* Within the largest number everything is that is finite, and an infinity still differs from it. */
+    ffd_difference_begin(comparison, fmin(tolerance, DBL_MAX), fmin(desc->direction_tolerance, DBL_MAX));
+    comparison->diagonal = diagonal;
+    if (a->format == b->format)
+        return a->format->compare(a, b, comparison, error);
+    ffd_difference_stop(comparison, FFD_DIFFERENCE_OTHER, "formats: %s and %s", a->format->name,
+                        b->format->name);
+    return FFD_OK;
+}
+
+ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error)
 {
     mesh_document *first = NULL, *second = NULL;
-    if (!(tolerance >= 0))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the tolerance must not be negative");
-    memset(comparison, 0, sizeof *comparison);
-    ffd_status status = ffd_source_open(a, 0, &first, error);
+    if (desc->struct_size != sizeof *desc || !desc->a.path || !desc->b.path)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the description of the comparison is not complete");
+    if (!(desc->tolerance >= 0) || !(desc->direction_tolerance >= 0))
+        return ffd_fail(error, FFD_E_ARGUMENT, "a tolerance must not be negative");
+    ffd_status status = open_source(&desc->a, &first, error);
     if (!status)
-        status = ffd_source_open(b, 0, &second, error);
-    if (!status && first->format != second->format)
-        snprintf(comparison->difference, sizeof comparison->difference, "formats: %s and %s",
-                 first->format->name, second->format->name);
-    else if (!status)
-        status = first->format->compare(first, second, tolerance, comparison, error);
+        status = open_source(&desc->b, &second, error);
+    if (!status)
+        status = compare(desc, first, second, comparison, error);
     ffd_source_close(&second);
     ffd_source_close(&first);
     return status;

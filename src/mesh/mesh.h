@@ -140,7 +140,7 @@ typedef ffd_status mesh_corner_normals_function(const mesh_document *document, c
                                                 uint32_t *normals, ffd_error *error);
 typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
 typedef ffd_status mesh_describe_function(const mesh_document *document, json_text *json, ffd_error *error);
-typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_document *b, double tolerance,
+typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_document *b,
                                          ffd_comparison *comparison, ffd_error *error);
 
 typedef struct mesh_format {
@@ -212,7 +212,8 @@ typedef struct mesh_format {
     mesh_model_function *model;
     mesh_describe_function *describe;
 
-    /* Compares two documents of this format (see ffd_compare_run). */
+    /* Compares two documents of this format (see ffd_compare_run). The comparison is begun
+       (ffd_difference_begin): it has the tolerances, and no differences yet. */
     mesh_compare_function *compare;
 } mesh_format;
 

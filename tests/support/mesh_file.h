@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "io/difference.h"
 #include "mesh/mesh.h"
 #include <stdio.h>
 #include <string.h>
@@ -164,13 +165,23 @@ static inline void assert_described(mesh_document *document, const char *expecte
 }
 
 /* Compares a with b; b with a must come to the same. */
-static inline ffd_comparison compared(mesh_document *a, mesh_document *b, double tolerance)
+static inline ffd_comparison compared(mesh_document *a, mesh_document *b, double tolerance,
+                                      double direction_tolerance)
 {
     ffd_comparison result, turned;
-    assert_int_equal(a->format->compare(a, b, tolerance, &result, NULL), FFD_OK);
-    assert_int_equal(a->format->compare(b, a, tolerance, &turned, NULL), FFD_OK);
+    ffd_difference_begin(&result, tolerance, direction_tolerance);
+    ffd_difference_begin(&turned, tolerance, direction_tolerance);
+    assert_int_equal(a->format->compare(a, b, &result, NULL), FFD_OK);
+    assert_int_equal(a->format->compare(b, a, &turned, NULL), FFD_OK);
     assert_int_equal(result.equal, turned.equal);
-    assert_int_equal(result.equal, result.difference[0] == 0);
+    assert_int_equal(result.equal, result.first.text[0] == 0);
+    assert_int_equal(result.equal, result.differences == 0);
+    assert_int_equal(result.complete, turned.complete);
+    assert_int_equal(result.differences, turned.differences);
+    uint64_t sum = 0;
+    for (int kind = 0; kind < FFD_DIFFERENCE_KIND_COUNT; kind++)
+        sum += result.counts[kind];
+    assert_int_equal(sum, result.differences);
     assert_int_equal(result.positions_compared, turned.positions_compared);
     return result;
 }

@@ -9,6 +9,7 @@
 #include "../support/gltf_file.h"
 #include "../support/test_folder.h"
 #include "base/little_endian.h"
+#include "io/difference.h"
 #include "io/gltf/glb.h"
 #include <sys/stat.h>
 #include <unistd.h>
@@ -612,8 +613,9 @@ static void check_comparison(const char *first, const char *second, double toler
                      FFD_OK);
     assert_int_equal(open_bytes(second, strlen(second), "b", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &b, NULL),
                      FFD_OK);
-    assert_int_equal(gltf->compare(a, b, tolerance, &comparison, NULL), FFD_OK);
-    assert_string_equal(comparison.difference, difference);
+    ffd_difference_begin(&comparison, tolerance, 0);
+    assert_int_equal(gltf->compare(a, b, &comparison, NULL), FFD_OK);
+    assert_string_equal(comparison.first.text, difference);
     assert_int_equal(comparison.equal, !*difference);
     gltf->close(a);
     gltf->close(b);
@@ -636,8 +638,8 @@ static void compare_finds_what_differs(void **state)
         {WITH(TRIANGLE, "[1.0,1,0e1]", ""), 0, ""},
         {WITH(TRIANGLE, "[1,1,0]", "\"x\":1,"), 0, "/: only the second file has \"x\""},
         {WITH(MOVED, "[2,1,0]", ""), 0, "/accessors/0/max/0: 1 and 2"},
-        {WITH(MOVED, "[1,1,0]", ""), 0, "/accessors/0: vertex 0 has x 0 and 2"},
-        {WITH(MOVED, "[2,1,0]", ""), 1.5, "/accessors/0: vertex 0 has x 0 and 2"},
+        {WITH(MOVED, "[1,1,0]", ""), 0, "/accessors/0: vertex 0: x differs by 4"},
+        {WITH(MOVED, "[2,1,0]", ""), 1.5, "/accessors/0: vertex 0: x differs by 4"},
         {WITH(MOVED, "[2,1,0]", ""), 2, ""},
     };
     const struct {

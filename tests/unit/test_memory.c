@@ -133,9 +133,18 @@ static ffd_status run_info(ffd_error *error)
 
 static ffd_status run_compare(ffd_error *error)
 {
-    const ffd_source source = {.path = input};
+    ffd_compare_desc desc;
     ffd_comparison comparison;
-    return ffd_compare_run(&source, &source, 0, &comparison, error);
+    char *text = NULL;
+    ffd_compare_desc_init(&desc);
+    desc.a.path = desc.b.path = input;
+    desc.relative = true;
+    ffd_status status = ffd_compare_run(&desc, &comparison, error);
+    if (status == FFD_OK)
+        status = ffd_comparison_json(&comparison, input, input, &text, error);
+    assert_true((status == FFD_OK) == (text != NULL));
+    ffd_text_free(text);
+    return status;
 }
 
 /* As ffd_alloc_fail_after and new_fail_after. */

@@ -566,8 +566,8 @@ static void test_compare(void **state)
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_document *a = opened(cases[i].a), *b = opened(cases[i].b);
-        const ffd_comparison comparison = compared(a, b, cases[i].tolerance);
-        assert_string_equal(comparison.difference, cases[i].difference);
+        const ffd_comparison comparison = compared(a, b, cases[i].tolerance, 0);
+        assert_string_equal(comparison.first.text, cases[i].difference);
         assert_int_equal(comparison.equal, !cases[i].difference[0]);
         assert_int_equal(comparison.positions_compared, cases[i].compared);
         assert_true(comparison.position_difference_max == cases[i].max);

@@ -262,10 +262,10 @@ static void test_compare(void **state)
     mesh_document *a = opened(base);
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_document *b = opened(cases[i].text);
-        const ffd_comparison result = compared(a, b, cases[i].tolerance);
+        const ffd_comparison result = compared(a, b, cases[i].tolerance, 0);
         assert_int_equal(result.equal, cases[i].difference == NULL);
-        if (strcmp(result.difference, cases[i].difference ? cases[i].difference : "") != 0)
-            fail_msg("case %zu: %s", i, result.difference);
+        if (strcmp(result.first.text, cases[i].difference ? cases[i].difference : "") != 0)
+            fail_msg("case %zu: %s", i, result.first.text);
         if (result.equal)
             assert_int_equal(result.positions_compared, 3);
         off->close(b);

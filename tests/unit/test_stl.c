@@ -385,8 +385,8 @@ static void assert_compared(const byte_buffer *a, const byte_buffer *b, double t
                             const char *difference)
 {
     mesh_document *x = opened_bytes(stl, a->data, a->size), *y = opened_bytes(stl, b->data, b->size);
-    const ffd_comparison result = compared(x, y, tolerance);
-    assert_string_equal(result.difference, difference ? difference : "");
+    const ffd_comparison result = compared(x, y, tolerance, 0);
+    assert_string_equal(result.first.text, difference ? difference : "");
     stl->close(x);
     stl->close(y);
 }

@@ -1,7 +1,7 @@
 /* Two PLY files are the same mesh when their elements, properties and types are, in their order, and their
-   values as numbers (1.0 and 1, NaN and NaN). x y z of the vertices may differ by the tolerance; other
-   numbers, normals too, may not. How the numbers are written (ascii, either binary order), comments, blanks
-   and line ends are no part of the mesh; obj_info and the names of texture files are. */
+   values as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the vertices may differ by their
+   tolerances; other numbers may not. How the numbers are written (ascii, either binary order), comments,
+   blanks and line ends are no part of the mesh; obj_info and the names of texture files are. */
 #include "io/difference.h"
 #include "io/ply/ply_document.h"
 #include <inttypes.h>
@@ -12,20 +12,18 @@ typedef struct comparer {
     ply_walk in_a, in_b;
     const ply_element *element; /* of a */
     uint64_t row;
-    double tolerance;
     ffd_comparison *result;
-    bool same_rows; /* so far: the walks go on together */
 } comparer;
 
 /* Headers */
 
 static void differ_in_words(comparer *c, const char *what, text_word a, text_word b)
 {
-    ffd_difference_say(c->result, "%s: \"%.*s\" and \"%.*s\"", what, ffd_text_shown(a), a.first,
-                       ffd_text_shown(b), b.first);
+    ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%s: \"%.*s\" and \"%.*s\"", what, ffd_text_shown(a),
+                       a.first, ffd_text_shown(b), b.first);
 }
 
-static bool same_properties(comparer *c, const ply_element *a, const ply_element *b)
+static void compare_properties(comparer *c, const ply_element *a, const ply_element *b)
 {
     for (size_t i = 0; i < a->property_count && i < b->property_count; i++) {
         const ply_property *p = &a->properties[i], *q = &b->properties[i];
@@ -33,19 +31,19 @@ static bool same_properties(comparer *c, const ply_element *a, const ply_element
         if (!ffd_text_same(p->name, q->name))
             differ_in_words(c, "properties", p->name, q->name);
         else if (p->is_list != q->is_list)
-            ffd_difference_say(c->result, "property %.*s is a list only in the %s", shown, p->name.first,
-                               p->is_list ? "first" : "second");
+            ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "property %.*s is a list only in the %s",
+                               shown, p->name.first, p->is_list ? "first" : "second");
         else if (p->type != q->type || p->count_type != q->count_type)
-            ffd_difference_say(c->result, "property %.*s: types %s and %s", shown, p->name.first,
-                               ffd_ply_type_name(p->type != q->type ? p->type : p->count_type),
+            ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "property %.*s: types %s and %s", shown,
+                               p->name.first, ffd_ply_type_name(p->type != q->type ? p->type : p->count_type),
                                ffd_ply_type_name(p->type != q->type ? q->type : q->count_type));
     }
     if (a->property_count != b->property_count)
-        ffd_difference_say(c->result, "element %.*s has %zu and %zu properties", ffd_text_shown(a->name),
-                           a->name.first, a->property_count, b->property_count);
-    return !c->result->difference[0];
+        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "element %.*s has %zu and %zu properties",
+                           ffd_text_shown(a->name), a->name.first, a->property_count, b->property_count);
 }
 
+/* Whether the rows of one file are of the same form as those of the other. */
 static bool same_elements(comparer *c)
 {
     const ply_header *a = &c->a->header, *b = &c->b->header;
@@ -54,14 +52,16 @@ static bool same_elements(comparer *c)
         if (!ffd_text_same(x->name, y->name))
             differ_in_words(c, "elements", x->name, y->name);
         else if (x->count != y->count)
-            ffd_difference_say(c->result, "element %.*s has %" PRIu64 " and %" PRIu64 " rows",
-                               ffd_text_shown(x->name), x->name.first, x->count, y->count);
+            ffd_difference_say(c->result, FFD_DIFFERENCE_TOPOLOGY,
+                               "element %.*s has %" PRIu64 " and %" PRIu64 " rows", ffd_text_shown(x->name),
+                               x->name.first, x->count, y->count);
         else
-            same_properties(c, x, y);
+            compare_properties(c, x, y);
     }
     if (a->element_count != b->element_count)
-        ffd_difference_say(c->result, "%zu and %zu elements", a->element_count, b->element_count);
-    return !c->result->difference[0];
+        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%zu and %zu elements", a->element_count,
+                           b->element_count);
+    return c->result->equal;
 }
 
 static void compare_notes(comparer *c)
@@ -71,15 +71,16 @@ static void compare_notes(comparer *c)
         if (!ffd_text_same(a->notes[i], b->notes[i]))
             differ_in_words(c, "lines of the header", a->notes[i], b->notes[i]);
     if (a->note_count != b->note_count)
-        ffd_difference_say(c->result, "%zu and %zu lines of obj_info and texture files", a->note_count,
-                           b->note_count);
+        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%zu and %zu lines of obj_info and texture files",
+                           a->note_count, b->note_count);
 }
 
 /* Rows */
 
-/* "face 3 (lines 20 and 21)"; lines where both files have them. */
-static void format_place(const comparer *c, char *text, size_t capacity)
+/* "face 3 (lines 20 and 21)"; lines where both files have them. A difference_place. */
+static void format_place(const void *context, char *text, size_t capacity)
 {
+    const comparer *c = context;
     const text_word name = c->element->name;
     const size_t a = c->in_a.line, b = c->in_b.line;
     char lines[64] = "";
@@ -106,6 +107,26 @@ static void format_value(const ply_document *d, ply_type type, text_word word, c
     }
 }
 
+static bool is_texcoord(const comparer *c, const ply_property *property)
+{
+    if (c->element == c->a->face)
+        return ffd_text_is(property->name, "texcoord");
+    for (size_t i = 0; c->element == c->a->vertex && i < PLY_TEXCOORD_NAMES; i++)
+        if (ffd_text_is(property->name, ffd_ply_texcoord_names[i][0]) ||
+            ffd_text_is(property->name, ffd_ply_texcoord_names[i][1]))
+            return true;
+    return false;
+}
+
+static ffd_difference_kind kind_of(const comparer *c, const ply_property *property)
+{
+    const bool joins_vertices = property == c->a->face_corners || ffd_text_is(c->element->name, "edge") ||
+                                ffd_text_is(c->element->name, "tristrips");
+    if (is_texcoord(c, property))
+        return FFD_DIFFERENCE_TEXCOORD;
+    return joins_vertices ? FFD_DIFFERENCE_TOPOLOGY : FFD_DIFFERENCE_OTHER;
+}
+
 static void differ_in_values(comparer *c, const ply_property *property, ply_type type, text_word a,
                              text_word b)
 {
@@ -113,28 +134,21 @@ static void differ_in_values(comparer *c, const ply_property *property, ply_type
     format_place(c, place, sizeof place);
     format_value(c->a, type, a, first, sizeof first);
     format_value(c->b, type, b, second, sizeof second);
-    ffd_difference_say(c->result, "%s: %.*s: %s and %s", place, ffd_text_shown(property->name),
-                       property->name.first, first, second);
+    ffd_difference_say(c->result, kind_of(c, property), "%s: %.*s: %s and %s", place,
+                       ffd_text_shown(property->name), property->name.first, first, second);
 }
 
-static void compare_values(comparer *c, const ply_property *property, ply_type type, text_word a, text_word b)
+static bool same_value(const comparer *c, ply_type type, text_word a, text_word b)
 {
     const ply_encoding in_a = c->a->header.encoding, in_b = c->b->header.encoding;
-    char place[160] = "";
     double x, y;
     if (in_a == in_b && ffd_text_same(a, b))
-        return;
-    const bool numbers = ffd_ply_load(in_a, type, a, &x) && ffd_ply_load(in_b, type, b, &y);
-    if (numbers && property->slot < PLY_NORMAL_SLOT) {
-        if (ffd_difference_of(x, y) > c->tolerance)
-            format_place(c, place, sizeof place);
-        ffd_difference_coordinate(c->result, place, property->slot, x, y, c->tolerance);
-    } else if (!numbers || ffd_difference_of(x, y) > 0) {
-        differ_in_values(c, property, type, a, b);
-        c->same_rows = false;
-    }
+        return true;
+    return ffd_ply_load(in_a, type, a, &x) && ffd_ply_load(in_b, type, b, &y) &&
+           !(ffd_difference_of(x, y) > 0);
 }
 
+/* One difference at most; goes behind the list in both files. */
 static void compare_list(comparer *c, const ply_property *property)
 {
     text_word a, b;
@@ -143,33 +157,52 @@ static void compare_list(comparer *c, const ply_property *property)
     ffd_ply_walk_value(&c->in_b, property->count_type, &b);
     ffd_ply_load_count(c->a->header.encoding, property->count_type, a, &count_a);
     ffd_ply_load_count(c->b->header.encoding, property->count_type, b, &count_b);
-    if (count_a != count_b) {
+    bool same = count_a == count_b;
+    if (!same)
         differ_in_values(c, property, property->count_type, a, b);
-        c->same_rows = false;
+    for (size_t i = 0; i < count_a || i < count_b; i++) {
+        const bool in_a = i < count_a && ffd_ply_walk_value(&c->in_a, property->type, &a);
+        const bool in_b = i < count_b && ffd_ply_walk_value(&c->in_b, property->type, &b);
+        if (!same || !in_a || !in_b || same_value(c, property->type, a, b))
+            continue;
+        differ_in_values(c, property, property->type, a, b);
+        same = false;
     }
-    for (size_t i = 0; c->same_rows && i < count_a; i++) {
-        ffd_ply_walk_value(&c->in_a, property->type, &a);
-        ffd_ply_walk_value(&c->in_b, property->type, &b);
-        compare_values(c, property, property->type, a, b);
-    }
+}
+
+static void compare_scalar(comparer *c, const ply_property *property)
+{
+    text_word a, b;
+    ffd_ply_walk_value(&c->in_a, property->type, &a);
+    ffd_ply_walk_value(&c->in_b, property->type, &b);
+    if (property->slot == PLY_NO_SLOT && !same_value(c, property->type, a, b))
+        differ_in_values(c, property, property->type, a, b);
+}
+
+static void compare_vectors(comparer *c)
+{
+    const size_t at = 3 * (size_t)c->row;
+    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, c->a->positions + at, c->b->positions + at,
+                          format_place, c);
+    if (c->a->directions)
+        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, c->a->directions + at,
+                              c->b->directions + at, format_place, c);
+    c->result->positions_compared++;
 }
 
 static void compare_row(comparer *c)
 {
-    text_word a, b;
     ffd_ply_walk_row(&c->in_a);
     ffd_ply_walk_row(&c->in_b);
-    for (size_t i = 0; c->same_rows && i < c->element->property_count; i++) {
+    for (size_t i = 0; i < c->element->property_count; i++) {
         const ply_property *property = &c->element->properties[i];
-        if (property->is_list) {
+        if (property->is_list)
             compare_list(c, property);
-            continue;
-        }
-        ffd_ply_walk_value(&c->in_a, property->type, &a);
-        ffd_ply_walk_value(&c->in_b, property->type, &b);
-        compare_values(c, property, property->type, a, b);
+        else
+            compare_scalar(c, property);
     }
-    c->result->positions_compared += c->element == c->a->vertex && c->same_rows;
+    if (c->element == c->a->vertex)
+        compare_vectors(c);
 }
 
 static void compare_rows(comparer *c)
@@ -180,25 +213,21 @@ static void compare_rows(comparer *c)
         c->element = &c->a->header.elements[i];
         if (c->element->property_count == 0)
             continue;
-        for (c->row = 0; c->same_rows && c->row < c->element->count; c->row++)
+        for (c->row = 0; c->row < c->element->count; c->row++)
             compare_row(c);
     }
 }
 
-ffd_status ffd_ply_compare(const mesh_document *a, const mesh_document *b, double tolerance,
-                           ffd_comparison *comparison, ffd_error *error)
+ffd_status ffd_ply_compare(const mesh_document *a, const mesh_document *b, ffd_comparison *comparison,
+                           ffd_error *error)
 {
-    comparer c = {.a = ffd_ply_of(a),
-                  .b = ffd_ply_of(b),
-                  .tolerance = tolerance,
-                  .result = comparison,
-                  .same_rows = true};
+    comparer c = {.a = ffd_ply_of(a), .b = ffd_ply_of(b), .result = comparison};
     (void)error;
-    *comparison = (ffd_comparison){0};
     if (same_elements(&c)) {
         compare_notes(&c);
         compare_rows(&c);
+    } else {
+        comparison->complete = false;
     }
-    comparison->equal = !comparison->difference[0];
     return FFD_OK;
 }

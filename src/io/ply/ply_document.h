@@ -37,6 +37,10 @@ void ffd_ply_document_walk(const ply_document *document, const ply_element *elem
 /* Decides what the elements and properties are. */
 ffd_status ffd_ply_find_roles(ply_document *document, ffd_error *error);
 
+/* Pairs of names that programs have for the texture coordinates of vertices. */
+#define PLY_TEXCOORD_NAMES 3
+extern const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2];
+
 /* The element whose rows are lines: "edge" with vertex1 and vertex2. NULL where there is none. */
 const ply_element *ffd_ply_find_edges(const ply_document *document);
 

@@ -24,13 +24,12 @@ static const ply_property *find_scalar(const ply_element *element, const char *n
 /* Names that programs have for texture coordinates and colours; both or all three must be there. */
 static void find_roles(extractor *e)
 {
-    static const char *const texcoords[][2] = {{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
     static const char *const colours[][4] = {
         {"red", "green", "blue", "alpha"}, {"diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"}};
     const ply_element *vertex = e->document->vertex;
-    for (size_t i = 0; i < sizeof texcoords / sizeof *texcoords && !e->roles[ROLE_U]; i++) {
-        const ply_property *u = find_scalar(vertex, texcoords[i][0]),
-                           *v = find_scalar(vertex, texcoords[i][1]);
+    for (size_t i = 0; i < PLY_TEXCOORD_NAMES && !e->roles[ROLE_U]; i++) {
+        const ply_property *u = find_scalar(vertex, ffd_ply_texcoord_names[i][0]),
+                           *v = find_scalar(vertex, ffd_ply_texcoord_names[i][1]);
         e->roles[ROLE_U] = v ? u : NULL;
         e->roles[ROLE_V] = u ? v : NULL;
     }

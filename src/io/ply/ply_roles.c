@@ -2,6 +2,9 @@
 
 static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny", "nz"};
 
+const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2] = {
+    {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
+
 /* Marks the property of the vertices that a slot's name stands for; NULL where there is none with one value
    a vertex. */
 static ply_property *fill_slot(ply_document *d, size_t slot)

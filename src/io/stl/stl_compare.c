@@ -1,8 +1,7 @@
-/* Two STL files are the same mesh when their facets are the same one by one. x y z of the corners may differ
-   by the tolerance; normals may not, nor the two bytes behind a binary file's facet (text has none: 0), nor,
+/* Two STL files are the same mesh when their facets are the same one by one. Corners and normals may differ
+   by their tolerances; not so the two bytes behind a binary file's facet (text has none: 0), nor,
    where both files are text or both are binary, the solids with their names or the header. How numbers are
    written, lines and blanks, and what stands behind a binary file's last facet are no part of the mesh. */
-#include "base/number.h"
 #include "io/difference.h"
 #include "io/stl/stl_document.h"
 #include <stdio.h>
@@ -20,7 +19,7 @@ typedef struct stl_side {
 typedef struct comparer {
     stl_side a, b;
     size_t facet;
-    double tolerance;
+    int corner; /* of the facet; -1: the facet itself */
     ffd_comparison *result;
 } comparer;
 
@@ -57,122 +56,104 @@ static bool both_text(const comparer *c)
     return !c->a.document->binary && !c->b.document->binary;
 }
 
-/* "facet 3 counted from 0 (lines 20 and 21)"; lines where both files have them. */
-static void format_place(const comparer *c, char *text, size_t capacity)
+/* "facet 3 counted from 0 (lines 20 and 21), corner 1"; lines where both files have them. A
+   difference_place. */
+static void format_place(const void *context, char *text, size_t capacity)
 {
-    char lines[64] = "";
+    const comparer *c = context;
+    char lines[64] = "", corner[32] = "";
     if (both_text(c) && c->a.line == c->b.line)
         snprintf(lines, sizeof lines, " (line %zu)", c->a.line);
     else if (both_text(c))
         snprintf(lines, sizeof lines, " (lines %zu and %zu)", c->a.line, c->b.line);
-    snprintf(text, capacity, "facet %zu counted from 0%s", c->facet, lines);
+    if (c->corner >= 0)
+        snprintf(corner, sizeof corner, ", corner %d", c->corner);
+    snprintf(text, capacity, "facet %zu counted from 0%s%s", c->facet, lines, corner);
 }
-
-/* The following return whether the files can be the same so far. */
 
 static void differ_in_solids(comparer *c, stl_event in_a, stl_event in_b)
 {
     const bool first = in_a > in_b; /* which file has more here: a facet, or at least a solid */
     const size_t solid = (first ? c->a : c->b).text.solids - 1;
-    ffd_difference_say(c->result, "solid %zu counted from 0 %s the %s", solid,
-                       (first ? in_a : in_b) == STL_AT_FACET ? "has more facets in" : "is only in",
-                       first ? "first" : "second");
+    ffd_difference_stop(c->result, FFD_DIFFERENCE_OTHER, "solid %zu counted from 0 %s the %s", solid,
+                        (first ? in_a : in_b) == STL_AT_FACET ? "has more facets in" : "is only in",
+                        first ? "first" : "second");
 }
 
-/* Solids of texts: how many facets each has, and its name. */
-static bool same_solids(comparer *c)
+/* Solids of texts: how many facets each has, and its name. The facets are matched whatever the solids. */
+static void compare_solids(comparer *c)
 {
     const stl_text *a = &c->a.text, *b = &c->b.text;
     stl_event in_a = STL_AT_SOLID, in_b = STL_AT_SOLID;
     stl_facet facet;
-    while (!c->result->difference[0] && in_a != STL_AT_END) {
+    while (in_a == in_b && in_a != STL_AT_END) {
         ffd_stl_text_step(&c->a.text, c->a.document->name, &facet, &in_a, NULL);
         ffd_stl_text_step(&c->b.text, c->b.document->name, &facet, &in_b, NULL);
         if (in_a != in_b)
             differ_in_solids(c, in_a, in_b);
         else if (in_a == STL_AT_SOLID && !ffd_text_same(a->name, b->name))
-            ffd_difference_say(c->result, "solid %zu counted from 0 is named \"%.*s\" and \"%.*s\"",
-                               a->solids - 1, ffd_text_shown(a->name), a->name.first, ffd_text_shown(b->name),
+            ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER,
+                               "solid %zu counted from 0 is named \"%.*s\" and \"%.*s\"", a->solids - 1,
+                               ffd_text_shown(a->name), a->name.first, ffd_text_shown(b->name),
                                b->name.first);
     }
-    return !c->result->difference[0];
 }
 
-static bool same_normal(comparer *c)
-{
-    char place[128];
-    for (int axis = 0; axis < 3; axis++)
-        if (ffd_difference_of(c->a.normal[axis], c->b.normal[axis]) > 0) {
-            format_place(c, place, sizeof place);
-            ffd_difference_say(c->result, "%s: %c of the normal: %s and %s", place, "xyz"[axis],
-                               ffd_number_text(c->a.normal[axis]).text,
-                               ffd_number_text(c->b.normal[axis]).text);
-            return false;
-        }
-    return true;
-}
-
-static bool same_attribute(comparer *c)
+static void compare_attribute(comparer *c)
 {
     char place[128];
     if (c->a.attribute == c->b.attribute)
-        return true;
+        return;
     format_place(c, place, sizeof place);
-    ffd_difference_say(c->result, "%s: attribute %u and %u", place, c->a.attribute, c->b.attribute);
-    return false;
+    ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%s: attribute %u and %u", place, c->a.attribute,
+                       c->b.attribute);
 }
 
-/* Goes on after coordinates that differ: the largest distance is told, too. */
-static void compare_corners(comparer *c)
+static void compare_facet(comparer *c)
 {
-    for (int i = 0; i < 9; i++) {
-        char place[128], corner[160];
-        const double a = c->a.corners[i], b = c->b.corners[i];
-        if (!(ffd_difference_of(a, b) > 0))
-            continue;
-        format_place(c, place, sizeof place);
-        snprintf(corner, sizeof corner, "%s, corner %d", place, i / 3);
-        ffd_difference_coordinate(c->result, corner, i % 3, a, b, c->tolerance);
-    }
+    for (c->corner = 0; c->corner < 3; c->corner++)
+        ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, c->a.corners + 3 * c->corner,
+                              c->b.corners + 3 * c->corner, format_place, c);
+    c->corner = -1;
+    ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, c->a.normal, c->b.normal, format_place, c);
+    compare_attribute(c);
     c->result->positions_compared += 3;
 }
 
+/* What is said before the facets. False: they cannot be matched. */
 static bool same_frame(comparer *c)
 {
     const stl_document *a = c->a.document, *b = c->b.document;
     if (a->facets != b->facets)
-        ffd_difference_say(c->result, "%zu and %zu facets", a->facets, b->facets);
+        ffd_difference_stop(c->result, FFD_DIFFERENCE_TOPOLOGY, "%zu and %zu facets", a->facets, b->facets);
     else if (both_text(c))
-        return same_solids(c);
+        compare_solids(c);
     else if (a->binary && b->binary && memcmp(a->input.data, b->input.data, STL_HEADER) != 0)
-        ffd_difference_say(c->result, "the headers of %d bytes are not the same", STL_HEADER);
-    return !c->result->difference[0];
+        ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "the headers of %d bytes are not the same",
+                           STL_HEADER);
+    return a->facets == b->facets;
 }
 
 static void compare_facets(comparer *c)
 {
     const size_t facets = c->a.document->facets;
-    bool same = true;
     begin_side(&c->a, c->a.document);
     begin_side(&c->b, c->b.document);
-    for (c->facet = 0; same && c->facet < facets; c->facet++) {
+    for (c->facet = 0; c->facet < facets; c->facet++) {
         next_facet(&c->a, c->facet);
         next_facet(&c->b, c->facet);
-        compare_corners(c);
-        same = same_normal(c) && same_attribute(c);
+        compare_facet(c);
     }
 }
 
-ffd_status ffd_stl_compare(const mesh_document *a, const mesh_document *b, double tolerance,
-                           ffd_comparison *comparison, ffd_error *error)
+ffd_status ffd_stl_compare(const mesh_document *a, const mesh_document *b, ffd_comparison *comparison,
+                           ffd_error *error)
 {
-    comparer c = {.tolerance = tolerance, .result = comparison};
+    comparer c = {.result = comparison};
     (void)error;
-    *comparison = (ffd_comparison){0};
     begin_side(&c.a, ffd_stl_of(a));
     begin_side(&c.b, ffd_stl_of(b));
     if (same_frame(&c))
         compare_facets(&c);
-    comparison->equal = !comparison->difference[0];
     return FFD_OK;
 }
