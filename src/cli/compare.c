@@ -44,20 +44,16 @@ static bool set_normal_tolerance(void *context, const cli_option *option, const 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"tolerance", 0, "T",
-     "positions may differ by this much in a coordinate; with r behind it (1e-6r) relative to the diagonal "
-     "of "
-     "A's bounding box; default 0",
-     set_tolerance, 0, NULL},
+     "positions may differ by T in a coordinate, or by T of A's diagonal (1e-6r); default 0", set_tolerance,
+     0, NULL},
     {"normal-tolerance", 0, "T",
-     "normals and tangents may differ by this much in a component; default: the number of a relative "
-     "--tolerance, else 0",
+     "normals and tangents may differ by T in a component; default 0, or the number of a T with r",
      set_normal_tolerance, 0, NULL},
     {"json", 0, NULL, "the result as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; of - where one of them is, else of both", cli_set_format,
      AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors and the exit code, and the JSON where it is asked for", cli_set_flag,
-     AT(talk.quiet), NULL},
+    {"quiet", 'q', NULL, "only errors and the exit code (and --json)", cli_set_flag, AT(talk.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},

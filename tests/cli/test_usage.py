@@ -12,7 +12,7 @@ OPTIONS = {
     "check": {"--lattice", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
               "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory"},
     "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format", "--memory"},
-    "compare": {"--tolerance", "--input-format", "--memory"},
+    "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory"},
     "info": {"--json", "--input-format", "--memory"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes",
                     "--force", "--input-format", "--memory"},
@@ -141,7 +141,11 @@ def values_of_other_commands(run):
     files(run)
     for value in ("-1", "nan", "inf", "x", "", "1e999", "0x1", " 1", "1 ", "1,5", "-0.001", "1e"):
         refused(run, "compare", "a.obj", "a.obj", "--tolerance", value, says="--tolerance")
+        refused(run, "compare", "a.obj", "a.obj", "--tolerance", value + "r", says="--tolerance")
+        refused(run, "compare", "a.obj", "a.obj", "--normal-tolerance", value, says="--normal-tolerance")
         refused(run, "lattice", "new", "a.obj", "-o", "n.json", "--margin", value, says="--margin")
+    for value in ("r", "1rr", "1 r", "1R", "1%", "1" * 600 + "r"):
+        refused(run, "compare", "a.obj", "a.obj", "--tolerance", value, says="--tolerance")
     for option, bad in (("--size", ["4,4", "4,4,4,4", "4,4,x", "1,4,4", "0,4,4", "-4,4,4", "4;4;4", "", "4,,4", "4,4,4,",
                                     "4.0,4,4", "4, 4,4"]),
                         ("--degree", ["3,3", "0,3,3", "10,3,3", "x", ""]),

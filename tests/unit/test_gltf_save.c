@@ -637,9 +637,11 @@ static void compare_finds_what_differs(void **state)
         {base, 0, ""},
         {WITH(TRIANGLE, "[1.0,1,0e1]", ""), 0, ""},
         {WITH(TRIANGLE, "[1,1,0]", "\"x\":1,"), 0, "/: only the second file has \"x\""},
-        {WITH(MOVED, "[2,1,0]", ""), 0, "/accessors/0/max/0: 1 and 2"},
-        {WITH(MOVED, "[1,1,0]", ""), 0, "/accessors/0: vertex 0: x differs by 4"},
-        {WITH(MOVED, "[2,1,0]", ""), 1.5, "/accessors/0: vertex 0: x differs by 4"},
+        {WITH(TRIANGLE, "[2,1,0]", ""), 0, "/accessors/0/max/0: 1 and 2"},
+        {WITH(TRIANGLE, "[2,1,0]", ""), 1.5, ""},
+        {WITH(MOVED, "[2,1,0]", ""), 0, "/accessors/0: vertex 0: x differs by 2"},
+        {WITH(MOVED, "[1,1,0]", ""), 0, "/accessors/0: vertex 0: x differs by 2"},
+        {WITH(MOVED, "[2,1,0]", ""), 1.5, "/accessors/0: vertex 0: x differs by 2"},
         {WITH(MOVED, "[2,1,0]", ""), 2, ""},
     };
     const struct {

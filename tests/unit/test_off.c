@@ -240,7 +240,7 @@ static void test_compare(void **state)
         {"NOFF\n\n3 1 3\n0 0 0 0 0 1\n1 nan 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 9,
          "vertex 1 counted from 0 (lines 4 and 5): y: 0 and nan"},
         {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0.5 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n", 9,
-         "vertex 1 counted from 0 (line 4): normal \"0\" and \"0.5\""},
+         "vertex 1 counted from 0 (line 4): y of the normal differs by 0.5"},
         {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 254\n3 0 1 2 0.5\n", 9,
          "vertex 2 counted from 0 (line 5): followed by \"255\" and \"254\""},
         {"NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255.0\n3 0 1 2 0.5\n", 9,

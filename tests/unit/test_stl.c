@@ -415,7 +415,7 @@ static void test_compare_texts(void **state)
         {"solid a\n\n" FACET("0 0 1", "vertex 0 0 0\nvertex 1 nan 0\nvertex 0 1 0\n") "endsolid a\n", 9,
          "facet 0 counted from 0 (lines 2 and 3), corner 1: y: 0 and nan"},
         {"solid a\n" FACET("0 0 0.5", CORNERS) "endsolid a\n", 9,
-         "facet 0 counted from 0 (line 2): z of the normal: 1 and 0.5"},
+         "facet 0 counted from 0 (line 2): z of the normal differs by 0.5"},
         {"solid a\nendsolid a\n", 9, "1 and 0 facets"},
     };
     byte_buffer a = {0};

@@ -184,8 +184,10 @@ static void compare_statements(comparer *c)
         if (!in_a || !in_b)
             return;
         if (!same_text(c->a.scan.name, c->b.scan.name)) {
+            const bool is_vertex = c->a.scan.keyword == OBJ_VERTEX || c->b.scan.keyword == OBJ_VERTEX;
             c->result->complete = false;
-            differ_in_words(c, FFD_DIFFERENCE_OTHER, c->a.scan.name, c->b.scan.name);
+            differ_in_words(c, is_vertex ? FFD_DIFFERENCE_TOPOLOGY : FFD_DIFFERENCE_OTHER, c->a.scan.name,
+                            c->b.scan.name);
             return;
         }
         compare_arguments(c);
