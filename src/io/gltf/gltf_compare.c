@@ -88,8 +88,8 @@ static void compare_block(gltf_comparer *c, size_t accessor, size_t part, size_t
     if (memcmp(a, b, size * count * sizeof *a) == 0)
         return;
     c->states[accessor] = GLTF_DIFFER;
-    memcpy(placed_a, a, sizeof a);
-    memcpy(placed_b, b, sizeof b);
+    memcpy(placed_a, a, size * count * sizeof *a);
+    memcpy(placed_b, b, size * count * sizeof *b);
     if (part != GLTF_NONE) {
         ffd_part_place(&c->a->base, part, first, count, placed_a);
         ffd_part_place(&c->a->base, part, first, count, placed_b);
