@@ -427,6 +427,53 @@ def what_cannot_be_matched(run):
 
 
 @case
+def faces(run):
+    """Each face that differs counts once, whatever it differs in, and those behind it are matched all the same."""
+    shapes = [[0, 1, 2], [1, 2, 3], [2, 3, 4, 5], [0, 5, 4]]
+    others = [[0, 2, 1], [1, 2, 3], [2, 3, 4], [0, 5, 4, 3, 2]]
+
+    def ply(order, polygons):
+        text = ply_file([[0.0] * 3] * 6, [[0.0] * 3] * 6, order)
+        head, body = (text.encode() if isinstance(text, str) else text).split(b"end_header\n", 1)
+        head = head.replace(b"element face 2", b"element face %d" % len(polygons)) + b"end_header\n"
+        vertices = body[:6 * 48] if order else b"".join(body.splitlines(True)[:6])
+        rows = [struct.pack(f"{order}B{len(f)}i", len(f), *f) if order else " ".join(map(str, [len(f), *f])).encode() + b"\n"
+                for f in polygons]
+        return head + vertices + b"".join(rows)
+
+    forms = {
+        ".obj": lambda polygons: "v 0 0 0\n" * 6 + "".join(f"f {' '.join(str(i + 1) for i in f)}\n" for f in polygons),
+        ".off": lambda polygons: f"OFF\n6 {len(polygons)} 0\n" + "0 0 0\n" * 6
+                                 + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in polygons),
+        "free.off": lambda polygons: f"OFF 6 {len(polygons)} 0\n" + "0 0 0 " * 6
+                                     + "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in polygons),
+        "a.ply": lambda polygons: ply(None, polygons), "l.ply": lambda polygons: ply("<", polygons),
+        "b.ply": lambda polygons: ply(">", polygons),
+    }
+    for form, write in forms.items():
+        run.write("a" + form, write(shapes))
+        run.write("b" + form, write(others))
+        run.write("c" + form, write(shapes[:1] + others[1:3] + shapes[3:]))
+        for other, expected in (("b", 3), ("c", 1)):
+            found = result(run, "a" + form, other + form, "--tolerance", "9")
+            equal((counts(found), found["complete"]), ({"topology": expected}, True), form)
+            differ(run, "a" + form, other + form)
+
+
+@case
+def worst_of_kinds(run):
+    """A normal that differs more, and before, is not worse than a position."""
+    a, n = [[0.0, 0, 0]] * 3, [[0.0, 0, 1]] * 3
+    for form, write in FORMS.items():
+        run.write("a" + form, write(a, n))
+        run.write("b" + form, write([*a[:2], [0.0, 0.25, 0]], [[0.0, 8, 1], *n[1:]]))
+        found = result(run, "a" + form, "b" + form)
+        equal((counts(found), found["worst"]["difference"]), ({"position": 1, "normal": 1}, 0.25), form)
+        equal(found["first"]["kind"], "normal" if form.endswith((".off", ".ply")) else "position", form)
+        differ(run, "a" + form, "b" + form)
+
+
+@case
 def texcoords_and_colours(run):
     """No tolerance lets them pass. One difference a vertex."""
     ply = ("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float s\n"
