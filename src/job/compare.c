@@ -1,13 +1,9 @@
-#include "base/vec.h"
 #include "io/difference.h"
 #include "job/info.h"
 #include "job/source.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-/* Positions read at once. */
-#define BLOCK 256
 
 void ffd_compare_desc_init(ffd_compare_desc *desc)
 {
@@ -22,29 +18,14 @@ static ffd_status open_source(const ffd_source *given, mesh_document **document,
     return ffd_source_open(&source, 0, document, error);
 }
 
-static ffd_bounds find_bounds(const mesh_document *document)
-{
-    ffd_bounds bounds = ffd_info_no_bounds();
-    double points[3 * BLOCK];
-    for (size_t i = 0; i < document->part_count; i++) {
-        const mesh_part *part = &document->parts[i];
-        const size_t vertices = part->repeats_positions ? 0 : part->vertex_count;
-        for (size_t first = 0; first < vertices; first += BLOCK) {
-            const size_t size = vertices - first < BLOCK ? vertices - first : BLOCK;
-            ffd_source_positions(document, i, first, size, points);
-            for (size_t k = 0; k < size; k++)
-                if (vec_is_finite(points + 3 * k))
-                    ffd_info_widen(&bounds, points + 3 * k);
-        }
-    }
-    return bounds;
-}
-
 /* No more than the largest number, also where the box's sides are more. */
 static double find_diagonal(const mesh_document *document)
 {
-    const ffd_bounds box = find_bounds(document);
+    ffd_bounds box = ffd_info_no_bounds();
     double half[3];
+    for (size_t i = 0; i < document->part_count; i++)
+        if (!document->parts[i].repeats_positions)
+            ffd_source_widen(document, i, &box);
     if (box.min[0] > box.max[0])
         return 0;
     for (int c = 0; c < 3; c++)

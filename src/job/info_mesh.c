@@ -1,11 +1,7 @@
-#include "base/vec.h"
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
 #include "job/info.h"
 #include "job/source.h"
-
-/* Positions read at once. */
-#define BLOCK 256
 
 typedef struct vertex_facts {
     size_t vertices, normals, tangents;
@@ -13,29 +9,15 @@ typedef struct vertex_facts {
     ffd_bounds bounds;
 } vertex_facts;
 
-static void survey_positions(const mesh_document *document, size_t part, vertex_facts *facts)
-{
-    const mesh_part *p = &document->parts[part];
-    double xyz[3 * BLOCK];
-    for (size_t first = 0; first < p->vertex_count; first += BLOCK) {
-        const size_t left = p->vertex_count - first, count = left < BLOCK ? left : BLOCK;
-        ffd_source_positions(document, part, first, count, xyz);
-        for (size_t i = 0; i < count; i++)
-            if (vec_is_finite(xyz + 3 * i))
-                ffd_info_widen(&facts->bounds, xyz + 3 * i);
-            else
-                facts->not_finite++;
-    }
-    facts->vertices += p->vertex_count;
-}
-
 static void write_vertices(const mesh_document *document, json_text *json)
 {
     vertex_facts facts = {.bounds = ffd_info_no_bounds()};
     for (size_t part = 0; part < document->part_count; part++) {
         const mesh_part *p = &document->parts[part];
-        if (!p->repeats_positions)
-            survey_positions(document, part, &facts);
+        if (!p->repeats_positions) {
+            facts.not_finite += ffd_source_widen(document, part, &facts.bounds);
+            facts.vertices += p->vertex_count;
+        }
         facts.normals += p->normal_count;
         facts.tangents += p->has_tangents ? p->vertex_count : 0;
     }

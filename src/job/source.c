@@ -1,9 +1,14 @@
 #include "job/source.h"
 #include "base/path.h"
+#include "base/vec.h"
 #include "io/formats.h"
+#include "job/info.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Positions read at once. */
+#define BLOCK 256
 
 const char *ffd_source_name(const ffd_source *source)
 {
@@ -64,6 +69,23 @@ void ffd_source_positions(const mesh_document *document, size_t part, size_t fir
 {
     document->format->read_positions(document, part, first, count, xyz);
     ffd_part_place(document, part, first, count, xyz);
+}
+
+size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *bounds)
+{
+    const size_t vertices = document->parts[part].vertex_count;
+    size_t not_finite = 0;
+    double xyz[3 * BLOCK];
+    for (size_t first = 0; first < vertices; first += BLOCK) {
+        const size_t left = vertices - first, count = left < BLOCK ? left : BLOCK;
+        ffd_source_positions(document, part, first, count, xyz);
+        for (size_t i = 0; i < count; i++)
+            if (vec_is_finite(xyz + 3 * i))
+                ffd_info_widen(bounds, xyz + 3 * i);
+            else
+                not_finite++;
+    }
+    return not_finite;
 }
 
 void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...)

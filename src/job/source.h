@@ -22,6 +22,9 @@ void ffd_source_close(mesh_document **document);
 void ffd_source_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                           double *xyz);
 
+/* Widens bounds by a part's finite vertices, in the lattice's space. Returns how many are not finite. */
+size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *bounds);
+
 /* What a source is called in messages. */
 const char *ffd_source_name(const ffd_source *source);
 
