@@ -30,8 +30,9 @@ static ffd_status add_file(hash_list *list, const char *path, ffd_error *error)
     return add_hash(list, &hash, error);
 }
 
-/* The mesh and what it refers to. Only formats that can refer to files are opened for that. */
-static ffd_status list_mesh(const ffd_source *source, path_list *files, ffd_error *error)
+/* The mesh and what it refers to; images, which may be missing, only where that is not NULL. Only formats
+   that can refer to files are opened for that. */
+static ffd_status list_mesh(const ffd_source *source, path_list *files, path_list *images, ffd_error *error)
 {
     ffd_format format;
     mesh_document *document = NULL;
@@ -42,6 +43,8 @@ static ffd_status list_mesh(const ffd_source *source, path_list *files, ffd_erro
         status = ffd_source_open(source, 1, &document, error);
     if (!status)
         status = ffd_source_files(source, document, files, error);
+    if (!status && images && document->format->list_images)
+        status = document->format->list_images(document, images, error);
     ffd_source_close(&document);
     return status;
 }
@@ -51,6 +54,17 @@ static ffd_status add_files(hash_list *list, const path_list *files, ffd_error *
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < files->count && !status; i++)
         status = add_file(list, files->paths[i], error);
+    return status;
+}
+
+/* One that is not there, or cannot be read, counts too. */
+static ffd_status add_images(hash_list *list, const path_list *images, ffd_error *error)
+{
+    static const hash128 missing = {{0}};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < images->count && !status; i++)
+        if (add_file(list, images->paths[i], NULL))
+            status = add_hash(list, &missing, error);
     return status;
 }
 
@@ -79,7 +93,7 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint
     hash_list list = {0};
     ffd_status status = add_words(&list, words, error);
     if (!status)
-        status = list_mesh(&desc->input, files, error);
+        status = list_mesh(&desc->input, files, NULL, error);
     for (size_t i = 0; i < desc->lattice_count && !status; i++)
         status = ffd_paths_add(files, desc->lattices[i], error);
     if (!status && desc->embedding)
@@ -95,10 +109,13 @@ ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ff
                                .format = desc->in_place ? desc->input.format : desc->output_format,
                                .memory = desc->input.memory};
     hash_list list = {0};
-    path_list files = {0};
-    ffd_status status = list_mesh(&output, &files, error);
+    path_list files = {0}, images = {0};
+    ffd_status status = list_mesh(&output, &files, &images, error);
     if (!status)
         status = add_files(&list, &files, error);
+    if (!status)
+        status = add_images(&list, &images, error);
     ffd_paths_free(&files);
+    ffd_paths_free(&images);
     return finish(&list, status, hash);
 }

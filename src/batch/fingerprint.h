@@ -18,7 +18,7 @@ typedef struct fingerprint_words {
    reading. */
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
                                   path_list *files, hash128 *hash, ffd_error *error);
-/* Hashes the output and the buffers that it refers to. Errors: those of reading. */
+/* Hashes the output, the buffers that it refers to and the images beside it. Errors: those of reading. */
 ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ffd_error *error);
 
 #endif

@@ -224,7 +224,7 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     if (!*source)
         return ffd_fail_memory(error);
     (*source)->desc = *desc;
-    (*source)->frame = (batch_frame){desc->pattern, "", desc->defaults, desc->default_count};
+    (*source)->frame = (batch_frame){desc->pattern, "", desc->defaults, desc->default_count, desc->resume};
     ffd_status status;
     if (desc->manifest)
         status = open_text(*source, desc->manifest, error);

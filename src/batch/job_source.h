@@ -14,6 +14,7 @@ typedef struct job_source_desc {
     const char *out_dir; /* with pattern: where files keep their names; with table: the folder of "out" */
     const batch_default *defaults;
     size_t default_count;
+    bool resume;
     uint64_t shard, shards; /* jobs shard, shard + shards, ... of all, counted from 0 */
 } job_source_desc;
 

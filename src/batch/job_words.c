@@ -275,6 +275,9 @@ static bool read_files(job_reader *reader, const json_t *value)
         return refuse(reader, "\"out\" is missing");
     if (out && in_place)
         return refuse(reader, "\"out\" has no meaning with the option \"in-place\"");
+    if (in_place && reader->frame->resume)
+        return refuse(reader,
+                      "\"in-place\" has no meaning with --resume: what is done would be done once more");
     const char *const output = out ? read_path(reader, out, "out") : NULL;
     if (out && (!output || !keep_name(reader, output, &reader->job->output)))
         return false;

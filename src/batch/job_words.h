@@ -21,6 +21,7 @@ typedef struct batch_frame {
     const char *folder; /* that relative paths start from; "" for the current one */
     const batch_default *defaults;
     size_t default_count;
+    bool resume; /* jobs that cannot be resumed are refused */
 } batch_frame;
 
 typedef struct batch_job {

@@ -198,6 +198,8 @@ static bool take_answer(pool_worker *worker)
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, entry + head.entry_size, head.rule_size);
+    if (head.out_of_memory)
+        ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->record = head.record;
     task->has_record = head.has_record;
     bytes->size = 0;
@@ -215,6 +217,8 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
                       pool->desc.timeout);
     else if (worker->stopped)
         ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before its end");
+    else if (!end->signal && end->code == ffd_status_exit_code(FFD_E_MEMORY))
+        ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory");
     else if (end->killed)
         ffd_fail_file(error, FFD_E_MEMORY, name, "was ended by the system (%s), probably for want of memory",
                       end->text);

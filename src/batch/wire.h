@@ -44,6 +44,7 @@ typedef struct wire_answer {
     job_record record;
     uint8_t outcome;
     bool has_record;
+    bool out_of_memory; /* so that there are no texts, although the job failed */
 } wire_answer;
 
 /* Lengths beyond this are none. */

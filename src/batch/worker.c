@@ -34,8 +34,9 @@ static bool read_task(batch_worker *worker, wire_task *task)
         return false;
     text[task->text_size] = 0;
     worker->text.size = task->text_size;
-    return ffd_grow((void **)&worker->words, &worker->word_capacity, task->word_count + 1,
-                    sizeof *worker->words);
+    worker->text.failed = !ffd_grow((void **)&worker->words, &worker->word_capacity, task->word_count + 1,
+                                    sizeof *worker->words);
+    return !worker->text.failed;
 }
 
 /* A line of the job's log. */
@@ -142,7 +143,8 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
 }
 
-static void answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
+/* Whether the worker is fit for more: one that has run out of memory may do so again, with any job. */
+static bool answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
 {
     ffd_job_result result;
     ffd_result_clear(&result);
@@ -151,8 +153,9 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
         answer->outcome = OUTCOME_FAILED;
         log_error(worker, &result.error);
     }
+    const bool fit = result.status != FFD_E_MEMORY;
     if (!task->report)
-        return;
+        return fit;
     const char *name = worker->text.data;
     for (uint32_t i = 0; i < task->word_count + task->content_words + 1; i++)
         name = behind(name);
@@ -163,18 +166,26 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
                                 .skipped = answer->outcome == OUTCOME_SKIPPED,
                                 .stable = task->stable};
     ffd_report_entry_text(&entry, &worker->entry);
+    return fit;
 }
 
+/* Where there is no memory for what is to be said, that is said. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    if (worker->log.failed || worker->entry.failed || worker->rule.failed)
-        return false; /* without memory a worker ends; another one takes its place */
+    byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule};
+    for (int i = 0; i < 3; i++)
+        answer->out_of_memory = answer->out_of_memory || texts[i]->failed;
+    for (int i = 0; i < 3 && answer->out_of_memory; i++)
+        texts[i]->size = 0;
+    if (answer->out_of_memory)
+        answer->outcome = OUTCOME_FAILED;
     answer->log_size = worker->log.size;
     answer->entry_size = worker->entry.size;
     answer->rule_size = worker->rule.size;
-    return ffd_process_give(answer, sizeof *answer) && ffd_process_give(worker->log.data, worker->log.size) &&
-           ffd_process_give(worker->entry.data, worker->entry.size) &&
-           ffd_process_give(worker->rule.data, worker->rule.size);
+    bool sent = ffd_process_give(answer, sizeof *answer);
+    for (int i = 0; i < 3 && sent; i++)
+        sent = ffd_process_give(texts[i]->data, texts[i]->size);
+    return sent;
 }
 
 bool ffd_worker_is(const char *name)
@@ -188,19 +199,21 @@ int ffd_worker_run(const worker_program *program)
     wire_task task;
     ffd_interrupt_ignore();
     ffd_process_follow_parent();
-    bool going = ffd_share_create(&worker.share, NULL) == FFD_OK;
+    worker.text.failed = ffd_share_create(&worker.share, NULL) != FFD_OK;
+    bool going = !worker.text.failed;
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* the bytes between members too: they go through a pipe */
         worker.log.size = worker.entry.size = worker.rule.size = 0;
-        answer_task(&worker, &task, &answer);
-        going = send_answer(&worker, &answer);
+        going = answer_task(&worker, &task, &answer);
+        going = send_answer(&worker, &answer) && going && !answer.out_of_memory;
     }
+    const int code = worker.text.failed ? ffd_status_exit_code(FFD_E_MEMORY) : 0;
     ffd_share_destroy(&worker.share);
     ffd_buffer_free(&worker.text);
     ffd_buffer_free(&worker.log);
     ffd_buffer_free(&worker.entry);
     ffd_buffer_free(&worker.rule);
     ffd_free(worker.words);
-    return 0;
+    return code;
 }

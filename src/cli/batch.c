@@ -106,6 +106,8 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "--stop and --keep-going exclude each other";
     if (jobs->job.stable && !jobs->job.report)
         return "--report-stable needs --report";
+    if (s->resume && jobs->in_place)
+        return "--in-place has no meaning with --resume: what is done would be done once more";
     if (jobs->depfile_path && jobs->in_place)
         return "--depfile has no meaning with --in-place: a file cannot depend on itself";
     if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
@@ -127,6 +129,7 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .out_dir = s->jobs.out_dir,
                                       .defaults = s->defaults,
                                       .default_count = s->default_count,
+                                      .resume = s->resume,
                                       .shard = s->shard,
                                       .shards = s->shards ? s->shards : 1},
                              .pool = {.workers = s->at_once,

@@ -153,6 +153,8 @@ typedef struct mesh_format {
     /* Adds the files that open has read beside the one it was given: a .gltf's buffers. One that is named
        twice is added twice. NULL: there are none. */
     mesh_list_files_function *list_files;
+    /* Adds the images that stand beside the file or below, whether they are there or not. NULL: none. */
+    mesh_list_files_function *list_images;
     /* Refuses (FFD_E_UNSUPPORTED) what the parts' streams do not show as it is, before anything is embedded
        or deformed: skins, morph targets, compressed data. A document that only is to be described need not
        pass. NULL: they show all. Called by ffd_mesh_check. */

@@ -31,7 +31,7 @@ static void check_words(const batch_job *job)
 static void check_line(const char *text, size_t size)
 {
     static const batch_default defaults[] = {{"normals", "keep"}, {"force", NULL}, {"set", "A=1"}};
-    const batch_frame frame = {"m", "folder", defaults, 3};
+    const batch_frame frame = {.name = "m", .folder = "folder", .defaults = defaults, .default_count = 3};
     batch_job job = {.line = 1};
     PROMISE(ffd_job_parse(&frame, text, size, &job) == FFD_OK, "no memory");
     if (job.error.status == FFD_OK)

@@ -69,7 +69,7 @@ static void test_defaults(void **state)
 {
     static const batch_default defaults[] = {
         {"normals", "keep"}, {"force", NULL}, {"set", "A=1"}, {"set", "B=2"}};
-    const batch_frame frame = {"m", "", defaults, 4};
+    const batch_frame frame = {.name = "m", .folder = "", .defaults = defaults, .default_count = 4};
     check_words(&frame, "{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\"}",
                 "a|b|--lattice=l|--normals=keep|--force|--set=A=1|--set=B=2",
                 "a|b|--normals=keep|--set=A=1|--set=B=2");

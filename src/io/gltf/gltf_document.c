@@ -433,6 +433,7 @@ const mesh_format ffd_gltf_format = {
     .open = open_document,
     .close = close_document,
     .list_files = list_files,
+    .list_images = ffd_gltf_list_images,
     .check = check,
     .check_reach = ffd_gltf_check_reach,
     .keep_base = ffd_gltf_keep_base,

@@ -263,6 +263,9 @@ mesh_write_function ffd_gltf_write_normals;
 mesh_write_function ffd_gltf_write_tangents;
 mesh_write_offsets_function ffd_gltf_write_offsets;
 
+/* gltf_resources.c: mesh.h's list_images. */
+mesh_list_files_function ffd_gltf_list_images;
+
 /* gltf_as_morph.c: mesh.h's keep_base. */
 mesh_keep_base_function ffd_gltf_keep_base;
 

@@ -40,6 +40,24 @@ static ffd_status image_path(const gltf_document *d, size_t image, char **path, 
     return FFD_OK;
 }
 
+ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->image_values.count && status == FFD_OK; i++) {
+        char *relative = NULL;
+        status = image_path(d, i, &relative, error);
+        char *path = relative ? ffd_path_beside(d->path, relative) : NULL;
+        if (path)
+            status = ffd_paths_add(files, path, error);
+        else if (relative)
+            status = ffd_fail_memory(error);
+        ffd_free(path);
+        ffd_free(relative);
+    }
+    return status;
+}
+
 static ffd_status write_image(const resources *r, const char *target, const file_input *bytes,
                               ffd_error *error)
 {
