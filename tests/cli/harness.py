@@ -110,6 +110,7 @@ class Run:
         command = [options.pop("program", FFD), *arguments]
         options.setdefault("stdout", subprocess.PIPE)
         options.setdefault("stderr", subprocess.PIPE)
+        reports = self.reports(arguments)
         done = subprocess.run(command, cwd=self.folder, input=stdin, timeout=SECONDS, check=False, **options)
         shown = "ffd " + " ".join(arguments)
         told = (done.stderr or b"").decode("utf-8", "backslashreplace")
@@ -137,12 +138,27 @@ class Run:
         elif code > NO and not data and done.stdout is not None:
             equal(done.stdout, b"", f"{shown}: stdout of a failure")
         self.check_no_leftovers()
+        self.check_reports(arguments, reports, done.stdout)
         return Done(done.returncode, done.stdout or b"", said, announced)
 
     def check_no_leftovers(self):
         for folder, _, names in os.walk(self.folder):
             for name in names:
                 check("ffd-tmp" not in name, f"{os.path.join(folder, name)} was left")
+
+    def reports(self, arguments):
+        """The files that are named as reports, each with what tells it from another of that name; "-" too."""
+        names = [b if a == "--report" else a.partition("=")[2] for a, b in zip(arguments, (*arguments[1:], ""))
+                 if a.partition("=")[0] == "--report"]
+        return {name: os.stat(self.path(name)).st_ino if os.path.isfile(self.path(name)) else None for name in names}
+
+    def check_reports(self, arguments, before, out):
+        """Every report that a run has written follows the published schema."""
+        for name, file in self.reports(arguments).items():
+            content = out if name == "-" else self.read(name) if file != before[name] else None
+            if content and content.lstrip().startswith(b"{"):
+                from report_schema import faults  # not for the tests that write none
+                equal(faults(content), [], f"ffd {' '.join(arguments)}: its report against the schema")
 
     def unprivileged(self):
         """Options with which ffd runs as a user that is not root, or None where that cannot be had. The folder
