@@ -310,6 +310,15 @@ FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const c
 /* Writes the report. At most once. */
 FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 
+/* `ffd report merge`: joins count reports (at least one; "-": standard input) to one and writes it to output
+   ("-": standard output). Every entry keeps its bytes. The entries of one report follow those of the one
+   before; interleave: one of each report in turn, which for those of the shards 0 to count-1 is the order of
+   the manifest. All are checked before anything is written, and held in memory only where they are no files.
+   Errors: FFD_E_ARGUMENT, FFD_E_IO, FFD_E_EXISTS, FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_LIMIT,
+   FFD_E_MEMORY. */
+FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
+                                        const char *output, bool force, ffd_error *error);
+
 FFD_API void ffd_text_free(char *text);
 
 #ifdef __cplusplus

@@ -26,7 +26,8 @@ typedef struct cli_command {
     const cli_example *examples; /* ended by NULL; a test runs them, one after the other */
 } cli_command;
 
-extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new;
+extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new,
+    cli_report_merge;
 
 /* All of them, in the order of the help, ended by NULL. */
 extern const cli_command *const cli_commands[];

@@ -39,28 +39,31 @@ static const cli_command *find_command(int count, char **arguments, int *words)
     return NULL;
 }
 
+/* "lattice" or "report" alone stands for its only command where help is asked for. */
+static const cli_command *only_command_of(const char *word)
+{
+    return strcmp(word, "lattice") == 0  ? &cli_lattice_new
+           : strcmp(word, "report") == 0 ? &cli_report_merge
+                                         : NULL;
+}
+
 static int unknown_command(int count, char **arguments)
 {
     char typed[64];
-    const bool two = strcmp(arguments[0], "lattice") == 0 && count > 1;
+    const cli_command *group = only_command_of(arguments[0]);
+    const bool two = group && count > 1;
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
     cli_nearest nearest = {.word = typed, .length = strlen(typed)};
     for (int i = 0; cli_commands[i]; i++)
         cli_nearest_offer(&nearest, cli_commands[i]->name);
     cli_nearest_offer(&nearest, "help");
-    cli_complain("unknown command \"%s\" (nearest: %s)", typed, nearest.best);
+    cli_complain("unknown command \"%s\" (nearest: %s)", typed, group ? group->name : nearest.best);
     return EXIT_USAGE;
 }
 
 static bool is_help(const char *argument)
 {
     return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
-}
-
-/* "lattice" alone stands for its only command where help is asked for. */
-static bool is_lattice_help(int count, char **arguments)
-{
-    return count == 1 && strcmp(arguments[0], "lattice") == 0;
 }
 
 static int run_help(int count, char **arguments)
@@ -70,8 +73,9 @@ static int run_help(int count, char **arguments)
         print_overview();
         return EXIT_DONE;
     }
-    const cli_command *command =
-        is_lattice_help(count, arguments) ? &cli_lattice_new : find_command(count, arguments, &words);
+    const cli_command *command = count == 1 ? only_command_of(arguments[0]) : NULL;
+    if (!command)
+        command = find_command(count, arguments, &words);
     if (!command)
         return unknown_command(count, arguments);
     if (words && words != count) {
@@ -118,7 +122,7 @@ static int run(int count, char **arguments)
         return run_help(count - 1, arguments + 1);
     if (arguments[0][0] == '-')
         return unknown_option(arguments[0]);
-    if (is_lattice_help(1, arguments) && count > 1 && is_help(arguments[1]))
+    if (count > 1 && is_help(arguments[1]) && only_command_of(arguments[0]))
         return run_help(1, arguments);
     const cli_command *command = find_command(count, arguments, &words);
     return command ? command->run(command, count - words, arguments + words)

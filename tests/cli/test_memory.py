@@ -5,6 +5,7 @@ program packed_glb."""
 
 import json
 import os
+import resource
 import struct
 import subprocess
 import sys
@@ -254,6 +255,20 @@ def short_lines_of_others(run):
         struct.pack("<12fH", 0, 0, 1, i, 0, 1, 0, i, 1, 0, 0, i, 0) for i in range(90000)))
     for name in ("faces.ply", "vertices.ply", "vertices.off", "faces.off", "facets.stl"):
         equal(run_all(run, name, of_text(name[-3:]))["deform"], OK, name)
+
+
+@case
+def a_report_that_is_merged_need_not_fit_into_memory(run):
+    """It is mapped, which the system can take back: the address space has room for little more."""
+    count = 100000
+    entry = json.dumps({"input": "x" * 1400, "output": None, "status": "ok", "exit": 0, "error": None})
+    run.write("big.json", '{"format": "ffd-report", "version": 1, "jobs": [' + ",".join([entry] * count) + "]}")
+    room = os.path.getsize(run.path("big.json")) + (64 << 20)
+    check(room > 200 << 20, "the report is not large")
+    run.ffd("report", "merge", "big.json", "-o", "all.json", env=ENVIRONMENT,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (room, room)))
+    with open(run.path("all.json"), encoding="utf-8") as file:
+        equal(sum(line.startswith('    {"input"') for line in file), count)
 
 
 main()

@@ -4,7 +4,7 @@ import re
 
 from harness import CUBE, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new"]
+COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new", "report merge"]
 OPTIONS = {
     "deform": {"--lattice", "--out-dir", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory",
@@ -16,6 +16,7 @@ OPTIONS = {
     "info": {"--json", "--input-format", "--memory"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes",
                     "--force", "--input-format", "--memory"},
+    "report merge": {"--output", "--interleave", "--force"},
 }
 COMMON = {"--quiet", "--verbose", "--help"}
 
@@ -60,8 +61,9 @@ def help_of_each_command(run):
         equal(set(re.findall(r"^ +(?:-\w, )?(--[\w-]+)", text, re.M)), OPTIONS[command] | COMMON, command)
         check(f"usage: ffd {command} " in text, f"{command}: no usage line")
         check(all(len(line) < 130 for line in text.splitlines()), f"{command}: a line too long")
-    equal(run.ffd("help", "lattice").text, run.ffd("help", "lattice", "new").text)
-    equal(run.ffd("lattice", "--help").text, run.ffd("help", "lattice", "new").text)
+    for group, command in (("lattice", "new"), ("report", "merge")):
+        equal(run.ffd("help", group).text, run.ffd("help", group, command).text)
+        equal(run.ffd(group, "--help").text, run.ffd("help", group, command).text)
 
 
 @case
@@ -76,6 +78,8 @@ def unknown_commands(run):
         refused(run, "help", word, says=nearest)
     refused(run, "lattice", says="lattice new")
     refused(run, "lattice", "nwe", "a.obj", says="lattice new")
+    refused(run, "report", says="report merge")
+    refused(run, "report", "join", "a.json", says="report merge")
     refused(run, "help", "deform", "x", says="x")
     refused(run, "DEFORM", says="DEFORM")
     refused(run, "", says="nearest")
@@ -224,6 +228,10 @@ def words_of_the_others(run):
     refused(run, "lattice", "new", "-o", "n.json", says="MESH")
     refused(run, "lattice", "new", "a.obj", says="-o")
     refused(run, "lattice", "new", "a.obj", "a.obj", "-o", "n.json", says="MESH")
+    refused(run, "report", "merge", says="REPORT")
+    refused(run, "report", "merge", "-o", "r.json", says="REPORT")
+    refused(run, "report", "merge", "-", "a.json", "-", says="once")
+    refused(run, "report", "merge", "a.json", "-o", "", says="--output")
 
 
 @case

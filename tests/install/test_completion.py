@@ -24,6 +24,8 @@ CASES = [
     ("ffd lat", {"lattice"}),
     ("ffd lattice ", {"new"}),
     ("ffd help lattice ", {"new"}),
+    ("ffd report ", {"merge"}),
+    ("ffd report merge be", {"bend.json"}),
     ("ffd deform ", MESHES),
     ("ffd deform cow", {"cow.obj"}),
     ("ffd deform a\\ v", {"a vase.ply"}),

@@ -147,6 +147,12 @@ static ffd_status run_compare(ffd_error *error)
     return status;
 }
 
+static ffd_status run_report_merge(ffd_error *error)
+{
+    static const char *const reports[] = {input, input};
+    return ffd_report_merge_run(reports, 2, true, output, false, error);
+}
+
 /* As ffd_alloc_fail_after and new_fail_after. */
 static long remaining = -1;
 
@@ -283,6 +289,18 @@ static void memory_of_jansson(void **state)
     (void)state;
 }
 
+static void memory_of_reports(void **state)
+{
+    path_of("r.json", input);
+    path_of("o.json", output);
+    put_text("r.json",
+             "{\"format\": \"ffd-report\", \"version\": 1, \"jobs\": [{\"input\": \"a\", \"output\": null, "
+             "\"status\": \"ok\", \"exit\": 0, \"error\": null}]}");
+    assert_true(fail_everywhere(input, run_report_merge, ffd_alloc_fail_after) > 3);
+    unlink(input);
+    (void)state;
+}
+
 static int set_up(void **state)
 {
     static const char text[] =
@@ -306,10 +324,9 @@ static int tear_down(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_of_ours),
-        cmocka_unit_test(memory_of_morph_targets),
-        cmocka_unit_test(memory_of_cpp),
-        cmocka_unit_test(memory_of_jansson),
+        cmocka_unit_test(memory_of_ours),    cmocka_unit_test(memory_of_morph_targets),
+        cmocka_unit_test(memory_of_cpp),     cmocka_unit_test(memory_of_jansson),
+        cmocka_unit_test(memory_of_reports),
     };
     if (argc != 2)
         return 2;

@@ -1,0 +1,69 @@
+/* report_merge.c - ffd report merge: the reports of several runs as one. */
+#include "cli/command.h"
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct settings {
+    const char *output;
+    bool interleave, force, help;
+    cli_talk talk;
+} settings;
+
+#define AT(field) offsetof(settings, field)
+static const cli_option options[] = {
+    {"output", 'o', "FILE", "the report to write; default - (standard output)", cli_set_text, AT(output),
+     NULL},
+    {"interleave", 0, NULL,
+     "one job of each report in turn: the order of the manifest, for its shards 0, 1, ...", cli_set_flag,
+     AT(interleave), NULL},
+    {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+static size_t count_streams(const cli_words *words)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < words->count; i++)
+        count += strcmp(words->words[i], "-") == 0;
+    return count;
+}
+
+static int run(const cli_command *command, int count, char **arguments)
+{
+    settings s = {.output = NULL};
+    cli_words words;
+    ffd_error error;
+    int code = EXIT_USAGE;
+    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
+        return code;
+    if (words.count == 0)
+        code = cli_usage(command, "needs at least one REPORT");
+    else if (count_streams(&words) > 1)
+        code = cli_usage(command, "standard input can be read only once");
+    else if (ffd_report_merge_run(words.words, words.count, s.interleave, s.output ? s.output : "-", s.force,
+                                  &error))
+        code = cli_fail(&error);
+    else
+        code = EXIT_DONE;
+    free(words.words);
+    return code;
+}
+
+static const cli_example examples[] = {
+    {"the reports of the shards of a manifest", "for i in 0 1; do ffd batch jobs.jsonl --shard $i/2 --report "
+                                                "$i.json; done; ffd report merge 0.json 1.json"},
+    {"in the order of the manifest", "ffd report merge --interleave 0.json 1.json -o all.json"},
+    {NULL, NULL},
+};
+
+const cli_command cli_report_merge = {
+    "report merge",
+    "join the reports of several runs to one",
+    "usage: ffd report merge REPORT... [-o FILE] [--interleave] [options]\n",
+    {.first = options},
+    run,
+    "REPORT",
+    examples};
