@@ -5,7 +5,8 @@
     test_readme.py build SOURCE            the build and the C example, in a copy of the source
 
 Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```ninja NAME,
-```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install.
+```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install,
+```sh slurm, parallel and snakemake by those of tests/cluster.
 Commands that stand indented are compared with a list: a new one must find its test here."""
 import os
 import re
@@ -41,7 +42,7 @@ def run(script, folder, environment):
 
 def check_indented(text):
     names = {name for language, name, content in blocks(text) if language == "sh"}
-    if names - {"", "build", "package", "library"}:
+    if names - {"", "build", "package", "library", "slurm", "parallel", "snakemake"}:
         sys.exit(f"README.md has blocks of commands that no test runs: {names}")
     outside = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
     found = [line.strip() for line in outside.splitlines() if re.match(r"^    (sh|cc|ffd|meson|python3) ", line)]

@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""The Snakefile of data/: every mesh of a folder is deformed, and again those that have changed, no others."""
+import os
+import shutil
+
+from harness import CUBE, case, check, equal, gltf_json, lattice, main
+from many import SOURCE, contents, environment, readme_commands, readme_folder, shell
+
+COMMAND = "snakemake --snakefile ../Snakefile --cores 2 --nocolor --config meshes=in lattice=l.json out=out"
+
+
+@case
+def the_readme_s_commands(run):
+    readme_folder(run, "data")
+    shell(run, "data", readme_commands("snakemake"), environment(run))
+    meshes = [name for name in run.names("data/models") if name.endswith((".obj", ".glb"))]
+    equal([name for name in run.names("data/deformed") if name in meshes], meshes)
+    check(len(meshes) > 4, "few meshes")
+    for name in meshes:
+        run.ffd("deform", f"data/models/{name}", name, "-l", "data/lattices/twist.json", err=[])
+        equal(run.read(f"data/deformed/{name}"), run.read(name), name)
+
+
+def work(run):
+    shutil.copy(os.path.join(SOURCE, "data/snakemake/Snakefile"), run.path("Snakefile"))
+    asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], uri="a%20b.bin")
+    for name, content in (("a.obj", CUBE), ("b c.obj", CUBE + "# spaces\n"), ("d.gltf", asset), ("a b.bin", data), ("note.txt", "")):
+        run.write(f"w/in/{name}", content)
+    run.write("w/l.json", lattice(moves=[{"by": [1, 0, 0]}]))
+
+
+def build(run):
+    """Runs Snakemake; returns which outputs are new since the last time."""
+    def stamps():
+        return {name: os.stat(run.path(f"w/out/{name}")).st_mtime_ns for name in run.names("w/out")} if run.exists("w/out") else {}
+
+    before = stamps()
+    shell(run, "w", COMMAND, environment(run))
+    return sorted(name for name, stamp in stamps().items() if before.get(name) != stamp)
+
+
+ALL = ["a.obj", "b c.obj", "d.bin", "d.gltf"]
+
+
+@case
+def only_what_has_changed_is_deformed_again(run):
+    work(run)
+    equal(build(run), ALL)
+    whole = contents(run, "w/out")
+    equal(build(run), [], "nothing has changed")
+    run.write("w/in/b c.obj", CUBE + "v 0.5 0.5 0.5\n")
+    equal(build(run), ["b c.obj"])
+    _, data = gltf_json([[0, 0, 0.5], [1, 0, 0], [0, 1, 0]])
+    run.write("w/in/a b.bin", data)
+    equal(build(run), ["d.bin", "d.gltf"], "a buffer has changed")
+    run.remove("w/out/a.obj")
+    equal(build(run), ["a.obj"], "an output is missing")
+    equal(run.read("w/out/a.obj"), whole["a.obj"])
+    run.write("w/l.json", lattice(moves=[{"by": [0, 0, 0.5]}]))
+    equal(build(run), ALL, "the lattice has changed")
+    run.write("w/in/e.obj", CUBE)
+    equal(build(run), ["e.obj"], "a new mesh")
+
+
+@case
+def a_failing_mesh_leaves_no_output(run):
+    work(run)
+    run.write("w/in/b c.obj", "v 1 2\n")
+    shell(run, "w", COMMAND + " --keep-going", environment(run), code=1)
+    equal(run.names("w/out"), [name for name in ALL if name != "b c.obj"])
+
+
+main()
