@@ -201,7 +201,7 @@ if [ -n "$all" ]; then
 
     # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
     # is not what a change is judged by. Their corpus was replayed by every build above.
-    for target in lattice report obj gltf glb ply off stl; do
+    for target in lattice manifest report obj gltf glb ply off stl; do
         case_of fuzz "$target" sh "$root/tests/fuzz/run.sh" -t "$target" -n 3000 15 "$work/fuzz"
     done
     drop fuzz

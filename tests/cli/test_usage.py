@@ -6,10 +6,10 @@ from harness import CUBE, USAGE, case, check, equal, lattice, main
 
 COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new", "report merge"]
 OPTIONS = {
-    "deform": {"--lattice", "--out-dir", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
+    "deform": {"--lattice", "--set", "--out-dir", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory",
                "--output-format"},
-    "check": {"--lattice", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
+    "check": {"--lattice", "--set", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
               "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory"},
     "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format", "--memory"},
     "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory"},
@@ -87,7 +87,7 @@ def unknown_commands(run):
 
 @case
 def commands_of_later_versions_are_absent(run):
-    for words in (["batch", "m.jsonl"], ["fit", "a.obj", "b.obj"], ["view", "a.obj"],
+    for words in (["fit", "a.obj", "b.obj"], ["view", "a.obj"],
                   ["lattice", "refine", "l.json"], ["lattice", "convert", "l.json"], ["lattice", "set", "l.json"]):
         refused(run, *words, says="unknown command")
 

@@ -82,3 +82,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     return 0;
 }
+
+size_t fuzz_mutate(uint8_t *data, size_t size, size_t capacity, uint64_t seed)
+{
+    mutant m = {.data = data, .size = size, .capacity = capacity, .text = size, .random = {seed}};
+    if (size == 0)
+        return 0;
+    mutant_change_piece(&m, "{}[]\",:\\ 01-e.nt=\n\r\xff");
+    return m.size;
+}

@@ -105,28 +105,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     return 0;
 }
 
-/* A piece of the text goes to another place, or away; or a byte is another one. */
-static void change_piece(mutant *m)
-{
-    static const char bytes[] = "{}[]\",:\\ 01-e.nt\n\xff";
-    uint8_t piece[64];
-    const size_t from = mutant_pick(m, m->size), to = mutant_pick(m, m->size);
-    const size_t most = m->size - from < sizeof piece ? m->size - from : sizeof piece;
-    const size_t length = 1 + mutant_pick(m, most);
-    memcpy(piece, m->data + from, length);
-    switch (mutant_pick(m, 3)) {
-    case 0:
-        mutant_replace(m, to, 0, piece, length);
-        break;
-    case 1:
-        mutant_replace(m, from, length, NULL, 0);
-        break;
-    default:
-        m->data[to] = (uint8_t)bytes[mutant_pick(m, sizeof bytes - 1)];
-        break;
-    }
-}
-
 size_t fuzz_mutate(uint8_t *data, size_t size, size_t capacity, uint64_t seed)
 {
     mutant m = {.data = data, .size = size, .capacity = capacity, .text = size, .random = {seed}};
@@ -135,6 +113,6 @@ size_t fuzz_mutate(uint8_t *data, size_t size, size_t capacity, uint64_t seed)
     if (mutant_pick(&m, 4) == 0)
         mutant_change_number(&m);
     else
-        change_piece(&m);
+        mutant_change_piece(&m, "{}[]\",:\\ 01-e.nt\n\xff");
     return m.size;
 }

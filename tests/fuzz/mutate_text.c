@@ -127,3 +127,23 @@ void mutant_copy_number(mutant *m)
     memcpy(text, m->data + from, from_length);
     mutant_replace(m, to, to_length, text, from_length);
 }
+
+void mutant_change_piece(mutant *m, const char *bytes)
+{
+    uint8_t piece[64];
+    const size_t from = mutant_pick(m, m->size), to = mutant_pick(m, m->size);
+    const size_t most = m->size - from < sizeof piece ? m->size - from : sizeof piece;
+    const size_t length = 1 + mutant_pick(m, most);
+    memcpy(piece, m->data + from, length);
+    switch (mutant_pick(m, 3)) {
+    case 0:
+        mutant_replace(m, to, 0, piece, length);
+        break;
+    case 1:
+        mutant_replace(m, from, length, NULL, 0);
+        break;
+    default:
+        m->data[to] = (uint8_t)bytes[mutant_pick(m, strlen(bytes))];
+        break;
+    }
+}

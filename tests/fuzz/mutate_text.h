@@ -25,4 +25,8 @@ double mutant_changed_number(mutant *m, double value);
 void mutant_change_number(mutant *m);
 void mutant_copy_number(mutant *m);
 
+/* A piece of the input, which is not empty, goes to another place, or away; or a byte becomes one of bytes.
+ */
+void mutant_change_piece(mutant *m, const char *bytes);
+
 #endif
