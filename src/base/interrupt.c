@@ -48,6 +48,14 @@ int ffd_interrupt_stream(void)
     return wished == INTERRUPT_NONE ? stream[0] : -1;
 }
 
+void ffd_interrupt_defer(bool wait)
+{
+    sigset_t request;
+    sigemptyset(&request);
+    sigaddset(&request, SIGTERM);
+    sigprocmask(wait ? SIG_BLOCK : SIG_UNBLOCK, &request, NULL);
+}
+
 void ffd_interrupt_ignore(void)
 {
     signal(SIGINT, SIG_IGN);

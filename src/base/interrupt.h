@@ -2,6 +2,8 @@
 #ifndef FFD_BASE_INTERRUPT_H
 #define FFD_BASE_INTERRUPT_H
 
+#include <stdbool.h>
+
 typedef enum interrupt_wish {
     INTERRUPT_NONE,
     INTERRUPT_FINISH, /* Ctrl-C, once: finish what is under way */
@@ -18,5 +20,8 @@ int ffd_interrupt_stream(void);
 /* In a worker: Ctrl-C, which reaches every program of a terminal, is the business of the one who started it.
  */
 void ffd_interrupt_ignore(void);
+/* In a worker: requests to terminate wait, or do not wait any more. One thread calls this; others must have
+   ended. */
+void ffd_interrupt_defer(bool wait);
 
 #endif

@@ -1,15 +1,8 @@
 #include "batch/csv.h"
 #include <string.h>
 
-bool ffd_csv_is_open(const char *text, size_t size)
-{
-    bool open = false;
-    for (size_t i = 0; i < size; i++)
-        open = open != (text[i] == '"');
-    return open;
-}
-
-/* From the quote at text[i] to behind the one that ends the cell: where that is, 0 for none. */
+/* From the quote at text[i] to behind the one that ends the cell: where that is, 0 for none. cell gets what
+   is between them, or is NULL. */
 static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *cell)
 {
     for (i++; i < size; i++) {
@@ -17,9 +10,34 @@ static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *
             i++;
         else if (text[i] == '"')
             return i + 1;
-        ffd_buffer_append(cell, text + i, 1);
+        if (cell)
+            ffd_buffer_append(cell, text + i, 1);
     }
     return 0;
+}
+
+/* Where the cell at text[i] that is not within quotes ends. */
+static size_t skip_plain(const char *text, size_t i, size_t size)
+{
+    while (i < size && text[i] != ',' && text[i] != '"')
+        i++;
+    return i;
+}
+
+bool ffd_csv_is_open(const char *text, size_t size)
+{
+    for (size_t i = 0; i < size; i++) {
+        if (text[i] == '"') {
+            i = take_quoted(text, i, size, NULL);
+            if (i == 0)
+                return true;
+        } else {
+            i = skip_plain(text, i, size);
+        }
+        if (i < size && text[i] != ',')
+            return false; /* it is no row, whatever comes */
+    }
+    return false;
 }
 
 bool ffd_csv_split(const char *text, size_t size, csv_row *row)
@@ -33,8 +51,7 @@ bool ffd_csv_split(const char *text, size_t size, csv_row *row)
                 return false;
         } else {
             const size_t first = i;
-            while (i < size && text[i] != ',' && text[i] != '"')
-                i++;
+            i = skip_plain(text, i, size);
             if (i < size && text[i] == '"')
                 return false;
             ffd_buffer_append(&row->text, text + first, i - first);

@@ -19,51 +19,28 @@ static ffd_status add_hash(hash_list *list, const hash128 *hash, ffd_error *erro
     return FFD_OK;
 }
 
-static ffd_status add_file(hash_list *list, const char *path, ffd_error *error)
+static ffd_status add_file(hash_list *list, hash_cache *cache, const char *path, ffd_error *error)
 {
-    file_input input;
-    const ffd_status status = ffd_file_load(path, &input, error);
-    if (status)
-        return status;
-    const hash128 hash = ffd_hash(input.data, input.size);
-    ffd_file_unload(&input);
-    return add_hash(list, &hash, error);
+    hash128 hash;
+    const ffd_status status = ffd_cache_hash(cache, path, &hash, error);
+    return status ? status : add_hash(list, &hash, error);
 }
 
-/* The mesh and what it refers to; images, which may be missing, only where that is not NULL. Only formats
-   that can refer to files are opened for that. */
-static ffd_status list_mesh(const ffd_source *source, path_list *files, path_list *images, ffd_error *error)
-{
-    ffd_format format;
-    mesh_document *document = NULL;
-    ffd_status status = ffd_source_format(source, &format, error);
-    if (!status && !ffd_format_table(format)->list_files)
-        return ffd_paths_add(files, source->path, error);
-    if (!status)
-        status = ffd_source_open(source, 1, &document, error);
-    if (!status)
-        status = ffd_source_files(source, document, files, error);
-    if (!status && images && document->format->list_images)
-        status = document->format->list_images(document, images, error);
-    ffd_source_close(&document);
-    return status;
-}
-
-static ffd_status add_files(hash_list *list, const path_list *files, ffd_error *error)
+static ffd_status add_files(hash_list *list, hash_cache *cache, const path_list *files, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < files->count && !status; i++)
-        status = add_file(list, files->paths[i], error);
+        status = add_file(list, cache, files->paths[i], error);
     return status;
 }
 
 /* One that is not there, or cannot be read, counts too. */
-static ffd_status add_images(hash_list *list, const path_list *images, ffd_error *error)
+static ffd_status add_images(hash_list *list, hash_cache *cache, const path_list *images, ffd_error *error)
 {
     static const hash128 missing = {{0}};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < images->count && !status; i++)
-        if (add_file(list, images->paths[i], NULL))
+        if (add_file(list, cache, images->paths[i], NULL))
             status = add_hash(list, &missing, error);
     return status;
 }
@@ -88,19 +65,37 @@ static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
 }
 
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
-                                  path_list *files, hash128 *hash, ffd_error *error)
+                                  hash_cache *cache, path_list *files, hash128 *hash, ffd_error *error)
 {
     hash_list list = {0};
     ffd_status status = add_words(&list, words, error);
     if (!status)
-        status = list_mesh(&desc->input, files, NULL, error);
+        status = ffd_cache_list(cache, &desc->input, files, error);
     for (size_t i = 0; i < desc->lattice_count && !status; i++)
         status = ffd_paths_add(files, desc->lattices[i], error);
     if (!status && desc->embedding)
         status = ffd_paths_add(files, desc->embedding, error);
     if (!status)
-        status = add_files(&list, files, error);
+        status = add_files(&list, cache, files, error);
     return finish(&list, status, hash);
+}
+
+/* What the output refers to: its buffers, and images, which may be missing. */
+static ffd_status list_output(const ffd_source *output, path_list *files, path_list *images, ffd_error *error)
+{
+    ffd_format format;
+    mesh_document *document = NULL;
+    ffd_status status = ffd_source_format(output, &format, error);
+    if (!status && !ffd_format_table(format)->list_files)
+        return ffd_paths_add(files, output->path, error);
+    if (!status)
+        status = ffd_source_open(output, 1, &document, error);
+    if (!status)
+        status = ffd_source_files(output, document, files, error);
+    if (!status && document->format->list_images)
+        status = document->format->list_images(document, images, error);
+    ffd_source_close(&document);
+    return status;
 }
 
 ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ffd_error *error)
@@ -109,13 +104,15 @@ ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ff
                                .format = desc->in_place ? desc->input.format : desc->output_format,
                                .memory = desc->input.memory};
     hash_list list = {0};
+    hash_cache none = {0}; /* an output is looked at once */
     path_list files = {0}, images = {0};
-    ffd_status status = list_mesh(&output, &files, &images, error);
+    ffd_status status = list_output(&output, &files, &images, error);
     if (!status)
-        status = add_files(&list, &files, error);
+        status = add_files(&list, &none, &files, error);
     if (!status)
-        status = add_images(&list, &images, error);
+        status = add_images(&list, &none, &images, error);
     ffd_paths_free(&files);
     ffd_paths_free(&images);
+    ffd_cache_free(&none);
     return finish(&list, status, hash);
 }

@@ -2,9 +2,7 @@
 #ifndef FFD_BATCH_FINGERPRINT_H
 #define FFD_BATCH_FINGERPRINT_H
 
-#include "base/hash.h"
-#include "base/path_list.h"
-#include <ffd/job.h>
+#include "batch/hash_cache.h"
 #include <stdint.h>
 
 /* What a job says (batch_job's content). */
@@ -14,10 +12,11 @@ typedef struct fingerprint_words {
 } fingerprint_words;
 
 /* Hashes all that the output depends on: the program's version, what the job says, and the bytes of the mesh,
-   the buffers that it refers to, the lattices and the embedding, which are added to files. Errors: those of
+   the buffers that it refers to, the lattices and the embedding, which are added to
+   files. cache is that of the jobs before. Errors: those of
    reading. */
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
-                                  path_list *files, hash128 *hash, ffd_error *error);
+                                  hash_cache *cache, path_list *files, hash128 *hash, ffd_error *error);
 /* Hashes the output, the buffers that it refers to and the images beside it. Errors: those of reading. */
 ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ffd_error *error);
 

@@ -117,6 +117,9 @@ static json_t *row_value(const job_source *source)
     }
     if (desc->pattern && !json_object_get(job, "in"))
         json_object_set_new(job, "in", json_string(desc->pattern));
+    const char *const input = json_string_value(json_object_get(job, "in"));
+    if (desc->out_dir && input && !json_object_get(job, "out"))
+        set_path(job, "out", desc->out_dir, ffd_path_name(input));
     if (desc->lattice_count && !json_object_get(job, "lattice"))
         json_object_set_new(job, "lattice", list_lattices(desc));
     json_object_set_new(job, "set", settings);
@@ -142,6 +145,25 @@ static ffd_status read_row(job_source *source, bool valid, batch_job *job)
     return status;
 }
 
+static ffd_status check_columns(const job_source *source, ffd_error *error)
+{
+    const csv_row *const columns = &source->columns;
+    const char *name = NULL;
+    for (size_t i = 0; i < columns->count; i++) {
+        const char *other = name = ffd_csv_next(columns, name);
+        if (!*name)
+            return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                                 "column %zu of the table has no name", i + 1);
+        for (size_t k = i + 1; k < columns->count; k++) {
+            other = ffd_csv_next(columns, other);
+            if (strcmp(name, other) == 0)
+                return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                                     "two columns of the table are named \"%.60s\"", name);
+        }
+    }
+    return FFD_OK;
+}
+
 static ffd_status read_columns(job_source *source, ffd_error *error)
 {
     bool more, valid;
@@ -151,7 +173,7 @@ static ffd_status read_columns(job_source *source, ffd_error *error)
     if (!more || !valid)
         return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, 1,
                              "the first row of the table must name its columns");
-    return FFD_OK;
+    return check_columns(source, error);
 }
 
 /* Patterns */

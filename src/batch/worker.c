@@ -1,5 +1,5 @@
 #include "batch/worker.h"
-#include "base/fail.h"
+#include "base/file.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
 #include "batch/fingerprint.h"
@@ -11,8 +11,9 @@
 
 typedef struct batch_worker {
     const worker_program *program;
-    ffd_share *share; /* what the next job may have in common with the last */
-    byte_buffer text; /* of the task: words, then content, then what input and output are called */
+    hash_cache hashes; /* of files, likewise */
+    ffd_share *share;  /* what the next job may have in common with the last */
+    byte_buffer text;  /* of the task: words, then content, then what input and output are called */
     char **words;
     size_t word_capacity;
     byte_buffer log, entry, rule; /* of the answer */
@@ -81,23 +82,27 @@ static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, wi
 
 /* Deforms, or sees that it need not; files become those that the output is made of. */
 static ffd_status do_job(const wire_task *task, const fingerprint_words *words, ffd_deform_desc *desc,
-                         path_list *files, wire_answer *answer, ffd_job_result *result)
+                         hash_cache *hashes, path_list *files, wire_answer *answer, ffd_job_result *result)
 {
     ffd_status status = FFD_OK;
     /* For a plan it also shows that they can be read. */
     if (task->records || task->dry || task->depfile)
-        status = ffd_fingerprint_inputs(desc, words, files, &answer->record.inputs, &result->error);
+        status = ffd_fingerprint_inputs(desc, words, hashes, files, &answer->record.inputs, &result->error);
     if (status)
         return status;
     if (is_up_to_date(task, desc, answer)) {
         answer->outcome = OUTCOME_SKIPPED;
         return FFD_OK;
     }
-    if (task->dry)
-        return FFD_OK;
     /* What an earlier run left is this one's to replace. */
     desc->force = desc->force || task->resume;
+    if (task->dry)
+        return desc->in_place
+                   ? FFD_OK
+                   : ffd_output_check(desc->output, desc->force || desc->if_changed, &result->error);
     status = ffd_deform_run(desc, result, NULL);
+    /* Who ends the worker now gets to know first that the output is there. */
+    ffd_interrupt_defer(true);
     if (!status && task->records)
         answer->has_record = ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK;
     return status;
@@ -135,7 +140,7 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     if (desc.threads == 0)
         desc.threads = task->threads;
     path_list files = {0};
-    ffd_status status = do_job(task, &words, &desc, &files, answer, result);
+    ffd_status status = do_job(task, &words, &desc, &worker->hashes, &files, answer, result);
     if (!status && task->depfile && !task->dry && desc.output)
         status = ffd_depfile_rule(desc.output, &files, &worker->rule, &result->error);
     ffd_paths_free(&files);
@@ -207,9 +212,11 @@ int ffd_worker_run(const worker_program *program)
         worker.log.size = worker.entry.size = worker.rule.size = 0;
         going = answer_task(&worker, &task, &answer);
         going = send_answer(&worker, &answer) && going && !answer.out_of_memory;
+        ffd_interrupt_defer(false);
     }
     const int code = worker.text.failed ? ffd_status_exit_code(FFD_E_MEMORY) : 0;
     ffd_share_destroy(&worker.share);
+    ffd_cache_free(&worker.hashes);
     ffd_buffer_free(&worker.text);
     ffd_buffer_free(&worker.log);
     ffd_buffer_free(&worker.entry);
