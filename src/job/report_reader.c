@@ -102,7 +102,7 @@ static const struct {
     {"input", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
     {"output", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
     {"status", "\"ok\", \"failed\" or \"skipped\"", 1U << JSON_STRING},
-    {"exit", "a whole number from 0 to 255", 1U << JSON_NUMBER},
+    {"exit", "a whole number from 0 to 7", 1U << JSON_NUMBER},
     {"error", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
 };
 
@@ -114,7 +114,7 @@ static bool is_promised(const json_span *tree, uint32_t value, size_t which)
     if (strcmp(promised[which].key, "status") == 0)
         return ffd_json_span_string_is(tree, value, "ok") || ffd_json_span_string_is(tree, value, "failed") ||
                ffd_json_span_string_is(tree, value, "skipped");
-    return !ffd_json_span_number(tree, value, &code) || (code >= 0 && code <= 255 && code == (int)code);
+    return !ffd_json_span_number(tree, value, &code) || (code >= 0 && code <= 7 && code == (int)code);
 }
 
 static ffd_status check_members(const json_span *tree, const char *name, ffd_error *error)

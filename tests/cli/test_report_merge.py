@@ -151,9 +151,9 @@ def broken_reports_are_refused(run):
 @case
 def entries_must_say_what_became_of_the_job(run):
     for key, wrong, must in (("input", 3, "a text or null"), ("output", 3, "a text or null"), ("status", "done", '"ok", "failed" or "skipped"'),
-                             ("status", None, '"ok", "failed" or "skipped"'), ("exit", 256, "a whole number from 0 to 255"),
-                             ("exit", -1, "a whole number from 0 to 255"), ("exit", 0.5, "a whole number from 0 to 255"),
-                             ("exit", "0", "a whole number from 0 to 255"), ("error", [], "a text or null")):
+                             ("status", None, '"ok", "failed" or "skipped"'), ("exit", 8, "a whole number from 0 to 7"),
+                             ("exit", -1, "a whole number from 0 to 7"), ("exit", 0.5, "a whole number from 0 to 7"),
+                             ("exit", "0", "a whole number from 0 to 7"), ("error", [], "a text or null")):
         run.write("r.json", report(ENTRY, entry(**{key: wrong})))
         run.ffd("report", "merge", "r.json", code=INVALID, err=f"r.json:/jobs/1/{key}: must be {must}, not {json.dumps(wrong)}")
         less = entry()
