@@ -4,6 +4,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+
 static volatile sig_atomic_t wished = INTERRUPT_NONE;
 static int stream[2] = {-1, -1};
 
@@ -25,17 +27,15 @@ static void keep_to_itself(int fd)
 
 void ffd_interrupt_watch(void)
 {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
     struct sigaction action = {.sa_handler = notice, .sa_flags = SA_RESTART}, before;
     sigemptyset(&action.sa_mask);
     if (stream[0] < 0 && pipe(stream) == 0)
         for (int i = 0; i < 2; i++)
             keep_to_itself(stream[i]);
-    for (int i = 0; i < 3; i++)
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         /* What is ignored from the start (nohup) stays so. */
         if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
             sigaction(numbers[i], &action, NULL);
-    signal(SIGPIPE, SIG_IGN); /* a worker that has ended is no reason to end */
 }
 
 interrupt_wish ffd_interrupt_wished(void)
@@ -48,15 +48,8 @@ int ffd_interrupt_stream(void)
     return wished == INTERRUPT_NONE ? stream[0] : -1;
 }
 
-void ffd_interrupt_defer(bool wait)
-{
-    sigset_t request;
-    sigemptyset(&request);
-    sigaddset(&request, SIGTERM);
-    sigprocmask(wait ? SIG_BLOCK : SIG_UNBLOCK, &request, NULL);
-}
-
 void ffd_interrupt_ignore(void)
 {
-    signal(SIGINT, SIG_IGN);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        signal(numbers[i], SIG_IGN);
 }

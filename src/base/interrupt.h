@@ -2,8 +2,6 @@
 #ifndef FFD_BASE_INTERRUPT_H
 #define FFD_BASE_INTERRUPT_H
 
-#include <stdbool.h>
-
 typedef enum interrupt_wish {
     INTERRUPT_NONE,
     INTERRUPT_FINISH, /* Ctrl-C, once: finish what is under way */
@@ -17,11 +15,8 @@ interrupt_wish ffd_interrupt_wished(void);
 /* A stream that can be read once there is a wish; -1: there is none. For ffd_process_wait. */
 int ffd_interrupt_stream(void);
 
-/* In a worker: Ctrl-C, which reaches every program of a terminal, is the business of the one who started it.
- */
+/* In a worker: such wishes, which can reach every program of a terminal or of a job of a cluster, are the
+   business of the one who started it. */
 void ffd_interrupt_ignore(void);
-/* In a worker: requests to terminate wait, or do not wait any more. One thread calls this; others must have
-   ended. */
-void ffd_interrupt_defer(bool wait);
 
 #endif

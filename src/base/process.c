@@ -10,6 +10,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -20,11 +21,11 @@ extern char **environ;
 
 struct worker_process {
     pid_t id;
-    int to, from; /* -1: closed */
+    int channel;
 };
 
-/* The streams of a worker that carry what is said: not the standard ones, where a library might print. */
-enum { WORKER_INPUT = 3, WORKER_OUTPUT = 4, WORKER_STREAMS = 5 };
+/* What a worker talks over: none of the standard streams, where a library might print. */
+enum { CHANNEL = 3 };
 
 static ffd_status fail_start(ffd_error *error, int reason)
 {
@@ -32,14 +33,15 @@ static ffd_status fail_start(ffd_error *error, int reason)
                     strerror(reason));
 }
 
-/* A pipe whose ends no other worker gets, and whose numbers are none of a worker's streams. */
-static bool make_pipe(int ends[2])
+/* A pair of sockets that no other worker gets, and whose numbers are not that of a worker's. A pipe would end
+   the program with a signal where its worker has ended. */
+static bool make_channel(int ends[2])
 {
     int low[2];
-    if (pipe(low) != 0)
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, low) != 0)
         return false;
     for (int i = 0; i < 2; i++)
-        ends[i] = fcntl(low[i], F_DUPFD_CLOEXEC, WORKER_STREAMS);
+        ends[i] = fcntl(low[i], F_DUPFD_CLOEXEC, CHANNEL + 1);
     const int reason = errno;
     close(low[0]);
     close(low[1]);
@@ -52,7 +54,7 @@ static bool make_pipe(int ends[2])
     return false;
 }
 
-static int spawn(const char *name, int input, int output, pid_t *id)
+static int spawn(const char *name, int channel, pid_t *id)
 {
     char *arguments[] = {(char *)(uintptr_t)name, NULL};
     posix_spawn_file_actions_t actions;
@@ -64,11 +66,11 @@ static int spawn(const char *name, int input, int output, pid_t *id)
         return failed;
     failed = posix_spawnattr_init(&attributes);
     if (!failed) {
-        failed = posix_spawn_file_actions_adddup2(&actions, input, WORKER_INPUT);
-        if (!failed)
-            failed = posix_spawn_file_actions_adddup2(&actions, output, WORKER_OUTPUT);
+        failed = posix_spawn_file_actions_adddup2(&actions, channel, CHANNEL);
         if (!failed)
             failed = posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+        if (!failed)
+            failed = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
         if (!failed)
             failed = posix_spawnattr_setsigmask(&attributes, &none);
         if (!failed)
@@ -83,50 +85,43 @@ static int spawn(const char *name, int input, int output, pid_t *id)
 
 ffd_status ffd_process_start(const char *name, worker_process **process, ffd_error *error)
 {
-    int input[2], output[2];
+    int ends[2] = {-1, -1};
     *process = NULL;
     worker_process *made = ffd_alloc_zero(1, sizeof *made);
     if (!made)
         return ffd_fail_memory(error);
-    if (!make_pipe(input)) {
-        ffd_free(made);
-        return fail_start(error, errno);
-    }
-    int failed = make_pipe(output) ? 0 : errno;
+    int failed = make_channel(ends) ? 0 : errno;
     if (!failed) {
-        failed = spawn(name, input[0], output[1], &made->id);
-        close(output[1]);
+        failed = spawn(name, ends[1], &made->id);
+        close(ends[1]);
         if (failed)
-            close(output[0]);
+            close(ends[0]);
     }
-    close(input[0]);
     if (failed) {
-        close(input[1]);
         ffd_free(made);
         return fail_start(error, failed);
     }
-    made->to = input[1];
-    made->from = output[0];
+    made->channel = ends[0];
     *process = made;
     return FFD_OK;
 }
 
-static bool write_all(int fd, const void *bytes, size_t size)
+static bool send_all(int fd, const void *bytes, size_t size)
 {
     const char *at = bytes;
     while (size > 0) {
-        const ssize_t written = write(fd, at, size);
-        if (written < 0 && errno != EINTR)
+        const ssize_t sent = send(fd, at, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno != EINTR)
             return false;
-        at += written > 0 ? written : 0;
-        size -= written > 0 ? (size_t)written : 0;
+        at += sent > 0 ? sent : 0;
+        size -= sent > 0 ? (size_t)sent : 0;
     }
     return true;
 }
 
 bool ffd_process_send(worker_process *process, const void *bytes, size_t size)
 {
-    return write_all(process->to, bytes, size);
+    return send_all(process->channel, bytes, size);
 }
 
 void ffd_process_wait(worker_process *const *processes, size_t count, double seconds)
@@ -140,7 +135,7 @@ void ffd_process_wait(worker_process *const *processes, size_t count, double sec
     }
     for (size_t i = 0; i < count; i++)
         if (processes[i])
-            set[used++] = (struct pollfd){.fd = processes[i]->from, .events = POLLIN};
+            set[used++] = (struct pollfd){.fd = processes[i]->channel, .events = POLLIN};
     const int interrupts = ffd_interrupt_stream();
     if (interrupts >= 0)
         set[used++] = (struct pollfd){.fd = interrupts, .events = POLLIN};
@@ -151,10 +146,10 @@ void ffd_process_wait(worker_process *const *processes, size_t count, double sec
 
 bool ffd_process_receive(worker_process *process, byte_buffer *bytes)
 {
-    struct pollfd ready = {.fd = process->from, .events = POLLIN};
+    struct pollfd ready = {.fd = process->channel, .events = POLLIN};
     while (poll(&ready, 1, 0) > 0) {
         char block[4096];
-        const ssize_t size = read(process->from, block, sizeof block);
+        const ssize_t size = read(process->channel, block, sizeof block);
         if (size < 0 && errno == EINTR)
             continue;
         if (size <= 0)
@@ -162,11 +157,6 @@ bool ffd_process_receive(worker_process *process, byte_buffer *bytes)
         ffd_buffer_append(bytes, block, (size_t)size);
     }
     return true;
-}
-
-void ffd_process_stop(worker_process *process)
-{
-    kill(process->id, SIGTERM);
 }
 
 void ffd_process_kill(worker_process *process)
@@ -192,8 +182,7 @@ void ffd_process_finish(worker_process **process, process_end *end)
         *end = (process_end){0};
     if (!process || !*process)
         return;
-    close((*process)->to);
-    close((*process)->from);
+    close((*process)->channel);
     while (waitpid((*process)->id, &status, 0) < 0 && errno == EINTR)
         ;
     if (end)
@@ -205,21 +194,20 @@ void ffd_process_finish(worker_process **process, process_end *end)
 void ffd_process_follow_parent(void)
 {
 #ifdef __linux__
+    char byte;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    /* Where that came too late, nobody has the other end of the pipe any more. */
-    struct pollfd parent = {.fd = WORKER_INPUT, .events = POLLIN};
-    if (poll(&parent, 1, 0) > 0 && (parent.revents & POLLHUP) && !(parent.revents & POLLIN))
+    /* Where that came too late, nobody has the other end any more. */
+    if (recv(CHANNEL, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0)
         _exit(0);
 #endif
-    fcntl(WORKER_INPUT, F_SETFD, FD_CLOEXEC);
-    fcntl(WORKER_OUTPUT, F_SETFD, FD_CLOEXEC);
+    fcntl(CHANNEL, F_SETFD, FD_CLOEXEC);
 }
 
 bool ffd_process_take(void *bytes, size_t size)
 {
     char *at = bytes;
     while (size > 0) {
-        const ssize_t got = read(WORKER_INPUT, at, size);
+        const ssize_t got = read(CHANNEL, at, size);
         if (got < 0 && errno == EINTR)
             continue;
         if (got <= 0)
@@ -232,5 +220,5 @@ bool ffd_process_take(void *bytes, size_t size)
 
 bool ffd_process_give(const void *bytes, size_t size)
 {
-    return write_all(WORKER_OUTPUT, bytes, size);
+    return send_all(CHANNEL, bytes, size);
 }

@@ -1,4 +1,4 @@
-/* process.h - workers: this program, started again, with which one talks over two pipes. What ends a worker,
+/* process.h - workers: this program, started again, with which one talks over a channel. What ends a worker,
    be it a crash or a limit of the system, ends it alone. */
 #ifndef FFD_BASE_PROCESS_H
 #define FFD_BASE_PROCESS_H
@@ -28,11 +28,10 @@ bool ffd_process_send(worker_process *process, const void *bytes, size_t size);
 void ffd_process_wait(worker_process *const *processes, size_t count, double seconds);
 /* Appends what is there to be read, without waiting. False at its end: the worker has ended, or will. */
 bool ffd_process_receive(worker_process *process, byte_buffer *bytes);
-/* Asks the worker to end, and lets it tidy up; or ends it. */
-void ffd_process_stop(worker_process *process);
+/* Ends the worker at once. */
 void ffd_process_kill(worker_process *process);
-/* Closes the pipes, at which an idle worker ends, waits for its end, and frees. NULL and pointers to NULL are
-   allowed; end may be NULL. */
+/* Closes the channel, at which an idle worker ends, waits for its end, and frees. NULL and pointers to NULL
+   are allowed; end may be NULL. */
 void ffd_process_finish(worker_process **process, process_end *end);
 
 /* In a worker: ends it when the one who started it ends, in whatever way, where the system can do that. */

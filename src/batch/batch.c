@@ -63,7 +63,8 @@ static ffd_status add_task(batch_run *run, pool_task *task)
 
 static ffd_status read_jobs(batch_run *run, ffd_error *error)
 {
-    while (!run->ended && !run->ending && run->count < WINDOW && run->waiting < AHEAD) {
+    while (!run->ended && !run->ending && run->count < WINDOW && run->waiting < AHEAD &&
+           ffd_jobs_are_ready(run->source)) {
         bool more;
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
@@ -206,7 +207,7 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
         status = read_jobs(run, error);
         if (!status && !run->ending)
             status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
-        if (!status && ffd_pool_running(run->pool) > 0)
+        if (!status && (ffd_pool_running(run->pool) > 0 || (!run->ended && !ffd_jobs_are_ready(run->source))))
             ffd_pool_wait(run->pool, LOOK);
         heed_interrupts(run);
         if (!status)

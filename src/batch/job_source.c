@@ -55,7 +55,7 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
     const line_reader *const reader = &source->reader;
     if (!reader->too_long)
         return ffd_job_parse(&source->frame, reader->line.data, reader->line.size, job);
-    ffd_fail_line(&job->error, FFD_E_INVALID, reader->name, (size_t)reader->number,
+    ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, (size_t)reader->number,
                   "the line has more than %zu bytes", LINE_MOST);
     return FFD_OK;
 }
@@ -126,6 +126,20 @@ static json_t *row_value(const job_source *source)
     return job;
 }
 
+/* Whether all cells are UTF-8, as JSON is. */
+static bool is_text(const csv_row *row)
+{
+    const char *cell = NULL;
+    for (size_t i = 0; i < row->count; i++) {
+        cell = ffd_csv_next(row, cell);
+        json_t *const text = json_string(cell);
+        json_decref(text);
+        if (!text)
+            return false;
+    }
+    return true;
+}
+
 static ffd_status read_row(job_source *source, bool valid, batch_job *job)
 {
     const size_t line = (size_t)job->line;
@@ -137,6 +151,10 @@ static ffd_status read_row(job_source *source, bool valid, batch_job *job)
         ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line,
                       "a row of %zu cells in a table of %zu columns", source->row.count,
                       source->columns.count);
+        return FFD_OK;
+    }
+    if (!is_text(&source->row)) {
+        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line, "a cell is not text in UTF-8");
         return FFD_OK;
     }
     json_t *const value = row_value(source);
@@ -295,11 +313,18 @@ ffd_status ffd_jobs_next(job_source *source, batch_job *job, bool *more, ffd_err
     return status ? ffd_fail_memory(error) : FFD_OK;
 }
 
+bool ffd_jobs_are_ready(const job_source *source)
+{
+    return !source->reader.stream || ffd_stream_is_ready(source->reader.stream);
+}
+
 double ffd_jobs_fraction(const job_source *source)
 {
     if (source->files.count)
         return (double)source->count / (double)source->files.count;
-    return source->reader.size ? (double)source->reader.read / (double)source->reader.size : -1;
+    const byte_stream *const stream = source->reader.stream;
+    const uint64_t size = ffd_stream_size(stream);
+    return size ? (double)ffd_stream_position(stream) / (double)size : -1;
 }
 
 const char *ffd_jobs_name(const job_source *source)

@@ -25,6 +25,8 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
 /* Fills an empty job, to be freed by the caller in every case, with the next one; *more false: there is none.
    What is wrong with the job itself is no failure. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, bool *more, ffd_error *error);
+/* Whether the next one can be had without waiting for who writes the manifest. */
+bool ffd_jobs_are_ready(const job_source *source);
 /* The part of the jobs that was handed out, by bytes or files: 0 to 1; negative where it is not known. */
 double ffd_jobs_fraction(const job_source *source);
 /* What the jobs stand in, for messages. */

@@ -1,30 +1,16 @@
 #include "batch/lines.h"
-#include <errno.h>
 #include <string.h>
 
 ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reader, ffd_error *error)
 {
-    *reader = (line_reader){.name = name};
-    if (strcmp(path, "-") == 0) {
-        reader->file = stdin;
-        return FFD_OK;
-    }
-    errno = 0;
-    reader->file = fopen(path, "rb");
-    if (!reader->file)
-        return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
-    if (fseek(reader->file, 0, SEEK_END) == 0) {
-        const long size = ftell(reader->file);
-        reader->size = size > 0 ? (uint64_t)size : 0;
-        rewind(reader->file);
-    }
-    clearerr(reader->file);
-    return FFD_OK;
+    *reader = (line_reader){0};
+    return ffd_stream_open(path, name, &reader->stream, error);
 }
 
 ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_error *error)
 {
     int c;
+    ffd_status status;
     if (append) {
         ffd_buffer_text(&reader->line, "\n");
     } else {
@@ -32,11 +18,9 @@ ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_erro
         reader->too_long = false;
     }
     *more = false;
-    errno = 0;
-    while ((c = getc(reader->file)) != EOF) {
+    while ((c = ffd_stream_byte(reader->stream, &status, error)) >= 0) {
         const char byte = (char)c;
         *more = true;
-        reader->read++;
         if (byte == '\n')
             break;
         if (reader->line.size < LINE_MOST)
@@ -44,9 +28,8 @@ ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_erro
         else
             reader->too_long = true;
     }
-    if (ferror(reader->file))
-        return ffd_fail_file(error, FFD_E_IO, reader->name, "cannot be read: %s",
-                             errno ? strerror(errno) : "no reason is known");
+    if (status)
+        return status;
     reader->number += *more;
     if (reader->line.size > 0 && reader->line.data[reader->line.size - 1] == '\r')
         reader->line.size--;
@@ -59,8 +42,7 @@ ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_erro
 
 void ffd_lines_close(line_reader *reader)
 {
-    if (reader->file && reader->file != stdin)
-        fclose(reader->file);
+    ffd_stream_close(&reader->stream);
     ffd_buffer_free(&reader->line);
     *reader = (line_reader){0};
 }

@@ -3,20 +3,16 @@
 #define FFD_BATCH_LINES_H
 
 #include "base/buffer.h"
-#include "base/fail.h"
+#include "base/stream.h"
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
 
 /* Longest line, in bytes. */
 #define LINE_MOST ((size_t)1 << 20)
 
 typedef struct line_reader {
-    FILE *file;
-    const char *name; /* for messages, lent */
+    byte_stream *stream;
     uint64_t number;  /* of the line read last, from 1 */
-    uint64_t read;    /* bytes so far */
-    uint64_t size;    /* of the file; 0: not known */
     byte_buffer line; /* the line read last, without its end, a 0 behind it */
     bool too_long;    /* only its first LINE_MOST bytes are there */
 } line_reader;

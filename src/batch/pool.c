@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Seconds that a worker has for tidying up, before it is ended without. */
-#define GRACE 1.0
+/* Seconds that jobs have to come to their end where all are to be stopped. */
+#define GRACE 0.5
 
 typedef struct pool_worker {
     worker_process *process; /* NULL: not started, or ended */
@@ -15,7 +15,7 @@ typedef struct pool_worker {
     byte_buffer answer;      /* what has come of it */
     hash128 mesh;            /* of the task before or now */
     bool has_mesh, timed_out, stopped;
-    double begin, deadline; /* deadline 0: none. Once stopped: when it is ended */
+    double deadline; /* 0: none */
 } pool_worker;
 
 struct worker_pool {
@@ -70,7 +70,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, job->input);
     append_word(&text, ffd_job_output_name(job));
     wire_task head;
-    memset(&head, 0, sizeof head); /* the bytes between members too: they go through a pipe */
+    memset(&head, 0, sizeof head); /* the bytes between members too: they are sent */
     head.line = job->line;
     head.text_size = text.size;
     head.word_count = (uint32_t)job->word_count;
@@ -141,8 +141,7 @@ static void begin_task(worker_pool *pool, pool_worker *worker, pool_task *task, 
     worker->mesh = task->mesh;
     worker->has_mesh = true;
     worker->timed_out = worker->stopped = false;
-    worker->begin = ffd_clock_seconds();
-    worker->deadline = pool->desc.timeout > 0 ? worker->begin + pool->desc.timeout : 0;
+    worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->state = TASK_RUNS;
     /* Where it cannot be sent the worker has ended, which shows when its answer is read. */
     send_task(pool, worker, task, threads);
@@ -251,19 +250,13 @@ static void receive(const worker_pool *pool, pool_worker *worker)
     end_worker(pool, worker);
 }
 
-/* Time is up: the worker is asked to end, and if it does not, ended. */
 static void check_time(pool_worker *worker, double now)
 {
     if (!worker->task || worker->deadline <= 0 || now < worker->deadline)
         return;
-    if (worker->timed_out || worker->stopped) {
-        ffd_process_kill(worker->process);
-        worker->deadline = 0;
-        return;
-    }
-    worker->timed_out = true;
-    worker->deadline = now + GRACE;
-    ffd_process_stop(worker->process);
+    worker->timed_out = !worker->stopped;
+    worker->deadline = 0;
+    ffd_process_kill(worker->process);
 }
 
 /* Seconds until the next deadline, at most `seconds`. */
@@ -309,7 +302,6 @@ void ffd_pool_stop(worker_pool *pool)
             continue;
         worker->stopped = true;
         worker->deadline = end;
-        ffd_process_stop(worker->process);
     }
     while (ffd_pool_running(pool) > 0)
         ffd_pool_wait(pool, GRACE);

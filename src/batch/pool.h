@@ -40,7 +40,7 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
 void ffd_pool_wait(worker_pool *pool, double seconds);
 /* The number of tasks that run. */
 size_t ffd_pool_running(const worker_pool *pool);
-/* Ends all running tasks, as failures. */
+/* Lets running tasks come to their end for a moment; then ends them, as failures. */
 void ffd_pool_stop(worker_pool *pool);
 void ffd_pool_destroy(worker_pool **pool);
 

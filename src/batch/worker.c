@@ -101,8 +101,6 @@ static ffd_status do_job(const wire_task *task, const fingerprint_words *words, 
                    ? FFD_OK
                    : ffd_output_check(desc->output, desc->force || desc->if_changed, &result->error);
     status = ffd_deform_run(desc, result, NULL);
-    /* Who ends the worker now gets to know first that the output is there. */
-    ffd_interrupt_defer(true);
     if (!status && task->records)
         answer->has_record = ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK;
     return status;
@@ -208,11 +206,10 @@ int ffd_worker_run(const worker_program *program)
     bool going = !worker.text.failed;
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
-        memset(&answer, 0, sizeof answer); /* the bytes between members too: they go through a pipe */
+        memset(&answer, 0, sizeof answer); /* the bytes between members too: they are sent */
         worker.log.size = worker.entry.size = worker.rule.size = 0;
         going = answer_task(&worker, &task, &answer);
         going = send_answer(&worker, &answer) && going && !answer.out_of_memory;
-        ffd_interrupt_defer(false);
     }
     const int code = worker.text.failed ? ffd_status_exit_code(FFD_E_MEMORY) : 0;
     ffd_share_destroy(&worker.share);
