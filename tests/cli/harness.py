@@ -105,7 +105,7 @@ class Run:
 
     def ffd(self, *arguments, code=OK, err=None, out=None, data=False, stdin=b"", lines=None, **options):
         """Runs ffd in the folder. code: the exit code, or a tuple of those allowed. err: the lines of stderr without "ffd: " (a string: the only one; a compiled
-        pattern: what the only one matches); out: the text of stdout; data: a failure too may print some; lines:
+        pattern: what the only one matches; a function: it judges them); out: the text of stdout; data: a failure too may print some; lines:
         how many lines stderr has where err does not say; neither counts what ANNOUNCED matches; options go to subprocess.run."""
         command = [options.pop("program", FFD), *arguments]
         options.setdefault("stdout", subprocess.PIPE)
@@ -128,6 +128,8 @@ class Run:
             equal(said, [err], shown)
         elif isinstance(err, list):
             equal(said, err, shown)
+        elif callable(err):
+            err(said)
         elif err is not None:
             check(len(said) == 1 and err.search(said[0]), f"{shown}: said {said}, expected {err.pattern}")
         elif options["stderr"] == subprocess.PIPE:

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""ffd batch: a job that crashes, hangs or runs out of memory ends alone, and the report says why. Argument: the
+library whose traps it runs into (tests/support/open_trap.c)."""
+
+import os
+import subprocess
+import sys
+import time
+
+from batches import batch, case, check, equal, job, lattice, main, report, start, statuses
+from harness import CUBE, FFD, NO
+
+TRAP = os.path.abspath(sys.argv.pop(1))
+# What the name of a mesh or of a lattice does, and what the reason of the failure must say.
+TRAPS = {"abort": "crashed: .*Abort", "segv": "crashed: .*Segmentation", "kill": "Killed", "nomemory": "out of memory",
+         "sleep": r"took longer than 0\.3 .*--timeout"}
+
+
+def trapped(run, *arguments, **options):
+    return batch(run, *arguments, env={**os.environ, "LD_PRELOAD": TRAP}, **options)
+
+
+def start_trapped(run):
+    """Jobs that run into every trap, by a mesh and by a lattice, between good ones. Returns the reasons by line."""
+    jobs, reasons = [job(0)], {}
+    for i, (name, reason) in enumerate(TRAPS.items()):
+        run.write(name + ".obj", CUBE)
+        run.write(name + ".json", lattice())
+        jobs += [job(100, **{"in": name + ".obj"}), job(2 * i + 1), job(100, lattice=name + ".json"), job(2 * i + 2)]
+        reasons[4 * i + 2] = rf"^{name}\.obj: .*{reason}"
+        reasons[4 * i + 4] = rf"^a\.obj: .*{reason}" if name != "nomemory" else "out of memory"
+    start(run, jobs)
+    return reasons
+
+
+@case
+def every_trap(run):
+    reasons = start_trapped(run)
+    run.ffd("deform", "a.obj", "single.obj", "-l", "l.json")
+    for arguments in (["-j1"], ["-j", "2"], ["-j", "5"], ["-j1", "--report", "r.json"], ["-j3", "--resume", "--report", "r.json"]):
+        trapped(run, "m.jsonl", "--timeout", "0.3", "--force", *arguments, failed=list(reasons.values()),
+                **({"kept": 11} if "--resume" in arguments else {"done": 11}))
+        equal(sorted(n for n in run.names() if n.startswith("o")), sorted(f"o{i}.obj" for i in range(11)))
+        for i in range(11):
+            equal(run.read(f"o{i}.obj"), run.read("single.obj"), f"{arguments}: o{i}.obj")
+            if "--resume" not in arguments:
+                run.remove(f"o{i}.obj")
+        if "-j1" in arguments and "--report" in arguments:
+            for i in range(11):  # for --resume
+                run.write(f"o{i}.obj", run.read("single.obj"))
+        if "--report" in arguments:
+            entries = report(run)
+            equal([e["line"] for e in entries if e["status"] == "failed"], sorted(reasons))
+            equal({e["exit"] for e in entries if e["status"] == "failed"}, {7})
+
+
+@case
+def a_crash_stops_with_stop(run):
+    start_trapped(run)
+    trapped(run, "m.jsonl", "-j1", "--stop", "--report", "r.json", done=1, failed=["^abort.obj: "], more="(--stop)")
+    equal(statuses(run), ["ok", "failed"])
+
+
+@case
+def nothing_of_a_worker_that_was_ended_stays(run):
+    """The time is up while the worker writes: the system ends it in the middle of a large file."""
+    start(run, [job(0, **{"in": "large.obj"}), job(1)])
+    run.write("large.obj", CUBE * 100000)
+    batch(run, "m.jsonl", "--timeout", "0.02", "-j1", failed=["^large.obj: .*--timeout"], done=1)
+    equal([n for n in os.listdir(run.folder) if "tmp" in n or n == "o0.obj"], [])
+
+
+@case
+def time_is_counted_for_each_job(run):
+    """Twenty jobs that take a tenth of the time allowed each."""
+    start(run, [job(i, **{"in": "some.obj"}) for i in range(20)])
+    run.write("some.obj", CUBE * 300)
+    batch(run, "m.jsonl", "--timeout", "60", "-j1", done=20)
+    begun = time.monotonic()
+    batch(run, "m.jsonl", "--timeout", "100000", "--force", done=20)
+    check(time.monotonic() - begun < 30, "a long timeout was waited for")
+
+
+@case
+def a_limit_on_addresses(run):
+    """Out of memory by a limit of the system."""
+    start(run, [job(0), job(1, **{"in": "large.obj"}), job(2)])
+    run.write("large.obj", CUBE * 100000)
+    limited = ["sh", "-c", 'ulimit -v 150000; exec "$0" batch m.jsonl -j1 --threads 1 --report r.json', FFD]
+    done = subprocess.run(limited, cwd=run.folder, capture_output=True, check=False, timeout=60)
+    equal(done.returncode, NO, done.stderr.decode())
+    equal([(e["status"], e["exit"]) for e in report(run)], [("ok", 0), ("failed", 7), ("ok", 0)], done.stderr.decode())
+    check("memory" in report(run)[1]["error"], report(run)[1]["error"])
+    run.check_no_leftovers()
+
+
+main()

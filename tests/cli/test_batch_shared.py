@@ -1,0 +1,168 @@
+#!/usr/bin/env python3
+"""ffd batch: neighbours share a mesh, and yet each output is that of a run of its own, in every format."""
+
+import re
+import struct
+import subprocess
+import time
+
+from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, report, start, traced
+from harness import CUBE, CUBE_FACES, FFD, OK, glb, gltf_json
+
+NORMALS = [[0.0, 0.0, 1.0]] * 6
+POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.5], [0, 0, 1], [-1, 0.25, 1]]
+
+
+def write_meshes(run):
+    """A mesh in every format. Returns their names."""
+    run.write("m.obj", CUBE + "vn 0 0 1\nvn 1 0 0\nf 1//1 2//2 3//1\n")
+    asset, data = gltf_json(POINTS, normals=NORMALS)
+    run.write("m.glb", glb(asset, data))
+    asset, data = gltf_json(POINTS, normals=NORMALS, uri="m.bin")
+    run.write("m.gltf", asset)
+    run.write("m.bin", data)
+    run.write("m.off", "OFF\n8 6 0\n" + "".join(line[2:] + "\n" for line in CUBE.splitlines() if line.startswith("v "))
+              + "".join("4 " + " ".join(str(i - 1) for i in face) + "\n" for face in CUBE_FACES))
+    header = "ply\nformat %s 1.0\nelement vertex 6\n" + "".join(f"property {{0}} {c}\n" for c in "xyz") + "end_header\n"
+    run.write("m.ply", (header % "ascii").format("double") + "".join("%r %r %r\n" % tuple(p) for p in POINTS))
+    run.write("b.ply", (header % "binary_little_endian").format("float").encode() + b"".join(struct.pack("<3f", *p) for p in POINTS))
+    run.write("m.stl", b" " * 80 + struct.pack("<I", 2) + b"".join(
+        struct.pack("<12fH", 0, 0, 1, *POINTS[i], *POINTS[i + 1], *POINTS[i + 2], 0) for i in range(2)))
+    return ["m.obj", "m.glb", "m.gltf", "m.off", "m.ply", "b.ply", "m.stl"]
+
+
+LATTICES = {
+    "twist.json": lattice(moves=[{"twist": {"axis": "z", "degrees": 70}}]),
+    "bend.json": lattice(moves=[{"bend": {"axis": "z", "toward": [1, 0, 0], "degrees": 50}}]),
+    "round.json": lattice(rest={"box": "mesh", "margin": 0.1}, units="box", moves=[{"by": [0, 0.25, 0]}]),
+    "half.json": lattice(high=(2, 2, 0.25), moves=[{"by": [0.1, 0, 0]}]),
+    "curved.json": lattice(moves=[{"at": [3, 3, 3], "by": [1, 1, 1]}], rest={"points": [
+        [-2 + 4 * i / 3 + 0.1 * ((i + j * k) % 2), -2 + 4 * j / 3, -2 + 4 * k / 3 + 0.05 * (i % 2)]
+        for k in range(4) for j in range(4) for i in range(4)]}),
+}
+COMBINATIONS = [(["twist.json"], {}), (["bend.json"], {}), (["twist.json", "bend.json"], {}), (["round.json"], {}),
+                (["half.json"], {"outside": "extend"}), (["half.json"], {"outside": "extend", "falloff": 0.5}),
+                (["curved.json"], {}), (["curved.json"], {"normals": "recompute"}), (["curved.json", "twist.json"], {"normals": "keep"}),
+                (["twist.json"], {"threads": 1, "isa": "scalar"}), (["half.json"], {"fail-on": "outside"}), (["twist.json"], {"space": "mesh"})]
+
+
+def words(options):
+    return [str(x) for name, value in options.items() for x in ("--" + name, value)]
+
+
+@case
+def every_format(run):
+    start(run)
+    for name, content in LATTICES.items():
+        run.write(name, content)
+    jobs = []
+    for mesh in write_meshes(run):
+        for i, (grids, options) in enumerate(COMBINATIONS):
+            jobs.append({"in": mesh, "lattice": grids, "out": f"out/{mesh[0]}{i}{mesh[1:]}", "options": options})
+        jobs.append({"in": mesh, "lattice": "twist.json", "out": f"out/{mesh[0]}-in.obj"})  # another format
+    jobs.append({"in": "m.glb", "lattice": "twist.json", "out": "out/morph.glb", "options": {"as-morph": "bent"}})
+    for folder in ("out", "single", "single/out"):
+        run.folder_of(folder)
+    run.write("m.jsonl", lines_of(jobs))
+    anything = {"code": (0, 1), "err": lambda said: None}
+    run.ffd("batch", "m.jsonl", "-j", "2", "--report", "r.json", "--report-stable", **anything)
+    entries = report(run)
+    equal([e["line"] for e in entries], list(range(1, len(jobs) + 1)))
+    failures = 0
+    for one, entry in zip(jobs, entries):
+        done = run.ffd("deform", one["in"], "single/" + one["out"], *[x for grid in ([one["lattice"]] if isinstance(one["lattice"], str)
+                       else one["lattice"]) for x in ("-l", grid)], *words(one.get("options", {})), "--report", "s.json",
+                       "--report-stable", code=tuple(range(8)), err=lambda said: None)
+        alone = report(run, "s.json")[0]
+        alone["output"] = one["out"]
+        if alone["error"]:
+            alone["error"] = alone["error"].replace("single/", "")
+        del entry["line"]
+        equal(entry, alone, f"report of {one}")
+        failures += done.code != OK
+    check(0 < failures < len(jobs) / 2, failures, "of", len(jobs), "jobs failed")
+    equal(run.names("out"), run.names("single/out"))
+    for name in run.names("out"):
+        equal(run.read("out/" + name) == run.read("single/out/" + name), True, f"{name} is that of a single run")
+
+
+def opened(log, name):
+    """How often a file was opened."""
+    return sum(f'"{name}"' in line and "= -1" not in line for line in log.splitlines() if "open" in line)
+
+
+@case
+def a_mesh_is_read_once(run):
+    start(run, [job(i, lattice=["twist.json", "bend.json", "half.json"][i % 3]) for i in range(60)] + [
+        job(60 + i, **{"in": "m.gltf", "out": f"g{i}.gltf"}) for i in range(10)])
+    for name, content in LATTICES.items():
+        run.write(name, content)
+    write_meshes(run)
+    log = traced(run, "open,openat,openat2", "batch", "m.jsonl", "-j1")
+    if log is None:
+        return  # strace is not allowed to run
+    # Once to be read, once to be known again by --resume, and a .gltf once for the names of its buffers.
+    counts = {name: opened(log, name) for name in ("a.obj", "m.gltf", "m.bin")}
+    check(all(count <= most for count, most in zip(counts.values(), (2, 3, 2))), "how often meshes were opened:", counts)
+    # A worker each at most, however the jobs are dealt out.
+    log = traced(run, "open,openat,openat2", "batch", "m.jsonl", "-j", "3", "--force")
+    check(opened(log, "a.obj") <= 6 and opened(log, "m.gltf") <= 9, "opened by every job")
+    # Another mesh between them: read again, or not, but never mistaken for it.
+    run.write("m.jsonl", lines_of([job(i, **{"in": ["a.obj", "b.obj"][i % 2]}) for i in range(6)]))
+    run.write("b.obj", CUBE.replace("v 1 1 1", "v 1 1 1.5"))
+    batch(run, "m.jsonl", "-j1", "--force", done=6)
+    for i in range(6):
+        run.ffd("deform", ["a.obj", "b.obj"][i % 2], "s.obj", "-l", "l.json", "--force")
+        equal(run.read(f"o{i}.obj"), run.read("s.obj"), f"o{i}.obj")
+
+
+@case
+def a_mesh_that_a_job_has_written(run):
+    """What is shared is not what was there before."""
+    start(run, [{"in": "a.obj", "lattice": "l.json", "out": "b.obj"}, {"in": "b.obj", "lattice": "l.json", "out": "c.obj"},
+                {"in": "c.obj", "lattice": "l.json", "out": "b.obj", "options": {"force": True}},
+                {"in": "b.obj", "lattice": "l.json", "out": "d.obj"}])
+    run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=MOVE))
+    batch(run, "m.jsonl", "-j1", done=4)
+    for source, target in (("a", "b1"), ("b1", "c1"), ("c1", "b2"), ("b2", "d1")):
+        run.ffd("deform", source + ".obj", target + ".obj", "-l", "l.json")
+    equal([run.read(name + ".obj") for name in "cbd"], [run.read(name + ".obj") for name in ("c1", "b2", "d1")])
+
+
+@case
+def workers_are_reused(run):
+    start(run, [job(i, **{"in": f"in{i % 7}.obj"}) for i in range(50)])
+    for i in range(7):
+        run.write(f"in{i}.obj", CUBE)
+    log = traced(run, "execve", "batch", "m.jsonl", "-j", "2")
+    if log is not None:
+        started = sum("execve(" in line and "= -1" not in line for line in log.splitlines())
+        check(started <= 3, started, "programs were started for 50 jobs by 2 workers")
+
+
+def peak(run, jobs, *arguments):
+    """The most memory that the first process of a batch had, in bytes."""
+    with open(run.path("many.jsonl"), "w", encoding="utf-8") as file:
+        for i in range(jobs):
+            file.write('{"in": "a.obj", "lattice": "l.json", "out": "out/%d.obj"}\n' % i)
+    process = subprocess.Popen([FFD, "batch", "many.jsonl", "-q", "-j", "2", *arguments], cwd=run.folder, stdout=subprocess.DEVNULL)
+    most = 0
+    while process.poll() is None:
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+            found = re.search(r"VmHWM:\s*(\d+) kB", file.read())
+        most = int(found[1]) * 1024 if found else most
+        time.sleep(0.002)
+    equal(process.returncode, OK)
+    return most
+
+
+@case
+def memory_does_not_grow_with_the_jobs(run):
+    start(run)
+    run.folder_of("out")
+    few = peak(run, 1000, "--dry-run")
+    many = peak(run, 100000, "--dry-run")
+    check(few > 0 and many < few + 1e6, f"1,000 jobs took {few / 1e6:.1f} MB, 100,000 took {many / 1e6:.1f} MB")
+
+
+main()

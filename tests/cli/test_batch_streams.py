@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""ffd batch and its streams: manifests that come bit by bit, a terminal, pipes that break, full devices."""
+
+import json
+import os
+import pty
+import re
+import signal
+import subprocess
+import time
+
+from batches import batch, case, check, equal, job, lines_of, main, start
+from harness import FFD, IO, NO, OK, SECONDS
+
+
+def wait_for(run, name):
+    limit = time.monotonic() + 15
+    while not run.exists(name) and time.monotonic() < limit:
+        time.sleep(0.002)
+    return run.exists(name)
+
+
+@case
+def a_manifest_is_streamed(run):
+    """A job is done while the lines after it have not been written yet."""
+    start(run)
+    process = subprocess.Popen([FFD, "batch", "-", "-j", "2"], cwd=run.folder, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+    for i in range(5):
+        line = (json.dumps(job(i)) + "\n").encode()
+        process.stdin.write(line[:20])
+        process.stdin.flush()
+        process.stdin.write(line[20:])
+        process.stdin.flush()
+        if not wait_for(run, f"o{i}.obj"):
+            process.kill()
+            process.communicate()
+            raise AssertionError(f"o{i}.obj does not come")
+    process.stdin.write(json.dumps(job(5)).encode())  # without a line's end
+    said = process.communicate(timeout=SECONDS)[1].decode()
+    equal(process.returncode, OK, said)
+    check(said.startswith("ffd: 6 jobs in "), said)
+    check(run.exists("o5.obj"), "the last line was not done")
+
+
+@case
+def an_interrupt_while_waiting_for_lines(run):
+    start(run)
+    process = subprocess.Popen([FFD, "batch", "-", "--report", "r.json"], cwd=run.folder, stdin=subprocess.PIPE, stderr=subprocess.PIPE)
+    process.stdin.write(lines_of([job(0)]).encode())
+    process.stdin.flush()
+    wait_for(run, "o0.obj")
+    process.send_signal(signal.SIGINT)
+    try:
+        process.wait(timeout=20)
+    finally:
+        process.kill()
+        process.communicate()
+    equal([entry["output"] for entry in json.loads(run.read("r.json"))["jobs"]], ["o0.obj"])
+
+
+def on_terminal(run, *arguments, environment=None):
+    """What ffd writes to a terminal."""
+    process, terminal = pty.fork()
+    if process == 0:
+        os.chdir(run.folder)
+        os.execve(FFD, [FFD, *arguments], {**os.environ, **(environment or {})})
+    shown = b""
+    try:
+        while block := os.read(terminal, 65536):
+            shown += block
+    except OSError:
+        pass  # the terminal's end
+    equal(os.waitstatus_to_exitcode(os.waitpid(process, 0)[1]), OK, shown.decode())
+    os.close(terminal)
+    return shown.decode()
+
+
+@case
+def a_terminal_has_a_bar(run):
+    start(run, [job(i) for i in range(1500)])
+    shown = on_terminal(run, "batch", "m.jsonl", "-j", "2")
+    check(re.search(r"\[#*\.*\] \d+ jobs, 0 failed, \d+/s, .* left", shown), "no bar:", shown[:300])
+    check(shown.split("\r")[-2].endswith("failed") or shown.rstrip().endswith("0 failed"), "the summary is not the last:", shown[-300:])
+    quiet = on_terminal(run, "batch", "m.jsonl", "-j", "2", "-q", "--force")
+    equal(quiet, "", "--quiet on a terminal")
+    # Not one where the output is no terminal.
+    done = batch(run, "m.jsonl", "--force", done=1500)
+    check(not any("\r" in line or "[#" in line for line in done.err), done.err)
+
+
+@case
+def a_pipe_that_breaks(run):
+    start(run, [job(i) for i in range(20000)])
+    process = subprocess.Popen([FFD, "batch", "m.jsonl", "--dry-run"], cwd=run.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    equal(process.stdout.readline(), b"to do: a.obj -> o0.obj\n")
+    process.stdout.close()
+    said = process.stderr.read().decode()
+    process.stderr.close()
+    check(process.wait() not in (OK, -signal.SIGSEGV, -signal.SIGABRT), process.returncode)
+    equal(said, "", "a broken pipe is no news")
+
+
+@case
+def full_devices(run):
+    start(run, [job(i) for i in range(3)])
+    with open("/dev/full", "wb") as full:
+        for arguments in (["--dry-run"], ["--report", "-"]):
+            done = run.ffd("batch", "m.jsonl", "--force", *arguments, code=IO, stdout=full, err=lambda said: None)
+            check(any(line.startswith("standard output: ") for line in done.err), arguments, done.err)
+
+
+@case
+def two_at_once(run):
+    """Two batches of the same jobs at the same time leave whole files, whichever comes first."""
+    start(run, [job(i) for i in range(300)])
+    for options in (["--force"], ["--resume"]):
+        both = [subprocess.Popen([FFD, "batch", "m.jsonl", "-j", "2", *options], cwd=run.folder, stderr=subprocess.PIPE) for _ in range(2)]
+        for process in both:
+            said = process.communicate(timeout=SECONDS)[1].decode()
+            failed = [line for line in said.splitlines() if not re.match(r"ffd: o\d+\.obj: is being written|ffd: 300 jobs", line)]
+            equal(failed, [], "failures but those of files that the other one writes just now")
+            check(process.returncode in (OK, NO), process.returncode, said)
+        run.ffd("deform", "a.obj", "single.obj", "-l", "l.json", "--force")
+        for i in range(300):
+            equal(run.read(f"o{i}.obj"), run.read("single.obj"), f"o{i}.obj")
+        run.check_no_leftovers()
+    run.ffd("batch", "m.jsonl", "--resume", "-q")
+    batch(run, "m.jsonl", "--resume", kept=300)
+
+
+main()
