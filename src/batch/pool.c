@@ -14,7 +14,7 @@ typedef struct pool_worker {
     pool_task *task;         /* NULL: idle */
     byte_buffer answer;      /* what has come of it */
     hash128 mesh;            /* of the task before or now */
-    bool has_mesh, timed_out, stopped;
+    bool has_mesh, timed_out, stopped, retires;
     double deadline; /* 0: none */
 } pool_worker;
 
@@ -201,6 +201,7 @@ static bool take_answer(pool_worker *worker)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->record = head.record;
     task->has_record = head.has_record;
+    worker->retires = head.retires;
     bytes->size = 0;
     end_task(worker, (wire_outcome)head.outcome);
     return true;
@@ -230,7 +231,7 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     process_end end;
     ffd_process_finish(&worker->process, &end);
     worker->answer.size = 0;
-    worker->has_mesh = false;
+    worker->has_mesh = worker->retires = false;
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
@@ -243,9 +244,10 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
 static void receive(const worker_pool *pool, pool_worker *worker)
 {
     const bool alive = ffd_process_receive(worker->process, &worker->answer);
-    if (take_answer(worker) && !worker->answer.failed && alive)
+    const bool understood = take_answer(worker) && !worker->answer.failed;
+    if (understood && alive && !worker->retires)
         return;
-    if (alive)
+    if (!understood && alive)
         ffd_process_kill(worker->process); /* what it says is no answer */
     end_worker(pool, worker);
 }

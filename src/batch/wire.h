@@ -44,6 +44,7 @@ typedef struct wire_answer {
     job_record record;
     uint8_t outcome;
     bool has_record;
+    bool retires;       /* the worker ends, and is to be given nothing more */
     bool out_of_memory; /* so that there are no texts, although the job failed */
 } wire_answer;
 

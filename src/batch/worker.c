@@ -146,8 +146,7 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
 }
 
-/* Whether the worker is fit for more: one that has run out of memory may do so again, with any job. */
-static bool answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
+static void answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
 {
     ffd_job_result result;
     ffd_result_clear(&result);
@@ -156,9 +155,10 @@ static bool answer_task(batch_worker *worker, const wire_task *task, wire_answer
         answer->outcome = OUTCOME_FAILED;
         log_error(worker, &result.error);
     }
-    const bool fit = result.status != FFD_E_MEMORY;
+    /* One that has run out of memory may do so again, with any job. */
+    answer->retires = result.status == FFD_E_MEMORY;
     if (!task->report)
-        return fit;
+        return;
     const char *name = worker->text.data;
     for (uint32_t i = 0; i < task->word_count + task->content_words + 1; i++)
         name = behind(name);
@@ -169,7 +169,6 @@ static bool answer_task(batch_worker *worker, const wire_task *task, wire_answer
                                 .skipped = answer->outcome == OUTCOME_SKIPPED,
                                 .stable = task->stable};
     ffd_report_entry_text(&entry, &worker->entry);
-    return fit;
 }
 
 /* Where there is no memory for what is to be said, that is said. */
@@ -182,6 +181,7 @@ static bool send_answer(batch_worker *worker, wire_answer *answer)
         texts[i]->size = 0;
     if (answer->out_of_memory)
         answer->outcome = OUTCOME_FAILED;
+    answer->retires = answer->retires || answer->out_of_memory;
     answer->log_size = worker->log.size;
     answer->entry_size = worker->entry.size;
     answer->rule_size = worker->rule.size;
@@ -208,8 +208,8 @@ int ffd_worker_run(const worker_program *program)
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* the bytes between members too: they are sent */
         worker.log.size = worker.entry.size = worker.rule.size = 0;
-        going = answer_task(&worker, &task, &answer);
-        going = send_answer(&worker, &answer) && going && !answer.out_of_memory;
+        answer_task(&worker, &task, &answer);
+        going = send_answer(&worker, &answer) && !answer.retires;
     }
     const int code = worker.text.failed ? ffd_status_exit_code(FFD_E_MEMORY) : 0;
     ffd_share_destroy(&worker.share);
