@@ -59,7 +59,7 @@ def every_format(run):
     for mesh in write_meshes(run):
         for i, (grids, options) in enumerate(COMBINATIONS):
             jobs.append({"in": mesh, "lattice": grids, "out": f"out/{mesh[0]}{i}{mesh[1:]}", "options": options})
-        jobs.append({"in": mesh, "lattice": "twist.json", "out": f"out/{mesh[0]}-in.obj"})  # another format
+        jobs.append({"in": mesh, "lattice": "twist.json", "out": f"out/{mesh.replace('.', '-')}.obj"})  # another format
     jobs.append({"in": "m.glb", "lattice": "twist.json", "out": "out/morph.glb", "options": {"as-morph": "bent"}})
     for folder in ("out", "single", "single/out"):
         run.folder_of(folder)
