@@ -9,7 +9,7 @@ import time
 from batches import batch, case, check, equal, job, main, report, start, statuses
 from harness import CUBE, FFD, NO, SECONDS
 
-JOBS = 3000
+JOBS = 1000
 
 
 def interrupted(run, number, made, *arguments, times=1):
