@@ -84,12 +84,9 @@ void ffd_cleanup_strike(cleanup_entry **entry)
     *entry = NULL;
 }
 
-/* The newest first: files before their folders. The lock is kept: nothing is begun or renamed any more. The
-   signal, whose own effect is in force again, waits until the handler is left, and then ends the program as
-   if there had been none. */
-static void clean_up(int signal)
+/* The newest first: files before their folders. */
+static void remove_all(void)
 {
-    lock();
     for (const cleanup_entry *entry = newest; entry; entry = entry->older) {
         if (entry->owner != getpid())
             continue;
@@ -98,14 +95,49 @@ static void clean_up(int signal)
         else
             unlink(entry->path);
     }
+}
+
+/* The lock is kept: nothing is begun or renamed any more. The signal, whose own effect is in force again,
+   waits until the handler is left, and then ends the program as if there had been none. */
+static void clean_up(int signal)
+{
+    lock();
+    remove_all();
     raise(signal);
+}
+
+/* The lock may be held by the thread that has crashed: then nothing is known of the list. */
+static void clean_up_crash(int signal)
+{
+    const int most = 1000; /* milliseconds */
+    int waited = 0;
+    while (waited < most && atomic_flag_test_and_set_explicit(&held, memory_order_acquire)) {
+        poll(NULL, 0, 1);
+        waited++;
+    }
+    if (waited < most)
+        remove_all();
+    raise(signal);
+}
+
+/* Where nothing is done about them yet. */
+static void install(void (*handler)(int signal), const int *numbers, int count)
+{
+    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND}, old;
+    sigfillset(&action.sa_mask);
+    for (int i = 0; i < count; i++)
+        if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
+            sigaction(numbers[i], &action, NULL);
 }
 
 void ffd_cleanup_on_signals(void)
 {
-    struct sigaction action = {.sa_handler = clean_up, .sa_flags = (int)SA_RESETHAND}, old;
-    sigfillset(&action.sa_mask);
-    for (int i = 0; i < SIGNALS; i++)
-        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
-            sigaction(signals[i], &action, NULL);
+    install(clean_up, signals, SIGNALS);
+}
+
+void ffd_cleanup_on_crashes(void)
+{
+    static const int stop = SIGALRM, crashes[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV};
+    install(clean_up, &stop, 1);
+    install(clean_up_crash, crashes, sizeof crashes / sizeof *crashes);
 }

@@ -24,4 +24,8 @@ cleanup_entry *ffd_cleanup_note_folder(const char *path, size_t made);
 /* Strikes off, frees and clears the pointer. Only while held. A pointer to NULL is allowed. */
 void ffd_cleanup_strike(cleanup_entry **entry);
 
+/* In a worker: the same that ffd_cleanup_on_signals does for signals from outside, for SIGALRM, by which
+   ffd_process_stop ends it, and for those of a crash. */
+void ffd_cleanup_on_crashes(void);
+
 #endif

@@ -36,7 +36,7 @@ bool ffd_file_exists(const char *path);
 /* Tells whether a file is the one that it was: which it is, its size and when it was written. */
 typedef struct file_stamp {
     uint64_t device, number, size;
-    int64_t seconds, nanoseconds;
+    int64_t written[2], changed[2]; /* its bytes; these, or what is known of it: seconds and nanoseconds */
 } file_stamp;
 bool ffd_file_stamp(const char *path, file_stamp *stamp);
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b);
@@ -87,6 +87,8 @@ void ffd_output_remove_first(file_output *output);
 void ffd_output_keep_equal(file_output *output);
 /* Makes all files appear. After a failure none that was not yet renamed does. */
 ffd_status ffd_output_commit(file_output *output, ffd_error *error);
+/* Whether another run is writing path now. */
+bool ffd_output_is_busy(const char *path);
 /* Removes what a process that ended in the middle of writing path left beside it (and of the buffers beside a
    .gltf), unless another one is writing it. */
 void ffd_output_discard(const char *path);

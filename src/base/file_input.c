@@ -62,15 +62,19 @@ bool ffd_file_stamp(const char *path, file_stamp *stamp)
     struct stat info;
     if (stat(path, &info) != 0)
         return false;
-    *stamp = (file_stamp){(uint64_t)info.st_dev, (uint64_t)info.st_ino, (uint64_t)info.st_size,
-                          (int64_t)info.st_mtim.tv_sec, (int64_t)info.st_mtim.tv_nsec};
+    *stamp = (file_stamp){
+        .device = (uint64_t)info.st_dev,
+        .number = (uint64_t)info.st_ino,
+        .size = (uint64_t)info.st_size,
+        .written = {(int64_t)info.st_mtim.tv_sec, (int64_t)info.st_mtim.tv_nsec},
+        .changed = {(int64_t)info.st_ctim.tv_sec, (int64_t)info.st_ctim.tv_nsec},
+    };
     return true;
 }
 
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
 {
-    return a->device == b->device && a->number == b->number && a->size == b->size &&
-           a->seconds == b->seconds && a->nanoseconds == b->nanoseconds;
+    return memcmp(a, b, sizeof *a) == 0; /* there is nothing between the members */
 }
 
 bool ffd_file_is_stream(const char *path)

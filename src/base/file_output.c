@@ -347,7 +347,12 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         file->fd = open(path, O_WRONLY | O_CLOEXEC);
         return file->fd < 0 ? fail_errno(error, path, "cannot be written") : FFD_OK;
     }
-    return open_beside(file, path, exists ? &info : NULL, error);
+    status = open_beside(file, path, exists ? &info : NULL, error);
+    if (status && file->fd < 0) { /* as if it had not been begun */
+        ffd_free(file->target);
+        output->count--;
+    }
+    return status;
 }
 
 ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *error)
@@ -501,6 +506,17 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
     status = settle_all(output, stays, error);
     ffd_cleanup_release();
     return status;
+}
+
+bool ffd_output_is_busy(const char *path)
+{
+    char *const name = temporary_name(path);
+    const int fd = name ? open(name, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) : -1;
+    const bool busy = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    if (fd >= 0)
+        close(fd);
+    ffd_free(name);
+    return busy;
 }
 
 static void discard_one(const char *target)

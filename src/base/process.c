@@ -59,8 +59,13 @@ static int spawn(const char *name, int channel, pid_t *id)
     char *arguments[] = {(char *)(uintptr_t)name, NULL};
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
-    sigset_t none;
-    sigemptyset(&none);
+    /* What ends programs waits until the worker leaves it to its parent (ffd_interrupt_ignore). */
+    sigset_t wishes;
+    sigemptyset(&wishes);
+    sigaddset(&wishes, SIGHUP);
+    sigaddset(&wishes, SIGINT);
+    sigaddset(&wishes, SIGTERM);
+    sigaddset(&wishes, SIGALRM);
     int failed = posix_spawn_file_actions_init(&actions);
     if (failed)
         return failed;
@@ -72,7 +77,7 @@ static int spawn(const char *name, int channel, pid_t *id)
         if (!failed)
             failed = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
         if (!failed)
-            failed = posix_spawnattr_setsigmask(&attributes, &none);
+            failed = posix_spawnattr_setsigmask(&attributes, &wishes);
         if (!failed)
             failed = posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
         if (!failed)
@@ -157,6 +162,11 @@ bool ffd_process_receive(worker_process *process, byte_buffer *bytes)
         ffd_buffer_append(bytes, block, (size_t)size);
     }
     return true;
+}
+
+void ffd_process_stop(worker_process *process)
+{
+    kill(process->id, SIGALRM);
 }
 
 void ffd_process_kill(worker_process *process)

@@ -39,10 +39,21 @@ ffd_status ffd_stream_open(const char *path, const char *name, byte_stream **str
     return FFD_OK;
 }
 
-bool ffd_stream_is_ready(const byte_stream *stream)
+/* Waits so many milliseconds, -1: without limit. */
+static bool wait_for_bytes(const byte_stream *stream, int most)
 {
     struct pollfd ready = {.fd = stream->fd, .events = POLLIN};
-    return stream->next < stream->filled || stream->ended || poll(&ready, 1, 0) != 0;
+    return stream->next < stream->filled || stream->ended || poll(&ready, 1, most) != 0;
+}
+
+bool ffd_stream_is_ready(const byte_stream *stream)
+{
+    return wait_for_bytes(stream, 0);
+}
+
+void ffd_stream_wait(const byte_stream *stream)
+{
+    wait_for_bytes(stream, -1);
 }
 
 static ffd_status fill(byte_stream *stream, ffd_error *error)

@@ -33,6 +33,7 @@ typedef struct batch_run {
     pool_task *tasks[WINDOW]; /* in their order; count of them */
     size_t count, waiting;
     bool ended;   /* the source has no more jobs */
+    bool starved; /* the next one has not come yet */
     bool ending;  /* no more jobs are begun */
     bool dropped; /* some were not begun */
 } batch_run;
@@ -46,33 +47,33 @@ static void fail_task(pool_task *task, const ffd_error *error)
     task->outcome = OUTCOME_FAILED;
 }
 
-static ffd_status add_task(batch_run *run, pool_task *task)
+static void add_task(batch_run *run, pool_task *task)
 {
     batch_job *const job = &task->job;
     run->tasks[run->count++] = task;
     if (job->error.status) {
         fail_task(task, &job->error);
-        return FFD_OK;
+        return;
     }
     task->mesh = ffd_hash(job->input, strlen(job->input));
     if (run->journal)
         task->has_record = ffd_journal_find(run->journal, job->target, &task->record);
     run->waiting++;
-    return FFD_OK;
 }
 
 static ffd_status read_jobs(batch_run *run, ffd_error *error)
 {
-    while (!run->ended && !run->ending && run->count < WINDOW && run->waiting < AHEAD &&
-           ffd_jobs_are_ready(run->source)) {
-        bool more;
+    run->starved = false;
+    while (!run->ended && !run->ending && run->count < WINDOW && run->waiting < AHEAD) {
+        line_state state;
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
             return ffd_fail_memory(error);
-        const ffd_status status = ffd_jobs_next(run->source, &task->job, &more, error);
-        if (status || !more) {
+        const ffd_status status = ffd_jobs_next(run->source, &task->job, &state, error);
+        if (status || state != LINE_READ) {
             ffd_task_free(task);
-            run->ended = true;
+            run->ended = state == LINE_NONE;
+            run->starved = state == LINE_LATER;
             return status;
         }
         add_task(run, task);
@@ -109,7 +110,7 @@ static ffd_status report_task(batch_run *run, const pool_task *task, ffd_error *
     result.status = task->failure.status;
     result.error = task->failure;
     const report_entry entry = {.line = task->job.line,
-                                .input = task->job.input ? task->job.input : "",
+                                .input = task->job.input,
                                 .output = ffd_job_output_name(&task->job),
                                 .result = &result,
                                 .stable = run->desc->pool.stable};
@@ -120,34 +121,48 @@ static ffd_status report_task(batch_run *run, const pool_task *task, ffd_error *
     return status;
 }
 
-static ffd_status end_task(batch_run *run, pool_task *task, ffd_error *error)
+/* What a job's end means at once, whichever jobs before it still run. */
+static void note_end(batch_run *run, pool_task *task)
 {
     uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
     ++*counts[task->outcome];
+    task->noted = true;
     if (task->log.size && !task->log.failed) {
         ffd_buffer_append(&task->log, "", 1);
         ffd_progress_print(&run->progress, task->log.data);
     }
     if (task->failure.status)
         say_error(run, &task->failure);
-    if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
-        print_plan(task);
     if (task->outcome == OUTCOME_FAILED && run->desc->stop)
         run->ending = true;
     if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
         ffd_journal_put(run->journal, task->job.target, &task->record);
-    if (run->depfile && task->rule.size)
-        ffd_depfile_add(run->depfile, &task->rule);
-    return report_task(run, task, error);
 }
 
 /* A job that is not valid is not begun either once no more are. */
-static void drop_invalid(batch_run *run, pool_task *task)
+static void note_ends(batch_run *run)
 {
-    if (run->ending && task->job.error.status) {
-        task->state = TASK_DROPPED;
-        run->dropped = true;
+    for (size_t i = 0; i < run->count; i++) {
+        pool_task *const task = run->tasks[i];
+        if (task->state != TASK_ENDED || task->noted)
+            continue;
+        if (run->ending && task->job.error.status) {
+            task->state = TASK_DROPPED;
+            run->dropped = true;
+        } else {
+            note_end(run, task);
+        }
     }
+}
+
+/* What is told in the order of the jobs. */
+static ffd_status tell_task(batch_run *run, const pool_task *task, ffd_error *error)
+{
+    if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
+        print_plan(task);
+    if (run->depfile && task->rule.size)
+        ffd_depfile_add(run->depfile, &task->rule);
+    return report_task(run, task, error);
 }
 
 /* Takes the jobs that have ended, and none before them has not, out of the window. */
@@ -159,9 +174,8 @@ static ffd_status take_ended(batch_run *run, ffd_error *error)
         pool_task *const task = run->tasks[taken];
         if (task->state != TASK_ENDED && task->state != TASK_DROPPED)
             break;
-        drop_invalid(run, task);
         if (task->state == TASK_ENDED)
-            status = end_task(run, task, error);
+            status = tell_task(run, task, error);
         ffd_task_free(task);
     }
     run->count -= taken;
@@ -200,24 +214,34 @@ static void heed_interrupts(batch_run *run)
         ffd_pool_stop(run->pool);
 }
 
+/* Where the manifest cannot be read on, or no worker be had, what was begun is finished all the same. */
+static ffd_status begin_jobs(batch_run *run, ffd_error *error)
+{
+    ffd_status status = read_jobs(run, error);
+    if (!status && !run->ending)
+        status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
+    run->ending = run->ending || status;
+    return status;
+}
+
 static ffd_status run_jobs(batch_run *run, ffd_error *error)
 {
-    ffd_status status = FFD_OK;
+    ffd_status status = FFD_OK, first = FFD_OK;
     while (!status) {
-        status = read_jobs(run, error);
-        if (!status && !run->ending)
-            status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
-        if (!status && (ffd_pool_running(run->pool) > 0 || (!run->ended && !ffd_jobs_are_ready(run->source))))
+        if (!first)
+            first = begin_jobs(run, error);
+        if ((ffd_pool_running(run->pool) > 0 || run->starved))
             ffd_pool_wait(run->pool, LOOK);
+        note_ends(run);
         heed_interrupts(run);
-        if (!status)
-            status = take_ended(run, error);
+        note_ends(run); /* of those that were stopped */
+        status = take_ended(run, first ? NULL : error);
         count_waiting(run);
         ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
         if (run->count == 0 && (run->ended || run->ending))
             break;
     }
-    return status;
+    return first ? first : status;
 }
 
 static ffd_status open_journal(batch_run *run, ffd_error *error)
@@ -284,8 +308,8 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         status = run_jobs(&run, error);
         if (status)
             ffd_pool_stop(run.pool);
-        if (!status && run.report)
-            status = ffd_report_write(run.report, error);
+        const ffd_status reported = run.report ? ffd_report_write(run.report, status ? NULL : error) : FFD_OK;
+        status = status ? status : reported;
         if (!status && run.depfile && !run.counts.failed && !run.dropped)
             status = ffd_depfile_write(run.depfile, error);
         if (!status)

@@ -1,8 +1,7 @@
 #include "batch/csv.h"
 #include <string.h>
 
-/* From the quote at text[i] to behind the one that ends the cell: where that is, 0 for none. cell gets what
-   is between them, or is NULL. */
+/* From the quote at text[i] to behind the one that ends the cell: where that is, 0 for none. */
 static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *cell)
 {
     for (i++; i < size; i++) {
@@ -10,8 +9,7 @@ static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *
             i++;
         else if (text[i] == '"')
             return i + 1;
-        if (cell)
-            ffd_buffer_append(cell, text + i, 1);
+        ffd_buffer_append(cell, text + i, 1);
     }
     return 0;
 }
@@ -24,20 +22,22 @@ static size_t skip_plain(const char *text, size_t i, size_t size)
     return i;
 }
 
-bool ffd_csv_is_open(const char *text, size_t size)
+bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size)
 {
-    for (size_t i = 0; i < size; i++) {
-        if (text[i] == '"') {
-            i = take_quoted(text, i, size, NULL);
-            if (i == 0)
-                return true;
-        } else {
-            i = skip_plain(text, i, size);
-        }
-        if (i < size && text[i] != ',')
-            return false; /* it is no row, whatever comes */
+    for (; scan->at < size; scan->at++) {
+        const char c = text[scan->at];
+        if (scan->state == CSV_QUOTED)
+            scan->state = c == '"' ? CSV_QUOTE_ENDS : CSV_QUOTED;
+        else if (c == '"' && scan->state != CSV_PLAIN && scan->state != CSV_BROKEN)
+            scan->state = CSV_QUOTED; /* begins, or was one of two */
+        else if (c == ',' && scan->state != CSV_BROKEN)
+            scan->state = CSV_CELL_BEGINS;
+        else if (c == '"' || scan->state == CSV_QUOTE_ENDS)
+            scan->state = CSV_BROKEN; /* it is no row, whatever comes */
+        else if (scan->state == CSV_CELL_BEGINS)
+            scan->state = CSV_PLAIN;
     }
-    return false;
+    return scan->state == CSV_QUOTED;
 }
 
 bool ffd_csv_split(const char *text, size_t size, csv_row *row)

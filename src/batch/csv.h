@@ -11,8 +11,15 @@ typedef struct csv_row {
     size_t count;
 } csv_row;
 
-/* Whether the text ends within quotes: its row goes on in the next line. */
-bool ffd_csv_is_open(const char *text, size_t size);
+/* How far a text was looked at; all zeros before its beginning. */
+typedef struct csv_scan {
+    size_t at;
+    enum { CSV_CELL_BEGINS, CSV_PLAIN, CSV_QUOTED, CSV_QUOTE_ENDS, CSV_BROKEN } state;
+} csv_scan;
+
+/* Looks at what has been added to the text. Whether it ends within quotes: its row goes on in the next line.
+ */
+bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size);
 /* Splits a row that is whole. False where a quote stands in the middle of a cell, or the cell goes on behind
    one. */
 bool ffd_csv_split(const char *text, size_t size, csv_row *row);

@@ -1,6 +1,7 @@
 #include "batch/fingerprint.h"
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/path.h"
 #include "io/formats.h"
 #include "job/source.h"
 #include <ffd/version.h>
@@ -64,19 +65,57 @@ static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
     return status;
 }
 
+/* Whether images go with the output into another folder. */
+static bool copies_images(const ffd_deform_desc *desc)
+{
+    ffd_format format = desc->output_format;
+    if (desc->in_place || desc->resources != FFD_RESOURCES_COPY)
+        return false;
+    if (format == FFD_FORMAT_AUTO)
+        format = ffd_format_from_name(desc->output);
+    char *const from = ffd_path_folder(desc->input.path), *const to = ffd_path_folder(desc->output);
+    const bool apart = from && to && !ffd_file_same(from, to);
+    ffd_free(from);
+    ffd_free(to);
+    return apart && (format == FFD_FORMAT_GLTF || format == FFD_FORMAT_GLB);
+}
+
+/* Images that are there become files of the job. */
+static ffd_status add_images_of_input(hash_list *list, hash_cache *cache, const ffd_deform_desc *desc,
+                                      path_list *files, ffd_error *error)
+{
+    path_list images = {0};
+    ffd_status status = copies_images(desc) ? ffd_cache_images(cache, &desc->input, &images, error) : FFD_OK;
+    if (!status)
+        status = add_images(list, cache, &images, error);
+    for (size_t i = 0; i < images.count && !status; i++)
+        if (ffd_file_exists(images.paths[i]))
+            status = ffd_paths_add(files, images.paths[i], error);
+    ffd_paths_free(&images);
+    return status;
+}
+
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
                                   hash_cache *cache, path_list *files, hash128 *hash, ffd_error *error)
 {
     hash_list list = {0};
+    path_list others = {0};
     ffd_status status = add_words(&list, words, error);
     if (!status)
         status = ffd_cache_list(cache, &desc->input, files, error);
-    for (size_t i = 0; i < desc->lattice_count && !status; i++)
-        status = ffd_paths_add(files, desc->lattices[i], error);
-    if (!status && desc->embedding)
-        status = ffd_paths_add(files, desc->embedding, error);
     if (!status)
         status = add_files(&list, cache, files, error);
+    if (!status)
+        status = add_images_of_input(&list, cache, desc, files, error);
+    for (size_t i = 0; i < desc->lattice_count && !status; i++)
+        status = ffd_paths_add(&others, desc->lattices[i], error);
+    if (!status && desc->embedding)
+        status = ffd_paths_add(&others, desc->embedding, error);
+    if (!status)
+        status = add_files(&list, cache, &others, error);
+    for (size_t i = 0; i < others.count && !status; i++)
+        status = ffd_paths_add(files, others.paths[i], error);
+    ffd_paths_free(&others);
     return finish(&list, status, hash);
 }
 

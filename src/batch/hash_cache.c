@@ -56,6 +56,7 @@ static void forget_mesh(hash_cache *cache)
     ffd_free(cache->mesh);
     cache->mesh = NULL;
     ffd_paths_free(&cache->mesh_files);
+    ffd_paths_free(&cache->mesh_images);
 }
 
 static ffd_status list_opened(hash_cache *cache, const ffd_source *source, ffd_format format,
@@ -66,6 +67,8 @@ static ffd_status list_opened(hash_cache *cache, const ffd_source *source, ffd_f
     ffd_status status = ffd_source_open(source, 1, &document, error);
     if (!status)
         status = ffd_source_files(source, document, &cache->mesh_files, error);
+    if (!status && document->format->list_images)
+        status = document->format->list_images(document, &cache->mesh_images, error);
     ffd_source_close(&document);
     if (!status && is_file)
         cache->mesh = ffd_text_copy(source->path);
@@ -73,21 +76,37 @@ static ffd_status list_opened(hash_cache *cache, const ffd_source *source, ffd_f
     return status;
 }
 
+/* Makes the source's the mesh that is known. */
+static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_format format, ffd_error *error)
+{
+    file_stamp stamp;
+    if (cache->mesh && strcmp(cache->mesh, source->path) == 0 && cache->format == format &&
+        ffd_file_stamp(source->path, &stamp) && ffd_stamp_equal(&stamp, &cache->stamp))
+        return FFD_OK;
+    forget_mesh(cache);
+    return list_opened(cache, source, format, error);
+}
+
 ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error)
 {
     ffd_format format;
-    file_stamp stamp;
     ffd_status status = ffd_source_format(source, &format, error);
     if (status)
         return status;
     if (!ffd_format_table(format)->list_files)
         return ffd_paths_add(files, source->path, error);
-    if (!cache->mesh || strcmp(cache->mesh, source->path) != 0 || cache->format != format ||
-        !ffd_file_stamp(source->path, &stamp) || !ffd_stamp_equal(&stamp, &cache->stamp)) {
-        forget_mesh(cache);
-        status = list_opened(cache, source, format, error);
-    }
+    status = know_mesh(cache, source, format, error);
     return status ? status : copy_list(&cache->mesh_files, files, error);
+}
+
+ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error)
+{
+    ffd_format format;
+    ffd_status status = ffd_source_format(source, &format, error);
+    if (status || !ffd_format_table(format)->list_images)
+        return status;
+    status = know_mesh(cache, source, format, error);
+    return status ? status : copy_list(&cache->mesh_images, images, error);
 }
 
 void ffd_cache_free(hash_cache *cache)

@@ -24,7 +24,7 @@ typedef struct hash_cache {
     char *mesh;
     ffd_format format;
     file_stamp stamp;
-    path_list mesh_files;
+    path_list mesh_files, mesh_images;
 } hash_cache;
 
 /* Hashes the file's bytes. Errors: those of reading. */
@@ -32,6 +32,8 @@ ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ff
 /* Adds the files that a mesh is read from. Only formats that can refer to files are opened for that. Errors:
    those of reading. */
 ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error);
+/* Adds the images beside it that it shows, there or not. */
+ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error);
 void ffd_cache_free(hash_cache *cache);
 
 #endif

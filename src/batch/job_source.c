@@ -1,5 +1,6 @@
 #include "batch/job_source.h"
 #include "base/glob.h"
+#include "base/interrupt.h"
 #include "base/memory.h"
 #include "base/path.h"
 #include "batch/csv.h"
@@ -14,7 +15,9 @@ struct job_source {
     uint64_t line;      /* that the last one begins in */
     line_reader reader; /* of manifest or table */
     csv_row columns, row;
-    file_list files; /* of a pattern */
+    csv_scan scan;    /* of the row */
+    bool row_goes_on; /* in lines that have not come yet */
+    file_list files;  /* of a pattern */
 };
 
 /* Lines */
@@ -39,14 +42,14 @@ static void skip_mark(line_reader *reader)
 }
 
 /* The next line that is not blank. */
-static ffd_status next_line(line_reader *reader, bool *more, ffd_error *error)
+static ffd_status next_line(line_reader *reader, line_state *state, ffd_error *error)
 {
     ffd_status status;
     do {
-        status = ffd_lines_next(reader, false, more, error);
-        if (!status && *more)
+        status = ffd_lines_next(reader, false, state, error);
+        if (!status && *state == LINE_READ)
             skip_mark(reader);
-    } while (!status && *more && is_blank(&reader->line));
+    } while (!status && *state == LINE_READ && is_blank(&reader->line));
     return status;
 }
 
@@ -63,16 +66,40 @@ static ffd_status read_manifest_line(job_source *source, batch_job *job)
 /* Tables */
 
 /* A row can go on over several lines. */
-static ffd_status next_row(job_source *source, csv_row *row, bool *more, bool *valid, ffd_error *error)
+static ffd_status next_row(job_source *source, csv_row *row, line_state *state, bool *valid, ffd_error *error)
 {
     line_reader *const reader = &source->reader;
-    ffd_status status = next_line(reader, more, error);
-    bool goes_on = *more;
-    source->line = reader->number;
-    while (!status && goes_on && !reader->too_long && ffd_csv_is_open(reader->line.data, reader->line.size))
-        status = ffd_lines_next(reader, true, &goes_on, error);
-    *valid = !status && !reader->too_long && ffd_csv_split(reader->line.data, reader->line.size, row);
-    return !status && row->text.failed ? ffd_fail_memory(error) : status;
+    ffd_status status = FFD_OK;
+    *state = LINE_READ;
+    if (!source->row_goes_on) {
+        status = next_line(reader, state, error);
+        source->line = reader->number;
+        source->scan = (csv_scan){0};
+    }
+    while (!status && *state == LINE_READ && !reader->too_long &&
+           ffd_csv_is_open(&source->scan, reader->line.data, reader->line.size))
+        status = ffd_lines_next(reader, true, state, error);
+    source->row_goes_on = *state == LINE_LATER && source->scan.at > 0;
+    if (*state == LINE_NONE && source->scan.at > 0)
+        *state = LINE_READ; /* the text has ended within a row */
+    if (status || *state != LINE_READ)
+        return status;
+    *valid = !reader->too_long && ffd_csv_split(reader->line.data, reader->line.size, row);
+    return row->text.failed ? ffd_fail_memory(error) : FFD_OK;
+}
+
+/* Whether all cells are UTF-8, as JSON is. */
+static bool is_text(const csv_row *row)
+{
+    const char *cell = NULL;
+    for (size_t i = 0; i < row->count; i++) {
+        cell = ffd_csv_next(row, cell);
+        json_t *const text = json_string(cell);
+        json_decref(text);
+        if (!text)
+            return false;
+    }
+    return true;
 }
 
 /* A cell is what it says as JSON, or else a text. */
@@ -126,20 +153,6 @@ static json_t *row_value(const job_source *source)
     return job;
 }
 
-/* Whether all cells are UTF-8, as JSON is. */
-static bool is_text(const csv_row *row)
-{
-    const char *cell = NULL;
-    for (size_t i = 0; i < row->count; i++) {
-        cell = ffd_csv_next(row, cell);
-        json_t *const text = json_string(cell);
-        json_decref(text);
-        if (!text)
-            return false;
-    }
-    return true;
-}
-
 static ffd_status read_row(job_source *source, bool valid, batch_job *job)
 {
     const size_t line = (size_t)job->line;
@@ -167,6 +180,9 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
 {
     const csv_row *const columns = &source->columns;
     const char *name = NULL;
+    if (!is_text(columns))
+        return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                             "the name of a column is not text in UTF-8");
     for (size_t i = 0; i < columns->count; i++) {
         const char *other = name = ffd_csv_next(columns, name);
         if (!*name)
@@ -182,13 +198,19 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
     return FFD_OK;
 }
 
+/* Waits for them: without them there is nothing to do. */
 static ffd_status read_columns(job_source *source, ffd_error *error)
 {
-    bool more, valid;
-    const ffd_status status = next_row(source, &source->columns, &more, &valid, error);
+    line_state state;
+    bool valid = false;
+    ffd_status status;
+    do {
+        ffd_stream_wait(source->reader.stream);
+        status = next_row(source, &source->columns, &state, &valid, error);
+    } while (!status && state == LINE_LATER && ffd_interrupt_wished() == INTERRUPT_NONE);
     if (status)
         return status;
-    if (!more || !valid)
+    if (state != LINE_READ || !valid)
         return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, 1,
                              "the first row of the table must name its columns");
     return check_columns(source, error);
@@ -279,29 +301,29 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
     return status;
 }
 
-/* The next job of any shard: whether there is one. */
-static ffd_status advance(job_source *source, bool *more, bool *valid, ffd_error *error)
+/* The next job of any shard. */
+static ffd_status advance(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
     *valid = true;
     if (source->desc.manifest) {
-        const ffd_status status = next_line(&source->reader, more, error);
+        const ffd_status status = next_line(&source->reader, state, error);
         source->line = source->reader.number;
         return status;
     }
     if (source->desc.table)
-        return next_row(source, &source->row, more, valid, error);
-    *more = source->count < source->files.count;
+        return next_row(source, &source->row, state, valid, error);
+    *state = source->count < source->files.count ? LINE_READ : LINE_NONE;
     source->line = source->count + 1;
     return FFD_OK;
 }
 
-ffd_status ffd_jobs_next(job_source *source, batch_job *job, bool *more, ffd_error *error)
+ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error)
 {
     bool valid, mine;
     *job = (batch_job){0};
     do {
-        const ffd_status status = advance(source, more, &valid, error);
-        if (status || !*more)
+        const ffd_status status = advance(source, state, &valid, error);
+        if (status || *state != LINE_READ)
             return status;
         mine = source->count++ % source->desc.shards == source->desc.shard;
     } while (!mine);
@@ -311,11 +333,6 @@ ffd_status ffd_jobs_next(job_source *source, batch_job *job, bool *more, ffd_err
                                   ? read_row(source, valid, job)
                                   : read_file(source, source->files.paths[source->count - 1], job);
     return status ? ffd_fail_memory(error) : FFD_OK;
-}
-
-bool ffd_jobs_are_ready(const job_source *source)
-{
-    return !source->reader.stream || ffd_stream_is_ready(source->reader.stream);
 }
 
 double ffd_jobs_fraction(const job_source *source)

@@ -4,6 +4,7 @@
 #define FFD_BATCH_JOB_SOURCE_H
 
 #include "batch/job_words.h"
+#include "batch/lines.h"
 
 typedef struct job_source_desc {
     const char *manifest; /* JSON Lines, "-": standard input; or NULL */
@@ -22,11 +23,10 @@ typedef struct job_source job_source;
 
 /* desc's texts must outlive the source. Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_error *error);
-/* Fills an empty job, to be freed by the caller in every case, with the next one; *more false: there is none.
-   What is wrong with the job itself is no failure. Errors: FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_jobs_next(job_source *source, batch_job *job, bool *more, ffd_error *error);
-/* Whether the next one can be had without waiting for who writes the manifest. */
-bool ffd_jobs_are_ready(const job_source *source);
+/* Fills an empty job, to be freed by the caller in every case, with the next one, if *state becomes
+   LINE_READ: it does not wait for who writes the manifest. What is wrong with the job itself is no failure.
+   Errors: FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error);
 /* The part of the jobs that was handed out, by bytes or files: 0 to 1; negative where it is not known. */
 double ffd_jobs_fraction(const job_source *source);
 /* What the jobs stand in, for messages. */

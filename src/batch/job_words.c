@@ -149,6 +149,8 @@ static bool add_option(job_reader *reader, const char *name, const json_t *value
 
 static bool read_option(job_reader *reader, const char *name, const json_t *value)
 {
+    if (!*name || strchr(name, '='))
+        return refuse(reader, "\"%.60s\" is not the name of an option", name);
     if (is_one_of(name, reserved, RESERVED))
         return refuse(reader, "\"%s\" is not an option of a job", name);
     if (json_is_true(value)) {

@@ -7,30 +7,19 @@ ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reade
     return ffd_stream_open(path, name, &reader->stream, error);
 }
 
-ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_error *error)
+static void begin_line(line_reader *reader, bool append)
 {
-    int c;
-    ffd_status status;
     if (append) {
         ffd_buffer_text(&reader->line, "\n");
     } else {
         reader->line.size = 0;
         reader->too_long = false;
     }
-    *more = false;
-    while ((c = ffd_stream_byte(reader->stream, &status, error)) >= 0) {
-        const char byte = (char)c;
-        *more = true;
-        if (byte == '\n')
-            break;
-        if (reader->line.size < LINE_MOST)
-            ffd_buffer_append(&reader->line, &byte, 1);
-        else
-            reader->too_long = true;
-    }
-    if (status)
-        return status;
-    reader->number += *more;
+}
+
+/* Without what ends it, and with a 0 behind it. */
+static ffd_status end_line(line_reader *reader, ffd_error *error)
+{
     if (reader->line.size > 0 && reader->line.data[reader->line.size - 1] == '\r')
         reader->line.size--;
     char *end = ffd_buffer_room(&reader->line, 1);
@@ -38,6 +27,40 @@ ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_erro
         return ffd_fail_memory(error);
     *end = 0;
     return FFD_OK;
+}
+
+/* Takes bytes up to the line's end, as far as they have come. */
+static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *error)
+{
+    ffd_status status;
+    while (ffd_stream_is_ready(reader->stream)) {
+        const int c = ffd_stream_byte(reader->stream, &status, error);
+        const char byte = (char)c;
+        if (c < 0)
+            return status;
+        *state = LINE_READ;
+        if (byte == '\n')
+            return FFD_OK;
+        if (reader->line.size < LINE_MOST)
+            ffd_buffer_append(&reader->line, &byte, 1);
+        else
+            reader->too_long = true;
+    }
+    *state = LINE_LATER;
+    return FFD_OK;
+}
+
+ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, ffd_error *error)
+{
+    if (!reader->is_partial)
+        begin_line(reader, append);
+    *state = reader->is_partial && reader->line.size > 0 ? LINE_READ : LINE_NONE;
+    const ffd_status status = take_bytes(reader, state, error);
+    reader->is_partial = *state == LINE_LATER;
+    if (status || reader->is_partial)
+        return status;
+    reader->number += *state == LINE_READ;
+    return end_line(reader, error);
 }
 
 void ffd_lines_close(line_reader *reader)

@@ -14,14 +14,21 @@ typedef struct line_reader {
     byte_stream *stream;
     uint64_t number;  /* of the line read last, from 1 */
     byte_buffer line; /* the line read last, without its end, a 0 behind it */
+    bool is_partial;  /* the rest of it has not come yet */
     bool too_long;    /* only its first LINE_MOST bytes are there */
 } line_reader;
 
 /* path "-": standard input. name must outlive the reader. Errors: FFD_E_IO. */
 ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reader, ffd_error *error);
-/* Reads the next line; *more false: there is none. append: behind what is there, after a line break. Errors:
+typedef enum line_state {
+    LINE_NONE, /* there are no more */
+    LINE_READ,
+    LINE_LATER /* it has not come yet, or not all of it: to be asked for again, with the same append */
+} line_state;
+
+/* Reads the next line, as far as it has come. append: behind what is there, after a line break. Errors:
    FFD_E_IO, FFD_E_MEMORY. */
-ffd_status ffd_lines_next(line_reader *reader, bool append, bool *more, ffd_error *error);
+ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, ffd_error *error);
 void ffd_lines_close(line_reader *reader);
 
 #endif

@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Seconds that jobs have to come to their end where all are to be stopped. */
+/* Seconds that jobs have to come to their end where all are to be stopped; and that a worker has for removing
+   what it was writing. */
 #define GRACE 0.5
 
 typedef struct pool_worker {
@@ -15,6 +16,8 @@ typedef struct pool_worker {
     byte_buffer answer;      /* what has come of it */
     hash128 mesh;            /* of the task before or now */
     bool has_mesh, timed_out, stopped, retires;
+    bool was_told;   /* of its task */
+    bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
 } pool_worker;
 
@@ -140,11 +143,11 @@ static void begin_task(worker_pool *pool, pool_worker *worker, pool_task *task, 
     worker->task = task;
     worker->mesh = task->mesh;
     worker->has_mesh = true;
-    worker->timed_out = worker->stopped = false;
+    worker->timed_out = worker->stopped = worker->is_ending = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->state = TASK_RUNS;
     /* Where it cannot be sent the worker has ended, which shows when its answer is read. */
-    send_task(pool, worker, task, threads);
+    worker->was_told = send_task(pool, worker, task, threads);
 }
 
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error)
@@ -197,13 +200,14 @@ static bool take_answer(pool_worker *worker)
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, entry + head.entry_size, head.rule_size);
-    if (head.out_of_memory)
+    const bool lost = task->log.failed || task->entry.failed || task->rule.failed;
+    if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->record = head.record;
     task->has_record = head.has_record;
     worker->retires = head.retires;
     bytes->size = 0;
-    end_task(worker, (wire_outcome)head.outcome);
+    end_task(worker, lost ? OUTCOME_FAILED : (wire_outcome)head.outcome);
     return true;
 }
 
@@ -230,11 +234,17 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
 {
     process_end end;
     ffd_process_finish(&worker->process, &end);
-    worker->answer.size = 0;
+    ffd_buffer_free(&worker->answer);
     worker->has_mesh = worker->retires = false;
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
+    if (!worker->was_told && !task->was_returned) { /* it had ended before: somebody else's turn */
+        task->state = TASK_WAITS;
+        task->was_returned = true;
+        worker->task = NULL;
+        return;
+    }
     describe_failure(pool, worker, &end, &task->failure);
     if (task->job.target)
         ffd_output_discard(task->job.target);
@@ -256,9 +266,15 @@ static void check_time(pool_worker *worker, double now)
 {
     if (!worker->task || worker->deadline <= 0 || now < worker->deadline)
         return;
+    if (worker->is_ending) {
+        worker->deadline = 0;
+        ffd_process_kill(worker->process);
+        return;
+    }
+    worker->is_ending = true;
     worker->timed_out = !worker->stopped;
-    worker->deadline = 0;
-    ffd_process_kill(worker->process);
+    worker->deadline = now + GRACE;
+    ffd_process_stop(worker->process);
 }
 
 /* Seconds until the next deadline, at most `seconds`. */
@@ -302,7 +318,7 @@ void ffd_pool_stop(worker_pool *pool)
         pool_worker *const worker = &pool->workers[i];
         if (!worker->task)
             continue;
-        worker->stopped = true;
+        worker->stopped = !worker->is_ending;
         worker->deadline = end;
     }
     while (ffd_pool_running(pool) > 0)

@@ -22,6 +22,8 @@ typedef struct pool_task {
     job_record record; /* before: of the last time, where has_record; afterwards: of this time, likewise */
     bool has_record;
     task_state state;
+    bool was_returned; /* by a worker that had ended before it could take it */
+    bool noted;        /* what its end means at once was seen to */
     /* Once it has ended: */
     wire_outcome outcome;
     byte_buffer log;   /* lines for people */

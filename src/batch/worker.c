@@ -1,4 +1,5 @@
 #include "batch/worker.h"
+#include "base/cleanup.h"
 #include "base/file.h"
 #include "base/interrupt.h"
 #include "base/memory.h"
@@ -80,16 +81,39 @@ static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, wi
            ffd_hash_equal(&answer->record.outputs, &task->record.outputs);
 }
 
-/* Deforms, or sees that it need not; files become those that the output is made of. */
-static ffd_status do_job(const wire_task *task, const fingerprint_words *words, ffd_deform_desc *desc,
-                         hash_cache *hashes, path_list *files, wire_answer *answer, ffd_job_result *result)
+/* What is kept for the jobs behind is reckoned too: where there is no room, there may be without that. */
+static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
 {
-    ffd_status status = FFD_OK;
-    /* For a plan it also shows that they can be read. */
-    if (task->records || task->dry || task->depfile)
-        status = ffd_fingerprint_inputs(desc, words, hashes, files, &answer->record.inputs, &result->error);
-    if (status)
+    byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
+    const size_t before = lines->size;
+    const ffd_status status = ffd_deform_run(desc, result, NULL);
+    if (status != FFD_E_LIMIT || !desc->share)
         return status;
+    lines->size = before;
+    desc->share = NULL;
+    return ffd_deform_run(desc, result, NULL);
+}
+
+/* Looks at the files that the output is made of, for what has to be known of them. */
+static ffd_status look_at_files(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
+                                const ffd_deform_desc *desc, wire_answer *answer, ffd_error *error)
+{
+    path_list files = {0};
+    if (!task->records && !task->dry && !task->depfile)
+        return FFD_OK;
+    /* For a plan it also shows that they can be read. */
+    ffd_status status =
+        ffd_fingerprint_inputs(desc, words, &worker->hashes, &files, &answer->record.inputs, error);
+    if (!status && task->depfile && !task->dry && desc->output)
+        status = ffd_depfile_rule(desc->output, &files, &worker->rule, error);
+    ffd_paths_free(&files);
+    return status;
+}
+
+/* Deforms, or sees that it need not. */
+static ffd_status do_job(const wire_task *task, ffd_deform_desc *desc, wire_answer *answer,
+                         ffd_job_result *result)
+{
     if (is_up_to_date(task, desc, answer)) {
         answer->outcome = OUTCOME_SKIPPED;
         return FFD_OK;
@@ -100,7 +124,7 @@ static ffd_status do_job(const wire_task *task, const fingerprint_words *words, 
         return desc->in_place
                    ? FFD_OK
                    : ffd_output_check(desc->output, desc->force || desc->if_changed, &result->error);
-    status = ffd_deform_run(desc, result, NULL);
+    const ffd_status status = deform(desc, result);
     if (!status && task->records)
         answer->has_record = ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK;
     return status;
@@ -137,11 +161,11 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     desc.share = worker->share;
     if (desc.threads == 0)
         desc.threads = task->threads;
-    path_list files = {0};
-    ffd_status status = do_job(task, &words, &desc, &worker->hashes, &files, answer, result);
-    if (!status && task->depfile && !task->dry && desc.output)
-        status = ffd_depfile_rule(desc.output, &files, &worker->rule, &result->error);
-    ffd_paths_free(&files);
+    ffd_status status = look_at_files(worker, task, &words, &desc, answer, &result->error);
+    if (!status)
+        status = do_job(task, &desc, answer, result);
+    if (status)
+        worker->rule.size = 0;
     worker->program->close(opened);
     return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
 }
@@ -200,6 +224,7 @@ int ffd_worker_run(const worker_program *program)
 {
     batch_worker worker = {.program = program};
     wire_task task;
+    ffd_cleanup_on_crashes();
     ffd_interrupt_ignore();
     ffd_process_follow_parent();
     worker.text.failed = ffd_share_create(&worker.share, NULL) != FFD_OK;

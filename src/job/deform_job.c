@@ -75,8 +75,14 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     const ffd_deform_desc *desc = job->desc;
     ffd_source source = desc->input;
     source.only_positions = job->only_positions;
-    const ffd_status status = ffd_source_open(&source, job->threads, &job->document, error);
-    return status ? status : ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
+    file_stamp stamp;
+    const bool is_file = desc->share && ffd_file_stamp(source.path, &stamp);
+    ffd_status status = ffd_source_open(&source, job->threads, &job->document, error);
+    if (!status)
+        status = ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
+    if (!status)
+        ffd_share_note_mesh(desc->share, desc, job->only_positions, is_file ? &stamp : NULL, job->document);
+    return status;
 }
 
 ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
@@ -220,7 +226,7 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
     ffd_embedding_close(&job->embedding);
     ffd_model_free(&job->base);
     if (status == FFD_OK)
-        ffd_share_keep_mesh(job->desc->share, job->desc, job->only_positions, job->document);
+        ffd_share_keep_mesh(job->desc->share, job->desc, job->document);
     else
         ffd_source_close(&job->document);
     ffd_share_keep_chain(job->desc->share, &job->chain);

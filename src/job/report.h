@@ -8,7 +8,7 @@
 /* What a report says of a job. */
 typedef struct report_entry {
     uint64_t line; /* of the job in its manifest; 0: it has none, and the entry does not say it */
-    const char *input, *output; /* output may be NULL */
+    const char *input, *output; /* may be NULL */
     const ffd_job_result *result;
     bool skipped; /* the output was up to date; of the result only zeros are there */
     bool stable;  /* without times */

@@ -16,7 +16,8 @@ typedef struct kept_rest {
 } kept_rest;
 
 struct ffd_share {
-    mesh_document *document; /* NULL: none */
+    mesh_document *document; /* NULL: none, or in a job's hands */
+    bool is_noted;           /* what follows is known of it */
     ffd_source source;       /* its path is owned */
     bool only_positions;
     char **only; /* only_count */
@@ -41,6 +42,7 @@ ffd_status ffd_share_create(ffd_share **share, ffd_error *error)
 static void forget_mesh(ffd_share *share)
 {
     ffd_source_close(&share->document);
+    share->is_noted = false;
     ffd_free((char *)(uintptr_t)share->source.path);
     share->source.path = NULL;
     for (size_t i = 0; i < share->only_count; i++)
@@ -114,16 +116,15 @@ mesh_document *ffd_share_take_mesh(ffd_share *share, const ffd_deform_desc *desc
 {
     if (!share)
         return NULL;
-    mesh_document *document = NULL;
     if (share->document && leaves_mesh(desc) && same_source(share, desc, only_positions) &&
         is_unchanged(share)) {
-        document = share->document;
+        mesh_document *const document = share->document;
         share->document = NULL;
+        return document;
     }
     forget_mesh(share);
-    if (!document)
-        forget_locations(share);
-    return document;
+    forget_locations(share);
+    return NULL;
 }
 
 static bool note_source(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
@@ -142,29 +143,39 @@ static bool note_source(ffd_share *share, const ffd_deform_desc *desc, bool only
     return true;
 }
 
-static bool note_files(ffd_share *share, const ffd_source *source, const mesh_document *document)
+/* Its own stamp is from before it was opened; those of the files that it refers to were taken right behind
+ * that.
+ */
+static bool note_files(ffd_share *share, const ffd_source *source, const file_stamp *stamp,
+                       const mesh_document *document)
 {
-    if (ffd_source_files(source, document, &share->files, NULL))
+    if (!stamp || ffd_source_files(source, document, &share->files, NULL))
         return false;
     share->stamps = ffd_alloc(share->files.count, sizeof *share->stamps);
-    for (size_t i = 0; share->stamps && i < share->files.count; i++)
+    for (size_t i = 1; share->stamps && i < share->files.count; i++)
         if (!ffd_file_stamp(share->files.paths[i], &share->stamps[i]))
             return false;
+    if (share->stamps && share->files.count > 0)
+        share->stamps[0] = *stamp;
     return share->stamps;
 }
 
-void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
-                         mesh_document *document)
+void ffd_share_note_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
+                         const file_stamp *stamp, const mesh_document *document)
 {
-    if (share && document && leaves_mesh(desc)) {
-        forget_mesh(share);
-        if (note_source(share, desc, only_positions) && note_files(share, &desc->input, document)) {
-            share->document = document;
-            return;
-        }
-        forget_mesh(share);
-    }
-    ffd_source_close(&document);
+    if (!share)
+        return;
+    forget_mesh(share);
+    share->is_noted = leaves_mesh(desc) && note_source(share, desc, only_positions) &&
+                      note_files(share, &desc->input, stamp, document);
+}
+
+void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document)
+{
+    if (share && share->is_noted && leaves_mesh(desc))
+        share->document = document;
+    else
+        ffd_source_close(&document);
 }
 
 /* Rest volumes */
@@ -231,8 +242,11 @@ ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, boo
     if (taken && share->locations)
         return share->locations; /* of the same vertices, in another volume */
     forget_locations(share);
-    if (ffd_room_take(&document->room, count, sizeof *share->locations, NULL) == FFD_OK)
-        share->locations = ffd_alloc((size_t)count, sizeof *share->locations);
+    if (ffd_room_take(&document->room, count, sizeof *share->locations, NULL))
+        return NULL;
+    share->locations = ffd_alloc((size_t)count, sizeof *share->locations);
+    if (!share->locations)
+        ffd_room_return(&document->room, count, sizeof *share->locations);
     return share->locations;
 }
 

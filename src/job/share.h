@@ -11,10 +11,13 @@
    files have not changed since: it is the caller's now. Else NULL, and none is kept any more. share may be
    NULL, here and below. */
 mesh_document *ffd_share_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions);
-/* Takes over a document that desc asked for, where the next job can begin results on it again; else closes
-   it. */
-void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
-                         mesh_document *document);
+/* Takes note of a document that was just opened as desc asks, before its file had this stamp (NULL: it had
+   none): what changes its files from now on is seen. */
+void ffd_share_note_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
+                         const file_stamp *stamp, const mesh_document *document);
+/* Takes over the document that was taken or noted, where the next job can begin results on it again; else
+   closes it. */
+void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document);
 
 /* The locator of a rest volume with this hash (ffd_embedding_hash_lattice) for these instructions, lent until
    the next ffd_share_keep_chain; NULL: there is none. */

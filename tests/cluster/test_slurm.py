@@ -59,13 +59,13 @@ def kill_amid(run, slurm, node):
         return sum(f"{i:03}.obj" in names for i in range(shard, JOBS, SHARDS))
 
     def amid():
-        return [shard for shard, where in slurm.running().items() if where == node and 1 < done(shard) < JOBS // SHARDS]
+        return [shard for shard, where in slurm.running().items() if where == node and 3 < done(shard) < JOBS // SHARDS]
 
     with subprocess.Popen(["sh", "-eu", "-c", ARRAY], cwd=run.path("many"), env=slurm.environment,
                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as submitted:
         wait_until(amid, f"{node} is amid its jobs")
         slurm.kill_node(node)
-        lost = [shard for shard in range(SHARDS) if 0 < done(shard) < JOBS // SHARDS and slurm.running().get(shard) == node]
+        lost = [shard for shard in range(SHARDS) if 3 < done(shard) < JOBS // SHARDS and slurm.running().get(shard) == node]
         check(lost, f"the jobs were over before {node} could be killed")
         submitted.wait(SECONDS)
     check(submitted.returncode != 0, "sbatch --wait has not told of the dead node")

@@ -52,7 +52,7 @@ static void check_row(const char *text, size_t size)
         ffd_csv_free(&row);
         return;
     }
-    PROMISE(!ffd_csv_is_open(text, size), "a whole row is said to go on");
+    PROMISE(!ffd_csv_is_open(&(csv_scan){0}, text, size), "a whole row is said to go on");
     const char *cell = NULL;
     for (size_t i = 0; i < row.count; i++) {
         cell = ffd_csv_next(&row, cell);

@@ -125,14 +125,14 @@ static const char *listed(const job_source_desc *desc)
     static char text[1000];
     job_source *source;
     batch_job job;
-    bool more;
+    line_state more;
     ffd_error error;
     if (ffd_jobs_open(desc, &source, &error))
         fail_msg("%s", error.message);
     *text = 0;
     for (;;) {
         assert_int_equal(ffd_jobs_next(source, &job, &more, &error), FFD_OK);
-        if (!more)
+        if (more != LINE_READ)
             break;
         const size_t length = strlen(text);
         snprintf(text + length, sizeof text - length, "%s%d %s", length ? ", " : "", (int)job.line,
@@ -186,7 +186,7 @@ static void test_table(void **state)
         .table = in_folder("t.csv"), .lattices = lattices, .lattice_count = 1, .out_dir = "dir", .shards = 1};
     job_source *source;
     batch_job job;
-    bool more;
+    line_state more;
     char expected[1000];
     assert_int_equal(ffd_jobs_open(&desc, &source, NULL), FFD_OK);
     static const char *const settings[] = {"--set=A=1|--set=B \"2\"=\"x\"",
@@ -194,7 +194,7 @@ static void test_table(void **state)
     static const int lines[] = {2, 4, 6, 7};
     for (int i = 0; i < 4; i++) {
         assert_int_equal(ffd_jobs_next(source, &job, &more, NULL), FFD_OK);
-        assert_true(more);
+        assert_int_equal(more, LINE_READ);
         assert_int_equal(job.line, lines[i]);
         if (i < 2) {
             snprintf(expected, sizeof expected, "%s/%c|dir/o%d|--lattice=l.json|%s", folder, "ab"[i], i + 1,
@@ -207,7 +207,7 @@ static void test_table(void **state)
         ffd_job_free(&job);
     }
     assert_int_equal(ffd_jobs_next(source, &job, &more, NULL), FFD_OK);
-    assert_false(more);
+    assert_int_equal(more, LINE_NONE);
     ffd_jobs_close(&source);
     put_text("empty.csv", "\n");
     assert_int_equal(

@@ -1,16 +1,22 @@
+#include "base/clock.h"
 #include "base/memory.h"
 #include "base/path.h"
 #include "io/gltf/gltf_saver.h"
 #include "io/gltf/uri.h"
-#include <stdlib.h>
 #include <string.h>
 
-/* The folders of input and output, and what was copied already. */
+/* An image that is to be copied. */
+typedef struct image_copy {
+    char *path; /* relative */
+    size_t image;
+} image_copy;
+
+/* The folders of input and output, and what is to be copied from one to the other. */
 typedef struct resources {
     gltf_saver *saver;
     char *from, *to;
-    char **done; /* relative paths, in order */
-    size_t done_count, done_capacity;
+    image_copy *copies; /* in the order of their paths */
+    size_t copy_count, copy_capacity;
 } resources;
 
 /* The path that an image's URI names relative to the model, normalized; NULL with FFD_OK: not a file beside
@@ -58,24 +64,57 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
     return status;
 }
 
+/* Longest wait for others, and how long between looks, in seconds. */
+#define MOST_WAITING 60.0
+#define LOOK 0.002
+
+/* Begins the image's file, unless it is there. Other models that are written at the same time may have the
+   same image, and be about to write it: that is waited for. They do not wait for this one in turn, since all
+   go through their images in the order of their paths. */
+static ffd_status begin_image(const resources *r, const char *target, bool *is_there, ffd_error *error)
+{
+    const double begin = ffd_clock_seconds();
+    for (;;) {
+        *is_there = ffd_file_exists(target);
+        const bool busy = !*is_there && ffd_output_is_busy(target);
+        const bool late = ffd_clock_seconds() - begin > MOST_WAITING;
+        if (*is_there)
+            return FFD_OK;
+        if (!busy || late) {
+            const ffd_status status = ffd_output_begin(r->saver->output, target, false, error);
+            if (!status || late || !ffd_output_is_busy(target))
+                return status;
+        }
+        ffd_clock_sleep(LOOK);
+    }
+}
+
+static ffd_status compare_image(const char *target, const file_input *bytes, ffd_error *error)
+{
+    bool same = false;
+    const ffd_status status = ffd_file_compare(target, bytes, &same, error);
+    if (status || same)
+        return status;
+    return ffd_fail_file(error, FFD_E_IO, target,
+                         "exists with other content than the image that belongs there "
+                         "(--resources reference leaves it)");
+}
+
 static ffd_status write_image(const resources *r, const char *target, const file_input *bytes,
                               ffd_error *error)
 {
-    if (ffd_file_exists(target)) {
-        bool same = false;
-        const ffd_status status = ffd_file_compare(target, bytes, &same, error);
-        if (status || same)
-            return status;
-        return ffd_fail_file(error, FFD_E_IO, target,
-                             "exists with other content than the image that belongs there "
-                             "(--resources reference leaves it)");
-    }
+    bool is_there;
+    if (ffd_file_exists(target))
+        return compare_image(target, bytes, error);
     char *folder = ffd_path_folder(target);
     ffd_status status = folder ? ffd_output_folder(r->saver->output, folder, error) : ffd_fail_memory(error);
     ffd_free(folder);
     if (status == FFD_OK)
-        status = ffd_output_begin(r->saver->output, target, false, error);
-    return status ? status : ffd_output_write(r->saver->output, bytes->data, bytes->size, error);
+        status = begin_image(r, target, &is_there, error);
+    if (status)
+        return status;
+    return is_there ? compare_image(target, bytes, error)
+                    : ffd_output_write(r->saver->output, bytes->data, bytes->size, error);
 }
 
 static ffd_status copy_image(const resources *r, size_t image, const char *path, ffd_error *error)
@@ -132,50 +171,33 @@ static ffd_status refer_to_image(const resources *r, size_t image, const char *p
     return status;
 }
 
-static int compare_paths(const void *a, const void *b)
+/* Two images may be one file: it is copied once. Takes the path over. */
+static ffd_status add_copy(resources *r, char *path, size_t image, ffd_error *error)
 {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-/* Two images may be one file: it is copied once. */
-static ffd_status remember(resources *r, char *path, bool *known, ffd_error *error)
-{
-    *known =
-        r->done_count > 0 && bsearch(&path, r->done, r->done_count, sizeof *r->done, compare_paths) != NULL;
-    if (*known) {
+    size_t i = r->copy_count;
+    while (i > 0 && strcmp(r->copies[i - 1].path, path) > 0)
+        i--;
+    const bool known = i > 0 && strcmp(r->copies[i - 1].path, path) == 0;
+    if (known || !ffd_grow((void **)&r->copies, &r->copy_capacity, r->copy_count + 1, sizeof *r->copies)) {
         ffd_free(path);
-        return FFD_OK;
+        return known ? FFD_OK : ffd_fail_memory(error);
     }
-    if (!ffd_grow((void **)&r->done, &r->done_capacity, r->done_count + 1, sizeof *r->done)) {
-        ffd_free(path);
-        return ffd_fail_memory(error);
-    }
-    size_t i = r->done_count++;
-    for (; i > 0 && strcmp(r->done[i - 1], path) > 0; i--)
-        r->done[i] = r->done[i - 1];
-    r->done[i] = path;
+    memmove(r->copies + i + 1, r->copies + i, (r->copy_count - i) * sizeof *r->copies);
+    r->copies[i] = (image_copy){path, image};
+    r->copy_count++;
     return FFD_OK;
 }
 
 static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
 {
     char *path;
-    bool known = false;
     ffd_status status = image_path(r->saver->document, image, &path, error);
     if (status || !path)
         return status;
-    if (r->saver->options->resources == FFD_RESOURCES_REFERENCE) {
-        status = refer_to_image(r, image, path, error);
-        ffd_free(path);
-        return status;
-    }
-    char *copy = ffd_text_copy(path);
-    status = copy ? remember(r, path, &known, error) : ffd_fail_memory(error);
-    if (!copy)
-        ffd_free(path);
-    if (status == FFD_OK && !known)
-        status = copy_image(r, image, copy, error);
-    ffd_free(copy);
+    if (r->saver->options->resources != FFD_RESOURCES_REFERENCE)
+        return add_copy(r, path, image, error);
+    status = refer_to_image(r, image, path, error);
+    ffd_free(path);
     return status;
 }
 
@@ -233,9 +255,11 @@ ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error)
         status = refuse_image_name(&r, i, own_copies, error);
     for (size_t i = 0; i < d->image_values.count && status == FFD_OK && !stay; i++)
         status = bring_image(&r, i, error);
-    for (size_t i = 0; i < r.done_count; i++)
-        ffd_free(r.done[i]);
-    ffd_free(r.done);
+    for (size_t i = 0; i < r.copy_count && status == FFD_OK; i++)
+        status = copy_image(&r, r.copies[i].image, r.copies[i].path, error);
+    for (size_t i = 0; i < r.copy_count; i++)
+        ffd_free(r.copies[i].path);
+    ffd_free(r.copies);
     ffd_free(r.from);
     ffd_free(r.to);
     return status;
