@@ -139,14 +139,18 @@ static void note_end(batch_run *run, pool_task *task)
         ffd_journal_put(run->journal, task->job.target, &task->record);
 }
 
-/* A job that is not valid is not begun either once no more are. */
+/* A job that is not valid ends when those before it have: it could be the one to stop at. Once no more are
+   begun it is not begun either. */
 static void note_ends(batch_run *run)
 {
+    bool is_first = true; /* of those that have not ended */
     for (size_t i = 0; i < run->count; i++) {
         pool_task *const task = run->tasks[i];
-        if (task->state != TASK_ENDED || task->noted)
+        const bool is_valid = !task->job.error.status;
+        is_first = is_first && task->state != TASK_WAITS && task->state != TASK_RUNS;
+        if (task->state != TASK_ENDED || task->noted || (!is_valid && !is_first && !run->ending))
             continue;
-        if (run->ending && task->job.error.status) {
+        if (run->ending && !is_valid) {
             task->state = TASK_DROPPED;
             run->dropped = true;
         } else {

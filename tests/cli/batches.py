@@ -40,7 +40,8 @@ def batch(run, *arguments, done=0, kept=0, failed=(), more=None, code=None, **op
         counts = [int(summary[i]) for i in (1, 2, 4, 5)]
         equal(counts, [done + kept + len(failed), done, kept, len(failed)], f"jobs, done, up to date, failed of {said}")
         rest = [line for line in said[:-1] if not SUMMARY.match(line)]
-        for pattern in failed:
+        # Patterns that match many lines come last.
+        for pattern in sorted(failed, key=lambda pattern: sum(bool(re.search(pattern, line)) for line in rest)):
             found = [line for line in rest if re.search(pattern, line)]
             check(found, pattern, "is in none of", rest)
             rest.remove(found[0])
