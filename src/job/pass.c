@@ -298,13 +298,15 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
     const mesh_pass *pass = work->pass;
     if (work->part->repeats_positions || (!pass->embedding && !pass->is_located))
         return false;
-    const ffd_location *const there = pass->locations + work->first_vertex + first;
-    for (size_t i = 0; i < scratch->chosen_count && pass->is_located; i++)
-        scratch->chain.locations[i] = there[scratch->chosen[i]];
-    for (size_t i = 0; i < scratch->chosen_count && pass->embedding; i++)
-        ffd_embedding_locate(pass->embedding, (size_t)work->first_vertex + first + scratch->chosen[i],
-                             pass->chain->links[0].lattice, scratch->place + 3 * i,
-                             &scratch->chain.locations[i]);
+    const size_t before = (size_t)work->first_vertex + first;
+    for (size_t i = 0; i < scratch->chosen_count; i++) {
+        const size_t vertex = before + scratch->chosen[i];
+        if (pass->is_located)
+            scratch->chain.locations[i] = pass->locations[vertex];
+        else
+            ffd_embedding_locate(pass->embedding, vertex, pass->chain->links[0].lattice,
+                                 scratch->place + 3 * i, &scratch->chain.locations[i]);
+    }
     return true;
 }
 
