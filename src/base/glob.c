@@ -15,7 +15,7 @@ static int refuse(const char *path, int reason)
 {
     (void)path;
     errno = reason;
-    return 1;
+    return reason != ENOENT && reason != ENOTDIR; /* in a folder that is not there nothing matches */
 }
 
 static ffd_status copy(const glob_t *found, file_list *list, ffd_error *error)
@@ -38,7 +38,7 @@ ffd_status ffd_glob(const char *pattern, file_list *list, ffd_error *error)
     glob_t found;
     *list = (file_list){0};
     errno = 0;
-    const int result = glob(pattern, GLOB_ERR | GLOB_NOSORT, refuse, &found);
+    const int result = glob(pattern, GLOB_NOSORT, refuse, &found);
     const int reason = errno;
     ffd_status status = FFD_OK;
     if (result == 0)
