@@ -213,6 +213,14 @@ void ffd_process_follow_parent(void)
     fcntl(CHANNEL, F_SETFD, FD_CLOEXEC);
 }
 
+void ffd_process_defer_stop(bool wait)
+{
+    sigset_t stop;
+    sigemptyset(&stop);
+    sigaddset(&stop, SIGALRM);
+    sigprocmask(wait ? SIG_BLOCK : SIG_UNBLOCK, &stop, NULL);
+}
+
 bool ffd_process_take(void *bytes, size_t size)
 {
     char *at = bytes;

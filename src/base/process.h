@@ -37,6 +37,9 @@ void ffd_process_finish(worker_process **process, process_end *end);
 
 /* In a worker: ends it when the one who started it ends, in whatever way, where the system can do that. */
 void ffd_process_follow_parent(void);
+/* In a worker: from now on ffd_process_stop waits, or does not wait any more. One thread calls this; others
+   must have ended. */
+void ffd_process_defer_stop(bool wait);
 /* In a worker: the next size bytes from the one who started it; false where there are no more. */
 bool ffd_process_take(void *bytes, size_t size);
 /* In a worker: hands bytes back. False where nobody is there to take them. */

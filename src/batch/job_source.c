@@ -17,6 +17,7 @@ struct job_source {
     csv_row columns, row;
     csv_scan scan;    /* of the row */
     bool row_goes_on; /* in lines that have not come yet */
+    bool is_lost;     /* a row was too long: where the next one begins is not known */
     file_list files;  /* of a pattern */
 };
 
@@ -70,7 +71,9 @@ static ffd_status next_row(job_source *source, csv_row *row, line_state *state, 
 {
     line_reader *const reader = &source->reader;
     ffd_status status = FFD_OK;
-    *state = LINE_READ;
+    *state = source->is_lost ? LINE_NONE : LINE_READ;
+    if (source->is_lost)
+        return FFD_OK;
     if (!source->row_goes_on) {
         status = next_line(reader, state, error);
         source->line = reader->number;
@@ -84,6 +87,7 @@ static ffd_status next_row(job_source *source, csv_row *row, line_state *state, 
         *state = LINE_READ; /* the text has ended within a row */
     if (status || *state != LINE_READ)
         return status;
+    source->is_lost = reader->too_long;
     *valid = !reader->too_long && ffd_csv_split(reader->line.data, reader->line.size, row);
     return row->text.failed ? ffd_fail_memory(error) : FFD_OK;
 }
@@ -156,6 +160,12 @@ static json_t *row_value(const job_source *source)
 static ffd_status read_row(job_source *source, bool valid, batch_job *job)
 {
     const size_t line = (size_t)job->line;
+    if (source->is_lost) {
+        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line,
+                      "a row of more than %zu bytes, perhaps for want of a quote: the rest is not read",
+                      LINE_MOST);
+        return FFD_OK;
+    }
     if (!valid) {
         ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line, "not a row of a CSV table");
         return FFD_OK;

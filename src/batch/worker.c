@@ -125,6 +125,8 @@ static ffd_status do_job(const wire_task *task, ffd_deform_desc *desc, wire_answ
                    ? FFD_OK
                    : ffd_output_check(desc->output, desc->force || desc->if_changed, &result->error);
     const ffd_status status = deform(desc, result);
+    /* The output is there: who ends the worker now gets to know of it first. */
+    ffd_process_defer_stop(true);
     if (!status && task->records)
         answer->has_record = ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK;
     return status;
@@ -235,6 +237,7 @@ int ffd_worker_run(const worker_program *program)
         worker.log.size = worker.entry.size = worker.rule.size = 0;
         answer_task(&worker, &task, &answer);
         going = send_answer(&worker, &answer) && !answer.retires;
+        ffd_process_defer_stop(false);
     }
     const int code = worker.text.failed ? ffd_status_exit_code(FFD_E_MEMORY) : 0;
     ffd_share_destroy(&worker.share);

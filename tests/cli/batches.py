@@ -10,6 +10,7 @@ from harness import CUBE, FFD, NO, OK, case, check, equal, lattice, main  # noqa
 SUMMARY = re.compile(r"(\d+) jobs? in [\d.]+ s: (\d+) (done|to do), (\d+) up to date, (\d+) failed(.*)$")
 with open(FFD, "rb") as program:
     SANITIZED = re.search(b"__[at]san_init", program.read()) is not None
+PROGRESS = re.compile(r"\d+ jobs?, \d+ failed, [\d.]+/s(, .* left)?$")  # a line every ten seconds
 MOVE = [{"by": [0.5, 0.25, 0.125]}]
 
 
@@ -39,7 +40,7 @@ def batch(run, *arguments, done=0, kept=0, failed=(), more=None, code=None, **op
         check(summary, "no summary:", said)
         counts = [int(summary[i]) for i in (1, 2, 4, 5)]
         equal(counts, [done + kept + len(failed), done, kept, len(failed)], f"jobs, done, up to date, failed of {said}")
-        rest = [line for line in said[:-1] if not SUMMARY.match(line)]
+        rest = [line for line in said[:-1] if not SUMMARY.match(line) and not PROGRESS.match(line)]
         # Patterns that match many lines come last.
         for pattern in sorted(failed, key=lambda pattern: sum(bool(re.search(pattern, line)) for line in rest)):
             found = [line for line in rest if re.search(pattern, line)]
