@@ -277,6 +277,11 @@ def a_quote_that_is_never_closed(run):
 
 
 @case
+def a_quote_over_more_than_a_line_may_have(run):
+    judge_open_quote(run, "a.obj,l.json,o1.obj\n" * 200000)
+
+
+@case
 def a_terminal_s_interrupt_at_the_start(run):
     """Workers that have hardly begun are not ended by it: a job of theirs would be told as crashed."""
     start(run, [job(i, out=f"out/{i}.obj") for i in range(500)])
