@@ -540,8 +540,8 @@ void ffd_output_discard(const char *path)
     bool more = name && ffd_path_has_ending(path, ".gltf");
     for (unsigned i = 0; more; i++) {
         snprintf(name, capacity, i ? "%s-%u.bin" : "%s.bin", stem, i);
-        char *const buffer = ffd_path_beside(path, name), *const begun =
-                                                              buffer ? temporary_name(buffer) : NULL;
+        char *const buffer = ffd_path_beside(path, name);
+        char *const begun = buffer ? temporary_name(buffer) : NULL;
         more = begun && (i == 0 || ffd_file_exists(begun));
         if (more)
             discard_one(buffer);

@@ -12,9 +12,8 @@ typedef struct fingerprint_words {
 } fingerprint_words;
 
 /* Hashes all that the output depends on: the program's version, what the job says, and the bytes of the mesh,
-   the buffers that it refers to, the lattices and the embedding, which are added to
-   files. cache is that of the jobs before. Errors: those of
-   reading. */
+   of the buffers that it refers to, of the images that go with it, of the lattices and the embedding. The
+   files are added to files. cache is that of the jobs before. Errors: those of reading. */
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
                                   hash_cache *cache, path_list *files, hash128 *hash, ffd_error *error);
 /* Hashes the output, the buffers that it refers to and the images beside it. Errors: those of reading. */

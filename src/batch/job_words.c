@@ -175,8 +175,11 @@ static bool read_options(job_reader *reader, const json_t *value)
     json_t *option;
     if (!json_is_object(value))
         return refuse(reader, "\"options\" is not an object");
-    json_object_foreach((json_t *)(uintptr_t)value, name,
-                        option) if (!read_option(reader, name, option)) return false;
+    json_object_foreach((json_t *)(uintptr_t)value, name, option)
+    {
+        if (!read_option(reader, name, option))
+            return false;
+    }
     return true;
 }
 
@@ -299,11 +302,12 @@ static bool know_members(job_reader *reader, const json_t *value)
     json_t *member;
     if (!json_is_object(value))
         return refuse(reader, "a job is an object: {\"in\": ..., \"lattice\": ..., \"out\": ...}");
-    json_object_foreach(
-        (json_t *)(uintptr_t)value, name,
-        member) if (!is_one_of(name, members,
-                               MEMBERS)) return refuse(reader, "unknown key \"%.60s\" (nearest: \"%s\")",
-                                                       name, ffd_nearest_word(name, members, MEMBERS));
+    json_object_foreach((json_t *)(uintptr_t)value, name, member)
+    {
+        if (!is_one_of(name, members, MEMBERS))
+            return refuse(reader, "unknown key \"%.60s\" (nearest: \"%s\")", name,
+                          ffd_nearest_word(name, members, MEMBERS));
+    }
     return true;
 }
 

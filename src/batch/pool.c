@@ -138,7 +138,7 @@ static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size
     return found < 1 ? 1 : found;
 }
 
-static void begin_task(worker_pool *pool, pool_worker *worker, pool_task *task, int threads)
+static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *task)
 {
     worker->task = task;
     worker->mesh = task->mesh;
@@ -146,8 +146,6 @@ static void begin_task(worker_pool *pool, pool_worker *worker, pool_task *task, 
     worker->timed_out = worker->stopped = worker->is_ending = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
     task->state = TASK_RUNS;
-    /* Where it cannot be sent the worker has ended, which shows when its answer is read. */
-    worker->was_told = send_task(pool, worker, task, threads);
 }
 
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error)
@@ -164,10 +162,13 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
             return FFD_OK; /* with those that there are */
         if (status)
             return status;
-        task->state = TASK_RUNS;
-        worker->task = task; /* counted as one that runs */
+        begin_task(pool, worker, task);
         const int runnable = count_runnable(pool, tasks, count), share = pool->processors / runnable;
-        begin_task(pool, worker, task, desc->threads ? desc->threads : share < 1 ? 1 : share);
+        /* Where it cannot be sent the worker has ended, which shows when its answer is read. */
+        worker->was_told = send_task(pool, worker, task,
+                                     desc->threads ? desc->threads
+                                     : share < 1   ? 1
+                                                   : share);
     }
     return FFD_OK;
 }

@@ -15,10 +15,11 @@ static size_t line_of(const report_reader *reader, const char *place)
 static ffd_status refuse(const report_reader *reader, const char *what, ffd_error *error)
 {
     char found[16] = "the end";
-    if (reader->at<reader->end && * reader->at> 0x20 && *reader->at < 0x7f)
-        snprintf(found, sizeof found, "'%c'", *reader->at);
+    const unsigned char byte = reader->at < reader->end ? (unsigned char)*reader->at : 0;
+    if (byte > 0x20 && byte < 0x7f)
+        snprintf(found, sizeof found, "'%c'", byte);
     else if (reader->at < reader->end)
-        snprintf(found, sizeof found, "byte 0x%02x", (unsigned)(unsigned char)*reader->at);
+        snprintf(found, sizeof found, "byte 0x%02x", (unsigned)byte);
     return ffd_fail_line(error, FFD_E_INVALID, reader->name, line_of(reader, reader->at),
                          "not a report: %s, found %s", what, found);
 }
