@@ -168,6 +168,8 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
         status = do_job(task, &desc, answer, result);
     if (status)
         worker->rule.size = 0;
+    if (status && status != FFD_E_ARGUMENT)
+        ffd_fail_name_file(&result->error, desc.input.path);
     worker->program->close(opened);
     return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
 }
