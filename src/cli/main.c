@@ -47,6 +47,24 @@ static const cli_command *only_command_of(const char *word)
                                          : NULL;
 }
 
+/* A command of two words is near by its first one where only one was typed. */
+static void offer_command(cli_nearest *nearest, const char *name, bool one_word)
+{
+    const size_t length = strcspn(name, " ");
+    char first[32];
+    if (!one_word || !name[length]) {
+        cli_nearest_offer(nearest, name);
+        return;
+    }
+    cli_nearest own = {.word = nearest->word, .length = nearest->length};
+    snprintf(first, sizeof first, "%.*s", (int)length, name);
+    cli_nearest_offer(&own, first);
+    if (nearest->best && own.distance >= nearest->distance)
+        return;
+    nearest->best = name;
+    nearest->distance = own.distance;
+}
+
 static int unknown_command(int count, char **arguments)
 {
     char typed[64];
@@ -55,7 +73,7 @@ static int unknown_command(int count, char **arguments)
     snprintf(typed, sizeof typed, "%s%s%s", arguments[0], two ? " " : "", two ? arguments[1] : "");
     cli_nearest nearest = {.word = typed, .length = strlen(typed)};
     for (int i = 0; cli_commands[i]; i++)
-        cli_nearest_offer(&nearest, cli_commands[i]->name);
+        offer_command(&nearest, cli_commands[i]->name, !two);
     cli_nearest_offer(&nearest, "help");
     cli_complain("unknown command \"%s\" (nearest: %s)", typed, group ? group->name : nearest.best);
     return EXIT_USAGE;

@@ -31,15 +31,21 @@ static ffd_status find_value(const json_place *place, const char *name, const sp
     return ffd_place_fail(place, "the placeholder \"%.60s\" has no value (--set %.60s=VALUE)", name, name);
 }
 
-static ffd_status set_members(json_place *place, json_t *object, const spec_settings *settings)
+/* *found: what comes in the place of a member or element, NULL: it stays, with what is in it filled. */
+static ffd_status fill(json_place *place, json_t *value, const spec_settings *settings, json_t **found)
+{
+    const char *const name = placeholder_name(value);
+    *found = NULL;
+    return name ? find_value(place, name, settings, found) : ffd_spec_set(place, value, settings);
+}
+
+static ffd_status fill_members(json_place *place, json_t *object, const spec_settings *settings)
 {
     ffd_status status = FFD_OK;
     for (void *at = json_object_iter(object); at && !status; at = json_object_iter_next(object, at)) {
-        json_t *const value = json_object_iter_value(at);
-        const char *const name = placeholder_name(value);
         const size_t before = ffd_place_enter(place, json_object_iter_key(at));
-        json_t *found = NULL;
-        status = name ? find_value(place, name, settings, &found) : ffd_spec_set(place, value, settings);
+        json_t *found;
+        status = fill(place, json_object_iter_value(at), settings, &found);
         if (found)
             json_object_iter_set_new(object, at, found);
         ffd_place_leave(place, before);
@@ -47,15 +53,13 @@ static ffd_status set_members(json_place *place, json_t *object, const spec_sett
     return status;
 }
 
-static ffd_status set_elements(json_place *place, json_t *array, const spec_settings *settings)
+static ffd_status fill_elements(json_place *place, json_t *array, const spec_settings *settings)
 {
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < json_array_size(array) && !status; i++) {
-        json_t *const value = json_array_get(array, i);
-        const char *const name = placeholder_name(value);
         const size_t before = ffd_place_enter_index(place, i);
-        json_t *found = NULL;
-        status = name ? find_value(place, name, settings, &found) : ffd_spec_set(place, value, settings);
+        json_t *found;
+        status = fill(place, json_array_get(array, i), settings, &found);
         if (found)
             json_array_set_new(array, i, found);
         ffd_place_leave(place, before);
@@ -66,6 +70,6 @@ static ffd_status set_elements(json_place *place, json_t *array, const spec_sett
 ffd_status ffd_spec_set(json_place *place, json_t *moves, const spec_settings *settings)
 {
     if (json_is_object(moves))
-        return set_members(place, moves, settings);
-    return json_is_array(moves) ? set_elements(place, moves, settings) : FFD_OK;
+        return fill_members(place, moves, settings);
+    return json_is_array(moves) ? fill_elements(place, moves, settings) : FFD_OK;
 }

@@ -47,10 +47,20 @@ def children(pid):
         return []
 
 
+def check_lines(said, jobs, seconds):
+    """Where standard error is no terminal there is a line every ten seconds, and one at the end."""
+    lines = said.decode().splitlines()
+    check(lines and re.fullmatch(rf"ffd: {jobs} jobs in .*, 0 failed", lines[-1]), "the last line:", lines[-1:])
+    check(all(re.fullmatch(r"ffd: \d+ jobs, 0 failed, [\d.]+/s", line) for line in lines[:-1]), lines[:-1])
+    check(seconds / 10 - 2 < len(lines) - 1 <= seconds / 10, len(lines) - 1, "lines in", seconds, "seconds")
+
+
 def run(folder, jobs, *arguments, count=None):
     """Runs a batch, and returns the peaks of its first process and of the largest of its workers."""
-    process = subprocess.Popen([FFD, "batch", "-", "-q", "-j", "2", *arguments], cwd=folder, stdin=subprocess.PIPE,
-                               stdout=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": os.path.join(folder, "cache")})
+    begun = time.monotonic()
+    said = open(os.path.join(folder, "..", os.path.basename(folder) + ".said"), "w+b")
+    process = subprocess.Popen([FFD, "batch", "-", "-j", "2", *arguments], cwd=folder, stdin=subprocess.PIPE,
+                               stdout=subprocess.PIPE, stderr=said, env={**os.environ, "XDG_CACHE_HOME": os.path.join(folder, "cache")})
     feeder = threading.Thread(target=feed, args=(process.stdin, jobs))
     feeder.start()
     lines = [0]
@@ -68,7 +78,12 @@ def run(folder, jobs, *arguments, count=None):
         time.sleep(0.01)
     feeder.join(SECONDS)
     reader.join(SECONDS)
+    seconds = time.monotonic() - begun
     equal(process.returncode, 0)
+    with said:
+        said.seek(0)
+        check_lines(said.read(), jobs, seconds)
+    os.remove(said.name)
     if count is not None:
         equal(lines[0], count, "lines of the dry run")
     return most, largest

@@ -322,6 +322,33 @@ def print_batch(bench, folder, lattices):
             print(f"batch {ending} {name}: " + ", ".join(f"{rate:.0f} {kind}/s" for kind, rate in rates.items()),
                   flush=True)
     shutil.rmtree(meshes)
+    print_sweep(bench, folder, lattices)
+
+
+def print_sweep(bench, folder, lattices):
+    """A mesh of 102,400 vertices with a hundred lattices of one rest volume: what sharing mesh and u,v,w brings."""
+    source, out = os.path.join(folder, "sweep.glb"), os.path.join(folder, "outputs")
+    make(write_glb, source, 320)
+    for name, path in lattices.items():
+        with open(path, encoding="utf-8") as file:
+            lattice = json.load(file)
+        swept, targets = [], []
+        for k in range(ALONE):
+            lattice["moves"] = lattice["moves"][:len(TWIST)] + [{"at": [1, 1, 1], "by": [0.001 * k, 0, 0]}]
+            swept.append(os.path.join(folder, f"sweep-{k}.json"))
+            targets.append(os.path.join(out, f"{k}.glb"))
+            with open(swept[-1], "w", encoding="ascii") as file:
+                json.dump(lattice, file)
+        manifest = os.path.join(folder, "jobs.jsonl")
+        write_manifest(manifest, [(source, swept[k], targets[k]) for k in range(ALONE)])
+        os.mkdir(out)
+        batch = measure([bench.ffd, "batch", manifest, "--quiet", "--journal", os.path.join(folder, "journal")])[0]
+        shutil.rmtree(out)
+        os.mkdir(out)
+        alone = sum(measure(bench.command(source, targets[k], swept[k]))[0] for k in range(ALONE))
+        shutil.rmtree(out)
+        print(f"sweep {name}: {ALONE / batch:.0f} jobs/s that share mesh and u,v,w, {ALONE / alone:.0f} by a command each",
+              flush=True)
 
 
 def print_peers(bench, folder, lattice):

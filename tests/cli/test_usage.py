@@ -83,6 +83,8 @@ def unknown_commands(run):
     refused(run, "help", "deform", "x", says="x")
     refused(run, "DEFORM", says="DEFORM")
     refused(run, "", says="nearest")
+    for typed, nearest in (("repot", "report merge"), ("latice", "lattice new"), ("bach", "batch")):
+        refused(run, typed, says=f"nearest: {nearest}")
 
 
 @case
