@@ -87,11 +87,8 @@ void ffd_output_remove_first(file_output *output);
 void ffd_output_keep_equal(file_output *output);
 /* Makes all files appear. After a failure none that was not yet renamed does. */
 ffd_status ffd_output_commit(file_output *output, ffd_error *error);
-/* Whether another run is writing path now. */
-bool ffd_output_is_busy(const char *path);
-/* Removes what a process that ended in the middle of writing path left beside it (and of the buffers beside a
-   .gltf), unless another one is writing it. */
-void ffd_output_discard(const char *path);
+/* Whether ffd_output_begin has just failed because another run is writing the target. */
+bool ffd_output_was_busy(const file_output *output);
 /* Frees; removes the temporary files of what was not committed. NULL and pointers to NULL are allowed. */
 void ffd_output_destroy(file_output **output);
 /* The refusals of ffd_output_begin, before any work is done. */

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/memory.h"
 #include "base/path.h"
+#include "base/temporary.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -36,6 +37,7 @@ struct file_output {
     output_folder *folders; /* made for the files */
     size_t folder_count, folder_capacity;
     bool committed, keeps_equal;
+    bool was_busy;        /* the target of the file that was to be begun last */
     unsigned char *block; /* bytes of the last file that are not yet written */
     size_t filled;
     written_files *written; /* or NULL */
@@ -160,95 +162,15 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
     return result;
 }
 
-/* Longest name that file systems take, with room for what is added. */
-#define LONGEST_NAME 255
-#define NAME_SUFFIX ".ffd-tmp"
-
-/* FNV-1a (Fowler, Noll, Vo): tells names apart whose beginnings are the same. */
-static unsigned long long digest_of(const char *text)
+/* *busy: it failed because another run is writing the target. */
+static ffd_status open_beside(output_file *file, const char *path, const struct stat *old, bool *busy,
+                              ffd_error *error)
 {
-    unsigned long long digest = 14695981039346656037ULL;
-    for (; *text; text++)
-        digest = (digest ^ (unsigned char)*text) * 1099511628211ULL;
-    return digest;
-}
-
-/* The target's folder and ".NAME.ffd-tmp"; of a name too long for that its beginning and a digest. */
-static char *temporary_name(const char *target)
-{
-    const char *name = ffd_path_name(target);
-    const size_t folder = (size_t)(name - target), length = strlen(name);
-    const size_t capacity = strlen(target) + sizeof "..0123456789abcdef" NAME_SUFFIX;
-    char *text = ffd_alloc(capacity, 1);
-    if (!text)
-        return NULL;
-    if (length + sizeof "." NAME_SUFFIX - 1 <= LONGEST_NAME)
-        snprintf(text, capacity, "%.*s.%s" NAME_SUFFIX, (int)folder, target, name);
-    else
-        snprintf(text, capacity, "%.*s.%.200s.%016llx" NAME_SUFFIX, (int)folder, target, name,
-                 digest_of(name));
-    return text;
-}
-
-/* Locks a file against other runs. 1: done; 0: it is no longer the one of that name, as its owner has renamed
-   or removed it between our open and our lock; -1: errno tells why not, EBUSY of a run that lives. */
-static int lock_named(int fd, const char *path)
-{
-    struct stat ours, there;
-    if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
-        errno = errno == EWOULDBLOCK ? EBUSY : errno;
-        return -1;
-    }
-    if (fstat(fd, &ours) != 0)
-        return -1;
-    if (!S_ISREG(ours.st_mode)) {
-        errno = EEXIST;
-        return -1;
-    }
-    return stat(path, &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
-}
-
-/* Opens what a run has left, to be locked: for writing, which some file systems want for that, if it may be.
- */
-static int open_left(const char *path)
-{
-    const int flags = O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
-    const int fd = open(path, O_WRONLY | flags);
-    return fd < 0 && errno == EACCES ? open(path, O_RDONLY | flags) : fd;
-}
-
-/* Makes the temporary file and locks it, so that a run that was killed leaves no obstacle and one that still
-   lives is not disturbed. What is there and not locked was left: it goes, for its permission bits are those
-   of another time. */
-static int open_locked(const char *path)
-{
-    int fd, locked;
-    do {
-        bool is_new = true;
-        fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (fd < 0 && errno == EEXIST) {
-            is_new = false;
-            fd = open_left(path);
-        }
-        locked = fd >= 0 ? lock_named(fd, path) : is_new || errno != ENOENT ? -1 : 0;
-        if (locked > 0 && !is_new)
-            locked = unlink(path);
-        if (locked <= 0 && fd >= 0) {
-            const int reason = errno;
-            close(fd);
-            errno = reason;
-        }
-    } while (locked == 0);
-    return locked > 0 ? fd : -1;
-}
-
-static ffd_status open_beside(output_file *file, const char *path, const struct stat *old, ffd_error *error)
-{
-    file->temporary = temporary_name(file->target);
+    file->temporary = ffd_temporary_name(file->target);
     if (!file->temporary)
         return ffd_fail_memory(error);
     ffd_cleanup_hold();
-    file->fd = open_locked(file->temporary);
+    file->fd = ffd_temporary_open(file->temporary);
     const int reason = errno;
     file->noted = file->fd < 0 ? NULL : ffd_cleanup_note(file->temporary);
     ffd_cleanup_release();
@@ -257,7 +179,8 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     if (file->fd < 0) {
         ffd_free(file->temporary); /* not ours to remove */
         file->temporary = NULL;
-        if (reason == EBUSY)
+        *busy = reason == EBUSY;
+        if (*busy)
             return ffd_fail_file(error, FFD_E_IO, path, "is being written by another run");
         errno = reason;
         return fail_errno(error, path, "cannot be written");
@@ -314,6 +237,7 @@ static ffd_status flush(file_output *output, ffd_error *error)
 
 ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error)
 {
+    output->was_busy = false;
     ffd_status status = flush(output, error);
     if (status)
         return status;
@@ -347,7 +271,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
         file->fd = open(path, O_WRONLY | O_CLOEXEC);
         return file->fd < 0 ? fail_errno(error, path, "cannot be written") : FFD_OK;
     }
-    status = open_beside(file, path, exists ? &info : NULL, error);
+    status = open_beside(file, path, exists ? &info : NULL, &output->was_busy, error);
     if (status && file->fd < 0) { /* as if it had not been begun */
         ffd_free(file->target);
         output->count--;
@@ -508,48 +432,9 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
     return status;
 }
 
-bool ffd_output_is_busy(const char *path)
+bool ffd_output_was_busy(const file_output *output)
 {
-    char *const name = temporary_name(path);
-    const int fd = name ? open(name, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC) : -1;
-    const bool busy = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    if (fd >= 0)
-        close(fd);
-    ffd_free(name);
-    return busy;
-}
-
-static void discard_one(const char *target)
-{
-    char *const name = temporary_name(target);
-    const int fd = name && ffd_file_exists(name) ? open_locked(name) : -1;
-    if (fd >= 0) {
-        unlink(name);
-        close(fd);
-    }
-    ffd_free(name);
-}
-
-void ffd_output_discard(const char *path)
-{
-    char *const place = realpath(path, NULL), *const stem = ffd_path_stem(path);
-    discard_one(place ? place : path);
-    free(place);
-    const size_t capacity = stem ? strlen(stem) + 40 : 0;
-    char *const name = stem ? ffd_alloc(capacity, 1) : NULL;
-    bool more = name && ffd_path_has_ending(path, ".gltf");
-    for (unsigned i = 0; more; i++) {
-        snprintf(name, capacity, i ? "%s-%u.bin" : "%s.bin", stem, i);
-        char *const buffer = ffd_path_beside(path, name);
-        char *const begun = buffer ? temporary_name(buffer) : NULL;
-        more = begun && (i == 0 || ffd_file_exists(begun));
-        if (more)
-            discard_one(buffer);
-        ffd_free(begun);
-        ffd_free(buffer);
-    }
-    ffd_free(name);
-    ffd_free(stem);
+    return output->was_busy;
 }
 
 void ffd_output_destroy(file_output **output)

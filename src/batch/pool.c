@@ -1,7 +1,7 @@
 #include "batch/pool.h"
 #include "base/clock.h"
-#include "base/file.h"
 #include "base/memory.h"
+#include "base/temporary.h"
 #include "base/thread.h"
 #include <stdio.h>
 #include <string.h>
@@ -248,7 +248,7 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     }
     describe_failure(pool, worker, &end, &task->failure);
     if (task->job.target)
-        ffd_output_discard(task->job.target);
+        ffd_temporary_discard(task->job.target);
     end_task(worker, OUTCOME_FAILED);
 }
 

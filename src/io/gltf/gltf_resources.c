@@ -76,15 +76,13 @@ static ffd_status begin_image(const resources *r, const char *target, bool *is_t
     const double begin = ffd_clock_seconds();
     for (;;) {
         *is_there = ffd_file_exists(target);
-        const bool busy = !*is_there && ffd_output_is_busy(target);
-        const bool late = ffd_clock_seconds() - begin > MOST_WAITING;
         if (*is_there)
             return FFD_OK;
-        if (!busy || late) {
-            const ffd_status status = ffd_output_begin(r->saver->output, target, false, error);
-            if (!status || late || !ffd_output_is_busy(target))
-                return status;
-        }
+        const ffd_status status = ffd_output_begin(r->saver->output, target, false, error);
+        /* It may also have come between these two. */
+        const bool waits = status && (ffd_output_was_busy(r->saver->output) || status == FFD_E_EXISTS);
+        if (!waits || ffd_clock_seconds() - begin > MOST_WAITING)
+            return status;
         ffd_clock_sleep(LOOK);
     }
 }
