@@ -14,8 +14,9 @@
 int ffd_displacement_by_uvw(const ffd_lattice *lattice, const double uvw[3], double delta[3],
                             double by_uvw[9]);
 
-/* Most points of a batch. */
-#define DISPLACEMENT_BATCH ((size_t)1024)
+/* Most points of a batch. So many that where a lattice is fine the rows of a mesh that cross the same cells
+   meet, and yet fit the cache nearest but one with all that is known of them. */
+#define DISPLACEMENT_BATCH ((size_t)4096)
 
 /* A cell of a batch, and which of its points lie in it. */
 typedef struct batch_cell {
@@ -26,10 +27,10 @@ typedef struct batch_cell {
 
 /* Points of cells (displacement_cell.h) that batches had before: neighbours in a mesh often come back to
    them. */
-#define KEPT_CELLS ((size_t)2048)
+#define KEPT_CELLS ((size_t)1024)
 #define KEPT_NUMBERS (KEPT_CELLS * (3 * 4 * 4 * 4 + 1))
 
-/* What the threads of a pass may keep in all, 6 MB: a machine can have many. */
+/* What the threads of a pass may keep in all, 3 MB: a machine can have many. */
 #define KEPT_IN_ALL (2 * KEPT_NUMBERS)
 
 typedef struct kept_cells {
@@ -56,7 +57,8 @@ typedef struct displacement_scratch {
 typedef struct displacement_batch {
     const double *uvw; /* of point n from uvw[n * stride] on, in the domain */
     size_t stride;
-    const uint32_t *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted */
+    const uint32_t
+        *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted, ascending */
     size_t count;
     double *delta; /* 3 for each of them, from delta[n * delta_step] on */
     size_t delta_step;

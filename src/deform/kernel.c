@@ -151,13 +151,11 @@ static ALWAYS_INLINE void sum_values(const int degree[3], const span_basis basis
 }
 
 #if FFD_LANES > 1
-/* Whether the points' numbers are one after the other. */
+/* Whether the points' numbers are one after the other. They ascend; a block that is not full ends with the
+   number that it begins with. */
 static ALWAYS_INLINE bool in_a_row(const uint32_t *which)
 {
-    uint32_t off = 0;
-    for (uint32_t l = 1; l < FFD_LANES; l++)
-        off |= which[l] ^ (which[0] + l);
-    return off == 0;
+    return which[FFD_LANES - 1] - which[0] == FFD_LANES - 1;
 }
 #endif
 
@@ -178,7 +176,7 @@ static ALWAYS_INLINE void take(const kernel_points *points, const uint32_t *whic
 #endif
 }
 
-/* To `to` + step * number of each point; lanes behind the last point repeat it. */
+/* To `to` + step * number of each point. */
 static ALWAYS_INLINE void put(lanes values, double *to, size_t step, const uint32_t *which)
 {
 #if FFD_LANES == 1
@@ -273,7 +271,7 @@ static ALWAYS_INLINE void displace_all(const kernel_cell *cell, const int degree
         return;
     uint32_t rest[FFD_LANES];
     for (size_t l = 0; l < FFD_LANES; l++)
-        rest[l] = points->which[first + l < points->count ? first + l : points->count - 1];
+        rest[l] = points->which[first + l < points->count ? first + l : first];
     displace(cell, degree, points, rest, derivatives, jacobian);
 }
 

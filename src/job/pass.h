@@ -58,7 +58,7 @@ uint64_t ffd_pass_vertex_count(const mesh_document *document);
 
 /* What a thread of a pass may take, and of what looks at edges after it (quality.h): the latter for each
    lattice too. */
-#define THREAD_BYTES ((size_t)2 << 20)
+#define THREAD_BYTES ((size_t)5 << 20)
 #define THREAD_LINK_BYTES ((size_t)400 << 10)
 
 /* How many of the threads there is memory for, beside what is taken of the room. edge_links: the lattices

@@ -6,7 +6,7 @@
 #include "mesh/mesh.h"
 
 /* So many vertices at once. */
-#define VERTEX_PLACES ((size_t)1024)
+#define VERTEX_PLACES ((size_t)4096)
 
 /* x = linear p + offset. */
 typedef struct vertex_place {

@@ -15,6 +15,7 @@
 #include <math.h>
 
 #define MOST_RUNS 99
+#define KERNEL_BATCH ((size_t)1024)
 
 static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
 
@@ -98,21 +99,21 @@ static displacement_kernel *const kernels[] = {
 static void run_kernel(sample *s)
 {
     static const size_t number[3] = {0, 0, 0};
-    double uvw[3 * DISPLACEMENT_BATCH], numbers[2 * 3 * 64 + 1];
+    double uvw[3 * KERNEL_BATCH], numbers[2 * 3 * 64 + 1];
     const knot_vector *const knots = s->lattice->knots;
     kernel_cell cell;
-    for (size_t c = 0; c < 3 * DISPLACEMENT_BATCH; c++)
+    for (size_t c = 0; c < 3 * KERNEL_BATCH; c++)
         uvw[c] = knots[c % 3].t[3] + s->uvw[c] * (knots[c % 3].t[4] - knots[c % 3].t[3]);
     if (!ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, s->gradients,
                                       numbers))
         abort();
     ffd_displacement_cell_begin(s->lattice, number, s->gradients, numbers, &cell);
-    for (size_t first = 0; first < s->count; first += DISPLACEMENT_BATCH) {
+    for (size_t first = 0; first < s->count; first += KERNEL_BATCH) {
         const size_t rest = s->count - first;
         const kernel_points points = {.uvw = uvw,
                                       .stride = 3,
                                       .which = s->which,
-                                      .count = rest < DISPLACEMENT_BATCH ? rest : DISPLACEMENT_BATCH,
+                                      .count = rest < KERNEL_BATCH ? rest : KERNEL_BATCH,
                                       .delta = s->delta,
                                       .delta_step = 3,
                                       .gradient = s->gradients ? s->gradient : NULL,

@@ -197,7 +197,7 @@ def inputs_are_not_overwritten(run):
 
 @case
 def threads_change_nothing(run):
-    points = "".join(f"v {x / 50} {x % 7 / 4} {x % 11 / 6}\n" for x in range(-100, 100) for _ in range(15))
+    points = "".join(f"v {x / 50} {x % 7 / 4} {x % 11 / 6}\n" for x in range(-100, 100) for _ in range(60))
     run.write("a.obj", points)
     bent = [[x + 0.1 * y * y, y, z + 0.05 * x] for z in range(-2, 3) for y in range(-2, 3) for x in range(-3, 4)]
     run.write("l.json", lattice(size=(7, 5, 5), rest={"points": bent}))

@@ -81,7 +81,7 @@ def deformed(run, mesh, lattice_file, *more):
 
 @case
 def every_order_and_thread_count(run):
-    points = vertices(1500)
+    points = vertices(8000)
     order = list(range(len(points)))
     random.Random(14).shuffle(order)
     run.write("a.obj", obj(points))

@@ -10,6 +10,7 @@
 #include "base/vec.h"
 #include "job/embedding_file.h"
 #include "job/pass.h"
+#include "job/vertex_place.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <stdio.h>
@@ -18,8 +19,9 @@
 #include <unistd.h>
 
 #define PARTS 4
-#define MOST 2500
-#define NUMBERED (MOST + 1024 + 5) /* the parts 0, 2 and 3; part 1 repeats part 0 */
+#define WHOLE VERTEX_PLACES /* a tile, and no more */
+#define MOST (2 * WHOLE + 452)
+#define NUMBERED (MOST + WHOLE + 5) /* the parts 0, 2 and 3; part 1 repeats part 0 */
 
 /* A document of the test's own, which keeps what it is given. */
 typedef struct cloud {
@@ -54,11 +56,11 @@ static cloud *make_cloud(void)
     assert_non_null(made);
     made->head = (mesh_document){.format = &cloud_format, .parts = made->parts, .part_count = PARTS};
     for (size_t p = 0; p < PARTS; p++)
-        for (size_t i = 0; i < (size_t)3 * MOST; i++)
+        for (size_t i = 0; i < 3 * MOST; i++)
             made->xyz[p][i] = (double)((i * 7919 + 13 * p) % 601) / 100 - 3;
     made->parts[0] = (mesh_part){.vertex_count = MOST, .identity = true};
     made->parts[1] = (mesh_part){.vertex_count = MOST, .identity = true, .repeats_positions = true};
-    made->parts[2] = (mesh_part){.vertex_count = 1024,
+    made->parts[2] = (mesh_part){.vertex_count = WHOLE,
                                  .linear = {2, 0, 0, 0, 0.5, 0, 0, 0, 1},
                                  .inverse = {0.5, 0, 0, 0, 2, 0, 0, 0, 1},
                                  .offset = {0, 0, 1}};
@@ -69,8 +71,8 @@ static cloud *make_cloud(void)
 /* The place of vertex `number`; false in the part that has no inverse. */
 static bool place_of(const cloud *mesh, size_t number, double p[3])
 {
-    const size_t part = number < MOST ? 0 : number < MOST + 1024 ? 2 : 3;
-    const size_t first = part == 0 ? 0 : part == 2 ? MOST : MOST + 1024;
+    const size_t part = number < MOST ? 0 : number < MOST + WHOLE ? 2 : 3;
+    const size_t first = part == 0 ? 0 : part == 2 ? MOST : MOST + WHOLE;
     memcpy(p, mesh->xyz[part] + 3 * (number - first), 3 * sizeof *p);
     ffd_part_place(&mesh->head, part, number - first, 1, p);
     return part != 3;
@@ -398,7 +400,7 @@ static void test_forged_u_v_w(void **state)
                 const double u = made->uvw[3 * i + a];
                 assert_true(given ? u >= lo[a] && u <= hi[a] : isnan(u));
             }
-            if (i < MOST + 1024)
+            if (i < MOST + WHOLE)
                 assert_true(vec_is_finite(made->deformed + 3 * i));
         }
         free_outcome(made);
