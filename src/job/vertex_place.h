@@ -7,6 +7,7 @@
 
 /* So many vertices at once. */
 #define VERTEX_PLACES ((size_t)4096)
+_Static_assert(VERTEX_PLACES % MESH_RANGE_STEP == 0, "writers would meet");
 
 /* x = linear p + offset. */
 typedef struct vertex_place {

@@ -126,6 +126,7 @@ typedef void mesh_read_function(const mesh_document *document, size_t part, size
 typedef void mesh_read_offsets_function(const mesh_document *document, size_t part, size_t shape,
                                         mesh_stream stream, size_t first, size_t count, double *xyz);
 typedef ffd_status mesh_keep_base_function(mesh_document *document, const char *name, ffd_error *error);
+#define MESH_RANGE_STEP ((size_t)1024)
 typedef ffd_status mesh_begin_results_function(mesh_document *document, bool normals, bool tangents,
                                                ffd_error *error);
 typedef void mesh_write_function(mesh_document *document, size_t part, size_t first, size_t count,
@@ -190,8 +191,9 @@ typedef struct mesh_format {
     mesh_keep_base_function *keep_base;
 
     /* Results. begin_results must come first: it makes room, and lets go what an earlier deformation of the
-       document has left. The writers may run in several threads on disjoint ranges. changed: one byte a
-       vector, 0: kept as it was (its values are then not read). */
+       document has left. The writers may run in several threads on disjoint ranges, which begin at
+       multiples of MESH_RANGE_STEP where a vector stands at each vertex. changed: one byte a vector, 0: kept
+       as it was (its values are then not read). */
     mesh_begin_results_function *begin_results;
     mesh_write_function *write_positions;
     mesh_write_function *write_normals;

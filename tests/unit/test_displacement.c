@@ -115,13 +115,6 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
         if (batch.count < wanted && (wanted == DISPLACEMENT_BATCH || draw_int(d, 0, 4)))
             s->which[batch.count++] = (uint32_t)n;
     }
-    /* In any order. */
-    for (size_t k = 1; k < batch.count && draw_int(d, 0, 1); k++) {
-        const size_t other = k - (size_t)draw_int(d, 0, k < 3 ? (int)k : 3);
-        const uint32_t n = s->which[k];
-        s->which[k] = s->which[other];
-        s->which[other] = n;
-    }
     for (ffd_isa isa = FFD_ISA_AUTO; isa <= FFD_ISA_AVX512; isa++) {
         if (!ffd_isa_available(isa))
             continue;

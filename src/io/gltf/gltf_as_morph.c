@@ -105,10 +105,8 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
 static void drop_results(gltf_document *d)
 {
     for (size_t i = 0; i < d->base.part_count; i++)
-        for (int s = 0; s < GLTF_DEFORMED; s++) {
-            ffd_free(d->parts[i].streams[s].result);
-            d->parts[i].streams[s].result = NULL;
-        }
+        for (int s = 0; s < GLTF_DEFORMED; s++)
+            ffd_gltf_free_result(&d->parts[i].streams[s]);
     ffd_free(d->morph_name);
     d->morph_name = NULL;
 }

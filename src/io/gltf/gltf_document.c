@@ -260,7 +260,7 @@ static void free_document(gltf_document *d)
                                   &d->material_values, &d->image_values, &d->primitive_values};
     for (size_t i = 0; d->parts && i < ffd_gltf_part_count(d); i++) {
         for (int s = 0; s < GLTF_DEFORMED; s++)
-            ffd_free(d->parts[i].streams[s].result);
+            ffd_gltf_free_result(&d->parts[i].streams[s]);
         ffd_free(d->parts[i].selected);
     }
     for (size_t i = 0; d->buffers && i < d->buffer_values.count; i++)

@@ -45,6 +45,9 @@ typedef struct gltf_layout {
 typedef struct gltf_stream {
     size_t accessor; /* GLTF_NONE: the part has none */
     float *result;   /* 3 * count; NULL before begin_results, and where a part repeats */
+    /* One for each MESH_RANGE_STEP vectors of the result: 0 where nothing has been handed back, and so
+       nothing stands in it yet. NULL: all of it stands there. */
+    uint8_t *is_there;
 } gltf_stream;
 
 typedef struct gltf_skin {
@@ -258,6 +261,9 @@ size_t ffd_gltf_component_size(int component);
 
 /* gltf_results.c */
 mesh_begin_results_function ffd_gltf_begin_results;
+/* Brings the originals to where nothing has been handed back. */
+void ffd_gltf_complete_results(gltf_document *document);
+void ffd_gltf_free_result(gltf_stream *stream);
 mesh_write_function ffd_gltf_write_positions;
 mesh_write_function ffd_gltf_write_normals;
 mesh_write_function ffd_gltf_write_tangents;

@@ -1,25 +1,47 @@
 #include "base/memory.h"
-#include "base/thread.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_encode.h"
 
-/* Vectors that a thread copies at a time. */
-#define TILE ((size_t)1 << 14)
-
-typedef struct originals {
-    const gltf_document *document;
-    const gltf_stream *stream;
-} originals;
-
-static void copy_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+static size_t tiles_of(size_t count)
 {
-    const originals *of = context;
-    (void)tile;
-    (void)worker;
-    ffd_gltf_originals(of->document, of->stream->accessor, first, last - first,
-                       of->stream->result + 3 * first);
+    return count / MESH_RANGE_STEP + (count % MESH_RANGE_STEP != 0);
 }
 
+/* The original goes where nothing stands yet. */
+static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
+{
+    if (stream->is_there[tile])
+        return;
+    const size_t first = tile * MESH_RANGE_STEP, rest = d->mesh_parts[part].vertex_count - first;
+    ffd_gltf_originals(d, stream->accessor, first, rest < MESH_RANGE_STEP ? rest : MESH_RANGE_STEP,
+                       stream->result + 3 * first);
+    stream->is_there[tile] = 1;
+}
+
+void ffd_gltf_complete_results(gltf_document *d)
+{
+    for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
+        for (int s = 0; s < GLTF_DEFORMED; s++) {
+            gltf_stream *stream = &d->parts[i].streams[s];
+            if (!stream->is_there)
+                continue;
+            for (size_t tile = 0; tile < tiles_of(d->mesh_parts[i].vertex_count); tile++)
+                begin_tile(d, i, stream, tile);
+            ffd_free(stream->is_there);
+            stream->is_there = NULL;
+        }
+}
+
+void ffd_gltf_free_result(gltf_stream *stream)
+{
+    ffd_free(stream->result);
+    ffd_free(stream->is_there);
+    stream->result = NULL;
+    stream->is_there = NULL;
+}
+
+/* Of a deformation into a morph target, zeros; else what stands in the file, but that only when it is needed:
+   the pass hands nearly everything back, and what has just been read for it is then at hand. */
 static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic semantic, ffd_error *error)
 {
     gltf_stream *stream = &d->parts[part].streams[semantic];
@@ -30,15 +52,17 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
         const ffd_status status = ffd_room_take(&d->base.room, count, 3 * sizeof *stream->result, error);
         if (status)
             return status;
-        stream->result = ffd_alloc_zero(count, 3 * sizeof *stream->result);
+        stream->result = d->morph_name ? ffd_alloc_zero(count, 3 * sizeof *stream->result)
+                                       : ffd_alloc(count, 3 * sizeof *stream->result);
         if (!stream->result)
             return ffd_fail_memory(error);
         ffd_expect_all(stream->result, count, 3 * sizeof *stream->result);
     }
-    originals of = {d, stream};
-    if (!d->morph_name)
-        ffd_parallel_tiles(count, TILE, d->threads, copy_tile, &of);
-    return FFD_OK;
+    if (d->morph_name)
+        return FFD_OK;
+    ffd_free(stream->is_there); /* of an earlier deformation */
+    stream->is_there = ffd_alloc_zero(tiles_of(count), 1);
+    return stream->is_there ? FFD_OK : ffd_fail_memory(error);
 }
 
 /* Of an earlier deformation that wanted it. */
@@ -47,8 +71,7 @@ static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
     gltf_stream *stream = &d->parts[part].streams[semantic];
     if (stream->result)
         ffd_room_return(&d->base.room, d->mesh_parts[part].vertex_count, 3 * sizeof *stream->result);
-    ffd_free(stream->result);
-    stream->result = NULL;
+    ffd_gltf_free_result(stream);
 }
 
 ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
@@ -93,8 +116,11 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
     const gltf_document *d = ffd_gltf_of(document);
     const gltf_stream *stream = &d->parts[part].streams[semantic];
     float *result = stream->result;
-    if (!result)
+    if (!result || count == 0)
         return;
+    for (size_t t = first / MESH_RANGE_STEP; stream->is_there && t <= (first + count - 1) / MESH_RANGE_STEP;
+         t++)
+        begin_tile(d, part, stream, t);
     const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
     const bool steps = !d->base.converted && has_steps(accessor, semantic);
     for (size_t i = 0; i < count && d->morph_name; i++)

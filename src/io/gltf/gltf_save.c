@@ -282,6 +282,7 @@ ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *optio
     const gltf_document *d = ffd_gltf_of(document);
     if (d->morph_name)
         return ffd_gltf_save_as_morph(document, options, output, log, error);
+    ffd_gltf_complete_results((gltf_document *)document);
     gltf_saver saver = {.document = d, .options = options, .output = output, .log = log};
     saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;
     saver.in_place = !ffd_output_is_stream(options->path) && !ffd_file_is_stream(d->path) &&
