@@ -1,17 +1,10 @@
 #include "io/obj/obj_scan.h"
 #include <string.h>
 
-enum { ORDINARY = 0, BLANK, LINE_END, BACKSLASH, HASH };
-
-static const unsigned char classes[256] = {
-    ['\t'] = BLANK,    ['\v'] = BLANK,    ['\f'] = BLANK,     [' '] = BLANK,
-    ['\n'] = LINE_END, ['\r'] = LINE_END, ['\\'] = BACKSLASH, ['#'] = HASH,
+const unsigned char ffd_obj_classes[256] = {
+    ['\t'] = OBJ_BLANK,    ['\v'] = OBJ_BLANK,    ['\f'] = OBJ_BLANK,     [' '] = OBJ_BLANK,
+    ['\n'] = OBJ_LINE_END, ['\r'] = OBJ_LINE_END, ['\\'] = OBJ_BACKSLASH, ['#'] = OBJ_HASH,
 };
-
-static int class_of(const char *at)
-{
-    return classes[(unsigned char)*at];
-}
 
 size_t ffd_obj_line_end_size(const char *at, const char *last)
 {
@@ -30,7 +23,7 @@ void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size)
  * too. */
 static bool continues(const obj_scan *scan, const char *at)
 {
-    return scan->last - at == 1 || class_of(at + 1) == LINE_END;
+    return scan->last - at == 1 || ffd_obj_class(at + 1) == OBJ_LINE_END;
 }
 
 static void pass_line_end(obj_scan *scan)
@@ -53,7 +46,7 @@ static bool takes_names(obj_keyword keyword)
 
 static void pass_comment(obj_scan *scan)
 {
-    while (scan->at < scan->last && class_of(scan->at) != LINE_END)
+    while (scan->at < scan->last && ffd_obj_class(scan->at) != OBJ_LINE_END)
         scan->at++;
 }
 
@@ -66,6 +59,11 @@ bool ffd_obj_is_plain(const char *first, const char *last)
 
 static void pass_plain_line(obj_scan *scan)
 {
+    if (scan->at < scan->last && *scan->at == '\n') { /* all arguments were taken */
+        scan->at++;
+        scan->line++;
+        return;
+    }
     const char *end = scan->at < scan->last ? memchr(scan->at, '\n', (size_t)(scan->last - scan->at)) : NULL;
     scan->line += end != NULL;
     scan->at = end ? end + 1 : scan->last;
@@ -82,51 +80,60 @@ void ffd_obj_scan_finish(obj_scan *scan)
     }
     const bool names = takes_names(scan->keyword);
     while (scan->at < scan->last) {
-        const int class = class_of(scan->at);
-        if (class == LINE_END) {
+        const int class = ffd_obj_class(scan->at);
+        if (class == OBJ_LINE_END) {
             pass_line_end(scan);
             return;
         }
-        if (class == BACKSLASH && continues(scan, scan->at))
+        if (class == OBJ_BACKSLASH && continues(scan, scan->at))
             pass_continuation(scan);
-        else if (class == HASH && !names)
+        else if (class == OBJ_HASH && !names)
             pass_comment(scan);
         else
             scan->at++;
     }
 }
 
-/* Behind blanks and continuations, to a word, a comment or the end of the line. */
-static void pass_blanks(obj_scan *scan)
+void ffd_obj_scan_pass_blanks(obj_scan *scan)
 {
     while (scan->at < scan->last) {
-        const int class = class_of(scan->at);
-        if (class == BLANK)
+        const int class = ffd_obj_class(scan->at);
+        if (class == OBJ_BLANK)
             scan->at++;
-        else if (class == BACKSLASH && continues(scan, scan->at))
+        else if (class == OBJ_BACKSLASH && continues(scan, scan->at))
             pass_continuation(scan);
         else
             return;
     }
 }
 
+static bool ends_word(const obj_scan *scan, const char *at, bool names)
+{
+    switch (ffd_obj_class(at)) {
+    case OBJ_BLANK:
+    case OBJ_LINE_END:
+        return true;
+    case OBJ_HASH:
+        return !names;
+    case OBJ_BACKSLASH:
+        return continues(scan, at);
+    default:
+        return false;
+    }
+}
+
 static text_word take_word(obj_scan *scan, bool names)
 {
-    const char *at = scan->at;
-    const text_word word = {.first = at};
-    for (; at < scan->last; at++) {
-        const int class = class_of(at);
-        if (class == BLANK || class == LINE_END || (class == HASH && !names) ||
-            (class == BACKSLASH && continues(scan, at)))
-            break;
-    }
+    const char *const first = scan->at, *const last = scan->last, *at = first;
+    while (at < last && (ffd_obj_class(at) == OBJ_ORDINARY || !ends_word(scan, at, names)))
+        at++;
     scan->at = at;
-    return (text_word){word.first, at};
+    return (text_word){first, at};
 }
 
 static bool is_blank_at(const obj_scan *scan, ptrdiff_t offset)
 {
-    return scan->last - scan->at > offset && class_of(scan->at + offset) == BLANK;
+    return scan->last - scan->at > offset && ffd_obj_class(scan->at + offset) == OBJ_BLANK;
 }
 
 /* The statements that files consist of. */
@@ -173,13 +180,13 @@ bool ffd_obj_scan_next(obj_scan *scan)
 {
     ffd_obj_scan_finish(scan);
     for (;;) {
-        pass_blanks(scan);
+        ffd_obj_scan_pass_blanks(scan);
         if (scan->at == scan->last)
             return false;
-        const int class = class_of(scan->at);
-        if (class == LINE_END)
+        const int class = ffd_obj_class(scan->at);
+        if (class == OBJ_LINE_END)
             pass_line_end(scan);
-        else if (class == HASH)
+        else if (class == OBJ_HASH)
             pass_comment(scan);
         else
             break;
@@ -196,21 +203,7 @@ bool ffd_obj_scan_next(obj_scan *scan)
 bool ffd_obj_scan_word(obj_scan *scan, text_word *word)
 {
     const bool names = takes_names(scan->keyword);
-    pass_blanks(scan);
+    ffd_obj_scan_argument(scan);
     *word = take_word(scan, names);
     return word->first < word->last;
-}
-
-const char *ffd_obj_scan_argument(obj_scan *scan)
-{
-    pass_blanks(scan);
-    return scan->at;
-}
-
-bool ffd_obj_scan_take(obj_scan *scan, const char *end)
-{
-    if (end < scan->last && class_of(end) != BLANK && class_of(end) != LINE_END)
-        return false;
-    scan->at = end;
-    return true;
 }

@@ -46,11 +46,38 @@ bool ffd_obj_scan_next(obj_scan *scan);
 /* Takes the next argument of the current statement. False (and *word is empty) where there is none left. */
 bool ffd_obj_scan_word(obj_scan *scan, text_word *word);
 
+/* What a character is to the scanner. */
+enum { OBJ_ORDINARY = 0, OBJ_BLANK, OBJ_LINE_END, OBJ_BACKSLASH, OBJ_HASH };
+extern const unsigned char ffd_obj_classes[256];
+
+static inline int ffd_obj_class(const char *at)
+{
+    return ffd_obj_classes[(unsigned char)*at];
+}
+
+/* Goes behind blanks and continuations, to a word, a comment or the end of the line. */
+void ffd_obj_scan_pass_blanks(obj_scan *scan);
+
 /* For readers of arguments of a certain form, which need not be words before: where the next one begins, and
    its end, which is taken if nothing else of the word follows. False, and nothing is taken, where something
-   does. */
-const char *ffd_obj_scan_argument(obj_scan *scan);
-bool ffd_obj_scan_take(obj_scan *scan, const char *end);
+   does. (Here, for callers to be one with them: they are called for every number of a file.) */
+static inline const char *ffd_obj_scan_argument(obj_scan *scan)
+{
+    /* Most often one blank stands before it. */
+    if (scan->last - scan->at > 1 && *scan->at == ' ' && ffd_obj_class(scan->at + 1) == OBJ_ORDINARY)
+        scan->at++;
+    else
+        ffd_obj_scan_pass_blanks(scan);
+    return scan->at;
+}
+
+static inline bool ffd_obj_scan_take(obj_scan *scan, const char *end)
+{
+    if (end < scan->last && ffd_obj_class(end) != OBJ_BLANK && ffd_obj_class(end) != OBJ_LINE_END)
+        return false;
+    scan->at = end;
+    return true;
+}
 
 /* The line end that starts at a character, given that one does: its length, 1 or 2. */
 size_t ffd_obj_line_end_size(const char *at, const char *last);

@@ -1,4 +1,5 @@
 #include "io/obj/obj_value.h"
+#include "base/little_endian.h"
 #include "base/number.h"
 
 static bool is_digit(char c)
@@ -67,18 +68,38 @@ bool ffd_obj_corner(text_word word, obj_corner *corner)
     return false;
 }
 
-/* More digits are a word's. */
-#define MOST_DIGITS 18
-
-static const char *take_digits(const char *at, const char *last, obj_index *index)
+/* The number that eight digits make, one a byte, the first lowest: neighbours join to pairs, pairs to fours.
+ */
+static uint64_t join_digits(uint64_t digits)
 {
-    int64_t value = 0;
-    const char *const first = at;
-    const char *const most = last - at > MOST_DIGITS ? at + MOST_DIGITS : last;
-    for (; at < most && is_digit(*at); at++)
-        value = value * 10 + (*at - '0');
-    *index = (obj_index){value, {first, at}};
-    return at;
+    const uint64_t pairs = (10 * digits + (digits >> 8)) & UINT64_C(0x00ff00ff00ff00ff);
+    const uint64_t fours = (100 * pairs + (pairs >> 16)) & UINT64_C(0x0000ffff0000ffff);
+    return (10000 * fours + (fours >> 32)) & UINT64_C(0xffffffff);
+}
+
+/* How many of eight bytes are digits before the first that is none, and the number that they make. */
+static int read_digits(const char *eight, uint64_t *number)
+{
+    /* A digit's byte becomes its value; of the first that is none the highest bit gets set. */
+    const uint64_t bytes = load_u64((const unsigned char *)eight) ^ UINT64_C(0x3030303030303030);
+    const uint64_t others = (bytes | (bytes + UINT64_C(0x7676767676767676))) & UINT64_C(0x8080808080808080);
+    const int count = others ? __builtin_ctzll(others) / 8 : 8;
+    *number = count ? join_digits(bytes << (64 - 8 * count)) : 0;
+    return count;
+}
+
+/* Takes the digits that a text begins with: eight at most, more are a word's. */
+static inline const char *take_digits(const char *at, const char *last, obj_index *index)
+{
+    uint64_t number = 0;
+    int count = 0;
+    if (last - at >= 8)
+        count = read_digits(at, &number);
+    else
+        for (; at + count < last && is_digit(at[count]); count++)
+            number = 10 * number + (uint64_t)(at[count] - '0');
+    *index = (obj_index){(int64_t)number, {at, at + count}};
+    return at + count;
 }
 
 bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner)
