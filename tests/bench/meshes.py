@@ -1,0 +1,146 @@
+"""The meshes that are deformed: wavy squares of side x side vertices with normals, as GLB or OBJ."""
+
+import array
+import json
+import math
+import os
+import struct
+import sys
+
+
+def surface(side):
+    """Positions and unit normals, as flat lists of floats."""
+    step = 10.0 / (side - 1)
+    sine = [math.sin(2.1 * i * step) for i in range(side)]
+    cosine = [math.cos(2.1 * i * step) for i in range(side)]
+    positions, normals = array.array("f"), array.array("f")
+    for j in range(side):
+        y = j * step
+        for i in range(side):
+            positions.extend((i * step, y, sine[i] * cosine[j]))
+            dx, dy = 2.1 * cosine[i] * cosine[j], -2.1 * sine[i] * sine[j]
+            size = math.sqrt(dx * dx + dy * dy + 1)
+            normals.extend((-dx / size, -dy / size, 1 / size))
+    return positions, normals
+
+
+def quads(side):
+    for j in range(side - 1):
+        for i in range(side - 1):
+            a = j * side + i
+            yield a, a + 1, a + side + 1, a + side
+
+
+def triangles(side):
+    indices = array.array("I")
+    for a, b, c, d in quads(side):
+        indices.extend((a, b, c, a, c, d))
+    return indices
+
+
+def tangents_of(normals):
+    """Along x, with a handedness of 1."""
+    tangents = array.array("f")
+    for k in range(0, len(normals), 3):
+        x, z = normals[k + 2], -normals[k]
+        size = math.hypot(x, z)
+        tangents.extend((x / size, 0, z / size, 1))
+    return tangents
+
+
+def gltf_of(streams, indices):
+    """The JSON of a scene with one mesh; streams: name, type and values of each attribute, positions first."""
+    names, kinds, values = zip(*streams)
+    positions = values[0]
+    bounds = {"min": [min(positions[a::3]) for a in range(3)], "max": [max(positions[a::3]) for a in range(3)]}
+    sizes = [len(part) * part.itemsize for part in (*values, indices)]
+    last = len(streams)
+    return {
+        "asset": {"version": "2.0"},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {name: i for i, name in enumerate(names)}, "indices": last}]}],
+        "accessors": [
+            {"bufferView": i, "componentType": 5126, "count": len(positions) // 3, "type": kind,
+             **(bounds if i == 0 else {})}
+            for i, kind in enumerate(kinds)
+        ] + [{"bufferView": last, "componentType": 5125, "count": len(indices), "type": "SCALAR"}],
+        "bufferViews": [
+            {"buffer": 0, "byteOffset": sum(sizes[:i]), "byteLength": size, "target": 34962 if i < last else 34963}
+            for i, size in enumerate(sizes)
+        ],
+        "buffers": [{"byteLength": sum(sizes)}],
+    }
+
+
+def write_streams(path, side, streams):
+    indices = triangles(side)
+    document = gltf_of(streams, indices)
+    bytes_in_all = document["buffers"][0]["byteLength"]
+    text = json.dumps(document).encode()
+    text += b" " * (-len(text) % 4)
+    with open(path, "wb") as file:
+        file.write(struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + bytes_in_all))
+        file.write(struct.pack("<I4s", len(text), b"JSON") + text)
+        file.write(struct.pack("<I4s", bytes_in_all, b"BIN\0"))
+        for part in [values for _, _, values in streams] + [indices]:
+            part.tofile(file)
+
+
+def write_glb(path, side):
+    positions, normals = surface(side)
+    write_streams(path, side, [("POSITION", "VEC3", positions), ("NORMAL", "VEC3", normals)])
+
+
+def write_glb_with_tangents(path, side):
+    positions, normals = surface(side)
+    write_streams(path, side, [("POSITION", "VEC3", positions), ("NORMAL", "VEC3", normals),
+                               ("TANGENT", "VEC4", tangents_of(normals))])
+
+
+def obj_lines(side, corner):
+    """Lines of v, vt, vn and quads; corner gives the number that a face has for a vertex."""
+    positions, normals = surface(side)
+    for k in range(0, 3 * side * side, 3):
+        yield "v %.6f %.6f %.6f\n" % (positions[k], positions[k + 1], positions[k + 2])
+    for j in range(side):
+        for i in range(side):
+            yield "vt %.5f %.5f\n" % (i / (side - 1), j / (side - 1))
+    for k in range(0, 3 * side * side, 3):
+        yield "vn %.5f %.5f %.5f\n" % (normals[k], normals[k + 1], normals[k + 2])
+    for quad in quads(side):
+        yield "f %d/%d/%d %d/%d/%d %d/%d/%d %d/%d/%d\n" % tuple(corner(k) for k in quad for _ in range(3))
+
+
+def write_obj(path, side):
+    with open(path, "w", encoding="ascii", buffering=1 << 22) as file:
+        file.writelines(obj_lines(side, lambda k: k + 1))
+
+
+def write_large_obj(path, side, size):
+    """As many squares one after another as make size bytes. Their faces count backwards, so that all are the same text,
+    which is made once."""
+    text = "".join(obj_lines(side, lambda k: k - side * side)).encode("ascii")
+    with open(path, "wb") as file:
+        for _ in range(math.ceil(size / len(text))):
+            file.write(text)
+
+
+def write_points(path, count):
+    with open(path, "w", encoding="ascii") as file:
+        file.writelines(f"v {i % 10} {i // 10} 0.5\n" for i in range(count))
+
+
+def make(path, write, *arguments):
+    """In a process of its own: what this one has held would count in the peak of the programs that it starts."""
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            write(path, *arguments)
+            code = 0
+        finally:
+            os._exit(code)
+    if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0:
+        sys.exit(f"could not make {path}")

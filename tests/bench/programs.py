@@ -1,0 +1,52 @@
+"""Runs programs: their time by the clock on the wall, and the largest resident set of the process."""
+
+import os
+import subprocess
+import sys
+import time
+import typing
+
+
+class Command(typing.NamedTuple):
+    words: list
+    output: str = None
+
+
+class Samples(typing.NamedTuple):
+    seconds: list
+    megabytes: list
+
+
+def remove(path):
+    if path and os.path.exists(path):
+        os.remove(path)
+
+
+def measure(command):
+    """Seconds and peak megabytes of one run. The output is removed before: to replace a file costs time of its own,
+    which depends on the file system."""
+    remove(command.output)
+    start = time.perf_counter()
+    process = subprocess.Popen(command.words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    with process.stderr:
+        errors = process.stderr.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    seconds = time.perf_counter() - start
+    process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode != 0:
+        sys.exit(f"exit {process.returncode}: {' '.join(command.words)}\n{errors.decode(errors='replace')}")
+    return seconds, usage.ru_maxrss * 1024 / 1e6
+
+
+def in_turns(commands, runs):
+    """What each command takes. They are run in turns, so that all meet the same machine; what they read and write stays
+    in the page cache."""
+    samples = [Samples([], []) for _ in commands]
+    for _ in range(runs):
+        for command, (all_seconds, all_megabytes) in zip(commands, samples):
+            seconds, megabytes = measure(command)
+            all_seconds.append(seconds)
+            all_megabytes.append(megabytes)
+    for command in commands:
+        remove(command.output)
+    return samples
