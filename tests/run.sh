@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
 #     sh tests/run.sh                 the gcc build, every quick suite
-#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules slow)
+#     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules bench slow)
 #     sh tests/run.sh --all           and: slow suites, clang, release, sanitizers, valgrind, the demo, the wraps
 #     --keep                          keeps the build folders of the stages that only --all has
 # FFD_MODELS names a folder of sample models (default: shared/models beside the checkout); without it the tests

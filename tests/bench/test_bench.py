@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""The benchmark runs, on next to nothing, and has something to say of each subject.
+
+    test_bench.py FFD
+"""
+
+import csv
+import os
+import stat
+import subprocess
+import sys
+import tempfile
+
+BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bench.py")
+# What begins a title, and rows that must be below it.
+SUBJECTS = {
+    "Start": ["ffd --version", "100 vertices, box", "100 vertices, warped"],
+    ".glb, 1,600 vertices": ["box: dd bs=64M", "box: ffd deform", "box: peak memory", "warped: ffd deform"],
+    "Lattice size": ["4^3: a vertex", "64^3: whole process"],
+    ".obj, 1,600 vertices": ["box: ffd deform", "warped: peak memory"],
+    "Others on the same OBJ": ["ffd deform, box", "OpenMesh: read", "OpenMesh: read, write",
+                               "Blender: read, lattice modifier, write"],
+    "Normals and tangents": ["box: with normals and tangents"],
+    "Threads (GLB, 6,400 vertices)": ["warped: 2 threads"],
+    "Inversion": ["certified vertices"],
+    "Displacement": ["copy", "kernel alone, box, scalar", "8^3 box, scalar", "64^3 general, scalar, with gradient"],
+    "Finding u,v,w": ["smooth warp 8x8x8, degree 3"],
+    "Batch of 20 meshes": ["obj, box: batch", "glb, warped: a command each"],
+    "Sweep of 2 lattices": ["box: batch"],
+    "Large OBJ": ["box: peak memory (bar: for 10 GB)"],
+}
+# Peers that need not be there: a row, or a line that says so.
+MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK"]
+# Takes the arguments after -- as Blender hands them to its script.
+STUB = '#!/bin/sh\nwhile [ "$1" != -- ]; do shift; done\ncp "$2" "$3"\n'
+
+
+def run(ffd, *arguments):
+    command = [sys.executable, BENCH, "--ffd", ffd, "--side", "40", "--runs", "1", "--jobs", "20", *arguments]
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+
+
+def check(condition, what, said):
+    if not condition:
+        sys.exit(f"{what}; the benchmark said:\n{said}")
+
+
+def write_stub(path, script):
+    with open(path, "w", encoding="ascii") as file:
+        file.write(script)
+    os.chmod(path, stat.S_IRWXU)
+    return path
+
+
+def check_all(ffd, folder):
+    work, saved = os.path.join(folder, "work"), os.path.join(folder, "table.csv")
+    blender = write_stub(os.path.join(folder, "blender"), STUB)
+    os.mkdir(work)
+    done = run(ffd, "--blender", blender, "--large", "0.001", "--folder", work, "--csv", saved)
+    check(done.returncode == 0, f"exit {done.returncode}", done.stdout)
+    with open(saved, encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    for title, wanted in SUBJECTS.items():
+        there = {row["what"] for row in rows if row["subject"].startswith(title)}
+        check(there.issuperset(wanted), f"{title}: no row {set(wanted) - there}", done.stdout)
+    for row in rows:
+        check(float(row["least"]) <= float(row["median"]) <= float(row["greatest"]), f"{row}", done.stdout)
+        check(f"\n  {row['what']} " in done.stdout, f"{row} is not printed", done.stdout)
+    for peer in MAY_MISS:
+        check(any(peer in line for line in done.stdout.splitlines()), f"nothing of {peer}", done.stdout)
+    check(not os.listdir(work), f"left behind: {os.listdir(work)}", done.stdout)
+    return len(rows)
+
+
+def check_part(ffd):
+    done = run(ffd, "--only", "start")
+    check(done.returncode == 0 and "100 vertices, box" in done.stdout, "--only start", done.stdout)
+    check("Threads" not in done.stdout, "--only start, and more", done.stdout)
+
+
+def check_failures(ffd, folder):
+    """A program that fails, or is not there, ends the benchmark; too large a file is not begun."""
+    failing = write_stub(os.path.join(folder, "failing"), "#!/bin/sh\necho no lattice >&2\nexit 1\n")
+    done = run(ffd, "--only", "peers", "--blender", failing)
+    check(done.returncode != 0 and "no lattice" in done.stdout, "a peer that fails", done.stdout)
+    done = run(ffd, "--blender", os.path.join(folder, "none"))
+    check(done.returncode == 2 and "none: no such program" in done.stdout, "no Blender", done.stdout)
+    done = run(ffd, "--only", "start", "--large", "1e9")
+    check(done.returncode == 0 and "too little room" in done.stdout, "too large a file", done.stdout)
+
+
+def main():
+    ffd = sys.argv[1]
+    with tempfile.TemporaryDirectory() as folder:
+        count = check_all(ffd, folder)
+        check_failures(ffd, folder)
+    check_part(ffd)
+    print(f"{count} rows")
+
+
+main()
