@@ -47,6 +47,12 @@ static const char *const pieces[] = {
     "fo 1",
 };
 
+static ffd_status cut_text(const char *text, size_t size, size_t target, obj_blocks *blocks)
+{
+    const file_input input = {.data = (const unsigned char *)text, .size = size};
+    return ffd_obj_blocks_cut(&input, text, target, blocks, NULL);
+}
+
 static size_t draw_text(draw *d, char *text)
 {
     size_t size = 0;
@@ -89,7 +95,7 @@ static void any_cut_gives_the_same_statements(void **state)
         whole[0] = cut[0] = 0;
         ffd_obj_scan_begin(&scan, text, size);
         list_statements(scan, whole);
-        assert_int_equal(ffd_obj_blocks_cut(text, text + size, target, &blocks, NULL), FFD_OK);
+        assert_int_equal(cut_text(text, size, target, &blocks), FFD_OK);
         for (size_t i = 0; i < blocks.count; i++) {
             const obj_block *block = &blocks.list[i];
             assert_ptr_equal(block->first, i ? blocks.list[i - 1].last : text);
@@ -116,16 +122,16 @@ static void blocks_are_as_long_as_asked_for(void **state)
     obj_blocks blocks;
     for (size_t i = 0; i < LINES; i++)
         memcpy(text + 8 * i, "v 1 2 3\n", 8);
-    assert_int_equal(ffd_obj_blocks_cut(text, text + 8 * LINES, 100, &blocks, NULL), FFD_OK);
+    assert_int_equal(cut_text(text, 8 * LINES, 100, &blocks), FFD_OK);
     assert_int_equal(blocks.count, 8 * LINES / 104 + 1);
     for (size_t i = 0; i + 1 < blocks.count; i++)
         assert_int_equal(blocks.list[i].last - blocks.list[i].first, 104);
     ffd_obj_blocks_free(&blocks);
-    assert_int_equal(ffd_obj_blocks_cut(text, text, 100, &blocks, NULL), FFD_OK);
+    assert_int_equal(cut_text(text, 0, 100, &blocks), FFD_OK);
     assert_int_equal(blocks.count, 1);
     ffd_obj_blocks_free(&blocks);
     ffd_alloc_fail_after(0);
-    assert_int_equal(ffd_obj_blocks_cut(text, text + 8, 100, &blocks, NULL), FFD_E_MEMORY);
+    assert_int_equal(cut_text(text, 8, 100, &blocks), FFD_E_MEMORY);
     ffd_alloc_fail_after(-1);
     assert_null(blocks.list);
 }

@@ -24,9 +24,14 @@ static const char *find_cut(const char *first, const char *at, const char *last)
     return last;
 }
 
-ffd_status ffd_obj_blocks_cut(const char *first, const char *last, size_t target, obj_blocks *blocks,
+/* So many cuts until the pages that they were looked for in are given back: the system brings up to 2 MB in
+   for a byte. */
+#define CUTS ((size_t)32)
+
+ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t target, obj_blocks *blocks,
                               ffd_error *error)
 {
+    const char *const last = (const char *)input->data + input->size;
     const size_t most = (size_t)(last - first) / target + 1;
     const char *at = first;
     *blocks = (obj_blocks){.list = ffd_alloc_zero(most, sizeof *blocks->list)};
@@ -37,6 +42,8 @@ ffd_status ffd_obj_blocks_cut(const char *first, const char *last, size_t target
         const char *end = find_cut(first, wanted, last);
         blocks->list[blocks->count++] = (obj_block){.first = at, .last = end};
         at = end;
+        if (blocks->count % CUTS == 0)
+            ffd_file_forget(input, input->data, (size_t)(at - (const char *)input->data));
     } while (at < last);
     return FFD_OK;
 }

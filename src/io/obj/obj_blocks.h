@@ -3,6 +3,7 @@
 #define FFD_IO_OBJ_OBJ_BLOCKS_H
 
 #include "base/fail.h"
+#include "base/file.h"
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -20,9 +21,9 @@ typedef struct obj_blocks {
     size_t count;
 } obj_blocks;
 
-/* Cuts the text, without its byte order mark, behind line ends that nothing continues: at the first one from
-   each multiple of `target` bytes on. Errors: FFD_E_MEMORY; *blocks is then empty. */
-ffd_status ffd_obj_blocks_cut(const char *first, const char *last, size_t target, obj_blocks *blocks,
+/* Cuts the input from `first` on, behind its byte order mark, at line ends that nothing continues: at the
+   first one from each multiple of `target` bytes on. Errors: FFD_E_MEMORY; *blocks is then empty. */
+ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t target, obj_blocks *blocks,
                               ffd_error *error);
 void ffd_obj_blocks_free(obj_blocks *blocks);
 

@@ -197,7 +197,7 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
 
 static ffd_status cut(obj_document *d, ffd_error *error)
 {
-    const char *first = (const char *)d->input.data, *last = first + d->input.size;
+    const char *first = (const char *)d->input.data;
     size_t target = d->input.size / BLOCKS;
     if (target < SMALLEST_BLOCK)
         target = SMALLEST_BLOCK;
@@ -205,7 +205,7 @@ static ffd_status cut(obj_document *d, ffd_error *error)
         target = LARGEST_BLOCK;
     if (d->input.size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
         first += 3;
-    return ffd_obj_blocks_cut(first, last, target, &d->blocks, error);
+    return ffd_obj_blocks_cut(&d->input, first, target, &d->blocks, error);
 }
 
 ffd_status ffd_obj_read_vectors(obj_document *d, ffd_error *error)
