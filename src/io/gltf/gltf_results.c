@@ -1,21 +1,39 @@
 #include "base/memory.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_encode.h"
+#include <string.h>
 
 static size_t tiles_of(size_t count)
 {
     return count / MESH_RANGE_STEP + (count % MESH_RANGE_STEP != 0);
 }
 
+static size_t tile_end(const gltf_document *d, size_t part, size_t tile)
+{
+    const size_t count = d->mesh_parts[part].vertex_count;
+    return count - tile * MESH_RANGE_STEP < MESH_RANGE_STEP ? count : (tile + 1) * MESH_RANGE_STEP;
+}
+
 /* The original goes where nothing stands yet. */
 static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
 {
+    const size_t first = tile * MESH_RANGE_STEP;
     if (stream->is_there[tile])
         return;
-    const size_t first = tile * MESH_RANGE_STEP, rest = d->mesh_parts[part].vertex_count - first;
-    ffd_gltf_originals(d, stream->accessor, first, rest < MESH_RANGE_STEP ? rest : MESH_RANGE_STEP,
+    ffd_gltf_originals(d, stream->accessor, first, tile_end(d, part, tile) - first,
                        stream->result + 3 * first);
     stream->is_there[tile] = 1;
+}
+
+/* Before vectors [first, last) get their results. whole: each of them does. */
+static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *stream, size_t first,
+                        size_t last, bool whole)
+{
+    for (size_t t = first / MESH_RANGE_STEP; t <= (last - 1) / MESH_RANGE_STEP; t++)
+        if (whole && first <= t * MESH_RANGE_STEP && tile_end(d, part, t) <= last)
+            stream->is_there[t] = 1;
+        else
+            begin_tile(d, part, stream, t);
 }
 
 void ffd_gltf_complete_results(gltf_document *d)
@@ -115,21 +133,27 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
 {
     const gltf_document *d = ffd_gltf_of(document);
     const gltf_stream *stream = &d->parts[part].streams[semantic];
-    float *result = stream->result;
-    if (!result || count == 0)
+    if (!stream->result || count == 0)
         return;
-    for (size_t t = first / MESH_RANGE_STEP; stream->is_there && t <= (first + count - 1) / MESH_RANGE_STEP;
-         t++)
-        begin_tile(d, part, stream, t);
+    float *const result = stream->result + 3 * first;
     const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
     const bool steps = !d->base.converted && has_steps(accessor, semantic);
+    const bool whole = !memchr(changed, 0, count);
+    if (stream->is_there)
+        begin_tiles(d, part, stream, first, first + count, whole);
+    if (whole && !d->morph_name && !steps &&
+        components == 3) { /* nearly always: compilers make vectors of it */
+        for (size_t k = 0; k < 3 * count; k++)
+            result[k] = (float)values[k];
+        return;
+    }
     for (size_t i = 0; i < count && d->morph_name; i++)
         if (changed[i])
             write_offset(d, stream, first + i, values + components * i);
     for (size_t i = 0; i < count && !d->morph_name; i++)
         for (size_t c = 0; c < 3 && changed[i]; c++)
-            result[3 * (first + i) + c] = steps ? ffd_gltf_round(accessor, values[components * i + c])
-                                                : (float)values[components * i + c];
+            result[3 * i + c] = steps ? ffd_gltf_round(accessor, values[components * i + c])
+                                      : (float)values[components * i + c];
 }
 
 void ffd_gltf_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
