@@ -57,8 +57,8 @@ typedef struct displacement_scratch {
 typedef struct displacement_batch {
     const double *uvw; /* of point n from uvw[n * stride] on, in the domain */
     size_t stride;
-    const uint32_t
-        *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted, ascending */
+    const uint32_t *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted, each
+                              greater than the one before */
     size_t count;
     double *delta; /* 3 for each of them, from delta[n * delta_step] on */
     size_t delta_step;

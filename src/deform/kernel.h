@@ -22,7 +22,7 @@ typedef struct kernel_cell {
 typedef struct kernel_points {
     const double *uvw;     /* in the cell, of point n from uvw[n * stride] on */
     size_t stride;         /* 3 or more */
-    const uint32_t *which; /* the numbers n of the points that are wanted, in ascending order */
+    const uint32_t *which; /* the numbers n of the points that are wanted, each greater than the one before */
     size_t count;          /* of them, 1 or more */
     double *delta;         /* 3 for each n, from delta[n * delta_step] on: sum (Q - P) N N N */
     size_t delta_step;

@@ -7,6 +7,8 @@
 #include <math.h>
 #include <string.h>
 
+#define FEW_TILES ((size_t)16)
+
 /* Takes the points (positions as the file has them) of a tile to the lattice's space. */
 static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                          double *points)
@@ -398,13 +400,21 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         ffd_tile_shapes(work, scratch, first, count, totals);
 }
 
+/* Smaller tiles where all threads would else not have some. The sums of tiles are joined: so it hangs on the
+   count alone. */
+static size_t tile_size(size_t count)
+{
+    return count < FEW_TILES * PASS_TILE ? MESH_RANGE_STEP : PASS_TILE;
+}
+
 static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
 {
-    const size_t count = work->part->vertex_count, tiles = count / PASS_TILE + (count % PASS_TILE != 0);
+    const size_t count = work->part->vertex_count, size = tile_size(count);
+    const size_t tiles = count / size + (count % size != 0);
     work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
     if (!work->tiles)
         return ffd_fail_memory(error);
-    ffd_parallel_tiles(count, PASS_TILE, work->pass->threads, run_tile, work);
+    ffd_parallel_tiles(count, size, work->pass->threads, run_tile, work);
     for (size_t i = 0; i < tiles; i++)
         join_totals(totals, &work->tiles[i]);
     ffd_free(work->tiles);

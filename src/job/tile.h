@@ -6,7 +6,7 @@
 #include "job/vertex_place.h"
 #include <stdatomic.h>
 
-#define PASS_TILE VERTEX_PLACES
+#define PASS_TILE VERTEX_PLACES /* at most */
 
 /* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place and
    points stand one behind the other. */

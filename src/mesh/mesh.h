@@ -117,6 +117,9 @@ typedef void mesh_close_function(mesh_document *document);
 typedef ffd_status mesh_list_files_function(const mesh_document *document, path_list *files,
                                             ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
+/* Results of vertices are written in ranges that begin at its multiples. */
+#define MESH_RANGE_STEP ((size_t)1024)
+
 typedef ffd_status mesh_check_reach_function(const mesh_document *document, const ffd_bounds *reach,
                                              ffd_error *error);
 typedef ffd_status mesh_select_function(mesh_document *document, const mesh_selector *selectors, size_t count,
@@ -126,7 +129,6 @@ typedef void mesh_read_function(const mesh_document *document, size_t part, size
 typedef void mesh_read_offsets_function(const mesh_document *document, size_t part, size_t shape,
                                         mesh_stream stream, size_t first, size_t count, double *xyz);
 typedef ffd_status mesh_keep_base_function(mesh_document *document, const char *name, ffd_error *error);
-#define MESH_RANGE_STEP ((size_t)1024)
 typedef ffd_status mesh_begin_results_function(mesh_document *document, bool normals, bool tangents,
                                                ffd_error *error);
 typedef void mesh_write_function(mesh_document *document, size_t part, size_t first, size_t count,

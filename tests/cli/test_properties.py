@@ -160,6 +160,30 @@ def locality(run):
 
 
 @case
+def a_large_mesh_gives_what_its_pieces_give(run):
+    """Also where some of what is written together moves and some does not."""
+    draw = random.Random(SEED + 5)
+    points = sorted(cloud(draw, 69999))
+    points[40000:40003] = [[0.9, 0.5, 0.5]] * 3
+    normals = [unit(draw) for _ in points]
+    moves = [{"at": [[2, 4], [0, 3], [0, 3]], "by": [0.3, 0.2, 0.1]}]
+    run.write("l.json", lattice(size=(8, 4, 4), degree=[1, 1, 1], rest={"box": {"min": [-2, -2, -2], "max": [2, 2, 2]}}, moves=moves))
+
+    def deformed(first, last, threads):
+        run.write("a.glb", glb(*gltf_json(points[first:last], normals=normals[first:last])))
+        run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", "-q", "-j", threads)
+        asset, data = glb_split(run.read("b.glb"))
+        return [gltf_vectors(asset, data, stream) for stream in (0, 1)]
+
+    whole = deformed(0, len(points), "3")
+    equal(deformed(0, len(points), "1"), whole, "one thread")
+    for first, last in ((0, 3), (3, 3000), (3000, 20001), (20001, 69999)):
+        equal(deformed(first, last, "2"), [stream[first:last] for stream in whole], f"vertices {first} to {last}")
+    moved = sum(old != new for old, new in zip(points, whole[0]))
+    check(10000 < moved < 69000, f"{moved} moved")
+
+
+@case
 def order_company_threads_and_format_change_nothing(run):
     draw = random.Random(SEED + 4)
     points = write_meshes(run, draw) + cloud(draw, 3000)

@@ -148,7 +148,7 @@ def order(work):
 
 def threads(work):
     """Any number of threads writes the same bytes."""
-    points = [[work.draw.uniform(-1, 1) for _ in range(3)] for _ in range(20000)]
+    points = [[work.draw.uniform(-1, 1) for _ in range(3)] for _ in range(70000)]
     mesh = work.write_obj("many.obj", points)
     lattice = work.warped("threads.json", [{"bend": {"axis": "z", "toward": [1, 0, 0], "degrees": 60}}])
     one = read(work.deform("one.obj", [lattice], mesh, "--threads", "1"))

@@ -81,11 +81,11 @@ static void read_stream(const gltf_document *d, size_t part, gltf_semantic seman
     const gltf_stream *stream = &d->parts[part].streams[semantic];
     const size_t count = d->mesh_parts[part].vertex_count;
     ffd_gltf_read(d, stream->accessor, 0, count, 3, values);
-    for (size_t i = 0; i < 3 * count && stream->result; i++)
-        if (stream->is_there && !stream->is_there[i / 3 / MESH_RANGE_STEP])
-            continue;
-        else if ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i])
+    for (size_t i = 0; i < 3 * count && stream->result; i++) {
+        const bool is_there = !stream->is_there || stream->is_there[i / 3 / MESH_RANGE_STEP];
+        if (is_there && ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i]))
             values[i] = stream->result[i];
+    }
 }
 
 static void read_transform(const gltf_document *d, size_t part, size_t vertex, double transform[12])
