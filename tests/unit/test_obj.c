@@ -596,7 +596,7 @@ static void test_mutations(void **state)
         BYTE_SEED("f 1//2 2//1 1\nv nan inf -1e999\nv .5 5. 5e-1\nvn 0 0 1\nvn 0 0 1\n"
                   "cstype bezier\nsurf 0 1 0 1 1/1/-1\nend"),
     };
-    use_mutations(obj, seeds, COUNT(seeds), 6000, "0123456789-+/.\\#\r\n\t vnftlpe");
+    use_mutations(obj, seeds, COUNT(seeds), 6000, "0123456789-+/.\\#\r\n\t vnftlpe:\x80");
 }
 
 int main(void)
