@@ -1,4 +1,4 @@
-"""Many jobs in one invocation beside a command each, in jobs a second."""
+"""Many jobs in one invocation beside a command each, one after the other, in jobs a second."""
 
 import json
 import os
@@ -26,7 +26,8 @@ def write_manifest(path, jobs):
 def by_batch(bench, jobs):
     manifest = bench.path("jobs.jsonl")
     write_manifest(manifest, jobs)
-    command = [bench.ffd, "batch", manifest, "--quiet", "--journal", bench.path("journal")]
+    command = [bench.ffd, "batch", manifest, "--quiet", "--journal", bench.path("journal"),
+               *(["-j", str(bench.threads)] if bench.threads else [])]
     return len(jobs) / programs.measure(programs.Command(command))[0]
 
 

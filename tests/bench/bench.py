@@ -93,7 +93,7 @@ def parse():
     parser.add_argument("--large", type=float, metavar="GB", help="also an OBJ of so many gigabytes")
     parser.add_argument("--blender", metavar="PATH", help="compare Blender too")
     parser.add_argument("--folder", help="where the files are made (default: a temporary folder)")
-    parser.add_argument("--csv", metavar="FILE", help="the table, with the values of all runs")
+    parser.add_argument("--csv", metavar="FILE", help="the table, with the values of all runs (of the kernels: least, median, greatest)")
     arguments = parser.parse_args()
     for program in (arguments.ffd, arguments.blender):
         if program and not shutil.which(program):
@@ -108,12 +108,14 @@ def main():
         bench.table.say(machine.describe())
         bench.table.say(f"{machine.build_flags(bench.build)}; threads: {bench.threads or 'all'}; runs: {bench.runs}")
         bench.table.head()
-        for name in arguments.only:
-            SUBJECTS[name](bench)
-        if bench.large:
-            jobs.large(bench)
-        if arguments.csv:
-            bench.table.save(arguments.csv)
+        try:
+            for name in arguments.only:
+                SUBJECTS[name](bench)
+            if bench.large:
+                jobs.large(bench)
+        finally:
+            if arguments.csv:
+                bench.table.save(arguments.csv)
 
 
 main()

@@ -5,8 +5,9 @@
 
    Millions a second: median (least to greatest), of the displacement alone and with its gradient, for a box,
    where d uvw / d p is one for all, and for a lattice in general. First the kernels alone, with points of one
-   cell side by side; then with what a tile of a mesh costs beside them: the cells of the points are found,
-   and the points of each brought together. These lie on a wavy surface through the lattice, row by row. */
+   cell side by side, in the cache; the same with u,v,w from floats and displacements to floats, through all
+   memory; then with what a tile of a mesh costs beside them: the cells of the points are found, and the
+   points of each brought together. These lie on a wavy surface through the lattice, row by row. */
 #include "deform/displacement.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
@@ -69,6 +70,13 @@ static void place_points(sample *s)
     }
 }
 
+/* In the first cell of every lattice of up to 64^3 points: its width is 1/61 at least. */
+static void place_floats(sample *s)
+{
+    for (size_t c = 0; c < 3 * s->count; c++)
+        s->from[c] = (float)(s->uvw[c] / 61);
+}
+
 static void run_batches(sample *s)
 {
     for (size_t first = 0; first < s->count; first += DISPLACEMENT_BATCH) {
@@ -86,6 +94,25 @@ static void run_batches(sample *s)
     }
 }
 
+/* The first cell, and points in it. */
+typedef struct one_cell {
+    kernel_cell cell;
+    double uvw[3 * KERNEL_BATCH], numbers[2 * 3 * 64 + 1];
+} one_cell;
+
+static void begin_cell(const sample *s, one_cell *one)
+{
+    static const size_t number[3] = {0, 0, 0};
+    const knot_vector *const knots = s->lattice->knots;
+    for (size_t c = 0; c < 3 * KERNEL_BATCH; c++)
+        one->uvw[c] =
+            knots[c % 3].t[3] + s->uvw[c % (3 * s->count)] * (knots[c % 3].t[4] - knots[c % 3].t[3]);
+    if (!ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, s->gradients,
+                                      one->numbers))
+        abort();
+    ffd_displacement_cell_begin(s->lattice, number, s->gradients, one->numbers, &one->cell);
+}
+
 static displacement_kernel *const kernels[] = {
     [FFD_ISA_SCALAR] = ffd_kernel_scalar,
 #ifdef FFD_X86
@@ -95,31 +122,44 @@ static displacement_kernel *const kernels[] = {
 #endif
 };
 
-/* As many points as there are, a batch at a time, all in the first cell. */
+/* Points [0, count) of a batch. */
+static void run_kernel_once(sample *s, const one_cell *one, size_t count)
+{
+    const kernel_points points = {.uvw = one->uvw,
+                                  .stride = 3,
+                                  .which = s->which,
+                                  .count = count,
+                                  .delta = s->delta,
+                                  .delta_step = 3,
+                                  .gradient = s->gradients ? s->gradient : NULL,
+                                  .gradient_step = 9,
+                                  .jacobian = one->cell.rest ? s->scratch.jacobian : NULL};
+    kernels[s->isa](&one->cell, &points);
+}
+
+/* As many points as there are, a batch at a time, which all stand in the cache. */
 static void run_kernel(sample *s)
 {
-    static const size_t number[3] = {0, 0, 0};
-    double uvw[3 * KERNEL_BATCH], numbers[2 * 3 * 64 + 1];
-    const knot_vector *const knots = s->lattice->knots;
-    kernel_cell cell;
-    for (size_t c = 0; c < 3 * KERNEL_BATCH; c++)
-        uvw[c] = knots[c % 3].t[3] + s->uvw[c] * (knots[c % 3].t[4] - knots[c % 3].t[3]);
-    if (!ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, s->gradients,
-                                      numbers))
-        abort();
-    ffd_displacement_cell_begin(s->lattice, number, s->gradients, numbers, &cell);
-    for (size_t first = 0; first < s->count; first += KERNEL_BATCH) {
-        const size_t rest = s->count - first;
-        const kernel_points points = {.uvw = uvw,
-                                      .stride = 3,
-                                      .which = s->which,
-                                      .count = rest < KERNEL_BATCH ? rest : KERNEL_BATCH,
-                                      .delta = s->delta,
-                                      .delta_step = 3,
-                                      .gradient = s->gradients ? s->gradient : NULL,
-                                      .gradient_step = 9,
-                                      .jacobian = cell.rest ? s->scratch.jacobian : NULL};
-        kernels[s->isa](&cell, &points);
+    one_cell one;
+    begin_cell(s, &one);
+    for (size_t first = 0, count; first < s->count; first += count) {
+        count = s->count - first < KERNEL_BATCH ? s->count - first : KERNEL_BATCH;
+        run_kernel_once(s, &one, count);
+    }
+}
+
+/* The same from one array of floats to another. */
+static void run_kernel_on_floats(sample *s)
+{
+    one_cell one;
+    begin_cell(s, &one);
+    for (size_t first = 0, count; first < s->count; first += count) {
+        count = s->count - first < KERNEL_BATCH ? s->count - first : KERNEL_BATCH;
+        for (size_t c = 0; c < 3 * count; c++)
+            one.uvw[c] = s->from[3 * first + c];
+        run_kernel_once(s, &one, count);
+        for (size_t c = 0; c < 3 * count; c++)
+            s->to[3 * first + c] = (float)s->delta[c];
     }
 }
 
@@ -184,6 +224,7 @@ int main(int count, char **arguments)
     for (uint32_t n = 0; n < DISPLACEMENT_BATCH; n++)
         s->which[n] = n;
     place_points(s);
+    place_floats(s);
     printf("copy     ");
     measure(s, copy, runs);
     printf("\n");
@@ -191,8 +232,11 @@ int main(int count, char **arguments)
         for (int box = 1; box >= 0; box--) {
             s->lattice = make_lattice(size, box);
             ffd_displacement_scratch_clear(&s->scratch);
-            if (size == 8)
+            if (size == 8) {
                 print_rates(s, run_kernel, box ? "kernel alone, box" : "kernel alone, general", runs);
+                print_rates(s, run_kernel_on_floats, box ? "kernel, floats, box" : "kernel, floats, general",
+                            runs);
+            }
             printf("%zu^3 ", size);
             print_rates(s, run_batches, box ? "box" : "general", runs);
             ffd_lattice_destroy(&s->lattice);

@@ -70,7 +70,7 @@ def sizes(bench):
 def attributes(bench):
     """What normals and tangents cost beside positions, whole process, one thread."""
     source = bench.mesh("tangents.glb", meshes.write_glb_with_tangents, bench.side)
-    bench.table.title("Normals and tangents (GLB, one thread)")
+    bench.table.title("Normals and tangents (GLB, one thread, whole process)")
     for name, lattice in bench.lattices.items():
         kept, carried = programs.in_turns([bench.deform(source, lattice, "--normals", normals, threads=1)
                                            for normals in ("keep", "transform")], bench.runs)

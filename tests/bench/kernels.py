@@ -40,7 +40,7 @@ def instruction_sets(bench):
         elif name == "copy":
             copy = bench.table.add("copy", found[0], "M/s")
         else:
-            bar = BARS.get(name, "") if section.startswith("kernel alone") else ""
+            bar = BARS.get(name, "") if section.startswith("kernel") else ""
             row = bench.table.add(f"{section}, {name}", found[0], "M/s", copy, bar)
             bench.table.add(f"{section}, {name}, with gradient", found[1], "M/s", copy)
             widest = row if section == "8^3 box" else widest
@@ -69,7 +69,7 @@ def displacement(bench):
     for name, does in LIBRARIES.items():
         seconds = seconds_of(name, points, bench.runs)
         if seconds:
-            bench.table.add(f"8^3, {name}, {does}", [points / 1e6 / s for s in seconds], "M/s", widest)
+            bench.table.add(f"8^3, {name}, {does}, places at random", [points / 1e6 / s for s in seconds], "M/s", widest)
         else:
             bench.table.say(f"  {name}: not installed")
 
