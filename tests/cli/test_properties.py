@@ -173,7 +173,10 @@ def a_large_mesh_gives_what_its_pieces_give(run):
         run.write("a.glb", glb(*gltf_json(points[first:last], normals=normals[first:last])))
         run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--force", "-q", "-j", threads)
         asset, data = glb_split(run.read("b.glb"))
-        return [gltf_vectors(asset, data, stream) for stream in (0, 1)]
+        streams = [gltf_vectors(asset, data, stream) for stream in (0, 1)]
+        for name, edge in (("min", min), ("max", max)):
+            equal([single(x) for x in asset["accessors"][0][name]], [edge(axis) for axis in zip(*streams[0])], name)
+        return streams
 
     whole = deformed(0, len(points), "3")
     equal(deformed(0, len(points), "1"), whole, "one thread")

@@ -1,5 +1,4 @@
 #include "base/number.h"
-#include "base/thread.h"
 #include "io/gltf/gltf_encode.h"
 #include "io/gltf/gltf_saver.h"
 #include <float.h>
@@ -10,15 +9,6 @@ typedef struct stored_bounds {
     double least[4], largest[4];
 } stored_bounds;
 
-/* Threads share that many tiles at most, of that many vectors at least. */
-#define TILES 64
-#define SMALLEST_TILE ((size_t)1 << 14)
-
-typedef struct bounds_search {
-    const float *xyz;
-    stored_bounds tiles[TILES];
-} bounds_search;
-
 static void widen(stored_bounds *bounds, double least, double largest, size_t c)
 {
     if (least < bounds->least[c])
@@ -27,52 +17,54 @@ static void widen(stored_bounds *bounds, double least, double largest, size_t c)
         bounds->largest[c] = largest;
 }
 
-static stored_bounds bounds_of_first(const float *xyz)
-{
-    stored_bounds bounds = {{0}, {0}};
-    for (size_t c = 0; c < 3; c++)
-        bounds.least[c] = bounds.largest[c] = xyz[c];
-    return bounds;
-}
-
 /* So many vectors at a time, of which compilers make vectors of their own. */
 #define GROUP 4
 
-static void search_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count)
 {
-    bounds_search *search = context;
-    /* From the first vector of all on, as if there were one tile. */
-    stored_bounds bounds = bounds_of_first(search->xyz);
     float least[3 * GROUP], largest[3 * GROUP];
-    (void)worker;
-    for (size_t k = 0; k < 3 * GROUP; k++)
-        least[k] = largest[k] = search->xyz[k % 3];
-    for (; last - first >= GROUP; first += GROUP)
+    size_t first = 0;
+    for (size_t k = 0; k < 3 * GROUP; k++) {
+        least[k] = HUGE_VALF;
+        largest[k] = -HUGE_VALF;
+    }
+    for (; count - first >= GROUP; first += GROUP)
         for (size_t k = 0; k < 3 * GROUP; k++) {
-            const float value = search->xyz[3 * first + k];
+            const float value = xyz[3 * first + k];
             least[k] = value < least[k] ? value : least[k];
             largest[k] = value > largest[k] ? value : largest[k];
         }
-    for (size_t k = 0; k < 3 * GROUP; k++)
-        widen(&bounds, least[k], largest[k], k % 3);
-    for (size_t k = 3 * first; k < 3 * last; k++)
-        widen(&bounds, search->xyz[k], search->xyz[k], k % 3);
-    search->tiles[tile] = bounds;
+    for (size_t k = 3 * first; k < 3 * count; k++) {
+        least[k % 3] = xyz[k] < least[k % 3] ? xyz[k] : least[k % 3];
+        largest[k % 3] = xyz[k] > largest[k % 3] ? xyz[k] : largest[k % 3];
+    }
+    for (size_t k = 3; k < 3 * GROUP; k++) {
+        least[k % 3] = least[k] < least[k % 3] ? least[k] : least[k % 3];
+        largest[k % 3] = largest[k] > largest[k % 3] ? largest[k] : largest[k % 3];
+    }
+    return (gltf_tile_bounds){{least[0], least[1], least[2]}, {largest[0], largest[1], largest[2]}};
 }
 
-/* Floats go to the file as they are. */
-static stored_bounds find_float_bounds(const float *xyz, size_t count, int threads)
+/* Floats go to the file as they are. tiles: theirs, found before, or NULL. */
+static stored_bounds find_float_bounds(const float *xyz, size_t count, const gltf_tile_bounds *tiles)
 {
-    const size_t share = count / TILES + 1, size = share > SMALLEST_TILE ? share : SMALLEST_TILE;
-    bounds_search search = {.xyz = xyz};
-    if (count == 0)
-        return search.tiles[0];
-    ffd_parallel_tiles(count, size, threads, search_tile, &search);
-    stored_bounds bounds = search.tiles[0];
-    for (size_t t = 1; t < count / size + (count % size != 0); t++)
+    stored_bounds bounds = {{0}, {0}};
+    for (size_t c = 0; c < 3 && count > 0; c++)
+        bounds.least[c] = bounds.largest[c] = xyz[c];
+    for (size_t first = 0; first < count; first += MESH_RANGE_STEP) {
+        const size_t rest = count - first, size = rest < MESH_RANGE_STEP ? rest : MESH_RANGE_STEP;
+        const gltf_tile_bounds tile =
+            tiles ? tiles[first / MESH_RANGE_STEP] : ffd_gltf_find_bounds(xyz + 3 * first, size);
         for (size_t c = 0; c < 3; c++)
-            widen(&bounds, search.tiles[t].least[c], search.tiles[t].largest[c], c);
+            widen(&bounds, tile.least[c], tile.largest[c], c);
+    }
     return bounds;
+}
+
+/* Those of the tiles of a version's values, where they are known. */
+static const gltf_tile_bounds *tiles_of(const gltf_document *d, const gltf_version *version)
+{
+    return d->parts[version->order / GLTF_DEFORMED].streams[version->order % GLTF_DEFORMED].bounds;
 }
 
 /* version NULL: those of the original content. */
@@ -83,7 +75,7 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
     const size_t size = ffd_gltf_component_size(component);
     stored_bounds bounds = {{0}, {0}};
     if (version && component == GLTF_FLOAT && accessor->rows == 3)
-        return find_float_bounds(version->values, (size_t)accessor->count, d->threads);
+        return find_float_bounds(version->values, (size_t)accessor->count, tiles_of(d, version));
     for (size_t i = 0; i < accessor->count; i++) {
         unsigned char encoded[GLTF_LARGEST_VECTOR];
         const unsigned char *element = ffd_gltf_element(d, a, i);

@@ -40,6 +40,11 @@ typedef struct gltf_layout {
     gltf_packing packing;
 } gltf_layout;
 
+/* Of numbers; infinite the wrong way round where there is none. */
+typedef struct gltf_tile_bounds {
+    float least[3], largest[3];
+} gltf_tile_bounds;
+
 /* One attribute that is deformed, under one node: a result of 3 components an element, as float whatever the
    accessor's type, rounded to the steps of that. */
 typedef struct gltf_stream {
@@ -48,6 +53,7 @@ typedef struct gltf_stream {
     /* One for each MESH_RANGE_STEP vectors of the result: 0 where nothing has been handed back, and so
        nothing stands in it yet. NULL: all of it stands there. */
     uint8_t *is_there;
+    gltf_tile_bounds *bounds; /* of positions, one for each of these tiles; NULL: not known */
 } gltf_stream;
 
 typedef struct gltf_skin {
@@ -258,6 +264,9 @@ double ffd_gltf_read_number(const unsigned char *at, int component, bool normali
 /* Element i of a sparse.indices or index accessor. */
 uint32_t ffd_gltf_read_index(const unsigned char *at, int component);
 size_t ffd_gltf_component_size(int component);
+
+/* gltf_bounds.c: of so many vectors. */
+gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count);
 
 /* gltf_results.c */
 mesh_begin_results_function ffd_gltf_begin_results;

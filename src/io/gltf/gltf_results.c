@@ -36,6 +36,15 @@ static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *
             begin_tile(d, part, stream, t);
 }
 
+/* What a tile that is at hand has now. */
+static void note_bounds(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
+{
+    const size_t first = tile * MESH_RANGE_STEP;
+    if (stream->bounds)
+        stream->bounds[tile] =
+            ffd_gltf_find_bounds(stream->result + 3 * first, tile_end(d, part, tile) - first);
+}
+
 void ffd_gltf_complete_results(gltf_document *d)
 {
     for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
@@ -44,7 +53,10 @@ void ffd_gltf_complete_results(gltf_document *d)
             if (!stream->is_there)
                 continue;
             for (size_t tile = 0; tile < tiles_of(d->mesh_parts[i].vertex_count); tile++)
-                begin_tile(d, i, stream, tile);
+                if (!stream->is_there[tile]) {
+                    begin_tile(d, i, stream, tile);
+                    note_bounds(d, i, stream, tile);
+                }
             ffd_free(stream->is_there);
             stream->is_there = NULL;
         }
@@ -54,8 +66,10 @@ void ffd_gltf_free_result(gltf_stream *stream)
 {
     ffd_free(stream->result);
     ffd_free(stream->is_there);
+    ffd_free(stream->bounds);
     stream->result = NULL;
     stream->is_there = NULL;
+    stream->bounds = NULL;
 }
 
 /* Of a deformation into a morph target, zeros; else what stands in the file, but that only when it is needed:
@@ -76,11 +90,15 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
             return ffd_fail_memory(error);
         ffd_expect_all(stream->result, count, 3 * sizeof *stream->result);
     }
+    ffd_free(stream->is_there); /* of an earlier deformation */
+    stream->is_there = NULL;
     if (d->morph_name)
         return FFD_OK;
-    ffd_free(stream->is_there); /* of an earlier deformation */
     stream->is_there = ffd_alloc_zero(tiles_of(count), 1);
-    return stream->is_there ? FFD_OK : ffd_fail_memory(error);
+    if (semantic == GLTF_POSITION && !stream->bounds)
+        stream->bounds = ffd_alloc(tiles_of(count), sizeof *stream->bounds);
+    return stream->is_there && (stream->bounds || semantic != GLTF_POSITION) ? FFD_OK
+                                                                             : ffd_fail_memory(error);
 }
 
 /* Of an earlier deformation that wanted it. */
@@ -128,6 +146,29 @@ static void write_offset(const gltf_document *d, const gltf_stream *stream, size
         stream->result[3 * i + c] = (float)(value[c] - original[c]);
 }
 
+/* Whether results go to the file as they are, but for being rounded to float. */
+static bool is_plain(const gltf_document *d, const gltf_stream *stream, gltf_semantic semantic)
+{
+    return !d->morph_name &&
+           (d->base.converted || !has_steps(&d->model.accessors[stream->accessor], semantic));
+}
+
+static void write_changed(const gltf_document *d, const gltf_stream *stream, bool plain, size_t first,
+                          size_t count, const double *values, size_t components, const uint8_t *changed)
+{
+    const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
+    float *const result = stream->result + 3 * first;
+    for (size_t i = 0; i < count; i++) {
+        const double *const value = values + components * i;
+        if (!changed[i])
+            continue;
+        if (d->morph_name)
+            write_offset(d, stream, first + i, value);
+        for (size_t c = 0; c < 3 && !d->morph_name; c++)
+            result[3 * i + c] = plain ? (float)value[c] : ffd_gltf_round(accessor, value[c]);
+    }
+}
+
 static void write_result(mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
                          size_t count, const double *values, size_t components, const uint8_t *changed)
 {
@@ -135,25 +176,16 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
     const gltf_stream *stream = &d->parts[part].streams[semantic];
     if (!stream->result || count == 0)
         return;
-    float *const result = stream->result + 3 * first;
-    const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
-    const bool steps = !d->base.converted && has_steps(accessor, semantic);
-    const bool whole = !memchr(changed, 0, count);
+    const bool plain = is_plain(d, stream, semantic), whole = !memchr(changed, 0, count);
     if (stream->is_there)
         begin_tiles(d, part, stream, first, first + count, whole);
-    if (whole && !d->morph_name && !steps &&
-        components == 3) { /* nearly always: compilers make vectors of it */
+    if (whole && plain && components == 3) /* nearly always: compilers make vectors of it */
         for (size_t k = 0; k < 3 * count; k++)
-            result[k] = (float)values[k];
-        return;
-    }
-    for (size_t i = 0; i < count && d->morph_name; i++)
-        if (changed[i])
-            write_offset(d, stream, first + i, values + components * i);
-    for (size_t i = 0; i < count && !d->morph_name; i++)
-        for (size_t c = 0; c < 3 && changed[i]; c++)
-            result[3 * i + c] = steps ? ffd_gltf_round(accessor, values[components * i + c])
-                                      : (float)values[components * i + c];
+            stream->result[3 * first + k] = (float)values[k];
+    else
+        write_changed(d, stream, plain, first, count, values, components, changed);
+    for (size_t t = first / MESH_RANGE_STEP; t <= (first + count - 1) / MESH_RANGE_STEP; t++)
+        note_bounds(d, part, stream, t);
 }
 
 void ffd_gltf_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
