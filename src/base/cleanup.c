@@ -22,14 +22,19 @@ static const int signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM};
 enum { SIGNALS = sizeof signals / sizeof *signals };
 
 static atomic_flag held = ATOMIC_FLAG_INIT;
+static atomic_bool is_over;     /* a handler waits for the lock, or has it: nobody else is to get it */
 static cleanup_entry *newest;   /* while held */
 static sigset_t mask_of_holder; /* before it held; while held */
 
-/* For handlers too: takes the lock by what POSIX allows there. */
-static void lock(void)
+static bool try_lock(void)
 {
-    while (atomic_flag_test_and_set_explicit(&held, memory_order_acquire))
-        poll(NULL, 0, 1);
+    return !atomic_flag_test_and_set_explicit(&held, memory_order_acquire);
+}
+
+/* A millisecond, by what POSIX allows in handlers too. */
+static void wait_a_little(void)
+{
+    poll(NULL, 0, 1);
 }
 
 void ffd_cleanup_hold(void)
@@ -37,7 +42,8 @@ void ffd_cleanup_hold(void)
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
-    lock();
+    while (atomic_load(&is_over) || !try_lock())
+        wait_a_little();
     mask_of_holder = before;
 }
 
@@ -101,7 +107,9 @@ static void remove_all(void)
    waits until the handler is left, and then ends the program as if there had been none. */
 static void clean_up(int signal)
 {
-    lock();
+    atomic_store(&is_over, true);
+    while (!try_lock())
+        wait_a_little();
     remove_all();
     raise(signal);
 }
@@ -109,13 +117,11 @@ static void clean_up(int signal)
 /* The lock may be held by the thread that has crashed: then nothing is known of the list. */
 static void clean_up_crash(int signal)
 {
-    const int most = 1000; /* milliseconds */
-    int waited = 0;
-    while (waited < most && atomic_flag_test_and_set_explicit(&held, memory_order_acquire)) {
-        poll(NULL, 0, 1);
-        waited++;
-    }
-    if (waited < most)
+    int tries = 1000;
+    atomic_store(&is_over, true);
+    for (; tries > 0 && !try_lock(); tries--)
+        wait_a_little();
+    if (tries > 0)
         remove_all();
     raise(signal);
 }
