@@ -141,6 +141,7 @@ static void test_threads_at_work(void **state)
         const pid_t child = fork();
         assert_true(child >= 0);
         if (child == 0) {
+            signal(signals[n % SIGNALS], SIG_DFL);
             ffd_cleanup_on_signals();
             write_file(in_folder("busy-0"), true);
             run_writers();
