@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#define FEW_TILES ((size_t)16)
-
 /* Takes the points (positions as the file has them) of a tile to the lattice's space. */
 static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                          double *points)
@@ -400,8 +398,10 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         ffd_tile_shapes(work, scratch, first, count, totals);
 }
 
-/* Smaller tiles where all threads would else not have some. The sums of tiles are joined: so it hangs on the
-   count alone. */
+/* So few tiles of the largest size would leave some of many threads without any: then they are smaller. */
+#define FEW_TILES ((size_t)16)
+
+/* By the count alone: the sums of tiles are joined, and must not depend on the number of threads. */
 static size_t tile_size(size_t count)
 {
     return count < FEW_TILES * PASS_TILE ? MESH_RANGE_STEP : PASS_TILE;

@@ -14,12 +14,10 @@ static size_t tile_end(const gltf_document *d, size_t part, size_t tile)
     return count - tile * MESH_RANGE_STEP < MESH_RANGE_STEP ? count : (tile + 1) * MESH_RANGE_STEP;
 }
 
-/* The original goes where nothing stands yet. */
+/* The originals go to a tile where nothing stands yet. */
 static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
 {
     const size_t first = tile * MESH_RANGE_STEP;
-    if (stream->is_there[tile])
-        return;
     ffd_gltf_originals(d, stream->accessor, first, tile_end(d, part, tile) - first,
                        stream->result + 3 * first);
     stream->is_there[tile] = 1;
@@ -32,7 +30,7 @@ static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *
     for (size_t t = first / MESH_RANGE_STEP; t <= (last - 1) / MESH_RANGE_STEP; t++)
         if (whole && first <= t * MESH_RANGE_STEP && tile_end(d, part, t) <= last)
             stream->is_there[t] = 1;
-        else
+        else if (!stream->is_there[t])
             begin_tile(d, part, stream, t);
 }
 
