@@ -44,7 +44,7 @@ static inline void vec_cross(const double a[3], const double b[3], double out[3]
 
 static inline bool vec_is_finite(const double a[3])
 {
-    return isfinite(a[0]) && isfinite(a[1]) && isfinite(a[2]);
+    return 0 * a[0] + 0 * a[1] + 0 * a[2] == 0; /* of the others 0 times is no number */
 }
 
 /* out may be v. */

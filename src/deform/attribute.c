@@ -132,8 +132,7 @@ void ffd_deform_normals(ffd_isa isa, const attribute_batch *batch)
         int collapsed;
         if (batch->outcomes[i] != ATTRIBUTE_OPEN)
             continue;
-        const int is_carried =
-            ffd_deform_normal(batch->gradients + batch->points[i] * batch->stride, n, n, &collapsed);
+        const int is_carried = ffd_deform_normal(attribute_gradient(batch, i), n, n, &collapsed);
         batch->outcomes[i] = outcome_of(is_carried, collapsed);
     }
 }
@@ -147,8 +146,7 @@ void ffd_deform_tangents(ffd_isa isa, const attribute_batch *batch)
         int collapsed;
         if (batch->outcomes[i] != ATTRIBUTE_OPEN)
             continue;
-        const int is_carried =
-            ffd_deform_tangent(batch->gradients + batch->points[i] * batch->stride, t, normal, t, &collapsed);
+        const int is_carried = ffd_deform_tangent(attribute_gradient(batch, i), t, normal, t, &collapsed);
         batch->outcomes[i] = outcome_of(is_carried, collapsed);
     }
 }

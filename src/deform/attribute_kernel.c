@@ -16,7 +16,7 @@ static ALWAYS_INLINE void load_gradients(const attribute_batch *batch, size_t fi
     const double *gradient[FFD_LANES];
     lanes e[9];
     for (size_t l = 0; l < FFD_LANES; l++)
-        gradient[l] = batch->gradients + batch->points[first + l] * batch->stride;
+        gradient[l] = attribute_gradient(batch, first + l);
     lanes_load_nines(gradient, e);
     at->still = ~(mask){0};
     for (int i = 0; i < 9; i++) {

@@ -15,9 +15,8 @@ enum {
 
 /* Directions, and the points that they stand at. */
 typedef struct attribute_batch {
-    const double *gradients; /* F - I of point n from gradients[n * stride] on */
-    size_t stride;
-    const uint32_t *points; /* of each direction */
+    const double *gradients; /* F - I of point n from gradients[9 * n] on */
+    const uint32_t *points;  /* of each direction; NULL: direction i stands at point i */
     size_t count;
     double *directions; /* of direction i from directions[i * step] on: 3 numbers, changed in place */
     size_t step;
@@ -25,6 +24,12 @@ typedef struct attribute_batch {
                               to, or NULL; normals: NULL */
     uint8_t *outcomes;     /* of each */
 } attribute_batch;
+
+/* F - I where direction i stands. */
+static inline const double *attribute_gradient(const attribute_batch *batch, size_t i)
+{
+    return batch->gradients + 9 * (batch->points ? batch->points[i] : i);
+}
 
 /* Does what ffd_deform_normal, or ffd_deform_tangent, does, with the same bits, for all whose sizes are far
    from the ends of the doubles' range; the others are left open. One function for each instruction set that

@@ -56,15 +56,8 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
         return false;
     ffd_displacement_cell_begin(lattice, number, jacobian != NULL, numbers, &cell);
     cell.inverse = inverse ? cell.inverse : NULL;
-    const kernel_points points = {.uvw = inside,
-                                  .stride = 3,
-                                  .which = which,
-                                  .count = 1,
-                                  .delta = delta,
-                                  .delta_step = 3,
-                                  .gradient = by_uvw,
-                                  .gradient_step = 9,
-                                  .jacobian = jacobian};
+    const kernel_points points = {
+        .uvw = inside, .which = which, .count = 1, .delta = delta, .gradient = by_uvw, .jacobian = jacobian};
     ffd_kernel_scalar(&cell, &points);
     return true;
 }

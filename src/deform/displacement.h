@@ -25,6 +25,12 @@ typedef struct batch_cell {
     uint32_t first, count;
 } batch_cell;
 
+/* Wanted points one after the other that lie in the same cell. */
+typedef struct batch_stretch {
+    uint32_t first; /* of the wanted points */
+    uint32_t cell;  /* of the batch */
+} batch_stretch;
+
 /* Points of cells (displacement_cell.h) that batches had before: neighbours in a mesh often come back to
    them. */
 #define KEPT_CELLS ((size_t)1024)
@@ -49,7 +55,8 @@ typedef struct displacement_scratch {
     double uvw[3 * DISPLACEMENT_BATCH], jacobian[9 * DISPLACEMENT_BATCH];
     batch_cell cells[DISPLACEMENT_BATCH];
     size_t cell_count;
-    uint16_t cell_of[DISPLACEMENT_BATCH];     /* of each wanted point */
+    batch_stretch stretches[DISPLACEMENT_BATCH + 1]; /* the last one only ends the one before */
+    size_t stretch_count;
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* cells by their keys */
     uint32_t sorted[DISPLACEMENT_BATCH];      /* the wanted points' numbers, cell by cell */
 } displacement_scratch;
@@ -60,11 +67,9 @@ typedef struct displacement_batch {
     const uint32_t *which; /* the numbers n, below DISPLACEMENT_BATCH, of the points that are wanted, each
                               greater than the one before */
     size_t count;
-    double *delta; /* 3 for each of them, from delta[n * delta_step] on */
-    size_t delta_step;
-    double *gradient; /* 9 likewise; or NULL */
-    size_t gradient_step;
-    uint8_t *moves; /* moves[n]: what ffd_displacement returns */
+    double *delta;    /* of point n from delta[3 * n] on */
+    double *gradient; /* of point n from gradient[9 * n] on; or NULL */
+    uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 
 /* To be called before the first batch, unless the scratch is zeroed, and before one of a lattice that may

@@ -60,12 +60,12 @@ static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displac
                      scratch);
 }
 
-/* Finds the cell of each wanted point. */
+/* The wanted points in stretches. */
 static void find_cells(const ffd_lattice *lattice, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
     cell_range range = {{0}, {0}}; /* nothing */
-    size_t cell = NO_CELL;
+    size_t stretches = 0;
     scratch->cell_count = 0;
     memset(scratch->buckets, 0xff, sizeof scratch->buckets);
     for (size_t k = 0; k < batch->count; k++) {
@@ -74,33 +74,40 @@ static void find_cells(const ffd_lattice *lattice, const displacement_batch *bat
         memcpy(uvw, batch->uvw + n * batch->stride, 3 * sizeof *uvw);
         if (!range_holds(&range, uvw)) {
             ffd_displacement_wrap(lattice, batch->uvw + n * batch->stride, uvw);
-            cell = find_cell(lattice, uvw, scratch, &range);
+            const size_t cell = find_cell(lattice, uvw, scratch, &range);
+            scratch->stretches[stretches++] = (batch_stretch){(uint32_t)k, (uint32_t)cell};
         }
-        scratch->cell_of[k] = (uint16_t)cell;
-        scratch->cells[cell].count++;
     }
+    scratch->stretches[stretches].first = (uint32_t)batch->count;
+    scratch->stretch_count = stretches;
 }
 
 /* Brings the points of each cell together, in their order. */
 static void sort_points(const displacement_batch *batch, displacement_scratch *scratch)
 {
+    const batch_stretch *const stretches = scratch->stretches;
     uint32_t first = 0;
+    for (size_t s = 0; s < scratch->stretch_count; s++)
+        scratch->cells[stretches[s].cell].count += stretches[s + 1].first - stretches[s].first;
     for (size_t c = 0; c < scratch->cell_count; c++) {
         scratch->cells[c].first = first;
         first += scratch->cells[c].count;
         scratch->cells[c].count = 0;
     }
-    for (size_t k = 0; k < batch->count; k++) {
-        batch_cell *const cell = &scratch->cells[scratch->cell_of[k]];
-        scratch->sorted[cell->first + cell->count++] = batch->which[k];
+    for (size_t s = 0; s < scratch->stretch_count; s++) {
+        const uint32_t count = stretches[s + 1].first - stretches[s].first;
+        batch_cell *const cell = &scratch->cells[stretches[s].cell];
+        memcpy(scratch->sorted + cell->first + cell->count, batch->which + stretches[s].first,
+               count * sizeof *batch->which);
+        cell->count += count;
     }
 }
 
 static void stay(const displacement_batch *batch, size_t n)
 {
-    memset(batch->delta + n * batch->delta_step, 0, 3 * sizeof *batch->delta);
+    memset(batch->delta + 3 * n, 0, 3 * sizeof *batch->delta);
     if (batch->gradient)
-        memset(batch->gradient + n * batch->gradient_step, 0, 9 * sizeof *batch->gradient);
+        memset(batch->gradient + 9 * n, 0, 9 * sizeof *batch->gradient);
     batch->moves[n] = 0;
 }
 
@@ -152,20 +159,16 @@ static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
         return;
     ffd_displacement_cell_begin(lattice, of->span, batch->gradient, control, &cell);
     const kernel_points points = {.uvw = scratch->uvw,
-                                  .stride = 3,
                                   .which = which,
                                   .count = of->count,
                                   .delta = batch->delta,
-                                  .delta_step = batch->delta_step,
                                   .gradient = batch->gradient,
-                                  .gradient_step = batch->gradient_step,
                                   .jacobian = cell.rest ? scratch->jacobian : NULL};
     kernel->displace(&cell, &points);
     for (size_t k = 0; k < of->count; k++)
         batch->moves[which[k]] = 1;
     for (size_t k = 0; k < of->count && cell.rest; k++)
-        ffd_displacement_to_space(scratch->jacobian + 9 * which[k],
-                                  batch->gradient + which[k] * batch->gradient_step);
+        ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
 }
 
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,
@@ -174,9 +177,9 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
     if (lattice->rest_weights) {
         for (size_t k = 0; k < batch->count; k++) {
             const size_t n = batch->which[k];
-            batch->moves[n] = (uint8_t)ffd_displacement(
-                lattice, batch->uvw + n * batch->stride, batch->delta + n * batch->delta_step,
-                batch->gradient ? batch->gradient + n * batch->gradient_step : NULL);
+            batch->moves[n] =
+                (uint8_t)ffd_displacement(lattice, batch->uvw + n * batch->stride, batch->delta + 3 * n,
+                                          batch->gradient ? batch->gradient + 9 * n : NULL);
         }
         return;
     }

@@ -163,68 +163,61 @@ static ALWAYS_INLINE void take(const kernel_points *points, const uint32_t *whic
 {
 #if FFD_LANES == 1
     for (int a = 0; a < 3; a++)
-        uvw[a] = points->uvw[which[0] * points->stride + (size_t)a];
+        uvw[a] = points->uvw[3 * (size_t)which[0] + (size_t)a];
 #else
     double triples[3 * FFD_LANES];
-    if (points->stride == 3 && in_a_row(which)) {
+    if (in_a_row(which)) {
         lanes_load_triples(points->uvw + (size_t)which[0] * 3, uvw);
         return;
     }
     for (int l = 0; l < FFD_LANES; l++)
-        memcpy(triples + 3 * l, points->uvw + which[l] * points->stride, 3 * sizeof *triples);
+        memcpy(triples + 3 * l, points->uvw + 3 * (size_t)which[l], 3 * sizeof *triples);
     lanes_load_triples(triples, uvw);
 #endif
 }
 
-/* To `to` + step * number of each point. */
-static ALWAYS_INLINE void put(lanes values, double *to, size_t step, const uint32_t *which)
+static ALWAYS_INLINE void put_vector(const lanes values[3], double *to, const uint32_t *which)
 {
 #if FFD_LANES == 1
-    to[which[0] * step] = values;
+    for (int c = 0; c < 3; c++)
+        to[3 * (size_t)which[0] + (size_t)c] = values[c];
 #else
-    for (int l = 0; l < FFD_LANES; l++)
-        to[which[l] * step] = values[l];
-#endif
-}
-
-static ALWAYS_INLINE void put_vector(const lanes values[3], double *to, size_t step, const uint32_t *which)
-{
-#if FFD_LANES > 1
-    if (step == 3 && in_a_row(which)) {
-        lanes_store_triples(values, to + (size_t)which[0] * 3);
+    double triples[3 * FFD_LANES];
+    if (in_a_row(which)) {
+        lanes_store_triples(values, to + 3 * (size_t)which[0]);
         return;
     }
+    lanes_store_triples(values, triples);
+    for (int l = 0; l < FFD_LANES; l++)
+        memcpy(to + 3 * (size_t)which[l], triples + 3 * l, 3 * sizeof *triples);
 #endif
-    for (int c = 0; c < 3; c++)
-        put(values[c], to + c, step, which);
 }
 
-static ALWAYS_INLINE void put_matrix(const lanes m[9], double *to, size_t step, const uint32_t *which)
+static ALWAYS_INLINE void put_matrix(const lanes m[9], double *to, const uint32_t *which)
 {
 #if FFD_LANES == 1
     for (int i = 0; i < 9; i++)
-        put(m[i], to + i, step, which);
+        to[9 * (size_t)which[0] + (size_t)i] = m[i];
 #else
     double *place[FFD_LANES];
     for (int l = 0; l < FFD_LANES; l++)
-        place[l] = to + which[l] * step;
+        place[l] = to + 9 * (size_t)which[l];
     lanes_store_nines(m, place);
 #endif
 }
 
 /* The derivatives are the columns. */
-static ALWAYS_INLINE void put_derivatives(const field_sum *sum, double *to, size_t step,
-                                          const uint32_t *which)
+static ALWAYS_INLINE void put_derivatives(const field_sum *sum, double *to, const uint32_t *which)
 {
     lanes m[9];
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             m[3 * r + c] = sum->part[1 + c][r];
-    put_matrix(m, to, step, which);
+    put_matrix(m, to, which);
 }
 
 /* That matrix times m. */
-static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], double *to, size_t step,
+static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], double *to,
                                       const uint32_t *which)
 {
     lanes product[9];
@@ -232,7 +225,7 @@ static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], d
         for (int c = 0; c < 3; c++)
             product[3 * r + c] =
                 sum->part[1][r] * m[c] + sum->part[2][r] * m[3 + c] + sum->part[3][r] * m[6 + c];
-    put_matrix(product, to, step, which);
+    put_matrix(product, to, which);
 }
 
 static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
@@ -246,18 +239,18 @@ static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3],
     if (!derivatives) {
         lanes delta[3] = {0};
         sum_values(degree, basis, cell->difference, delta);
-        put_vector(delta, points->delta, points->delta_step, which);
+        put_vector(delta, points->delta, which);
         return;
     }
     const field_sum sum = sum_cell(degree, basis, cell->difference);
-    put_vector(sum.part[0], points->delta, points->delta_step, which);
+    put_vector(sum.part[0], points->delta, which);
     if (cell->inverse)
-        put_product(&sum, cell->inverse, points->gradient, points->gradient_step, which);
+        put_product(&sum, cell->inverse, points->gradient, which);
     else
-        put_derivatives(&sum, points->gradient, points->gradient_step, which);
+        put_derivatives(&sum, points->gradient, which);
     if (jacobian) {
         const field_sum rest = sum_cell(degree, basis, cell->rest);
-        put_derivatives(&rest, points->jacobian, 9, which);
+        put_derivatives(&rest, points->jacobian, which);
     }
 }
 

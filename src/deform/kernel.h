@@ -20,17 +20,13 @@ typedef struct kernel_cell {
 
 /* Points of the cell, and where their results go. */
 typedef struct kernel_points {
-    const double *uvw;     /* in the cell, of point n from uvw[n * stride] on */
-    size_t stride;         /* 3 or more */
+    const double *uvw;     /* in the cell, 3 a point */
     const uint32_t *which; /* the numbers n of the points that are wanted, each greater than the one before */
     size_t count;          /* of them, 1 or more */
-    double *delta;         /* 3 for each n, from delta[n * delta_step] on: sum (Q - P) N N N */
-    size_t delta_step;
-    double
-        *gradient; /* 9 for each n, from gradient[n * gradient_step] on, or NULL: the number 3 r + c of them
-                      is d delta_r / d p_c where the cell has the inverse; else it is d delta_r / d uvw_c */
-    size_t gradient_step;
-    double *jacobian; /* 9 for each n, d p_r / d uvw_c; or NULL. Not without the gradient. */
+    double *delta;         /* 3 a point: sum (Q - P) N N N */
+    double *gradient; /* 9 a point, or NULL: the number 3 r + c of them is d delta_r / d p_c where the cell
+                         has the inverse; else it is d delta_r / d uvw_c */
+    double *jacobian; /* 9 a point, d p_r / d uvw_c; or NULL. Not without the gradient. */
 } kernel_points;
 
 /* Turns a cell's control points, u fastest and 3 numbers each, into its Bezier points. extraction: of the

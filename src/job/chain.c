@@ -99,12 +99,6 @@ bounds ffd_chain_reach(const lattice_chain *chain, size_t link)
     return box;
 }
 
-static bool has_place(const ffd_location *location)
-{
-    return location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID &&
-           vec_is_finite(location->uvw);
-}
-
 /* F = F2 F1 in terms of what each differs from I: E = E1 + E2 + E2 E1. Zeros stay exact. */
 static void compose(double gradient[9], const double next[9])
 {
@@ -114,124 +108,147 @@ static void compose(double gradient[9], const double next[9])
         gradient[i] = gradient[i] + next[i] + product[i];
 }
 
-static void note_location(const ffd_lattice *lattice, const ffd_location *location, chain_point *point)
+static chain_note note_of(const ffd_lattice *lattice, const ffd_location *location)
 {
-    const double relative = location->residual / lattice->diagonal, square = relative * relative;
-    if (square > point->residual_square)
-        point->residual_square = square;
-    if (location->status > point->status)
-        point->status = location->status;
-    if (has_place(location))
-        point->located = true;
-    if (!has_place(location) && location->status != FFD_POINT_INVALID)
-        point->outside = true;
-    if (location->status == FFD_MULTIPLE)
-        point->multiple = true;
-    point->unresolved |= location->unresolved;
-    point->evaluations += location->evaluations;
-    memcpy(point->uvw, location->uvw, sizeof point->uvw);
+    const bool invalid = location->status == FFD_POINT_INVALID;
+    const bool placed = location->status != FFD_OUTSIDE && !invalid && vec_is_finite(location->uvw);
+    const double relative = location->residual / lattice->diagonal;
+    return (chain_note){.residual_square = relative * relative,
+                        .evaluations = location->evaluations,
+                        .status = location->status,
+                        .located = placed,
+                        .outside = !placed && !invalid,
+                        .multiple = location->status == FFD_MULTIPLE,
+                        .unresolved = location->unresolved};
 }
 
-/* Where a link's displacements go: those of the first straight to the points. */
+static void join_note(const chain_note *now, chain_note *note)
+{
+    note->residual_square = larger_of(note->residual_square, now->residual_square);
+    note->evaluations += now->evaluations;
+    note->status = now->status > note->status ? now->status : note->status;
+    note->located |= now->located;
+    note->outside |= now->outside;
+    note->multiple |= now->multiple;
+    note->unresolved |= now->unresolved;
+}
+
+/* Where a link's displacements go: those of the first straight to the run. */
 static displacement_batch begin_batch(const chain_run *run, size_t link)
 {
     chain_scratch *scratch = run->scratch;
-    const size_t point = sizeof *run->points / sizeof(double);
-    displacement_batch batch = {.uvw = scratch->locations[0].uvw,
+    return (displacement_batch){.uvw = scratch->locations[0].uvw,
                                 .stride = sizeof *scratch->locations / sizeof(double),
                                 .which = scratch->inside,
-                                .delta = link == 0 ? run->points[0].delta : scratch->delta,
-                                .delta_step = link == 0 ? point : 3,
-                                .gradient = link == 0 ? run->points[0].gradient : scratch->gradient,
-                                .gradient_step = link == 0 ? point : 9,
+                                .delta = link == 0 ? run->delta : scratch->delta,
+                                .gradient = !run->gradient ? NULL
+                                            : link == 0    ? run->gradient
+                                                           : scratch->gradient,
                                 .moves = scratch->moves};
-    if (!run->gradients)
-        batch.gradient = NULL;
-    return batch;
 }
 
 /* The displacement of a point outside, into where the batch puts those of the others. */
 static ffd_status extend(const chain_link *link, const chain_run *run, const displacement_batch *batch,
                          size_t i, ffd_error *error)
 {
-    chain_scratch *scratch = run->scratch;
-    chain_point *point = &run->points[i];
     boundary_point nearest;
-    scratch->moves[i] = 0;
-    if (scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
+    double *const delta = batch->delta + 3 * i, *const gradient = batch->gradient + 9 * i;
+    run->scratch->moves[i] = 0;
+    memset(delta, 0, 3 * sizeof *delta);
+    if (batch->gradient)
+        memset(gradient, 0, 9 * sizeof *gradient);
+    if (run->scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
         return FFD_OK;
     const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
     const ffd_status status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
     if (status || !nearest.found)
         return status;
-    point->extended = point->extended || nearest.distance < reach || !(link->falloff > 0);
-    scratch->moves[i] = (uint8_t)ffd_extension_displacement(
-        link->lattice, &nearest, link->falloff, batch->delta + i * batch->delta_step,
-        batch->gradient ? batch->gradient + i * batch->gradient_step : NULL);
+    run->notes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
+    run->scratch->moves[i] = (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff,
+                                                                 delta, batch->gradient ? gradient : NULL);
     return FFD_OK;
 }
 
-static ffd_status find_displacements(const lattice_chain *chain, const chain_link *link, const chain_run *run,
-                                     displacement_batch *batch, ffd_error *error)
+/* Notes what is known of the points, and lists those that have a place in the link. */
+static ffd_status note_locations(const chain_link *link, bool is_first, const chain_run *run,
+                                 displacement_batch *batch, ffd_error *error)
 {
-    chain_scratch *scratch = run->scratch;
+    size_t placed = 0;
     for (size_t i = 0; i < run->count; i++) {
-        if (has_place(&scratch->locations[i])) {
-            scratch->inside[batch->count++] = (uint32_t)i;
+        const chain_note note = note_of(link->lattice, &run->scratch->locations[i]);
+        if (is_first)
+            run->notes[i] = note;
+        else
+            join_note(&note, &run->notes[i]);
+        run->scratch->inside[placed] = (uint32_t)i;
+        placed += note.located;
+        if (note.located)
             continue;
-        }
         const ffd_status status = extend(link, run, batch, i, error);
         if (status)
             return status;
     }
-    ffd_displacements(link->lattice, chain->isa, batch, &scratch->displacement);
+    batch->count = placed;
     return FFD_OK;
 }
 
-static void displace(const chain_run *run, const displacement_batch *batch, size_t i)
+/* to + delta; where that is 0 the bits stay. */
+static void add_displacements(const double *delta, size_t count, double *to)
 {
-    chain_point *point = &run->points[i];
-    const double *delta = batch->delta + i * batch->delta_step;
-    const bool is_there = delta == point->delta;
-    for (int a = 0; a < 3; a++)
-        if (delta[a] != 0) {
-            run->x[3 * i + (size_t)a] += delta[a];
-            if (!is_there)
-                point->delta[a] += delta[a];
-        }
-    if (batch->gradient && !is_there) {
-        const double *gradient = batch->gradient + i * batch->gradient_step;
-        if (point->moved)
-            compose(point->gradient, gradient);
-        else
-            memcpy(point->gradient, gradient, sizeof point->gradient);
+    for (size_t k = 0; k < 3 * count; k++)
+        to[k] = delta[k] != 0 ? to[k] + delta[k] : to[k];
+}
+
+/* What a link after the first does comes to what is there. */
+static void add_link(const chain_run *run)
+{
+    const chain_scratch *scratch = run->scratch;
+    add_displacements(scratch->delta, run->count, run->delta);
+    for (size_t i = 0; i < run->count && run->gradient; i++) {
+        const double *const next = scratch->gradient + 9 * i;
+        if (scratch->moves[i] && run->notes[i].moved)
+            compose(run->gradient + 9 * i, next);
+        else if (scratch->moves[i])
+            memcpy(run->gradient + 9 * i, next, 9 * sizeof *next);
     }
-    point->moved = true;
+}
+
+static ffd_status apply_link(const lattice_chain *chain, size_t l, const chain_run *run, ffd_error *error)
+{
+    const chain_link *link = &chain->links[l];
+    chain_scratch *scratch = run->scratch;
+    displacement_batch batch = begin_batch(run, l);
+    const ffd_status status = note_locations(link, l == 0, run, &batch, error);
+    if (status)
+        return status;
+    ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
+    add_displacements(batch.delta, run->count, run->x);
+    if (l > 0)
+        add_link(run);
+    for (size_t i = 0; i < run->count; i++)
+        run->notes[i].moved |= scratch->moves[i];
+    return FFD_OK;
 }
 
 ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error)
 {
-    chain_scratch *scratch = run->scratch;
-    memset(run->points, 0, run->count * sizeof *run->points);
-    for (size_t l = 0; l < links; l++) {
-        const chain_link *link = &chain->links[l];
-        const double start = ffd_clock_seconds();
-        ffd_status status = FFD_OK;
-        if (l > 0 || !run->located)
-            status = ffd_locator_find(link->locator, run->x, run->count, scratch->locations, error);
-        const double middle = ffd_clock_seconds();
-        run->embed_seconds += middle - start;
-        for (size_t i = 0; i < run->count && !status; i++)
-            note_location(link->lattice, &scratch->locations[i], &run->points[i]);
-        displacement_batch batch = begin_batch(run, l);
-        if (!status)
-            status = find_displacements(chain, link, run, &batch, error);
-        for (size_t i = 0; i < run->count && !status; i++)
-            if (scratch->moves[i])
-                displace(run, &batch, i);
-        run->deform_seconds += ffd_clock_seconds() - middle;
-        if (status)
-            return status;
+    ffd_status status = FFD_OK;
+    if (links == 0) {
+        memset(run->delta, 0, 3 * run->count * sizeof *run->delta);
+        memset(run->notes, 0, run->count * sizeof *run->notes);
+        if (run->gradient)
+            memset(run->gradient, 0, 9 * run->count * sizeof *run->gradient);
     }
-    return FFD_OK;
+    for (size_t l = 0; l < links && !status; l++) {
+        const double start = ffd_clock_seconds();
+        if (l > 0 || !run->located)
+            status =
+                ffd_locator_find(chain->links[l].locator, run->x, run->count, run->scratch->locations, error);
+        const double middle = ffd_clock_seconds();
+        if (!status)
+            status = apply_link(chain, l, run, error);
+        run->embed_seconds += middle - start;
+        run->deform_seconds += ffd_clock_seconds() - middle;
+    }
+    return status;
 }

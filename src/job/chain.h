@@ -57,28 +57,25 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
    volume, and what is extended goes on from there. */
 bounds ffd_chain_reach(const lattice_chain *chain, size_t link);
 
-/* What the links have done to one point. */
-typedef struct chain_point {
-    double delta[3];        /* the displacement so far, world units */
-    double gradient[9];     /* of the composed deformation, F - I */
+/* What the links know of one point. */
+typedef struct chain_note {
     double residual_square; /* relative to the link's diagonal, the greatest of the links' */
-    double uvw[3];          /* of the last link */
     uint32_t evaluations;
     uint8_t status;  /* ffd_vertex_status, the highest of the links' */
-    bool moved;      /* some link's control points act on it: delta and gradient are more than zeros */
+    bool moved;      /* some link's control points act on it: its displacement is more than zeros */
     bool located;    /* has u,v,w in some link */
     bool outside;    /* of some link */
     bool multiple;   /* in some link */
     bool unresolved; /* the search for some link ended at its limits */
     bool extended;   /* by a link that it is outside of: its border was there, and within the falloff */
-} chain_point;
+} chain_note;
 
 /* Most points of a run. */
 #define CHAIN_RUN DISPLACEMENT_BATCH
 
 /* What one thread needs to send runs through the chain; zeroed before the first. */
 typedef struct chain_scratch {
-    ffd_location locations[CHAIN_RUN];
+    ffd_location locations[CHAIN_RUN]; /* in the link that was last */
     double delta[3 * CHAIN_RUN], gradient[9 * CHAIN_RUN];
     uint32_t inside[CHAIN_RUN]; /* points that have a place */
     uint8_t moves[CHAIN_RUN];
@@ -87,12 +84,14 @@ typedef struct chain_scratch {
 
 /* A run of points on its way through the chain. */
 typedef struct chain_run {
-    double *x;                            /* 3 a point, changed to their new places */
-    size_t count;                         /* CHAIN_RUN at most */
-    bool gradients;                       /* wanted */
-    bool located;                         /* the first link's locations are there already */
-    chain_scratch *scratch;               /* scratch->locations are they */
-    chain_point *points;                  /* count, filled */
+    double *x;    /* 3 a point, changed to their new places */
+    size_t count; /* CHAIN_RUN at most */
+    bool located; /* the first link's locations are there already */
+    chain_scratch *scratch;
+    /* Filled: one a point. */
+    double *delta;    /* 3: the displacement by all links, world units; zeros where nothing acts */
+    double *gradient; /* 9: of the composed deformation, F - I; or NULL */
+    chain_note *notes;
     double embed_seconds, deform_seconds; /* the time taken is added */
 } chain_run;
 

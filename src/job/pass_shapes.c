@@ -55,17 +55,13 @@ static void place_moved(const shape_work *work)
     for (size_t i = 0; i < work->count; i++) {
         const double *m = s->offsets + 3 * i;
         double *x = s->place + 3 * s->moved_count;
-        s->points[i] = &work->tile->points[i];
+        s->gradients[i] = work->tile->gradient + 9 * i;
         if (!ffd_part_selects(work->part->part, work->first + i) || (m[0] == 0 && m[1] == 0 && m[2] == 0))
             continue;
         const vertex_place place = ffd_vertex_place_of(&work->tile->places, i);
         for (size_t a = 0; a < 3; a++)
             x[a] = s->base[3 * i + a] + m[a];
-        if (!place.identity) {
-            mat_apply(place.linear, x, x);
-            for (int a = 0; a < 3; a++)
-                x[a] += place.offset[a];
-        }
+        ffd_vertex_place_point(&place, x);
         if (!vec_is_finite(x))
             note_first(&work->totals->first_shape_invalid, number_of(work, i));
         s->moved[s->moved_count++] = i;
@@ -80,9 +76,10 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
     const mesh_pass *pass = work->part->pass;
     chain_run run = {.x = s->place,
                      .count = s->moved_count,
-                     .gradients = gradients,
                      .scratch = &work->tile->chain,
-                     .points = s->moved_points};
+                     .delta = s->moved_delta,
+                     .gradient = gradients ? s->moved_gradient : NULL,
+                     .notes = s->moved_notes};
     const ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, error);
     work->totals->embed_seconds += run.embed_seconds;
     work->totals->deform_seconds += run.deform_seconds;
@@ -90,9 +87,9 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
         const size_t i = s->moved[k];
         const vertex_place place = ffd_vertex_place_of(&work->tile->places, i);
         if (gradients)
-            ffd_gradient_bring_back(&place, s->moved_points[k].gradient);
-        s->points[i] = &s->moved_points[k];
-        if (s->moved_points[k].outside) {
+            ffd_gradient_bring_back(&place, s->moved_gradient + 9 * k);
+        s->gradients[i] = s->moved_gradient + 9 * k;
+        if (s->moved_notes[k].outside) {
             work->totals->shapes_outside++;
             note_first(&work->totals->first_shape_outside, number_of(work, i));
         }
@@ -116,9 +113,9 @@ static void deform_positions(const shape_work *work)
     for (size_t k = 0; k < s->moved_count; k++) {
         const size_t i = s->moved[k];
         const vertex_place place = ffd_vertex_place_of(&work->tile->places, i);
-        double base[3], moved[3], *m = s->offsets + 3 * i;
-        ffd_displacement_bring_back(&place, work->tile->points[i].delta, base);
-        ffd_displacement_bring_back(&place, s->points[i]->delta, moved);
+        const double *const base = work->tile->delta + 3 * i;
+        double *const moved = s->moved_delta + 3 * k, *const m = s->offsets + 3 * i;
+        ffd_displacement_bring_back(&place, moved);
         for (int a = 0; a < 3; a++)
             take(m[a] + (moved[a] - base[a]), &m[a], &s->changed[i]);
         if (s->changed[i] && !ffd_tile_fits_file(work->part->pass->document, m))
@@ -155,7 +152,7 @@ static void deform_normals(const shape_work *work)
             n[a] = s->base[3 * i + a] + s->offsets[3 * i + a];
         if (!ffd_part_selects(work->part->part, work->first + i))
             continue;
-        ffd_deform_normal(s->points[i]->gradient, n, n, NULL);
+        ffd_deform_normal(s->gradients[i], n, n, NULL);
         take_direction(s->base + 3 * i, work->tile->normals + 3 * i, n, s->offsets + 3 * i, &s->changed[i]);
     }
     if (has(work, MESH_NORMALS))
@@ -178,7 +175,7 @@ static void deform_tangents(const shape_work *work)
         if (!ffd_part_selects(work->part->part, work->first + i))
             continue;
         const double *n = work->part->part->normal_count ? s->normals + 3 * i : NULL;
-        ffd_deform_tangent(s->points[i]->gradient, t, n, t, NULL);
+        ffd_deform_tangent(s->gradients[i], t, n, t, NULL);
         take_direction(base, work->tile->tangents + 4 * i, t, s->offsets + 3 * i, &s->changed[i]);
     }
     write_offsets(work, MESH_TANGENTS);

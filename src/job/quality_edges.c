@@ -52,8 +52,9 @@ typedef struct edge_scratch {
     double *cells; /* TILE x SLOTS x links x 3: u,v,w counted in span cells; NaN: none, or not asked for */
     size_t requested;
     sample_request requests[BATCH];
-    double x[3 * BATCH], delta[3 * BATCH];
-    chain_point points[BATCH];
+    double x[3 * BATCH], delta[3 * BATCH]; /* delta: of all links */
+    double link_delta[3 * BATCH];
+    chain_note notes[BATCH];
     chain_scratch chain;
 } edge_scratch;
 
@@ -220,7 +221,7 @@ static void keep_cells(const edge_work *work, edge_scratch *scratch, size_t link
     const ffd_lattice *lattice = work->chain->links[link].lattice;
     for (size_t i = 0; i < scratch->requested; i++) {
         const sample_request *request = &scratch->requests[i];
-        const double *uvw = scratch->points[i].uvw;
+        const double *uvw = scratch->chain.locations[i].uvw;
         double *cell = cells_of(work, scratch, request->edge, request->slot) + 3 * link;
         for (int a = 0; a < 3; a++)
             cell[a] = isfinite(uvw[a]) ? cell_coordinate(&lattice->knots[a], uvw[a]) : NAN;
@@ -239,14 +240,14 @@ static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
         chain_run run = {.x = scratch->x,
                          .count = scratch->requested,
                          .scratch = &scratch->chain,
-                         .points = scratch->points};
+                         .delta = scratch->link_delta,
+                         .notes = scratch->notes};
         const ffd_status status = ffd_chain_apply(&link, 1, &run, NULL);
         if (status)
             return status;
         keep_cells(work, scratch, k);
-        for (size_t i = 0; i < scratch->requested; i++)
-            for (size_t a = 0; a < 3; a++)
-                scratch->delta[3 * i + a] += scratch->points[i].delta[a];
+        for (size_t i = 0; i < 3 * scratch->requested; i++)
+            scratch->delta[i] += scratch->link_delta[i];
     }
     for (size_t i = 0; i < scratch->requested; i++)
         keep_sample(&scratch->requests[i], scratch->delta + 3 * i, scratch);

@@ -9,34 +9,37 @@
 #define PASS_TILE VERTEX_PLACES /* at most */
 
 /* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place and
-   points stand one behind the other. */
+   what the chain says stand one behind the other. */
 typedef struct shape_scratch {
     double offsets[3 * PASS_TILE]; /* as the file has them, then what becomes of them */
     double place[3 * PASS_TILE];
     size_t moved[PASS_TILE];
     size_t moved_count;
-    chain_point moved_points[PASS_TILE];
-    const chain_point *points[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
-    double base[3 * PASS_TILE];           /* positions or directions without the target */
-    double normals[3 * PASS_TILE];        /* deformed, with the target */
+    double moved_delta[3 * PASS_TILE], moved_gradient[9 * PASS_TILE];
+    chain_note moved_notes[PASS_TILE];
+    const double *gradients[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
+    double base[3 * PASS_TILE];         /* positions or directions without the target */
+    double normals[3 * PASS_TILE];      /* deformed, with the target */
     double tangents[4 * PASS_TILE];
     uint8_t changed[PASS_TILE];
 } shape_scratch;
 
 /* What one worker needs for a tile. */
 typedef struct tile_scratch {
-    double raw[3 * PASS_TILE];   /* positions as the file has them */
-    double place[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
-    double before[3 * PASS_TILE];
-    size_t chosen[PASS_TILE]; /* vertices of the tile that are selected */
+    double raw[3 * PASS_TILE]; /* positions as the file has them */
+    bool all_chosen;           /* all vertices of the tile are selected; else those are that are listed */
+    uint32_t chosen[PASS_TILE];
     size_t chosen_count;
     chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
-    chain_point points[PASS_TILE];
+    /* Of the chosen ones, one behind the other, until they are spread to where they stand in the tile. */
+    double place[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
+    double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
+    chain_note notes[PASS_TILE];
     uint8_t changed[PASS_TILE];
     vertex_places places;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
-    uint32_t of_points[PASS_TILE]; /* the points that normals or tangents stand at */
+    uint32_t of_points[PASS_TILE]; /* the points that normals stand at, where they are not one a vertex */
     uint8_t outcomes[PASS_TILE];   /* what became of these */
     shape_scratch *shape;          /* NULL where the document has no morph targets */
     ffd_status status;             /* of the first tile of this worker that failed, and what it said */
@@ -52,6 +55,12 @@ typedef struct part_work {
     pass_totals *tiles;    /* what each tile adds */
     atomic_bool stopped;   /* a tile failed: the others need not be looked at */
 } part_work;
+
+/* The vertex of the tile that the chosen one with this number is. */
+static inline size_t ffd_tile_chosen(const tile_scratch *scratch, size_t i)
+{
+    return scratch->all_chosen ? i : scratch->chosen[i];
+}
 
 /* Whether the file's numbers can hold the position. */
 bool ffd_tile_fits_file(const mesh_document *document, const double p[3]);

@@ -28,17 +28,25 @@ void ffd_vertex_places_read(const mesh_document *document, size_t part, size_t f
 /* That of vertex first + i. Lent by places and the part. */
 vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i);
 
+/* Takes a point from the file's space to the lattice's. */
+static inline void ffd_vertex_place_point(const vertex_place *place, double p[3])
+{
+    if (place->identity)
+        return;
+    mat_apply(place->linear, p, p);
+    for (int a = 0; a < 3; a++)
+        p[a] += place->offset[a];
+}
+
 /* Takes a displacement from the lattice's space to the file's own: linear^{-1} delta; zeros where there is no
-   inverse. False where nothing is displaced. */
-static inline bool ffd_displacement_bring_back(const vertex_place *place, const double delta[3],
-                                               double own[3])
+   inverse. */
+static inline void ffd_displacement_bring_back(const vertex_place *place, double delta[3])
 {
     const bool moves = !place->singular && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
-    for (int a = 0; a < 3; a++)
-        own[a] = moves ? delta[a] : 0;
+    for (int a = 0; a < 3 && !moves; a++)
+        delta[a] = 0;
     if (moves && !place->identity)
-        mat_apply(place->inverse, own, own);
-    return moves;
+        mat_apply(place->inverse, delta, delta);
 }
 
 /* Takes a gradient E from the lattice's space to the file's own: linear^{-1} E linear. 0 where there is no

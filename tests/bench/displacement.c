@@ -86,8 +86,6 @@ static void run_batches(sample *s)
                                           .which = s->which,
                                           .count = rest < DISPLACEMENT_BATCH ? rest : DISPLACEMENT_BATCH,
                                           .delta = s->delta,
-                                          .delta_step = 3,
-                                          .gradient_step = 9,
                                           .gradient = s->gradients ? s->gradient : NULL,
                                           .moves = s->moves};
         ffd_displacements(s->lattice, s->isa, &batch, &s->scratch);
@@ -126,13 +124,10 @@ static displacement_kernel *const kernels[] = {
 static void run_kernel_once(sample *s, const one_cell *one, size_t count)
 {
     const kernel_points points = {.uvw = one->uvw,
-                                  .stride = 3,
                                   .which = s->which,
                                   .count = count,
                                   .delta = s->delta,
-                                  .delta_step = 3,
                                   .gradient = s->gradients ? s->gradient : NULL,
-                                  .gradient_step = 9,
                                   .jacobian = one->cell.rest ? s->scratch.jacobian : NULL};
     kernels[s->isa](&one->cell, &points);
 }

@@ -13,10 +13,9 @@
 
 #define ROUNDS 4000
 #define MOST 41
-#define STRIDE 11
 
 typedef struct sample {
-    double gradients[STRIDE * MOST + 1], directions[4 * MOST + 1], normals[3 * MOST + 1];
+    double gradients[9 * MOST + 1], directions[4 * MOST + 1], normals[3 * MOST + 1];
     uint32_t points[MOST];
     uint8_t outcomes[MOST];
 } sample;
@@ -55,7 +54,7 @@ static void draw_direction(draw *d, double v[3])
 static void expect(const attribute_batch *batch, const double *directions, bool tangents)
 {
     for (size_t i = 0; i < batch->count; i++) {
-        const double *const gradient = batch->gradients + batch->points[i] * batch->stride;
+        const double *const gradient = batch->gradients + 9 * (batch->points ? batch->points[i] : i);
         const double *const normal = batch->normals ? batch->normals + 3 * i : NULL;
         double result[3];
         int collapsed;
@@ -78,15 +77,14 @@ static void check_batch(draw *d, sample *s, size_t counts[3])
     const size_t odd = (size_t)draw_int(d, 0, 1);
     const bool tangents = draw_int(d, 0, 1);
     const attribute_batch batch = {.gradients = s->gradients + odd,
-                                   .stride = draw_int(d, 0, 1) ? 9 : STRIDE,
-                                   .points = s->points,
+                                   .points = draw_int(d, 0, 1) ? s->points : NULL,
                                    .count = (size_t)draw_int(d, 0, MOST),
                                    .directions = s->directions + odd,
                                    .step = tangents ? 4 : 3,
                                    .normals = tangents && draw_int(d, 0, 3) ? s->normals + odd : NULL,
                                    .outcomes = s->outcomes};
     for (size_t i = 0; i < MOST; i++) {
-        draw_gradient(d, s->gradients + odd + i * batch.stride);
+        draw_gradient(d, s->gradients + odd + 9 * i);
         draw_direction(d, before + i * batch.step);
         draw_direction(d, s->normals + odd + 3 * i);
         s->points[i] = (uint32_t)(draw_int(d, 0, 2) ? i : (size_t)draw_int(d, 0, MOST - 1));

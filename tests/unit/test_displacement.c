@@ -13,7 +13,6 @@
 
 #define LATTICES 60
 #define ROUNDS 6
-#define MOST_STEP 18
 
 static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
 
@@ -72,8 +71,8 @@ static void random_uvw(draw *d, const ffd_lattice *lattice, double uvw[3])
 }
 
 typedef struct sample {
-    double uvw[4 * DISPLACEMENT_BATCH + 1], delta[MOST_STEP * DISPLACEMENT_BATCH + 1],
-        gradient[MOST_STEP * DISPLACEMENT_BATCH + 1];
+    double uvw[4 * DISPLACEMENT_BATCH + 1], delta[3 * DISPLACEMENT_BATCH + 1],
+        gradient[9 * DISPLACEMENT_BATCH + 1];
     uint8_t moves[DISPLACEMENT_BATCH];
     uint32_t which[DISPLACEMENT_BATCH];
     displacement_scratch scratch;
@@ -85,11 +84,10 @@ static void check_point(const ffd_lattice *lattice, const displacement_batch *ba
     double delta[3], gradient[9];
     const int moves =
         ffd_displacement(lattice, batch->uvw + n * batch->stride, delta, batch->gradient ? gradient : NULL);
-    if (moves != batch->moves[n] || memcmp(delta, batch->delta + batch->delta_step * n, sizeof delta) != 0 ||
-        (batch->gradient &&
-         memcmp(gradient, batch->gradient + batch->gradient_step * n, sizeof gradient) != 0))
+    if (moves != batch->moves[n] || memcmp(delta, batch->delta + 3 * n, sizeof delta) != 0 ||
+        (batch->gradient && memcmp(gradient, batch->gradient + 9 * n, sizeof gradient) != 0))
         fail_msg("%s: point %zu of %zu has another displacement than alone: %.17g %.17g", isa, n,
-                 batch->count, batch->delta[batch->delta_step * n], delta[0]);
+                 batch->count, batch->delta[3 * n], delta[0]);
 }
 
 /* Whole groups of every width and what is left over, at addresses of every kind. */
@@ -102,8 +100,6 @@ static void check_batch(draw *d, const ffd_lattice *lattice, sample *s)
                                 .stride = 3 + (size_t)draw_int(d, 0, 1),
                                 .which = s->which,
                                 .delta = s->delta + odd,
-                                .delta_step = draw_int(d, 0, 1) ? 3 : MOST_STEP,
-                                .gradient_step = draw_int(d, 0, 1) ? 9 : MOST_STEP,
                                 .gradient = draw_int(d, 0, 2) ? s->gradient + 1 - odd : NULL,
                                 .moves = s->moves};
     for (size_t n = 0; n < DISPLACEMENT_BATCH; n++) {

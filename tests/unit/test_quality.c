@@ -58,17 +58,21 @@ static void set_mesh(sample *s, size_t vertices, const double *positions, size_t
 static void apply(const lattice_chain *chain, double *x, size_t count, double *gradients)
 {
     chain_scratch *scratch = checked(ffd_alloc_zero(1, sizeof *scratch));
-    chain_point *points = checked(ffd_alloc(CHAIN_RUN, sizeof *points));
+    chain_note *notes = checked(ffd_alloc(CHAIN_RUN, sizeof *notes));
+    double *delta = checked(ffd_alloc(CHAIN_RUN, 3 * sizeof *delta));
     for (size_t first = 0; first < count; first += CHAIN_RUN) {
         const size_t size = count - first < CHAIN_RUN ? count - first : CHAIN_RUN;
-        chain_run run = {
-            .x = x + 3 * first, .count = size, .gradients = gradients, .scratch = scratch, .points = points};
+        chain_run run = {.x = x + 3 * first,
+                         .count = size,
+                         .scratch = scratch,
+                         .delta = delta,
+                         .gradient = gradients ? gradients + 9 * first : NULL,
+                         .notes = notes};
         assert_int_equal(ffd_chain_apply(chain, chain->count, &run, NULL), FFD_OK);
-        for (size_t i = 0; gradients && i < size; i++)
-            memcpy(gradients + 9 * (first + i), points[i].gradient, sizeof points[i].gradient);
     }
     ffd_free(scratch);
-    ffd_free(points);
+    ffd_free(delta);
+    ffd_free(notes);
 }
 
 static void deform(sample *s)
