@@ -108,18 +108,21 @@ static void compose(double gradient[9], const double next[9])
         gradient[i] = gradient[i] + next[i] + product[i];
 }
 
-static chain_note note_of(const ffd_lattice *lattice, const ffd_location *location)
+/* Member by member: a record that is made on the stack and copied has to wait for its own bytes. */
+static void make_note(const ffd_lattice *lattice, const ffd_location *location, chain_note *note)
 {
     const bool invalid = location->status == FFD_POINT_INVALID;
     const bool placed = location->status != FFD_OUTSIDE && !invalid && vec_is_finite(location->uvw);
     const double relative = location->residual / lattice->diagonal;
-    return (chain_note){.residual_square = relative * relative,
-                        .evaluations = location->evaluations,
-                        .status = location->status,
-                        .located = placed,
-                        .outside = !placed && !invalid,
-                        .multiple = location->status == FFD_MULTIPLE,
-                        .unresolved = location->unresolved};
+    note->residual_square = relative * relative;
+    note->evaluations = location->evaluations;
+    note->status = location->status;
+    note->moved = false;
+    note->located = placed;
+    note->outside = !placed && !invalid;
+    note->multiple = location->status == FFD_MULTIPLE;
+    note->unresolved = location->unresolved;
+    note->extended = false;
 }
 
 static void join_note(const chain_note *now, chain_note *note)
@@ -173,23 +176,19 @@ static ffd_status extend(const chain_link *link, const chain_run *run, const dis
 static ffd_status note_locations(const chain_link *link, bool is_first, const chain_run *run,
                                  displacement_batch *batch, ffd_error *error)
 {
-    size_t placed = 0;
-    for (size_t i = 0; i < run->count; i++) {
-        const chain_note note = note_of(link->lattice, &run->scratch->locations[i]);
-        if (is_first)
-            run->notes[i] = note;
+    const ffd_location *const locations = run->scratch->locations;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < run->count && !status; i++) {
+        chain_note later, *const note = is_first ? &run->notes[i] : &later;
+        make_note(link->lattice, &locations[i], note);
+        if (!is_first)
+            join_note(note, &run->notes[i]);
+        if (note->located)
+            run->scratch->inside[batch->count++] = (uint32_t)i;
         else
-            join_note(&note, &run->notes[i]);
-        run->scratch->inside[placed] = (uint32_t)i;
-        placed += note.located;
-        if (note.located)
-            continue;
-        const ffd_status status = extend(link, run, batch, i, error);
-        if (status)
-            return status;
+            status = extend(link, run, batch, i, error);
     }
-    batch->count = placed;
-    return FFD_OK;
+    return status;
 }
 
 /* to + delta; where that is 0 the bits stay. */
