@@ -41,6 +41,20 @@ static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, 
         combine_rows(extraction, order, inner, from + first, to + first);
 }
 
+/* Weighs the Bezier points along a direction. */
+static ALWAYS_INLINE void weigh_slabs(size_t order, size_t inner, size_t count, double *points)
+{
+    for (double *row = points; row < points + count;) {
+        double binomial = 1;
+        for (size_t r = 0; r < order; row += inner) {
+            for (size_t x = 0; x < inner; x++)
+                row[x] = binomial * row[x];
+            r++;
+            binomial = binomial * (double)(order - r) / (double)r;
+        }
+    }
+}
+
 static void extract_cubic(const double *const extraction[3], double *points)
 {
     double by_u[3 * 64 + 1], by_v[3 * 64];
@@ -48,6 +62,9 @@ static void extract_cubic(const double *const extraction[3], double *points)
         combine_points(extraction[0], points + 12 * row, by_u + 12 * row);
     combine_slabs(extraction[1], 4, 12, 3 * 64, by_u, by_v);
     combine_slabs(extraction[2], 4, 48, 3 * 64, by_v, points);
+    weigh_slabs(4, 3, 3 * 64, points);
+    weigh_slabs(4, 12, 3 * 64, points);
+    weigh_slabs(4, 48, 3 * 64, points);
 }
 
 void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3], double *points)
@@ -63,6 +80,7 @@ void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3
     for (int a = 0; a < 3; a++) {
         memcpy(old, points, count * sizeof *old);
         combine_slabs(extraction[a], order[a], inner, count, old, points);
+        weigh_slabs(order[a], inner, count, points);
         inner *= order[a];
     }
 }

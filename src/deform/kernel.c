@@ -1,8 +1,9 @@
 /* kernel.c - compiled once for each instruction set: FFD_KERNEL is the function's name, FFD_LANES the number
    of points that it has in hand at a time.
 
-   The Bernstein polynomials are all >= 0, and exact at both ends of the span (P&T 1.3). The tensor product is
-   summed u first, then v, then w, each in ascending index (P&T A4.3's order by separation). */
+   The functions t^i (1-t)^(d-i) are all >= 0, and exact at both ends of the span; the binomial coefficients
+   that make them Bernstein polynomials stand in the points (P&T 1.3). The tensor product is summed u first,
+   then v, then w, each in ascending index (P&T A4.3's order by separation). */
 #include "deform/kernel.h"
 #if FFD_LANES == 1
 #include "base/inline.h"
@@ -12,7 +13,7 @@ typedef double lanes;
 #include "base/lanes.h"
 #endif
 
-/* The d+1 Bernstein polynomials of a span and their derivatives by the knots' parameter. */
+/* The d+1 functions of a span and their derivatives by the knots' parameter. */
 typedef struct span_basis {
     lanes value[MAX_ORDER], derivative[MAX_ORDER];
 } span_basis;
@@ -23,43 +24,41 @@ typedef struct field_sum {
     lanes part[4][3];
 } field_sum;
 
-/* From the Bernstein polynomials of degree - 1 to those of this degree, in place (P&T A1.3). */
-static ALWAYS_INLINE void raise_bernstein(int degree, lanes t, lanes rest, lanes *value)
+/* From t^i (1-t)^(d-1-i) to t^i (1-t)^(d-i), in place. */
+static ALWAYS_INLINE void raise_powers(int degree, lanes t, lanes rest, lanes *power)
 {
-    lanes from_left = value[0] * t;
-    value[0] = value[0] * rest;
-    for (int r = 1; r < degree; r++) {
-        const lanes lower = value[r];
-        value[r] = from_left + lower * rest;
-        from_left = lower * t;
-    }
-    value[degree] = from_left;
+    power[degree] = power[degree - 1] * t;
+    for (int i = 0; i < degree; i++)
+        power[i] = power[i] * rest;
+}
+
+/* Their derivatives are i t^(i-1) (1-t)^(d-i) - (d-i) t^i (1-t)^(d-i-1). */
+static ALWAYS_INLINE void find_slopes(int degree, double width, const lanes *lower, lanes *slope)
+{
+    const double factor = 1 / width;
+    slope[0] = -degree * factor * lower[0];
+    for (int i = 1; i < degree; i++)
+        slope[i] = i * factor * lower[i - 1] - (degree - i) * factor * lower[i];
+    slope[degree] = degree * factor * lower[degree - 1];
 }
 
 static ALWAYS_INLINE void find_basis(const kernel_cell *cell, int a, int degree, lanes u, bool derivatives,
                                      span_basis *basis)
 {
     const lanes t = (u - cell->first[a]) / cell->width[a], rest = 1.0 - t;
-    lanes *const value = basis->value, *const slope = basis->derivative;
-    value[0] = rest;
-    value[1] = t;
+    lanes *const power = basis->value;
+    power[0] = rest;
+    power[1] = t;
     for (int d = 2; d < degree; d++)
-        raise_bernstein(d, t, rest, value);
-    if (derivatives) {
-        /* B'_r = d (B_{r-1} - B_r), these of degree d - 1 (P&T 1.4). */
-        const double factor = degree / cell->width[a];
-        if (degree == 1) {
-            slope[0] = t * 0.0 - factor;
-            slope[1] = t * 0.0 + factor;
-        } else {
-            slope[0] = -factor * value[0];
-            for (int r = 1; r < degree; r++)
-                slope[r] = factor * (value[r - 1] - value[r]);
-            slope[degree] = factor * value[degree - 1];
-        }
+        raise_powers(d, t, rest, power);
+    if (derivatives && degree > 1) {
+        find_slopes(degree, cell->width[a], power, basis->derivative);
+    } else if (derivatives) {
+        basis->derivative[0] = t * 0.0 - 1 / cell->width[a];
+        basis->derivative[1] = t * 0.0 + 1 / cell->width[a];
     }
     if (degree > 1)
-        raise_bernstein(degree, t, rest, value);
+        raise_powers(degree, t, rest, power);
 }
 
 /* The basis function's share in a sum of the next direction; parts are those that term has. */

@@ -13,7 +13,7 @@
 typedef struct kernel_cell {
     int degree[3];
     double first[3], width[3]; /* the span's first knot and length */
-    const double *difference;  /* Q - P as the cell's Bezier points, u fastest, 3 numbers each */
+    const double *difference;  /* Q - P as the cell's weighted Bezier points, u fastest, 3 numbers each */
     const double *rest;        /* P likewise; needed for the Jacobian */
     const double *inverse;     /* d uvw / d p, 3 x 3, where it is the same everywhere; else NULL */
 } kernel_cell;
@@ -29,8 +29,9 @@ typedef struct kernel_points {
     double *jacobian; /* 9 a point, d p_r / d uvw_c; or NULL. Not without the gradient. */
 } kernel_points;
 
-/* Turns a cell's control points, u fastest and 3 numbers each, into its Bezier points. extraction: of the
-   span in each direction (basis.h). One number behind the points is read. */
+/* Turns a cell's control points, u fastest and 3 numbers each, into its Bezier points, those with the
+   index i along a direction of degree d times binomial(d, i). extraction: of the span in each direction
+   (basis.h). One number behind the points is read. */
 typedef void extraction_kernel(const int degree[3], const double *const extraction[3], double *points);
 
 /* One function for each instruction set, all of the same source: a point is a lane, and its operations are
