@@ -1,4 +1,5 @@
 #include "job/chain.h"
+#include "base/array_kernel.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "base/vec.h"
@@ -191,18 +192,11 @@ static ffd_status note_locations(const chain_link *link, bool is_first, const ch
     return status;
 }
 
-/* to + delta; where that is 0 the bits stay. */
-static void add_displacements(const double *delta, size_t count, double *to)
-{
-    for (size_t k = 0; k < 3 * count; k++)
-        to[k] = delta[k] != 0 ? to[k] + delta[k] : to[k];
-}
-
 /* What a link after the first does comes to what is there. */
-static void add_link(const chain_run *run)
+static void add_link(const chain_run *run, const array_kernel *arrays)
 {
     const chain_scratch *scratch = run->scratch;
-    add_displacements(scratch->delta, run->count, run->delta);
+    arrays->add(scratch->delta, 3 * run->count, run->delta);
     for (size_t i = 0; i < run->count && run->gradient; i++) {
         const double *const next = scratch->gradient + 9 * i;
         if (scratch->moves[i] && run->notes[i].moved)
@@ -216,14 +210,15 @@ static ffd_status apply_link(const lattice_chain *chain, size_t l, const chain_r
 {
     const chain_link *link = &chain->links[l];
     chain_scratch *scratch = run->scratch;
+    const array_kernel *const arrays = ffd_array_kernel(chain->isa);
     displacement_batch batch = begin_batch(run, l);
     const ffd_status status = note_locations(link, l == 0, run, &batch, error);
     if (status)
         return status;
     ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
-    add_displacements(batch.delta, run->count, run->x);
+    arrays->add(batch.delta, 3 * run->count, run->x);
     if (l > 0)
-        add_link(run);
+        add_link(run, arrays);
     for (size_t i = 0; i < run->count; i++)
         run->notes[i].moved |= scratch->moves[i];
     return FFD_OK;

@@ -1,3 +1,4 @@
+#include "base/array_kernel.h"
 #include "base/memory.h"
 #include "base/thread.h"
 #include "base/vec.h"
@@ -86,33 +87,14 @@ static void bring_back(const part_work *work, tile_scratch *scratch, size_t coun
     }
 }
 
-/* Adds the displacements to the positions that the file has. A coordinate whose displacement is 0 keeps its
-   bits. Returns whether the file's numbers can hold the positions that changed. */
-static bool move_positions(tile_scratch *scratch, size_t count, double largest)
-{
-    bool all_fit = true;
-    for (size_t i = 0; i < count; i++) {
-        const double *const delta = scratch->delta + 3 * i;
-        double *const p = scratch->raw + 3 * i;
-        bool changed = false, fits = true;
-        for (int a = 0; a < 3; a++) {
-            const double moved = delta[a] != 0 ? p[a] + delta[a] : p[a];
-            changed |= (delta[a] != 0) & (moved != p[a]);
-            fits &= fabs(moved) <= largest;
-            p[a] = moved;
-        }
-        scratch->changed[i] = changed;
-        all_fit &= fits | !changed;
-    }
-    return all_fit;
-}
-
 /* Positions of a tile: handed back. */
 static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                              pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
-    const bool fit = move_positions(scratch, count, largest_coordinate(pass->document));
+    const bool fit = ffd_array_kernel(pass->chain->isa)
+                         ->displace(scratch->delta, count, largest_coordinate(pass->document), scratch->raw,
+                                    scratch->changed);
     for (size_t i = 0; i < count; i++)
         totals->moved += scratch->changed[i];
     for (size_t i = 0; i < count && !fit && totals->first_overflow == UINT64_MAX; i++)

@@ -1,4 +1,5 @@
 #include "job/pass_totals.h"
+#include "base/array_kernel.h"
 #include "base/vec.h"
 #include <math.h>
 #include <string.h>
@@ -67,37 +68,15 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     all->deform_seconds += tile->deform_seconds;
 }
 
-/* Whether all numbers are finite; if so, the points widen the box. Two points at a time, which compilers make
-   vectors of. */
-static bool widen_by_finite(const double *points, size_t count, ffd_bounds *box)
+/* Finite points widen the box. Returns whether all were. */
+static bool widen_all(const part_work *work, const double *points, size_t count, ffd_bounds *box)
 {
-    double min[6], max[6], zero[6] = {0}; /* no longer 0 where something is not finite */
-    ffd_bounds all = *box;
-    size_t i = 0;
-    for (int c = 0; c < 6; c++) {
-        min[c] = box->min[c % 3];
-        max[c] = box->max[c % 3];
-    }
-    for (; i + 2 <= count; i += 2)
-        for (size_t c = 0; c < 6; c++) {
-            const double value = points[3 * i + c];
-            min[c] = lesser_of(min[c], value);
-            max[c] = larger_of(max[c], value);
-            zero[c] += 0 * value;
-        }
-    for (int c = 0; c < 6; c++)
-        if (!(zero[c] == 0))
-            return false;
-    if (i < count && !vec_is_finite(points + 3 * i))
-        return false;
-    if (i < count)
-        widen(points + 3 * i, &all);
-    for (int c = 0; c < 6; c++) {
-        all.min[c % 3] = lesser_of(all.min[c % 3], min[c]);
-        all.max[c % 3] = larger_of(all.max[c % 3], max[c]);
-    }
-    *box = all;
-    return true;
+    if (ffd_array_kernel(work->pass->chain->isa)->widen(points, count, box->min, box->max))
+        return true;
+    for (size_t i = 0; i < count; i++)
+        if (vec_is_finite(points + 3 * i))
+            widen(points + 3 * i, box);
+    return false;
 }
 
 static uint64_t number_of(const part_work *work, const tile_scratch *scratch, size_t first, size_t i)
@@ -109,12 +88,10 @@ void ffd_totals_count_rest(const part_work *work, const tile_scratch *scratch, s
                            pass_totals *totals)
 {
     totals->vertices += scratch->chosen_count;
-    if (widen_by_finite(scratch->place, scratch->chosen_count, &totals->before))
+    if (widen_all(work, scratch->place, scratch->chosen_count, &totals->before))
         return;
     for (size_t i = 0; i < scratch->chosen_count; i++)
-        if (vec_is_finite(scratch->place + 3 * i))
-            widen(scratch->place + 3 * i, &totals->before);
-        else
+        if (!vec_is_finite(scratch->place + 3 * i))
             totals->first_invalid = least(totals->first_invalid, number_of(work, scratch, first, i));
 }
 
@@ -188,8 +165,5 @@ void ffd_totals_count_deformed(const part_work *work, const tile_scratch *scratc
 {
     count_notes(work, scratch, first, totals);
     count_displacements(work, scratch, totals);
-    if (!widen_by_finite(scratch->place, scratch->chosen_count, &totals->after))
-        for (size_t i = 0; i < scratch->chosen_count; i++)
-            if (vec_is_finite(scratch->place + 3 * i))
-                widen(scratch->place + 3 * i, &totals->after);
+    widen_all(work, scratch->place, scratch->chosen_count, &totals->after);
 }

@@ -11,6 +11,7 @@
 #include "deform/displacement.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "base/array_kernel.h"
 #include "base/clock.h"
 #include "deform/displacement_cell.h"
 #include <math.h>
@@ -146,15 +147,14 @@ static void run_kernel(sample *s)
 /* The same from one array of floats to another. */
 static void run_kernel_on_floats(sample *s)
 {
+    const array_kernel *const arrays = ffd_array_kernel(s->isa);
     one_cell one;
     begin_cell(s, &one);
     for (size_t first = 0, count; first < s->count; first += count) {
         count = s->count - first < KERNEL_BATCH ? s->count - first : KERNEL_BATCH;
-        for (size_t c = 0; c < 3 * count; c++)
-            one.uvw[c] = s->from[3 * first + c];
+        arrays->read_floats((const unsigned char *)(s->from + 3 * first), 3 * count, one.uvw);
         run_kernel_once(s, &one, count);
-        for (size_t c = 0; c < 3 * count; c++)
-            s->to[3 * first + c] = (float)s->delta[c];
+        arrays->round(s->delta, 3 * count, s->to + 3 * first);
     }
 }
 

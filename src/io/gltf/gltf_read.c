@@ -1,3 +1,4 @@
+#include "base/array_kernel.h"
 #include "base/little_endian.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
@@ -166,6 +167,10 @@ static void read_sparse(const gltf_document *d, const gltf_accessor *accessor, s
 /* The commonest: vectors of floats. */
 static void read_vectors(const unsigned char *at, size_t stride, size_t count, double *xyz)
 {
+    if (stride == 3 * sizeof(float)) {
+        ffd_array_kernel(FFD_ISA_AUTO)->read_floats(at, 3 * count, xyz);
+        return;
+    }
     for (size_t i = 0; i < count; i++, at += stride, xyz += 3) {
         xyz[0] = read_float(at);
         xyz[1] = read_float(at + 4);

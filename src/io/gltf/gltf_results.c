@@ -1,3 +1,4 @@
+#include "base/array_kernel.h"
 #include "base/memory.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_encode.h"
@@ -177,9 +178,8 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
     const bool plain = is_plain(d, stream, semantic), whole = !memchr(changed, 0, count);
     if (stream->is_there)
         begin_tiles(d, part, stream, first, first + count, whole);
-    if (whole && plain && components == 3) /* nearly always: compilers make vectors of it */
-        for (size_t k = 0; k < 3 * count; k++)
-            stream->result[3 * first + k] = (float)values[k];
+    if (whole && plain && components == 3) /* nearly always */
+        ffd_array_kernel(FFD_ISA_AUTO)->round(values, 3 * count, stream->result + 3 * first);
     else
         write_changed(d, stream, plain, first, count, values, components, changed);
     for (size_t t = first / MESH_RANGE_STEP; t <= (first + count - 1) / MESH_RANGE_STEP; t++)

@@ -1,0 +1,34 @@
+/* array_kernel.h - loops over many numbers, compiled once for each instruction set: compilers make vectors of
+   them. Each number is treated by itself, so that all give the same bits. */
+#ifndef FFD_BASE_ARRAY_KERNEL_H
+#define FFD_BASE_ARRAY_KERNEL_H
+
+#include "base/isa.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct array_kernel {
+    /* Floats as files have them: little-endian, at any address. */
+    void (*read_floats)(const unsigned char *from, size_t count, double *to);
+    /* To the nearest float. */
+    void (*round)(const double *from, size_t count, float *to);
+    /* to[i] += terms[i] */
+    void (*add)(const double *terms, size_t count, double *to);
+    /* Widens the box by count points, 3 numbers each. Returns whether all of these are finite; else the box
+       stays. */
+    bool (*widen)(const double *points, size_t count, double min[3], double max[3]);
+    /* Adds a vector to each of count points; a coordinate whose displacement is 0 keeps its bits. changed: of
+       each point, 1 where it has another value than before, else 0. Returns whether each coordinate that has
+       is a number of `largest` at most. */
+    bool (*displace)(const double *vectors, size_t count, double largest, double *points, uint8_t *changed);
+} array_kernel;
+
+extern const array_kernel ffd_array_kernel_scalar;
+#ifdef FFD_X86
+extern const array_kernel ffd_array_kernel_sse2, ffd_array_kernel_avx2, ffd_array_kernel_avx512;
+#endif
+
+const array_kernel *ffd_array_kernel(ffd_isa isa);
+
+#endif
