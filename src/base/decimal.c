@@ -1,6 +1,9 @@
 #include "base/decimal.h"
+#include "base/decimal_kernel.h"
+#include "base/isa.h"
 #include "base/little_endian.h"
 #include <float.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
@@ -56,11 +59,7 @@ const char *ffd_decimal_parse(const char *first, const char *last, double *value
 
 __extension__ typedef unsigned __int128 uint128;
 
-#define MANTISSA_BITS 52
-#define LEAST_EXPONENT (-84) /* of the mantissa as a whole number */
-
-/* As many as LEAST_EXPONENT asks for. */
-static const uint64_t powers_of_five[] = {
+const uint64_t ffd_powers_of_five[POWERS_OF_FIVE] = {
     UINT64_C(1),
     UINT64_C(5),
     UINT64_C(25),
@@ -106,7 +105,7 @@ static int point_of(int exponent)
 static uint64_t shortest(uint64_t mantissa, int exponent, int point)
 {
     const int shift = 2 - exponent - point; /* 2 to 60: ten units fit in 64 bits */
-    const uint64_t five = powers_of_five[point];
+    const uint64_t five = ffd_powers_of_five[point];
     const uint128 scaled = (uint128)(4 * mantissa) * five;
     const uint64_t low = (uint64_t)scaled, unit = (uint64_t)1 << shift;
     const uint64_t whole = (uint64_t)(scaled >> 64) << (64 - shift) | low >> shift;
@@ -120,7 +119,6 @@ static uint64_t shortest(uint64_t mantissa, int exponent, int point)
 }
 
 #define DIGITS 17
-#define LEAST_OF_ALL UINT64_C(10000000000000000) /* number of 17 digits */
 #define EIGHT UINT32_C(100000000)
 
 /* Up to 24 characters, the first lowest. Registers: what was just written as bytes is slow to read as words.
@@ -146,18 +144,33 @@ static uint64_t eight_digits(uint32_t value)
     return tens | (pairs - 10 * tens) << 8;
 }
 
-/* The digits of a number of 16 or 17, and how many zeros they end with. */
-static characters digits_of(uint64_t number, int *zeros)
+/* The shortest digits of a number, as decimal_batch has them. */
+typedef struct number_digits {
+    uint64_t first, middle, low;
+} number_digits;
+
+static number_digits digits_of(uint64_t number)
+{
+    const uint32_t upper = (uint32_t)(number / EIGHT), first = upper / EIGHT;
+    return (number_digits){first, eight_digits(upper - first * EIGHT),
+                           eight_digits((uint32_t)(number - (uint64_t)upper * EIGHT))};
+}
+
+/* How many zeros they end with. */
+static int final_zeros(const number_digits *digits)
+{
+    return digits->low      ? __builtin_clzll(digits->low) / 8
+           : digits->middle ? 8 + __builtin_clzll(digits->middle) / 8
+                            : 16;
+}
+
+static characters characters_of(const number_digits *digits)
 {
     const uint64_t text = UINT64_C(0x3030303030303030);
-    const uint32_t high = (uint32_t)(number / EIGHT), first = high / EIGHT;
-    const uint64_t middle = eight_digits(high - first * EIGHT);
-    const uint64_t low = eight_digits((uint32_t)(number - (uint64_t)high * EIGHT));
-    const int shift = first ? 8 : 0; /* where there is one digit more */
-    *zeros = low ? __builtin_clzll(low) / 8 : middle ? 8 + __builtin_clzll(middle) / 8 : 16;
-    return (characters){{(middle << shift | first) + text,
-                         (low << shift | middle >> 1 >> (63 - shift)) + text,
-                         (low >> 1 >> (63 - shift)) + text}};
+    const int shift = digits->first ? 8 : 0; /* where there is one digit more */
+    return (characters){{(digits->middle << shift | digits->first) + text,
+                         (digits->low << shift | digits->middle >> 1 >> (63 - shift)) + text,
+                         (digits->low >> 1 >> (63 - shift)) + text}};
 }
 
 /* With a point behind the first 1 to 7. */
@@ -213,25 +226,89 @@ static char *put_number(char *to, const characters *digits, int count, int befor
                                : put_scientific(to, digits, count, before_point - 1);
 }
 
+static size_t put_digits(double value, const number_digits *digits, int point, char *text)
+{
+    const characters text_of = characters_of(digits);
+    const int length = digits->first ? DIGITS : DIGITS - 1;
+    *text = '-';
+    char *const first = text + (signbit(value) ? 1 : 0);
+    return (size_t)(put_number(first, &text_of, length - final_zeros(digits), length - point) - text);
+}
+
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
 {
     uint64_t bits;
-    int zeros;
     memcpy(&bits, &value, sizeof bits);
     const uint64_t hidden = (uint64_t)1 << MANTISSA_BITS, fraction = bits & (hidden - 1);
     const int exponent = (int)(bits >> MANTISSA_BITS & 0x7ff) - 1075;
     if (fraction == 0 || exponent < LEAST_EXPONENT || exponent >= 0)
         return 0;
     const int point = point_of(exponent);
-    const uint64_t number = shortest(fraction | hidden, exponent, point);
-    const characters digits = digits_of(number, &zeros);
-    const int length = number >= LEAST_OF_ALL ? DIGITS : DIGITS - 1;
-    *text = '-';
-    char *const first = text + (bits >> 63);
-    return (size_t)(put_number(first, &digits, length - zeros, length - point) - text);
+    const number_digits digits = digits_of(shortest(fraction | hidden, exponent, point));
+    return put_digits(value, &digits, point, text);
+}
+
+/* Numbers of a run that are that far from each other are near. */
+#define NEAR 8
+
+/* NULL where one number after the other is no slower. */
+static decimal_kernel *find_kernel(void)
+{
+#ifdef FFD_X86
+    if (ffd_isa_available(FFD_ISA_AVX512))
+        return ffd_decimal_kernel_avx512;
+#endif
+    return NULL;
+}
+
+/* Whether the run has the digits of a number now. It looks for them where the numbers before were near: of
+   an array that is gone through otherwise it would find many in vain. */
+static bool reach(decimal_run *run, const double *value)
+{
+    const double *const before = run->before;
+    run->before = value;
+    if (run->first && value >= run->first && value < run->first + DECIMAL_BATCH)
+        return true;
+    if (!run->kernel || !before || value < before || value - before > NEAR ||
+        run->end - value < (ptrdiff_t)DECIMAL_BATCH)
+        return false;
+    run->first = value;
+    run->kernel(value, &run->batch);
+    return true;
+}
+
+void ffd_decimal_run_begin(decimal_run *run, const double *end)
+{
+    run->first = run->before = NULL;
+    run->end = end;
+    run->kernel = find_kernel();
+}
+
+size_t ffd_decimal_run_format(decimal_run *run, const double *value, char text[FFD_NUMBER_CAPACITY])
+{
+    if (!reach(run, value))
+        return ffd_number_format(*value, text);
+    const size_t i = (size_t)(value - run->first);
+    const decimal_batch *const batch = &run->batch;
+    const number_digits digits = {batch->first[i], batch->middle[i], batch->low[i]};
+    if (batch->point[i] == 0)
+        return ffd_number_format(*value, text);
+    return put_digits(*value, &digits, (int)batch->point[i], text);
 }
 
 #else
+
+void ffd_decimal_run_begin(decimal_run *run, const double *end)
+{
+    (void)run;
+    (void)end;
+}
+
+size_t ffd_decimal_run_format(decimal_run *run, const double *value, char text[FFD_NUMBER_CAPACITY])
+{
+    (void)run;
+    return ffd_number_format(*value, text);
+}
 
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
 {

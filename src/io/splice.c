@@ -1,6 +1,5 @@
 #include "io/splice.h"
 #include "base/memory.h"
-#include "base/number.h"
 #include <string.h>
 
 #define BLOCK ((size_t)256 * 1024)
@@ -77,8 +76,13 @@ void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, 
     splice->copied = word.last;
 }
 
+static size_t format(decimal_run *run, const double *value, char *text)
+{
+    return run ? ffd_decimal_run_format(run, value, text) : ffd_number_format(*value, text);
+}
+
 /* Straight into the text: a mesh has millions of them. */
-static void replace_in_text(file_splice *splice, text_word word, double value)
+static void replace_in_text(file_splice *splice, text_word word, const double *value, decimal_run *run)
 {
     const size_t before = (size_t)(word.first - splice->copied);
     char *const room = ffd_buffer_room(splice->text, before + FFD_NUMBER_CAPACITY);
@@ -88,25 +92,25 @@ static void replace_in_text(file_splice *splice, text_word word, double value)
         *room = *splice->copied;
     else
         memcpy(room, splice->copied, before);
-    splice->text->size += before + ffd_number_format(value, room + before);
+    splice->text->size += before + format(run, value, room + before);
     splice->copied = word.last;
 }
 
-static void replace_number(file_splice *splice, text_word word, double value)
+static void replace_number(file_splice *splice, text_word word, const double *value, decimal_run *run)
 {
     char text[FFD_NUMBER_CAPACITY];
     if (splice->text)
-        replace_in_text(splice, word, value);
+        replace_in_text(splice, word, value, run);
     else
-        ffd_splice_replace(splice, word, text, ffd_number_format(value, text));
+        ffd_splice_replace(splice, word, text, format(run, value, text));
 }
 
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *before,
-                        const double *after, size_t count)
+                        const double *after, size_t count, decimal_run *run)
 {
     for (size_t i = 0; i < count; i++)
         if (memcmp(before + i, after + i, sizeof *after) != 0)
-            replace_number(splice, words[i], after[i]);
+            replace_number(splice, words[i], after + i, run);
 }
 
 ffd_status ffd_splice_end(file_splice *splice)

@@ -3,6 +3,7 @@
 #define FFD_IO_SPLICE_H
 
 #include "base/buffer.h"
+#include "base/decimal.h"
 #include "base/file.h"
 #include "io/text_scan.h"
 #include "mesh/mesh.h"
@@ -32,9 +33,10 @@ void ffd_splice_copy(file_splice *splice, const char *to);
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);
 /* Copies up to a word and writes bytes in its stead. */
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size);
-/* Writes those of count numbers that have other bits than before in the place of their words. */
+/* Writes those of count numbers that have other bits than before in the place of their words. run: of the
+   array of those that are after, or NULL. */
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *before,
-                        const double *after, size_t count);
+                        const double *after, size_t count, decimal_run *run);
 /* Copies the rest of the file, writes what is held back, frees, and tells whether all went well. */
 ffd_status ffd_splice_end(file_splice *splice);
 

@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
+#include "base/decimal.h"
 #include "base/number.h"
 #include <float.h>
 #include <locale.h>
@@ -240,13 +241,63 @@ static void test_read(void **state)
     (void)state;
 }
 
+/* A number as meshes have them, or any. */
+static double any_number(draw *d)
+{
+    switch (draw_int(d, 0, 5)) {
+    case 0:
+        return draw_int(d, -1000, 1000) / 16.0;
+    case 1:
+        return draw_int(d, -1000000, 1000000) / 1e4;
+    case 2:
+        return ldexp(draw_between(d, -1, 1), draw_int(d, -90, 60));
+    case 3:
+        return (float)draw_between(d, -10, 10);
+    case 4: {
+        static const double odd[] = {0,           -0.0, 1, -0.5, 1e300, -5e-324, HUGE_VAL, 4503599627370495.5,
+                                     1e15 + 0.125};
+        return odd[draw_int(d, 0, 8)];
+    }
+    default:
+        return draw_between(d, -10, 10);
+    }
+}
+
+/* The texts of an array's numbers, whichever of them are wanted and in whatever order, are those that they
+   have alone. */
+static void test_runs(void **state)
+{
+    enum { MOST = 200 };
+    draw d = {draw_seed()};
+    for (int round = 0; round < 5000; round++) {
+        const int count = draw_int(&d, 1, MOST), step = draw_int(&d, 1, 12), skipped = draw_int(&d, 0, 3);
+        double *const values = malloc((size_t)count * sizeof *values); /* nothing behind it is to be read */
+        decimal_run run;
+        assert_non_null(values);
+        for (int i = 0; i < count; i++)
+            values[i] = any_number(&d);
+        ffd_decimal_run_begin(&run, values + count);
+        for (int i = 0; i<count; i += step> 9 ? draw_int(&d, 1, step) : 1) {
+            char expected[FFD_NUMBER_CAPACITY], text[FFD_NUMBER_CAPACITY];
+            const int wanted = draw_int(&d, 0, 40) ? i : draw_int(&d, 0, count - 1);
+            if (skipped && draw_int(&d, 0, skipped))
+                continue;
+            const size_t size = ffd_number_format(values[wanted], expected);
+            assert_int_equal(ffd_decimal_run_format(&run, &values[wanted], text), size);
+            assert_memory_equal(text, expected, size);
+        }
+        free(values);
+    }
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_parse),         cmocka_unit_test(test_parse_float),
         cmocka_unit_test(test_stops_at_last), cmocka_unit_test(test_format),
         cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_shortest),
-        cmocka_unit_test(test_read),
+        cmocka_unit_test(test_read),          cmocka_unit_test(test_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

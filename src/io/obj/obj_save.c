@@ -21,10 +21,12 @@ typedef struct saver {
 typedef struct block_saver {
     const saver *all;
     file_splice splice;
+    decimal_run positions, directions;
 } block_saver;
 
 /* Replaces those of a statement's three numbers that have other bits than before. */
-static void replace_numbers(block_saver *s, obj_scan *scan, const double *before, const double *after)
+static void replace_numbers(block_saver *s, obj_scan *scan, const double *before, const double *after,
+                            decimal_run *run)
 {
     text_word words[3];
     size_t count = 0;
@@ -32,7 +34,7 @@ static void replace_numbers(block_saver *s, obj_scan *scan, const double *before
         return;
     while (count < 3 && ffd_obj_scan_word(scan, &words[count]))
         count++;
-    ffd_splice_numbers(&s->splice, words, before, after, count);
+    ffd_splice_numbers(&s->splice, words, before, after, count, run);
 }
 
 static void renumber_corners(block_saver *s, obj_walk *walk)
@@ -111,7 +113,8 @@ static void replace_normal(block_saver *s, obj_walk *walk)
     const size_t n = walk->normals.seen - 1;
     const uint32_t keeper = s->all->split.keeper[n];
     if (keeper != OBJ_NONE)
-        replace_numbers(s, &walk->scan, d->directions + 3 * n, d->new_directions + 3 * (size_t)keeper);
+        replace_numbers(s, &walk->scan, d->directions + 3 * n, d->new_directions + 3 * (size_t)keeper,
+                        &s->directions);
     if (n + 1 == d->normals && d->addition < d->input.size)
         add_normals(s->all, &s->splice);
 }
@@ -123,12 +126,17 @@ static void write_statement(block_saver *s, obj_walk *walk, size_t faces)
     const obj_document *d = all->document;
     const size_t v = walk->vertices.seen - 1;
     if (walk->scan.keyword == OBJ_VERTEX)
-        replace_numbers(s, &walk->scan, d->positions + 3 * v, d->new_positions + 3 * v);
+        replace_numbers(s, &walk->scan, d->positions + 3 * v, d->new_positions + 3 * v, &s->positions);
     else if (walk->scan.keyword == OBJ_NORMAL && all->split.keeper)
         replace_normal(s, walk);
     else if (walk->scan.keyword == OBJ_FACE && all->split.target &&
              (!d->selected_faces || d->selected_faces[faces - 1]))
         renumber_corners(s, walk);
+}
+
+static size_t pair_count(const obj_document *d)
+{
+    return d->pair_start[d->vertices];
 }
 
 static void make_block(const saver *all, size_t number, byte_buffer *text)
@@ -138,6 +146,9 @@ static void make_block(const saver *all, size_t number, byte_buffer *text)
     obj_walk walk;
     size_t faces = block->faces;
     ffd_splice_begin_part(&s.splice, block->first, block->last, text, NULL);
+    ffd_decimal_run_begin(&s.positions, all->document->new_positions + 3 * all->document->vertices);
+    if (all->split.keeper)
+        ffd_decimal_run_begin(&s.directions, all->document->new_directions + 3 * pair_count(all->document));
     ffd_obj_document_walk_block(all->document, number, &walk);
     while (ffd_obj_walk_next(&walk)) {
         faces += walk.scan.keyword == OBJ_FACE;

@@ -5,13 +5,18 @@ static void write_vertices(const off_document *d, file_splice *splice)
 {
     off_walk walk;
     off_vertex vertex;
+    decimal_run positions, directions;
     ffd_off_walk_begin(&d->header, &walk);
+    ffd_decimal_run_begin(&positions, d->new_positions + 3 * d->header.vertices);
+    if (d->new_directions)
+        ffd_decimal_run_begin(&directions, d->new_directions + 3 * d->header.vertices);
     for (size_t i = 0; splice->status == FFD_OK && i < d->header.vertices; i++) {
         ffd_off_walk_vertex(&walk, &vertex);
-        ffd_splice_numbers(splice, vertex.numbers, d->positions + 3 * i, d->new_positions + 3 * i, 3);
+        ffd_splice_numbers(splice, vertex.numbers, d->positions + 3 * i, d->new_positions + 3 * i, 3,
+                           &positions);
         if (d->new_directions)
             ffd_splice_numbers(splice, vertex.numbers + 3, d->directions + 3 * i, d->new_directions + 3 * i,
-                               3);
+                               3, &directions);
     }
 }
 
