@@ -98,7 +98,7 @@ static ffd_status check_corners(const obj_document *d, obj_walk *walk, block_fac
     text_word word;
     obj_corner corner;
     ffd_status status = FFD_OK;
-    while (status == FFD_OK) {
+    while (status == FFD_OK && !ffd_obj_scan_is_over(scan)) {
         size_t vertex;
         const bool plain = ffd_obj_scan_corner(scan, &corner);
         if (!plain && !ffd_obj_scan_word(scan, &word))

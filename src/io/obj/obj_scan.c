@@ -1,4 +1,5 @@
 #include "io/obj/obj_scan.h"
+#include "base/little_endian.h"
 #include <string.h>
 
 const unsigned char ffd_obj_classes[256] = {
@@ -122,9 +123,23 @@ static bool ends_word(const obj_scan *scan, const char *at, bool names)
     }
 }
 
+/* Where a plain text has the next character that may not be ordinary: one below '!'. */
+static const char *pass_ordinary(const char *at, const char *last)
+{
+    const uint64_t ones = UINT64_C(0x0101010101010101), tops = 0x80 * ones;
+    for (; last - at >= 8; at += 8) {
+        const uint64_t bytes = load_u64((const unsigned char *)at);
+        const uint64_t below = ~((bytes | tops) - '!' * ones) & ~bytes & tops;
+        if (below)
+            return at + __builtin_ctzll(below) / 8;
+    }
+    return at;
+}
+
 static text_word take_word(obj_scan *scan, bool names)
 {
-    const char *const first = scan->at, *const last = scan->last, *at = first;
+    const char *const first = scan->at, *const last = scan->last;
+    const char *at = scan->plain ? pass_ordinary(first, last) : first;
     while (at < last && (ffd_obj_class(at) == OBJ_ORDINARY || !ends_word(scan, at, names)))
         at++;
     scan->at = at;

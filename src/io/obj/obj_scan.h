@@ -79,6 +79,12 @@ static inline bool ffd_obj_scan_take(obj_scan *scan, const char *end)
     return true;
 }
 
+/* Whether the statement has no more arguments; it may have none where this is false too. */
+static inline bool ffd_obj_scan_is_over(const obj_scan *scan)
+{
+    return scan->at == scan->last || ffd_obj_class(scan->at) == OBJ_LINE_END;
+}
+
 /* The line end that starts at a character, given that one does: its length, 1 or 2. */
 size_t ffd_obj_line_end_size(const char *at, const char *last);
 
