@@ -52,13 +52,14 @@ typedef struct kept_cells {
 /* What a batch needs beside its results; of one thread. */
 typedef struct displacement_scratch {
     kept_cells kept;
-    double uvw[3 * DISPLACEMENT_BATCH], jacobian[9 * DISPLACEMENT_BATCH];
+    double jacobian[9 * DISPLACEMENT_BATCH];
     batch_cell cells[DISPLACEMENT_BATCH];
     size_t cell_count;
     batch_stretch stretches[DISPLACEMENT_BATCH + 1]; /* the last one only ends the one before */
     size_t stretch_count;
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* cells by their keys */
     uint32_t sorted[DISPLACEMENT_BATCH];      /* the wanted points' numbers, cell by cell */
+    double uvw[3 * DISPLACEMENT_BATCH];       /* and their places */
 } displacement_scratch;
 
 typedef struct displacement_batch {

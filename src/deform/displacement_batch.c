@@ -60,7 +60,13 @@ static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displac
                      scratch);
 }
 
-/* The wanted points in stretches. */
+/* Of the wanted point k. */
+static const double *uvw_of(const displacement_batch *batch, size_t k)
+{
+    return batch->uvw + batch->which[k] * batch->stride;
+}
+
+/* The wanted points in stretches, of which only the first point may have to be wrapped. */
 static void find_cells(const ffd_lattice *lattice, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
@@ -69,21 +75,33 @@ static void find_cells(const ffd_lattice *lattice, const displacement_batch *bat
     scratch->cell_count = 0;
     memset(scratch->buckets, 0xff, sizeof scratch->buckets);
     for (size_t k = 0; k < batch->count; k++) {
-        const size_t n = batch->which[k];
-        double *const uvw = scratch->uvw + 3 * n;
-        memcpy(uvw, batch->uvw + n * batch->stride, 3 * sizeof *uvw);
-        if (!range_holds(&range, uvw)) {
-            ffd_displacement_wrap(lattice, batch->uvw + n * batch->stride, uvw);
-            const size_t cell = find_cell(lattice, uvw, scratch, &range);
-            scratch->stretches[stretches++] = (batch_stretch){(uint32_t)k, (uint32_t)cell};
-        }
+        double inside[3];
+        if (range_holds(&range, uvw_of(batch, k)))
+            continue;
+        ffd_displacement_wrap(lattice, uvw_of(batch, k), inside);
+        const size_t cell = find_cell(lattice, inside, scratch, &range);
+        scratch->stretches[stretches++] = (batch_stretch){(uint32_t)k, (uint32_t)cell};
     }
     scratch->stretches[stretches].first = (uint32_t)batch->count;
     scratch->stretch_count = stretches;
 }
 
+/* Puts the wanted points [first, end), a stretch, behind those that their cell has. */
+static void add_stretch(const ffd_lattice *lattice, const displacement_batch *batch, size_t first, size_t end,
+                        batch_cell *cell, displacement_scratch *scratch)
+{
+    const size_t place = cell->first + cell->count;
+    double *const uvw = scratch->uvw + 3 * place;
+    memcpy(scratch->sorted + place, batch->which + first, (end - first) * sizeof *batch->which);
+    ffd_displacement_wrap(lattice, uvw_of(batch, first), uvw);
+    for (size_t k = first + 1; k < end; k++)
+        memcpy(uvw + 3 * (k - first), uvw_of(batch, k), 3 * sizeof *uvw);
+    cell->count += (uint32_t)(end - first);
+}
+
 /* Brings the points of each cell together, in their order. */
-static void sort_points(const displacement_batch *batch, displacement_scratch *scratch)
+static void sort_points(const ffd_lattice *lattice, const displacement_batch *batch,
+                        displacement_scratch *scratch)
 {
     const batch_stretch *const stretches = scratch->stretches;
     uint32_t first = 0;
@@ -94,13 +112,9 @@ static void sort_points(const displacement_batch *batch, displacement_scratch *s
         first += scratch->cells[c].count;
         scratch->cells[c].count = 0;
     }
-    for (size_t s = 0; s < scratch->stretch_count; s++) {
-        const uint32_t count = stretches[s + 1].first - stretches[s].first;
-        batch_cell *const cell = &scratch->cells[stretches[s].cell];
-        memcpy(scratch->sorted + cell->first + cell->count, batch->which + stretches[s].first,
-               count * sizeof *batch->which);
-        cell->count += count;
-    }
+    for (size_t s = 0; s < scratch->stretch_count; s++)
+        add_stretch(lattice, batch, stretches[s].first, stretches[s + 1].first,
+                    &scratch->cells[stretches[s].cell], scratch);
 }
 
 static void stay(const displacement_batch *batch, size_t n)
@@ -158,7 +172,7 @@ static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
     if (!control)
         return;
     ffd_displacement_cell_begin(lattice, of->span, batch->gradient, control, &cell);
-    const kernel_points points = {.uvw = scratch->uvw,
+    const kernel_points points = {.uvw = scratch->uvw + 3 * (size_t)of->first,
                                   .which = which,
                                   .count = of->count,
                                   .delta = batch->delta,
@@ -186,7 +200,7 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
     const kernel_pair *const kernel = &kernels[ffd_isa_resolve(isa)];
     begin_cells(lattice, batch->gradient, &scratch->kept);
     find_cells(lattice, batch, scratch);
-    sort_points(batch, scratch);
+    sort_points(lattice, batch, scratch);
     for (size_t c = 0; c < scratch->cell_count; c++)
         displace_cell(lattice, kernel, batch, &scratch->cells[c], scratch);
 }

@@ -5,6 +5,7 @@
    that make them Bernstein polynomials stand in the points (P&T 1.3). The tensor product is summed u first,
    then v, then w, each in ascending index (P&T A4.3's order by separation). */
 #include "deform/kernel.h"
+#include <string.h>
 #if FFD_LANES == 1
 #include "base/inline.h"
 #include <stdbool.h>
@@ -158,20 +159,13 @@ static ALWAYS_INLINE bool in_a_row(const uint32_t *which)
 }
 #endif
 
-static ALWAYS_INLINE void take(const kernel_points *points, const uint32_t *which, lanes uvw[3])
+static ALWAYS_INLINE void take(const double *uvw, lanes taken[3])
 {
 #if FFD_LANES == 1
     for (int a = 0; a < 3; a++)
-        uvw[a] = points->uvw[3 * (size_t)which[0] + (size_t)a];
+        taken[a] = uvw[a];
 #else
-    double triples[3 * FFD_LANES];
-    if (in_a_row(which)) {
-        lanes_load_triples(points->uvw + (size_t)which[0] * 3, uvw);
-        return;
-    }
-    for (int l = 0; l < FFD_LANES; l++)
-        memcpy(triples + 3 * l, points->uvw + 3 * (size_t)which[l], 3 * sizeof *triples);
-    lanes_load_triples(triples, uvw);
+    lanes_load_triples(uvw, taken);
 #endif
 }
 
@@ -227,12 +221,14 @@ static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], d
     put_matrix(product, to, which);
 }
 
+/* FFD_LANES points with these numbers. */
 static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
-                                   const uint32_t *which, bool derivatives, bool jacobian)
+                                   const double *places, const uint32_t *which, bool derivatives,
+                                   bool jacobian)
 {
     span_basis basis[3];
     lanes uvw[3];
-    take(points, which, uvw);
+    take(places, uvw);
     for (int a = 0; a < 3; a++)
         find_basis(cell, a, degree[a], uvw[a], derivatives, &basis[a]);
     if (!derivatives) {
@@ -258,13 +254,17 @@ static ALWAYS_INLINE void displace_all(const kernel_cell *cell, const int degree
 {
     size_t first = 0;
     for (; first + FFD_LANES <= points->count; first += FFD_LANES)
-        displace(cell, degree, points, points->which + first, derivatives, jacobian);
+        displace(cell, degree, points, points->uvw + 3 * first, points->which + first, derivatives, jacobian);
     if (first == points->count)
         return;
     uint32_t rest[FFD_LANES];
-    for (size_t l = 0; l < FFD_LANES; l++)
-        rest[l] = points->which[first + l < points->count ? first + l : first];
-    displace(cell, degree, points, rest, derivatives, jacobian);
+    double places[3 * FFD_LANES];
+    for (size_t l = 0; l < FFD_LANES; l++) {
+        const size_t k = first + l < points->count ? first + l : first;
+        rest[l] = points->which[k];
+        memcpy(places + 3 * l, points->uvw + 3 * k, 3 * sizeof *places);
+    }
+    displace(cell, degree, points, places, rest, derivatives, jacobian);
 }
 
 void FFD_KERNEL(const kernel_cell *cell, const kernel_points *points)
