@@ -8,8 +8,8 @@
 /* Whether a moved control point acts in the cell whose last knot intervals are span. */
 bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3]);
 
-/* Numbers that the Bezier points of a cell of the lattice take, for displacements alone or with gradients:
-   those of the differences and, where there is no inverse for all, those at rest. */
+/* Numbers that the weighted Bezier points of a cell of the lattice take, for displacements alone or with
+   gradients: those of the differences and, where there is no inverse for all, those at rest. */
 size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients);
 /* Finds them, and one more for the kernel's use, for the cell with these non-empty spans. Returns whether a
    moved control point acts in it; else nothing is written. */

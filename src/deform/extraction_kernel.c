@@ -1,6 +1,6 @@
 /* extraction_kernel.c - compiled once for each instruction set: FFD_EXTRACTION_KERNEL is the function's name.
-   From a cell's control points to its Bezier points (P&T 5.3): N_j = sum_r E_rj B_r, so that those along a
-   direction are sum_j E_rj P_j, in ascending j. */
+   From a cell's control points to its weighted Bezier points (P&T 5.3): N_j = sum_r E_rj B_r, so that those
+   along a direction are sum_j E_rj P_j, in ascending j; the rows of E are weighted. */
 #include "base/inline.h"
 #include "deform/kernel.h"
 #include <string.h>
@@ -41,27 +41,13 @@ static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, 
         combine_rows(extraction, order, inner, from + first, to + first);
 }
 
-/* The rows of an extraction, each times its binomial coefficient. */
-static ALWAYS_INLINE void weigh_rows(const double *restrict extraction, size_t order,
-                                     double *restrict weighted)
-{
-    double binomial = 1;
-    for (size_t r = 0; r < order; r++) {
-        for (size_t j = 0; j < order; j++)
-            weighted[r * order + j] = binomial * extraction[r * order + j];
-        binomial = binomial * (double)(order - 1 - r) / (double)(r + 1);
-    }
-}
-
 static void extract_cubic(const double *const extraction[3], double *points)
 {
-    double by_u[3 * 64 + 1], by_v[3 * 64], weighted[3][16];
-    for (int a = 0; a < 3; a++)
-        weigh_rows(extraction[a], 4, weighted[a]);
+    double by_u[3 * 64 + 1], by_v[3 * 64];
     for (size_t row = 0; row < 16; row++)
-        combine_points(weighted[0], points + 12 * row, by_u + 12 * row);
-    combine_slabs(weighted[1], 4, 12, 3 * 64, by_u, by_v);
-    combine_slabs(weighted[2], 4, 48, 3 * 64, by_v, points);
+        combine_points(extraction[0], points + 12 * row, by_u + 12 * row);
+    combine_slabs(extraction[1], 4, 12, 3 * 64, by_u, by_v);
+    combine_slabs(extraction[2], 4, 48, 3 * 64, by_v, points);
 }
 
 void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3], double *points)
@@ -70,14 +56,13 @@ void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3
         extract_cubic(extraction, points);
         return;
     }
-    double old[3 * CELL_POINTS], weighted[MAX_ORDER * MAX_ORDER];
+    double old[3 * CELL_POINTS];
     const size_t order[3] = {(size_t)degree[0] + 1, (size_t)degree[1] + 1, (size_t)degree[2] + 1};
     const size_t count = 3 * order[0] * order[1] * order[2];
     size_t inner = 3;
     for (int a = 0; a < 3; a++) {
         memcpy(old, points, count * sizeof *old);
-        weigh_rows(extraction[a], order[a], weighted);
-        combine_slabs(weighted, order[a], inner, count, old, points);
+        combine_slabs(extraction[a], order[a], inner, count, old, points);
         inner *= order[a];
     }
 }

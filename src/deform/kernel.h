@@ -29,9 +29,9 @@ typedef struct kernel_points {
     double *jacobian; /* 9 a point, d p_r / d uvw_c; or NULL. Not without the gradient. */
 } kernel_points;
 
-/* Turns a cell's control points, u fastest and 3 numbers each, into its Bezier points, those with the
-   index i along a direction of degree d times binomial(d, i). extraction: of the span in each direction
-   (basis.h). One number behind the points is read. */
+/* Turns a cell's control points, u fastest and 3 numbers each, into its weighted Bezier points: those with
+   the index i along a direction of degree d have the factor binomial(d, i). extraction: of the span in each
+   direction (basis.h). One number behind the points is read. */
 typedef void extraction_kernel(const int degree[3], const double *const extraction[3], double *points);
 
 /* One function for each instruction set, all of the same source: a point is a lane, and its operations are

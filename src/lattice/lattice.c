@@ -2,6 +2,7 @@
 #include "base/memory.h"
 #include "base/number.h"
 #include "base/vec.h"
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -105,23 +106,41 @@ static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
                     ffd_number_text(min[longest]).text, ffd_number_text(max[longest]).text, "xyz"[longest]);
 }
 
-static ffd_status fail_difference(const ffd_lattice *lattice, ffd_error *error)
+static ffd_status fail_difference(const ffd_lattice *lattice, size_t c, ffd_error *error)
 {
-    size_t c = 0;
-    while (isfinite(lattice->difference[c]))
-        c++;
     return ffd_fail(error, FFD_E_INVALID, "%s: the way from %s to %s is longer than numbers can hold",
                     name_of(lattice, FFD_VOLUME_DEFORMED, c / 3).text, ffd_number_text(lattice->rest[c]).text,
                     ffd_number_text(lattice->deformed[c]).text);
 }
 
+/* The largest that a number of a control point may be: times its binomial coefficients it is still one. */
+static double largest_number(const ffd_lattice *lattice)
+{
+    double largest = DBL_MAX;
+    for (int a = 0; a < 3; a++) {
+        const int degree = lattice->knots[a].degree;
+        double binomial = 1; /* the one in the middle */
+        for (int i = 0; i < degree / 2; i++)
+            binomial = binomial * (degree - i) / (i + 1);
+        largest /= binomial;
+    }
+    return largest;
+}
+
 static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
 {
     double *const difference = lattice->difference;
+    const double largest = largest_number(lattice);
     for (size_t c = 0; c < 3 * lattice->count; c++)
         difference[c] = lattice->deformed[c] - lattice->rest[c];
-    if (!all_finite(difference, 3 * lattice->count))
-        return fail_difference(lattice, error);
+    for (size_t c = 0; c < 3 * lattice->count; c++) {
+        if (!(fabs(difference[c]) <= largest))
+            return fail_difference(lattice, c, error);
+        if (!lattice->has_uvw_by_p && !(fabs(lattice->rest[c]) <= largest))
+            return ffd_fail(error, FFD_E_INVALID, "%s: %s is farther away than numbers can hold",
+                            name_of(lattice, FFD_VOLUME_REST, c / 3).text,
+                            ffd_number_text(lattice->rest[c]).text);
+    }
     for (size_t i = 0; i < lattice->count; i++)
         lattice->moved[i] =
             (difference[3 * i] != 0) | (difference[3 * i + 1] != 0) | (difference[3 * i + 2] != 0);

@@ -39,4 +39,8 @@ void ffd_bezier_extraction(const knot_vector *knots, int span, double matrix[MAX
    there is no memory. */
 double *ffd_bezier_extractions(const knot_vector *knots);
 
+/* Gives row r of each of them the factor binomial(d, r): what they then make of control points is multiplied
+   by t^r (1-t)^(d-r) instead of by a Bernstein polynomial. */
+void ffd_bezier_weigh(const knot_vector *knots, double *extractions);
+
 #endif

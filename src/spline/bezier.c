@@ -26,3 +26,16 @@ double *ffd_bezier_extractions(const knot_vector *knots)
     }
     return matrices;
 }
+
+void ffd_bezier_weigh(const knot_vector *knots, double *extractions)
+{
+    const size_t order = (size_t)knots->degree + 1;
+    for (size_t s = 0; s < knots->span_count; s++) {
+        double binomial = 1;
+        for (size_t r = 0; r < order; r++, extractions += order) {
+            for (size_t j = 0; j < order; j++)
+                extractions[j] *= binomial;
+            binomial = binomial * (double)(order - 1 - r) / (double)(r + 1);
+        }
+    }
+}

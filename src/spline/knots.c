@@ -255,8 +255,10 @@ ffd_status ffd_knots_make(knot_kind kind, int degree, size_t points, const doubl
     if (status)
         goto fail;
     knots->extractions = ffd_bezier_extractions(knots);
-    if (knots->extractions)
+    if (knots->extractions) {
+        ffd_bezier_weigh(knots, knots->extractions);
         return FFD_OK;
+    }
     status = ffd_fail_memory(error);
 fail:
     ffd_knots_free(knots);

@@ -30,7 +30,8 @@ typedef struct knot_vector {
     double *t;        /* functions + degree + 1 knots */
     int *spans;       /* the non-empty spans of the domain, ascending: indices s with t_s < t_{s+1} */
     size_t span_count;
-    double *extractions; /* the Bezier form of each non-empty span (basis.h), (degree + 1)^2 numbers each */
+    double *extractions; /* the weighted Bezier form of each non-empty span (basis.h), (degree + 1)^2 numbers
+                            each */
 } knot_vector;
 
 /* Makes the knots of a kind; list holds the knots or breakpoints of the two list kinds (list_count of them),

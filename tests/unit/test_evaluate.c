@@ -1,4 +1,5 @@
 #include "../support/lattice_by_hand.h"
+#include <ffd/deform.h>
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -311,6 +312,28 @@ static void test_refusals(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
+/* Points of a cubic cell are added up with factors of 27 at most: what these make of their numbers must be
+   numbers too. */
+static void test_far_points(void **state)
+{
+    (void)state;
+    static const double middle[3] = {0.5, 0.5, 0.5};
+    ffd_lattice *lattice = make(KNOTS_CLAMPED, 3, 3, 3, 4, 4, 4);
+    const size_t n = 3 * lattice_index(lattice, 1, 2, 1);
+    double delta[3], gradient[9];
+    lattice->rest[n] = 0;
+    lattice->deformed[n] = -7e306;
+    check_refusal(lattice, "deformed point 1,2,1: the way from 0 to -7e+306 is longer than numbers can hold");
+    lattice->rest[n] = lattice->deformed[n] = 7e306;
+    check_refusal(lattice, "rest point 1,2,1: 7e+306 is farther away than numbers can hold");
+    lattice->rest[n] = 0;
+    lattice->deformed[n] = 6.6e306;
+    finish(lattice);
+    assert_int_equal(ffd_displacement(lattice, middle, delta, gradient), 1);
+    assert_true(fabs(delta[0] / (6.6e306 * 27 / 512) - 1) <= 1e-14);
+    ffd_lattice_destroy(&lattice);
+}
+
 static void test_no_memory(void **state)
 {
     (void)state;
@@ -353,6 +376,7 @@ int main(void)
         cmocka_unit_test(test_difference_and_moved),
         cmocka_unit_test(test_diagonal_of_extreme_sizes),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_far_points),
         cmocka_unit_test(test_no_memory),
         cmocka_unit_test(test_without_points),
     };
