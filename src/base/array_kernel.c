@@ -26,8 +26,10 @@ static void round_to_floats(const double *restrict from, size_t count, float *re
 
 static void add(const double *restrict terms, size_t count, double *restrict to)
 {
-    for (size_t i = 0; i < count; i++)
-        to[i] += terms[i];
+    for (size_t i = 0; i < count; i++) {
+        const double sum = to[i] + terms[i];
+        to[i] = terms[i] != 0 ? sum : to[i];
+    }
 }
 
 /* What is found of groups of points, number by number. */
@@ -70,39 +72,43 @@ static bool widen(const double *points, size_t count, double min[3], double max[
     return true;
 }
 
-/* others: of each number, not 0 where it changes. Returns not 0 where one of these does not fit. */
-static int64_t displace_group(const double *restrict vectors, double largest, double *restrict numbers,
-                              int64_t *restrict others)
+/* What becomes of a number. */
+enum { OTHER = 1, UNFIT = 2 };
+
+/* first: the number of the group's first point. */
+static void displace_group(const double *restrict vectors, double largest, size_t first,
+                           double *restrict numbers, uint8_t *restrict changed, size_t *unfit)
 {
-    int64_t unfit = 0;
+    int64_t fates[NUMBERS], all = 0;
     for (size_t k = 0; k < NUMBERS; k++) {
         const double sum = numbers[k] + vectors[k], moved = vectors[k] != 0 ? sum : numbers[k];
-        const int64_t other = (vectors[k] != 0) & (moved != numbers[k]);
-        unfit |= other & !(fabs(moved) <= largest);
-        others[k] = other;
+        const int64_t is_other = (vectors[k] != 0) & (moved != numbers[k]);
+        const int64_t is_unfit = is_other & !(fabs(moved) <= largest);
+        fates[k] = is_other * OTHER | is_unfit * UNFIT;
+        all |= fates[k];
         numbers[k] = moved;
     }
-    return unfit;
+    for (size_t i = 0; i < GROUP; i++)
+        changed[i] = (uint8_t)((fates[3 * i] | fates[3 * i + 1] | fates[3 * i + 2]) & OTHER);
+    for (size_t k = NUMBERS; k-- > 0 && (all & UNFIT);)
+        if ((fates[k] & UNFIT) && first + k / 3 < *unfit)
+            *unfit = first + k / 3;
 }
 
-static bool displace(const double *vectors, size_t count, double largest, double *points, uint8_t *changed)
+static size_t displace(const double *vectors, size_t count, double largest, double *points, uint8_t *changed)
 {
     double last_vectors[NUMBERS] = {0}, last[NUMBERS] = {0};
-    int64_t others[NUMBERS], unfit = 0;
-    size_t first = 0;
-    for (; first + GROUP <= count; first += GROUP) {
-        unfit |= displace_group(vectors + 3 * first, largest, points + 3 * first, others);
-        for (size_t i = 0; i < GROUP; i++)
-            changed[first + i] = (uint8_t)(others[3 * i] | others[3 * i + 1] | others[3 * i + 2]);
-    }
+    uint8_t last_changed[GROUP];
+    size_t first = 0, unfit = count;
+    for (; first + GROUP <= count; first += GROUP)
+        displace_group(vectors + 3 * first, largest, first, points + 3 * first, changed + first, &unfit);
     const size_t left = count - first;
     memcpy(last_vectors, vectors + 3 * first, 3 * left * sizeof *last);
     memcpy(last, points + 3 * first, 3 * left * sizeof *last);
-    unfit |= displace_group(last_vectors, largest, last, others);
+    displace_group(last_vectors, largest, first, last, last_changed, &unfit);
     memcpy(points + 3 * first, last, 3 * left * sizeof *last);
-    for (size_t i = 0; i < left; i++)
-        changed[first + i] = (uint8_t)(others[3 * i] | others[3 * i + 1] | others[3 * i + 2]);
-    return unfit == 0;
+    memcpy(changed + first, last_changed, left);
+    return unfit;
 }
 
 const array_kernel FFD_ARRAY_KERNEL = {read_floats, round_to_floats, add, widen, displace};

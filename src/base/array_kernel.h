@@ -13,15 +13,15 @@ typedef struct array_kernel {
     void (*read_floats)(const unsigned char *from, size_t count, double *to);
     /* To the nearest float. */
     void (*round)(const double *from, size_t count, float *to);
-    /* to[i] += terms[i] */
+    /* to[i] += terms[i]; where that is 0 the bits stay. */
     void (*add)(const double *terms, size_t count, double *to);
     /* Widens the box by count points, 3 numbers each. Returns whether all of these are finite; else the box
        stays. */
     bool (*widen)(const double *points, size_t count, double min[3], double max[3]);
     /* Adds a vector to each of count points; a coordinate whose displacement is 0 keeps its bits. changed: of
-       each point, 1 where it has another value than before, else 0. Returns whether each coordinate that has
-       is a number of `largest` at most. */
-    bool (*displace)(const double *vectors, size_t count, double largest, double *points, uint8_t *changed);
+       each point, 1 where it has another value than before, else 0. Returns the first point of which a
+       coordinate that has is no number of `largest` at most; count: there is none. */
+    size_t (*displace)(const double *vectors, size_t count, double largest, double *points, uint8_t *changed);
 } array_kernel;
 
 extern const array_kernel ffd_array_kernel_scalar;

@@ -1,5 +1,5 @@
-/* decimal_kernel.c - compiled once for each instruction set with lanes: FFD_DECIMAL_KERNEL is the function's
-   name, FFD_LANES the number of numbers in hand at a time. Step by step it is decimal.c. */
+/* decimal_kernel.c - compiled for an instruction set with lanes: FFD_DECIMAL_KERNEL is the function's name,
+   FFD_LANES the number of numbers in hand at a time. Step by step it is decimal.c. */
 #include "base/decimal_kernel.h"
 #include "base/lanes.h"
 

@@ -23,11 +23,11 @@ typedef struct decimal_batch {
     uint64_t first[DECIMAL_BATCH], middle[DECIMAL_BATCH], low[DECIMAL_BATCH], point[DECIMAL_BATCH];
 } decimal_batch;
 
-/* One function for each instruction set that is faster by it than by one number after the other. */
+/* Of the one instruction set that is much faster by it than by one number after the other. */
 typedef void decimal_kernel(const double values[DECIMAL_BATCH], decimal_batch *batch);
 
 #ifdef FFD_X86
-decimal_kernel ffd_decimal_kernel_sse2, ffd_decimal_kernel_avx2, ffd_decimal_kernel_avx512;
+decimal_kernel ffd_decimal_kernel_avx512;
 #endif
 
 #endif

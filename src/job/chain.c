@@ -156,10 +156,11 @@ static ffd_status extend(const chain_link *link, const chain_run *run, const dis
                          size_t i, ffd_error *error)
 {
     boundary_point nearest;
-    double *const delta = batch->delta + 3 * i, *const gradient = batch->gradient + 9 * i;
+    double *const delta = batch->delta + 3 * i, *const gradient =
+                                                    batch->gradient ? batch->gradient + 9 * i : NULL;
     run->scratch->moves[i] = 0;
     memset(delta, 0, 3 * sizeof *delta);
-    if (batch->gradient)
+    if (gradient)
         memset(gradient, 0, 9 * sizeof *gradient);
     if (run->scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
         return FFD_OK;
@@ -168,8 +169,8 @@ static ffd_status extend(const chain_link *link, const chain_run *run, const dis
     if (status || !nearest.found)
         return status;
     run->notes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
-    run->scratch->moves[i] = (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff,
-                                                                 delta, batch->gradient ? gradient : NULL);
+    run->scratch->moves[i] =
+        (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
     return FFD_OK;
 }
 

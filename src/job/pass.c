@@ -92,14 +92,13 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
                              pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
-    const bool fit = ffd_array_kernel(pass->chain->isa)
-                         ->displace(scratch->delta, count, largest_coordinate(pass->document), scratch->raw,
-                                    scratch->changed);
+    const size_t unfit = ffd_array_kernel(pass->chain->isa)
+                             ->displace(scratch->delta, count, largest_coordinate(pass->document),
+                                        scratch->raw, scratch->changed);
     for (size_t i = 0; i < count; i++)
         totals->moved += scratch->changed[i];
-    for (size_t i = 0; i < count && !fit && totals->first_overflow == UINT64_MAX; i++)
-        if (scratch->changed[i] && !ffd_tile_fits_file(pass->document, scratch->raw + 3 * i))
-            totals->first_overflow = work->first_vertex + first + i;
+    if (unfit < count)
+        totals->first_overflow = work->first_vertex + first + unfit;
     if (pass->write)
         pass->document->format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
                                                 scratch->changed);

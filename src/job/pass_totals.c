@@ -68,7 +68,8 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
     all->deform_seconds += tile->deform_seconds;
 }
 
-/* Finite points widen the box. Returns whether all were. */
+/* Finite points widen the box (places that the chain brings beyond all numbers are refused as too large).
+   Returns whether all were. */
 static bool widen_all(const part_work *work, const double *points, size_t count, ffd_bounds *box)
 {
     if (ffd_array_kernel(work->pass->chain->isa)->widen(points, count, box->min, box->max))
@@ -122,7 +123,7 @@ static void count_notes(const part_work *work, const tile_scratch *scratch, size
         located += note->located;
         evaluations += note->evaluations;
         evaluations_max = note->evaluations > evaluations_max ? note->evaluations : evaluations_max;
-        if (note->status == FFD_INSIDE && !note->unresolved)
+        if (note->status == FFD_INSIDE)
             inside++;
         else
             count_other(note, number_of(work, scratch, first, i), totals);

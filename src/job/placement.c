@@ -71,6 +71,12 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->evaluations_max = totals->evaluations_max;
     result->before = totals->before;
     result->after = totals->after;
+    for (int a = 0; a < 3; a++) { /* of -0 and 0, which are equal, either may have been found first */
+        result->before.min[a] += 0.0;
+        result->before.max[a] += 0.0;
+        result->after.min[a] += 0.0;
+        result->after.max[a] += 0.0;
+    }
     result->displacement_max = sqrt(totals->displacement_square_max);
     result->displacement_rms =
         totals->vertices ? sqrt(totals->displacement_square_sum / (double)totals->vertices) : 0;

@@ -31,11 +31,8 @@ vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i);
 /* Takes a point from the file's space to the lattice's. */
 static inline void ffd_vertex_place_point(const vertex_place *place, double p[3])
 {
-    if (place->identity)
-        return;
-    mat_apply(place->linear, p, p);
-    for (int a = 0; a < 3; a++)
-        p[a] += place->offset[a];
+    if (!place->identity)
+        ffd_point_place(place->linear, place->offset, p);
 }
 
 /* Takes a displacement from the lattice's space to the file's own: linear^{-1} delta; zeros where there is no

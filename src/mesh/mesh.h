@@ -9,6 +9,7 @@
 #include "base/buffer.h"
 #include "base/file.h"
 #include "base/json_text.h"
+#include "base/vec.h"
 #include "mesh/model.h"
 #include "mesh/room.h"
 #include "mesh/selector.h"
@@ -103,6 +104,14 @@ typedef struct mesh_log {
     ffd_log_function function; /* may be NULL */
     void *user;
 } mesh_log;
+
+/* x = linear p + offset, in place. */
+static inline void ffd_point_place(const double linear[9], const double offset[3], double point[3])
+{
+    mat_apply(linear, point, point);
+    for (int a = 0; a < 3; a++)
+        point[a] += offset[a];
+}
 
 /* Takes the positions of a part's vertices [first, first + count) (3 doubles each) from the file's space to
    the lattice's: x = linear p + offset. Any thread. */

@@ -1,20 +1,12 @@
 #include "base/memory.h"
-#include "base/vec.h"
 #include "mesh/mesh.h"
 
 #define BLOCK ((size_t)64)
 
-static void place(const double linear[9], const double offset[3], double point[3])
-{
-    mat_apply(linear, point, point);
-    for (int a = 0; a < 3; a++)
-        point[a] += offset[a];
-}
-
 void ffd_points_place(const double *transforms, size_t count, double *points)
 {
     for (size_t i = 0; i < count; i++)
-        place(transforms + 12 * i, transforms + 12 * i + 9, points + 3 * i);
+        ffd_point_place(transforms + 12 * i, transforms + 12 * i + 9, points + 3 * i);
 }
 
 static void place_skinned(const mesh_document *document, size_t part, size_t first, size_t count,
@@ -34,7 +26,7 @@ void ffd_part_place(const mesh_document *document, size_t part, size_t first, si
     if (p->skinned)
         place_skinned(document, part, first, count, points);
     for (size_t i = 0; i < count && !p->skinned && !p->identity; i++)
-        place(p->linear, p->offset, points + 3 * i);
+        ffd_point_place(p->linear, p->offset, points + 3 * i);
 }
 
 ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error)

@@ -107,11 +107,11 @@ typedef struct outcome {
     pass_totals totals;
 } outcome;
 
-static outcome *run(const lattice_chain *chain, const embedding_file *embedding, int threads)
+static outcome *run_on(cloud *mesh, const lattice_chain *chain, const embedding_file *embedding, int threads)
 {
     outcome *made = calloc(1, sizeof *made);
     assert_non_null(made);
-    made->mesh = make_cloud();
+    made->mesh = mesh;
     const mesh_pass pass = {.document = &made->mesh->head,
                             .chain = chain,
                             .links = chain->count,
@@ -126,6 +126,11 @@ static outcome *run(const lattice_chain *chain, const embedding_file *embedding,
     assert_int_equal(ffd_pass_run(&pass, &made->totals, NULL), FFD_OK);
     made->totals.embed_seconds = made->totals.deform_seconds = 0;
     return made;
+}
+
+static outcome *run(const lattice_chain *chain, const embedding_file *embedding, int threads)
+{
+    return run_on(make_cloud(), chain, embedding, threads);
 }
 
 static void free_outcome(outcome *made)
@@ -149,6 +154,119 @@ static double determinant(const double gradient[9])
     for (int i = 0; i < 9; i++)
         f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
     return mat_determinant(f);
+}
+
+/* Two thirds of part 0, one vertex of which is no place, one at -0; nothing of part 2. */
+static void select_some(cloud *mesh, uint8_t selected[MOST])
+{
+    for (size_t i = 0; i < MOST; i++)
+        selected[i] = i % 3 != 1;
+    mesh->parts[0].selected = selected;
+    mesh->parts[2].skipped = true;
+    mesh->xyz[0][3 * 4500 + 1] = NAN;
+    mesh->xyz[0][3 * 9] = -0.0;
+}
+
+/* Selected vertices get what they get without a selection, the others nothing; and the figures are of the
+   selected ones. */
+static void test_selected_vertices(void **state)
+{
+    (void)state;
+    static uint8_t selected[MOST];
+    lattice_chain chain = {0};
+    add_link(&chain, BOX "\"moves\":[{\"by\":[0,0.5,-8]}]");
+    add_link(&chain, BENT MOVES);
+    cloud *all = make_cloud(), *some = make_cloud();
+    select_some(some, selected);
+    select_some(all, selected);
+    all->parts[0].selected = NULL;
+    all->parts[2].skipped = false;
+    cloud *const before = malloc(sizeof *before);
+    assert_non_null(before);
+    *before = *some;
+    outcome *whole = run_on(all, &chain, NULL, 2), *made = run_on(some, &chain, NULL, 2);
+    ffd_bounds rest = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}}, deformed = rest;
+    uint64_t vertices = 0, moved = 0, outside = 0, first_outside = UINT64_MAX;
+    for (size_t i = 0; i < NUMBERED; i++) {
+        double p[3];
+        const size_t part = i < MOST ? 0 : i < MOST + WHOLE ? 2 : 3, at = part ? 0 : 3 * i;
+        const bool chosen = part == 3 || (part == 0 && selected[i]);
+        place_of(before, i, p);
+        if (!chosen) {
+            const double zeros[9] = {0};
+            assert_true(isnan(made->uvw[3 * i]) && made->statuses[i] == FFD_OUTSIDE);
+            assert_memory_equal(made->deformed + 3 * i, p, sizeof p);
+            assert_memory_equal(made->gradients + 9 * i, zeros, sizeof zeros);
+            continue;
+        }
+        vertices++;
+        assert_memory_equal(made->uvw + 3 * i, whole->uvw + 3 * i, 3 * sizeof(double));
+        assert_int_equal(made->statuses[i], whole->statuses[i]);
+        assert_memory_equal(made->deformed + 3 * i, whole->deformed + 3 * i, 3 * sizeof(double));
+        assert_memory_equal(made->gradients + 9 * i, whole->gradients + 9 * i, 9 * sizeof(double));
+        outside += made->statuses[i] == FFD_OUTSIDE;
+        first_outside = made->statuses[i] == FFD_OUTSIDE && i < first_outside ? i : first_outside;
+        if (part == 0)
+            moved += made->mesh->xyz[0][at] != before->xyz[0][at] ||
+                     made->mesh->xyz[0][at + 1] != before->xyz[0][at + 1] ||
+                     made->mesh->xyz[0][at + 2] != before->xyz[0][at + 2];
+        for (int a = 0; a < 3 && vec_is_finite(p); a++) {
+            const double now = part == 3 ? NAN : made->deformed[3 * i + (size_t)a];
+            rest.min[a] = fmin(rest.min[a], p[a]);
+            rest.max[a] = fmax(rest.max[a], p[a]);
+            deformed.min[a] = fmin(deformed.min[a], now);
+            deformed.max[a] = fmax(deformed.max[a], now);
+        }
+    }
+    for (size_t i = 0; i < MOST; i++)
+        if (!selected[i])
+            assert_memory_equal(made->mesh->xyz[0] + 3 * i, before->xyz[0] + 3 * i, 3 * sizeof(double));
+        else
+            assert_memory_equal(made->mesh->xyz[0] + 3 * i, whole->mesh->xyz[0] + 3 * i, 3 * sizeof(double));
+    assert_memory_equal(made->mesh->xyz[2], before->xyz[2], sizeof before->xyz[2]);
+    assert_int_equal(made->totals.vertices, vertices);
+    assert_int_equal(made->totals.counts[FFD_OUTSIDE], outside);
+    assert_int_equal(made->totals.first_outside, first_outside);
+    assert_int_equal(made->totals.counts[FFD_POINT_INVALID], 1);
+    assert_int_equal(made->totals.first_invalid, 4500);
+    assert_true(made->totals.moved > 1000 && moved - made->totals.moved <= 1); /* NaN is not NaN */
+    for (int a = 0; a < 3; a++) {
+        assert_true(made->totals.before.min[a] == rest.min[a] && made->totals.before.max[a] == rest.max[a]);
+        assert_true(made->totals.after.min[a] <= deformed.min[a] &&
+                    made->totals.after.max[a] >= deformed.max[a]);
+    }
+    free(before);
+    free_outcome(whole);
+    free_outcome(made);
+    ffd_chain_free(&chain);
+}
+
+/* The first vertex that the file's numbers cannot hold is named; one that stays may be anywhere. */
+static void test_numbers_too_large(void **state)
+{
+    (void)state;
+    lattice_chain chain = {0};
+    add_link(&chain, BOX "\"moves\":[{\"by\":[0,0.5,0]}]");
+    for (int round = 0; round < 3; round++) {
+        cloud *mesh = make_cloud();
+        cloud *const before = malloc(sizeof *before);
+        assert_non_null(before);
+        mesh->head.largest_coordinate = round == 0 ? 2.25 : round == 1 ? 2.4875 : 1e9;
+        *before = *mesh;
+        outcome *made = run_on(mesh, &chain, NULL, 2);
+        uint64_t first = UINT64_MAX;
+        for (size_t i = 0; i < MOST + WHOLE && first == UINT64_MAX; i++)
+            for (size_t a = 0; a < 3; a++) {
+                const size_t part = i < MOST ? 0 : 2, at = 3 * (i - (part ? MOST : 0)) + a;
+                if (mesh->xyz[part][at] != before->xyz[part][at] &&
+                    fabs(mesh->xyz[part][at]) > mesh->head.largest_coordinate)
+                    first = i;
+            }
+        assert_true(made->totals.first_overflow == first && (first < UINT64_MAX) == (round < 2));
+        free(before);
+        free_outcome(made);
+    }
+    ffd_chain_free(&chain);
 }
 
 /* Every vertex by itself, with the library's own functions. */
@@ -415,6 +533,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_arrays),
+        cmocka_unit_test(test_selected_vertices),
+        cmocka_unit_test(test_numbers_too_large),
         cmocka_unit_test(test_gradients_of_a_chain),
         cmocka_unit_test(test_no_gradients_no_determinants),
         cmocka_unit_test(test_threads),
