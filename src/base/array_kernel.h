@@ -18,9 +18,10 @@ typedef struct array_kernel {
     /* Widens the box by count points, 3 numbers each. Returns whether all of these are finite; else the box
        stays. */
     bool (*widen)(const double *points, size_t count, double min[3], double max[3]);
-    /* Adds a vector to each of count points; a coordinate whose displacement is 0 keeps its bits. changed: of
-       each point, 1 where it has another value than before, else 0. Returns the first point of which a
-       coordinate that has is no number of `largest` at most; count: there is none. */
+    /* Adds a vector to each of count points, 3 numbers each; a coordinate to which 0 is added keeps its bits.
+       changed: count bytes, 1 where a point has another value than before, else 0. Returns the number of the
+       first point with a coordinate that changed and now is larger than `largest`, or no number; count where
+       there is none. */
     size_t (*displace)(const double *vectors, size_t count, double largest, double *points, uint8_t *changed);
 } array_kernel;
 

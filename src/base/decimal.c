@@ -2,58 +2,10 @@
 #include "base/decimal_kernel.h"
 #include "base/isa.h"
 #include "base/little_endian.h"
-#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-
-/* Digits of a number that is read: more could be more than 2^53. */
-#define MOST_DIGITS 19
-
-static unsigned digit_of(char c)
-{
-    return (unsigned)(unsigned char)c - '0';
-}
-
-static const char *take_digits(const char *at, const char *last, uint64_t *number)
-{
-    uint64_t n = *number;
-    for (; at < last && digit_of(*at) < 10; at++)
-        n = n * 10 + digit_of(*at);
-    *number = n;
-    return at;
-}
-
-/* A whole number up to 2^53 and a power of ten up to 10^22 are doubles, so that their quotient is rounded
-   once (Clinger, How to Read Floating Point Numbers Accurately, 1990). */
-const char *ffd_decimal_parse(const char *first, const char *last, double *value)
-{
-    static const double powers[MOST_DIGITS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
-                                                   1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
-                                                   1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
-    if (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1) /* a longer quotient would be rounded twice */
-        return NULL;
-    const bool negative = first < last && *first == '-';
-    const char *const digits = first + negative;
-    uint64_t number = 0;
-    ptrdiff_t behind = 0;
-    const char *at = take_digits(digits, last, &number);
-    ptrdiff_t count = at - digits;
-    if (at < last && *at == '.') {
-        const char *const point = at;
-        at = take_digits(point + 1, last, &number);
-        behind = at - point - 1;
-        count += behind;
-    }
-    /* Numbers of more digits may have wrapped round. */
-    if (count == 0 || count > MOST_DIGITS || number > (uint64_t)1 << 53 ||
-        (at < last && (*at == 'e' || *at == 'E')))
-        return NULL;
-    const double size = (double)number / powers[behind];
-    *value = negative ? -size : size;
-    return at;
-}
 
 #ifdef __SIZEOF_INT128__
 

@@ -156,8 +156,8 @@ static ffd_status extend(const chain_link *link, const chain_run *run, const dis
                          size_t i, ffd_error *error)
 {
     boundary_point nearest;
-    double *const delta = batch->delta + 3 * i, *const gradient =
-                                                    batch->gradient ? batch->gradient + 9 * i : NULL;
+    double *const delta = batch->delta + 3 * i;
+    double *const gradient = batch->gradient ? batch->gradient + 9 * i : NULL;
     run->scratch->moves[i] = 0;
     memset(delta, 0, 3 * sizeof *delta);
     if (gradient)

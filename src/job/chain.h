@@ -73,7 +73,8 @@ typedef struct chain_note {
 /* Most points of a run. */
 #define CHAIN_RUN DISPLACEMENT_BATCH
 
-/* What one thread needs to send runs through the chain; zeroed before the first. */
+/* What one thread needs to send runs through the chain; before the first its displacement is to be cleared
+   (ffd_displacement_scratch_clear), or all of it zeroed. */
 typedef struct chain_scratch {
     ffd_location locations[CHAIN_RUN]; /* in the link that was last */
     double delta[3 * CHAIN_RUN], gradient[9 * CHAIN_RUN];
