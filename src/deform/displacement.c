@@ -43,7 +43,8 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
                      double *by_uvw, double *jacobian)
 {
     static const uint32_t which[1] = {0};
-    double inside[3], numbers[2 * 3 * CELL_POINTS + 1];
+    double inside[3], numbers[2 * FIELD_NUMBERS + 1];
+    const cell_use use = jacobian ? CELL_GRADIENTS : by_uvw ? CELL_BY_UVW : CELL_VALUES;
     size_t number[3];
     kernel_cell cell;
     if (lattice->rest_weights)
@@ -51,10 +52,9 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
     ffd_displacement_wrap(lattice, uvw, inside);
     for (int a = 0; a < 3; a++)
         number[a] = ffd_knots_span_number(&lattice->knots[a], inside[a]);
-    if (!ffd_displacement_cell_points(lattice, ffd_extraction_kernel_scalar, number, jacobian != NULL,
-                                      numbers))
+    if (!ffd_displacement_cell_points(lattice, ffd_extraction_kernel_scalar, number, use, numbers))
         return false;
-    ffd_displacement_cell_begin(lattice, number, jacobian != NULL, numbers, &cell);
+    ffd_displacement_cell_begin(lattice, number, use, numbers, &cell);
     cell.inverse = inverse ? cell.inverse : NULL;
     const kernel_points points = {
         .uvw = inside, .which = which, .count = 1, .delta = delta, .gradient = by_uvw, .jacobian = jacobian};

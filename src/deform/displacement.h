@@ -4,7 +4,7 @@
 #define FFD_DEFORM_DISPLACEMENT_H
 
 #include "base/isa.h"
-#include "deform/kernel.h"
+#include "deform/displacement_cell.h"
 #include "lattice/lattice.h"
 #include <ffd/deform.h>
 #include <stdint.h>
@@ -31,7 +31,7 @@ typedef struct batch_stretch {
     uint32_t cell;  /* of the batch */
 } batch_stretch;
 
-/* Points of cells (displacement_cell.h) that batches had before: neighbours in a mesh often come back to
+/* Numbers of cells (displacement_cell.h) that batches had before: neighbours in a mesh often come back to
    them. */
 #define KEPT_CELLS ((size_t)1024)
 #define KEPT_NUMBERS (KEPT_CELLS * (3 * 4 * 4 * 4 + 1))
@@ -42,11 +42,11 @@ typedef struct batch_stretch {
 typedef struct kept_cells {
     int threads;                /* that share the memory; set by whoever made the scratch, 0 as 1 */
     const ffd_lattice *lattice; /* whose cells they are; NULL: there are none */
-    bool gradients;             /* of the batch */
+    cell_use use;               /* of them */
     size_t count, numbers;      /* of cells that there is room for, and of numbers that each has */
     size_t keys[KEPT_CELLS];    /* 1 + key of a batch_cell; 0: none */
     bool acts[KEPT_CELLS];      /* a moved control point acts in it */
-    double points[KEPT_NUMBERS];
+    double all_numbers[KEPT_NUMBERS];
 } kept_cells;
 
 /* What a batch needs beside its results; of one thread. */

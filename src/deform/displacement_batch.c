@@ -1,6 +1,5 @@
 /* displacement_batch.c - many points at once: those of each cell together. */
 #include "deform/displacement.h"
-#include "deform/displacement_cell.h"
 #include <string.h>
 
 #define NO_CELL UINT16_MAX
@@ -131,13 +130,13 @@ void ffd_displacement_scratch_clear(displacement_scratch *scratch)
 }
 
 /* Makes the kept cells those of the lattice. */
-static void begin_cells(const ffd_lattice *lattice, bool gradients, kept_cells *kept)
+static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *kept)
 {
-    const size_t numbers = ffd_displacement_cell_numbers(lattice, gradients) + 1;
-    kept->gradients = gradients;
-    if (kept->lattice == lattice && kept->numbers == numbers)
+    const size_t numbers = ffd_displacement_cell_numbers(lattice, use) + 1;
+    if (kept->lattice == lattice && kept->use == use)
         return;
     kept->lattice = lattice;
+    kept->use = use;
     kept->numbers = numbers;
     const size_t share = KEPT_IN_ALL / (size_t)(kept->threads > 2 ? kept->threads : 2);
     kept->count = share / numbers < KEPT_CELLS ? share / numbers : KEPT_CELLS;
@@ -146,18 +145,17 @@ static void begin_cells(const ffd_lattice *lattice, bool gradients, kept_cells *
     memset(kept->keys, 0, sizeof kept->keys);
 }
 
-/* The points of a cell, found where they are not kept; NULL where no moved control point acts in it. */
-static const double *find_points(const ffd_lattice *lattice, extraction_kernel *extract,
-                                 const batch_cell *cell, kept_cells *kept)
+/* The numbers of a cell, found where they are not kept; NULL where no moved control point acts in it. */
+static const double *find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
+                                  const batch_cell *cell, kept_cells *kept)
 {
     const size_t place = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
-    double *const points = kept->points + place * kept->numbers;
+    double *const numbers = kept->all_numbers + place * kept->numbers;
     if (kept->keys[place] != cell->key + 1) {
         kept->keys[place] = cell->key + 1;
-        kept->acts[place] =
-            ffd_displacement_cell_points(lattice, extract, cell->span, kept->gradients, points);
+        kept->acts[place] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, numbers);
     }
-    return kept->acts[place] ? points : NULL;
+    return kept->acts[place] ? numbers : NULL;
 }
 
 static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
@@ -165,23 +163,23 @@ static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
                           displacement_scratch *scratch)
 {
     const uint32_t *const which = scratch->sorted + of->first;
-    const double *const control = find_points(lattice, kernel->extract, of, &scratch->kept);
+    const double *const numbers = find_numbers(lattice, kernel->extract, of, &scratch->kept);
     kernel_cell cell;
-    for (size_t k = 0; k < of->count && !control; k++)
+    for (size_t k = 0; k < of->count && !numbers; k++)
         stay(batch, which[k]);
-    if (!control)
+    if (!numbers)
         return;
-    ffd_displacement_cell_begin(lattice, of->span, batch->gradient, control, &cell);
+    ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
     const kernel_points points = {.uvw = scratch->uvw + 3 * (size_t)of->first,
                                   .which = which,
                                   .count = of->count,
                                   .delta = batch->delta,
                                   .gradient = batch->gradient,
-                                  .jacobian = cell.rest ? scratch->jacobian : NULL};
+                                  .jacobian = cell.rest.points ? scratch->jacobian : NULL};
     kernel->displace(&cell, &points);
     for (size_t k = 0; k < of->count; k++)
         batch->moves[which[k]] = 1;
-    for (size_t k = 0; k < of->count && cell.rest; k++)
+    for (size_t k = 0; k < of->count && cell.rest.points; k++)
         ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
 }
 
@@ -198,7 +196,7 @@ void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displaceme
         return;
     }
     const kernel_pair *const kernel = &kernels[ffd_isa_resolve(isa)];
-    begin_cells(lattice, batch->gradient, &scratch->kept);
+    begin_cells(lattice, batch->gradient ? CELL_GRADIENTS : CELL_VALUES, &scratch->kept);
     find_cells(lattice, batch, scratch);
     sort_points(lattice, batch, scratch);
     for (size_t c = 0; c < scratch->cell_count; c++)

@@ -36,22 +36,35 @@ void ffd_displacement_to_space(const double jacobian[9], double gradient[9])
         memset(gradient, 0, 9 * sizeof *gradient);
 }
 
-static bool needs_rest(const ffd_lattice *lattice, bool gradients)
+static bool needs_rest(const ffd_lattice *lattice, cell_use use)
 {
-    return gradients && !lattice->has_uvw_by_p;
+    return use == CELL_GRADIENTS && !lattice->has_uvw_by_p;
 }
 
-static size_t point_count(const ffd_lattice *lattice)
+/* Numbers of the points, and those of the slopes, of a field in a cell. */
+static size_t point_numbers(const ffd_lattice *lattice)
 {
-    size_t count = 1;
+    size_t count = 3;
     for (int a = 0; a < 3; a++)
         count *= (size_t)lattice->knots[a].degree + 1;
     return count;
 }
 
-static void load_points(const ffd_lattice *lattice, extraction_kernel *extract, const double *field,
-                        const size_t number[3], double *points)
+static size_t slope_numbers(const ffd_lattice *lattice)
 {
+    const size_t degree = (size_t)lattice->knots[0].degree;
+    return point_numbers(lattice) / (degree + 1) * degree;
+}
+
+static size_t field_numbers(const ffd_lattice *lattice, cell_use use)
+{
+    return point_numbers(lattice) + (use == CELL_VALUES ? 0 : slope_numbers(lattice));
+}
+
+static void load_field(const ffd_lattice *lattice, extraction_kernel *extract, const double *field,
+                       const size_t number[3], cell_use use, double *numbers)
+{
+    const size_t count = point_numbers(lattice);
     int span[3], degree[3];
     const double *extraction[3];
     for (int a = 0; a < 3; a++) {
@@ -61,31 +74,31 @@ static void load_points(const ffd_lattice *lattice, extraction_kernel *extract, 
         degree[a] = knots->degree;
         extraction[a] = knots->extractions + number[a] * order * order;
     }
-    ffd_lattice_cell_points(lattice, field, span, points);
-    points[3 * point_count(lattice)] = 0;
-    extract(degree, extraction, points);
+    ffd_lattice_cell_points(lattice, field, span, numbers);
+    numbers[count] = 0;
+    extract(degree, extraction, numbers, use == CELL_VALUES ? NULL : numbers + count);
 }
 
-size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients)
+size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use)
 {
-    return (needs_rest(lattice, gradients) ? 2 : 1) * 3 * point_count(lattice);
+    return (needs_rest(lattice, use) ? 2 : 1) * field_numbers(lattice, use);
 }
 
 bool ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
-                                  const size_t number[3], bool gradients, double *numbers)
+                                  const size_t number[3], cell_use use, double *numbers)
 {
     int span[3];
     for (int a = 0; a < 3; a++)
         span[a] = lattice->knots[a].spans[number[a]];
     if (!ffd_displacement_reaches(lattice, span))
         return false;
-    load_points(lattice, extract, lattice->difference, number, numbers);
-    if (needs_rest(lattice, gradients))
-        load_points(lattice, extract, lattice->rest, number, numbers + 3 * point_count(lattice));
+    load_field(lattice, extract, lattice->difference, number, use, numbers);
+    if (needs_rest(lattice, use))
+        load_field(lattice, extract, lattice->rest, number, use, numbers + field_numbers(lattice, use));
     return true;
 }
 
-void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], bool gradients,
+void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], cell_use use,
                                  const double *numbers, kernel_cell *cell)
 {
     for (int a = 0; a < 3; a++) {
@@ -95,7 +108,9 @@ void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number
         cell->first[a] = knots->t[span];
         cell->width[a] = knots->t[span + 1] - knots->t[span];
     }
-    cell->difference = numbers;
+    const size_t points = point_numbers(lattice);
+    const double *const rest = numbers + field_numbers(lattice, use);
+    cell->difference = (kernel_field){numbers, numbers + points};
+    cell->rest = needs_rest(lattice, use) ? (kernel_field){rest, rest + points} : (kernel_field){NULL, NULL};
     cell->inverse = lattice->has_uvw_by_p ? lattice->uvw_by_p : NULL;
-    cell->rest = needs_rest(lattice, gradients) ? numbers + 3 * point_count(lattice) : NULL;
 }

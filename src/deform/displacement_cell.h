@@ -8,15 +8,22 @@
 /* Whether a moved control point acts in the cell whose last knot intervals are span. */
 bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3]);
 
-/* Numbers that the weighted Bezier points of a cell of the lattice take, for displacements alone or with
-   gradients: those of the differences and, where there is no inverse for all, those at rest. */
-size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, bool gradients);
+/* What is wanted of a cell's points. */
+typedef enum cell_use {
+    CELL_VALUES,   /* displacements */
+    CELL_BY_UVW,   /* and their derivatives by u,v,w */
+    CELL_GRADIENTS /* and those by the point, for which the rest points are needed where there is no inverse
+                      for all */
+} cell_use;
+
+/* Numbers that the kernel's fields take in a cell of the lattice. */
+size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use);
 /* Finds them, and one more for the kernel's use, for the cell with these non-empty spans. Returns whether a
    moved control point acts in it; else nothing is written. */
 bool ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
-                                  const size_t number[3], bool gradients, double *numbers);
-/* The cell itself, with these points. */
-void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], bool gradients,
+                                  const size_t number[3], cell_use use, double *numbers);
+/* The cell itself, with these numbers. */
+void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], cell_use use,
                                  const double *numbers, kernel_cell *cell);
 
 /* u,v,w within the periods of closed directions. */

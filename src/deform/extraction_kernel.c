@@ -3,6 +3,7 @@
    along a direction are sum_j E_rj P_j, in ascending j; the rows of E are weighted. */
 #include "base/inline.h"
 #include "deform/kernel.h"
+#include <stdbool.h>
 #include <string.h>
 
 /* Rows of `inner` numbers: row r of `to` becomes sum_j E_rj row j of `from`. */
@@ -18,7 +19,7 @@ static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, s
         }
 }
 
-/* Four numbers at once: a point and what stands behind it, which the next point then replaces. */
+/* Four numbers at once: a vector and what stands behind it, which the next vector then replaces. */
 typedef double quad __attribute__((vector_size(32)));
 
 static ALWAYS_INLINE void combine_points(const double *extraction, const double *from, double *to)
@@ -41,6 +42,20 @@ static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, 
         combine_rows(extraction, order, inner, from + first, to + first);
 }
 
+/* Rows of d+1 points. */
+static ALWAYS_INLINE void find_slopes(size_t degree, size_t rows, const double *points, double *slopes)
+{
+    for (size_t r = 0; r < rows; r++, points += 3 * (degree + 1), slopes += 3 * degree)
+        for (size_t i = 0; i < degree; i++) {
+            const double up = (double)(i + 1), down = (double)(degree - i);
+            quad point, next;
+            memcpy(&point, points + 3 * i, sizeof point);
+            memcpy(&next, points + 3 * (i + 1), sizeof next);
+            point = up * next - down * point;
+            memcpy(slopes + 3 * i, &point, sizeof point);
+        }
+}
+
 static void extract_cubic(const double *const extraction[3], double *points)
 {
     double by_u[3 * 64 + 1], by_v[3 * 64];
@@ -50,12 +65,8 @@ static void extract_cubic(const double *const extraction[3], double *points)
     combine_slabs(extraction[2], 4, 48, 3 * 64, by_v, points);
 }
 
-void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3], double *points)
+static void extract(const int degree[3], const double *const extraction[3], double *points)
 {
-    if (degree[0] == 3 && degree[1] == 3 && degree[2] == 3) {
-        extract_cubic(extraction, points);
-        return;
-    }
     double old[3 * CELL_POINTS];
     const size_t order[3] = {(size_t)degree[0] + 1, (size_t)degree[1] + 1, (size_t)degree[2] + 1};
     const size_t count = 3 * order[0] * order[1] * order[2];
@@ -65,4 +76,18 @@ void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3
         combine_slabs(extraction[a], order[a], inner, count, old, points);
         inner *= order[a];
     }
+}
+
+void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3], double *points,
+                           double *slopes)
+{
+    const bool is_cubic = degree[0] == 3 && degree[1] == 3 && degree[2] == 3;
+    if (is_cubic)
+        extract_cubic(extraction, points);
+    else
+        extract(degree, extraction, points);
+    if (slopes && is_cubic)
+        find_slopes(3, 16, points, slopes);
+    else if (slopes)
+        find_slopes((size_t)degree[0], (size_t)(degree[1] + 1) * (size_t)(degree[2] + 1), points, slopes);
 }

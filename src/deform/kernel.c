@@ -3,7 +3,9 @@
 
    The functions t^i (1-t)^(d-i) are all >= 0, and exact at both ends of the span; the binomial coefficients
    that make them Bernstein polynomials stand in the points (P&T 1.3). The tensor product is summed u first,
-   then v, then w, each in ascending index (P&T A4.3's order by separation). */
+   then v, then w, each in ascending index (P&T A4.3's order by separation). Derivatives by u are sums of the
+   functions of degree d-1 over the points' differences (P&T 1.10), which stand beside them; those by v and w
+   are sums over what is found on the way, with the functions' derivatives. */
 #include "deform/kernel.h"
 #include <string.h>
 #if FFD_LANES == 1
@@ -14,7 +16,8 @@ typedef double lanes;
 #include "base/lanes.h"
 #endif
 
-/* The d+1 functions of a span and their derivatives by the knots' parameter. */
+/* The d+1 functions of a span and their derivatives by the knots' parameter; in u's span, in place of these,
+   the d functions of one degree less by that parameter. */
 typedef struct span_basis {
     lanes value[MAX_ORDER], derivative[MAX_ORDER];
 } span_basis;
@@ -52,7 +55,10 @@ static ALWAYS_INLINE void find_basis(const kernel_cell *cell, int a, int degree,
     power[1] = t;
     for (int d = 2; d < degree; d++)
         raise_powers(d, t, rest, power);
-    if (derivatives && degree > 1) {
+    if (derivatives && a == 0) {
+        for (int i = 0; i < degree; i++)
+            basis->derivative[i] = (degree > 1 ? power[i] : t * 0.0 + 1) * (1 / cell->width[a]);
+    } else if (derivatives && degree > 1) {
         find_slopes(degree, cell->width[a], power, basis->derivative);
     } else if (derivatives) {
         basis->derivative[0] = t * 0.0 - 1 / cell->width[a];
@@ -81,24 +87,24 @@ static ALWAYS_INLINE void add(field_sum *sum, const field_sum *term, int parts)
             sum->part[p][c] += term->part[p][c];
 }
 
-static ALWAYS_INLINE field_sum sum_row(const span_basis *basis, int degree, const double *row)
+/* sum_i factor_i vectors[i], of three numbers each. */
+static ALWAYS_INLINE void sum_vectors(const lanes *factor, int count, const double *vectors, lanes sum[3])
 {
-    field_sum sum = {0};
-    for (int i = 0; i <= degree; i++)
+    for (int i = 0; i < count; i++)
         for (int c = 0; c < 3; c++) {
-            const lanes value = basis->value[i] * row[3 * i + c],
-                        slope = basis->derivative[i] * row[3 * i + c];
-            sum.part[0][c] = i == 0 ? value : sum.part[0][c] + value;
-            sum.part[1][c] = i == 0 ? slope : sum.part[1][c] + slope;
+            const lanes term = factor[i] * vectors[3 * i + c];
+            sum[c] = i == 0 ? term : sum[c] + term;
         }
-    return sum;
 }
 
-static ALWAYS_INLINE field_sum sum_plane(const int degree[3], const span_basis basis[3], const double *plane)
+static ALWAYS_INLINE field_sum sum_plane(const int degree[3], const span_basis basis[3], const double *points,
+                                         const double *slopes)
 {
     field_sum sum = {0};
     for (int j = 0; j <= degree[1]; j++) {
-        const field_sum row = sum_row(&basis[0], degree[0], plane + 3 * (degree[0] + 1) * j);
+        field_sum row = {0};
+        sum_vectors(basis[0].value, degree[0] + 1, points + 3 * (degree[0] + 1) * j, row.part[0]);
+        sum_vectors(basis[0].derivative, degree[0], slopes + 3 * degree[0] * j, row.part[1]);
         const field_sum term = share(&basis[1], j, &row, 2);
         if (j == 0)
             sum = term;
@@ -108,11 +114,14 @@ static ALWAYS_INLINE field_sum sum_plane(const int degree[3], const span_basis b
     return sum;
 }
 
-static ALWAYS_INLINE field_sum sum_cell(const int degree[3], const span_basis basis[3], const double *field)
+static ALWAYS_INLINE field_sum sum_cell(const int degree[3], const span_basis basis[3],
+                                        const kernel_field *field)
 {
+    const int rows = degree[1] + 1;
     field_sum sum = {0};
     for (int k = 0; k <= degree[2]; k++) {
-        const field_sum plane = sum_plane(degree, basis, field + 3 * (degree[0] + 1) * (degree[1] + 1) * k);
+        const field_sum plane = sum_plane(degree, basis, field->points + 3 * (degree[0] + 1) * rows * k,
+                                          field->slopes + 3 * degree[0] * rows * k);
         const field_sum term = share(&basis[2], k, &plane, 3);
         if (k == 0)
             sum = term;
@@ -131,19 +140,15 @@ static ALWAYS_INLINE void add_term(lanes sum[3], bool is_first, lanes factor, co
 
 /* sum_cell without derivatives: the same operations in the same order, with fewer numbers at a time, so that
    compilers can unroll them. */
-static ALWAYS_INLINE void sum_values(const int degree[3], const span_basis basis[3], const double *field,
+static ALWAYS_INLINE void sum_values(const int degree[3], const span_basis basis[3], const double *points,
                                      lanes sum[3])
 {
     for (int k = 0; k <= degree[2]; k++) {
         lanes plane[3] = {0};
 #pragma GCC unroll 4
-        for (int j = 0; j <= degree[1]; j++, field += 3 * (degree[0] + 1)) {
+        for (int j = 0; j <= degree[1]; j++, points += 3 * (degree[0] + 1)) {
             lanes row[3] = {0};
-            for (int i = 0; i <= degree[0]; i++)
-                for (int c = 0; c < 3; c++) {
-                    const lanes value = basis[0].value[i] * field[3 * i + c];
-                    row[c] = i == 0 ? value : row[c] + value;
-                }
+            sum_vectors(basis[0].value, degree[0] + 1, points, row);
             add_term(plane, j == 0, basis[1].value[j], row);
         }
         add_term(sum, k == 0, basis[2].value[k], plane);
@@ -233,18 +238,18 @@ static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3],
         find_basis(cell, a, degree[a], uvw[a], derivatives, &basis[a]);
     if (!derivatives) {
         lanes delta[3] = {0};
-        sum_values(degree, basis, cell->difference, delta);
+        sum_values(degree, basis, cell->difference.points, delta);
         put_vector(delta, points->delta, which);
         return;
     }
-    const field_sum sum = sum_cell(degree, basis, cell->difference);
+    const field_sum sum = sum_cell(degree, basis, &cell->difference);
     put_vector(sum.part[0], points->delta, which);
     if (cell->inverse)
         put_product(&sum, cell->inverse, points->gradient, which);
     else
         put_derivatives(&sum, points->gradient, which);
     if (jacobian) {
-        const field_sum rest = sum_cell(degree, basis, cell->rest);
+        const field_sum rest = sum_cell(degree, basis, &cell->rest);
         put_derivatives(&rest, points->jacobian, which);
     }
 }

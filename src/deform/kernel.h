@@ -9,12 +9,21 @@
 /* Control points in a cell of the highest degree. */
 #define CELL_POINTS (MAX_ORDER * MAX_ORDER * MAX_ORDER)
 
+/* Numbers of a kernel_field of the highest degree. */
+#define FIELD_NUMBERS (3 * MAX_ORDER * MAX_ORDER * (MAX_ORDER + MAX_DEGREE))
+
+/* Vectors at a cell's control points as the kernel takes them, u fastest, 3 numbers each. */
+typedef struct kernel_field {
+    const double *points; /* as weighted Bezier points Q_i */
+    const double *slopes; /* (i+1) Q_i+1 - (d-i) Q_i along u, one fewer in a row; needed for derivatives */
+} kernel_field;
+
 /* One cell of a lattice without weights. */
 typedef struct kernel_cell {
     int degree[3];
     double first[3], width[3]; /* the span's first knot and length */
-    const double *difference;  /* Q - P as the cell's weighted Bezier points, u fastest, 3 numbers each */
-    const double *rest;        /* P likewise; needed for the Jacobian */
+    kernel_field difference;   /* Q - P */
+    kernel_field rest;         /* P; needed for the Jacobian */
     const double *inverse;     /* d uvw / d p, 3 x 3, where it is the same everywhere; else NULL */
 } kernel_cell;
 
@@ -29,10 +38,12 @@ typedef struct kernel_points {
     double *jacobian; /* 9 a point, d p_r / d uvw_c; or NULL. Not without the gradient. */
 } kernel_points;
 
-/* Turns a cell's control points, u fastest and 3 numbers each, into its weighted Bezier points: those with
-   the index i along a direction of degree d have the factor binomial(d, i). extraction: of the span in each
-   direction (basis.h). One number behind the points is read. */
-typedef void extraction_kernel(const int degree[3], const double *const extraction[3], double *points);
+/* Turns a cell's control points into a kernel_field's points: u fastest and 3 numbers each, both. Weighted:
+   those with the index i along a direction of degree d have the factor binomial(d, i). extraction: of the
+   span in each direction (basis.h). One number behind the points is read. slopes: NULL, or where those go;
+   one number behind them is written. */
+typedef void extraction_kernel(const int degree[3], const double *const extraction[3], double *points,
+                               double *slopes);
 
 /* One function for each instruction set, all of the same source: a point is a lane, and its operations are
    the same ones in the same order, so that all give the same bits. */

@@ -13,7 +13,6 @@
 #include "../support/lattice_by_hand.h"
 #include "base/array_kernel.h"
 #include "base/clock.h"
-#include "deform/displacement_cell.h"
 #include <math.h>
 
 #define MOST_RUNS 99
@@ -96,20 +95,20 @@ static void run_batches(sample *s)
 /* The first cell, and points in it. */
 typedef struct one_cell {
     kernel_cell cell;
-    double uvw[3 * KERNEL_BATCH], numbers[2 * 3 * 64 + 1];
+    double uvw[3 * KERNEL_BATCH], numbers[2 * FIELD_NUMBERS + 1];
 } one_cell;
 
 static void begin_cell(const sample *s, one_cell *one)
 {
     static const size_t number[3] = {0, 0, 0};
+    const cell_use use = s->gradients ? CELL_GRADIENTS : CELL_VALUES;
     const knot_vector *const knots = s->lattice->knots;
     for (size_t c = 0; c < 3 * KERNEL_BATCH; c++)
         one->uvw[c] =
             knots[c % 3].t[3] + s->uvw[c % (3 * s->count)] * (knots[c % 3].t[4] - knots[c % 3].t[3]);
-    if (!ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, s->gradients,
-                                      one->numbers))
+    if (!ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, use, one->numbers))
         abort();
-    ffd_displacement_cell_begin(s->lattice, number, s->gradients, one->numbers, &one->cell);
+    ffd_displacement_cell_begin(s->lattice, number, use, one->numbers, &one->cell);
 }
 
 static displacement_kernel *const kernels[] = {
@@ -129,7 +128,7 @@ static void run_kernel_once(sample *s, const one_cell *one, size_t count)
                                   .count = count,
                                   .delta = s->delta,
                                   .gradient = s->gradients ? s->gradient : NULL,
-                                  .jacobian = one->cell.rest ? s->scratch.jacobian : NULL};
+                                  .jacobian = one->cell.rest.points ? s->scratch.jacobian : NULL};
     kernels[s->isa](&one->cell, &points);
 }
 

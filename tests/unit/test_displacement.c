@@ -9,6 +9,7 @@
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "deform/displacement.h"
+#include <math.h>
 #include <stdio.h>
 
 #define LATTICES 60
@@ -57,7 +58,7 @@ static ffd_lattice *random_lattice(draw *d, int number)
     return lattice;
 }
 
-/* Some parameters are knots, some the domain's ends. */
+/* Some parameters are knots, some the domain's ends, some near the end of a span. */
 static void random_uvw(draw *d, const ffd_lattice *lattice, double uvw[3])
 {
     for (int a = 0; a < 3; a++) {
@@ -66,7 +67,9 @@ static void random_uvw(draw *d, const ffd_lattice *lattice, double uvw[3])
         const int choice = draw_int(d, 0, 9);
         uvw[a] = choice == 0   ? knots->t[span]
                  : choice == 1 ? ffd_knots_last(knots)
-                               : draw_between(d, ffd_knots_first(knots), ffd_knots_last(knots));
+                 : choice == 2
+                     ? knots->t[span + 1] - ldexp(knots->t[span + 1] - knots->t[span], -draw_int(d, 1, 50))
+                     : draw_between(d, ffd_knots_first(knots), ffd_knots_last(knots));
     }
 }
 
@@ -175,6 +178,46 @@ static void corners_are_exact(void **state)
     (void)state;
 }
 
+/* Point i of a row, moved alone by distance in a lattice of one cell: where 1 - u is rest, its function's
+   value and slope are met to a few units in the last place, however small they are. */
+static void check_function(int degree, int i, double rest, double distance)
+{
+    const double u = 1 - rest;
+    double binomial = 1, delta[3], by_uvw[9];
+    knot_vector knots[3];
+    for (int k = 0; k < i; k++)
+        binomial = binomial * (degree - k) / (k + 1);
+    for (int a = 0; a < 3; a++)
+        assert_int_equal(ffd_knots_make(KNOTS_CLAMPED, a == 0 ? degree : 1, a == 0 ? (size_t)degree + 1 : 2,
+                                        NULL, 0, "uvw"[a], &knots[a], NULL),
+                         FFD_OK);
+    ffd_lattice *lattice = lattice_of_knots(knots);
+    lattice->deformed[3 * lattice_index(lattice, (size_t)i, 0, 1)] = distance;
+    assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
+    const double uvw[3] = {u, 0.5, 0.25};
+    const long double share = 0.5L * 0.25L * binomial * (long double)distance,
+                      value = share * powl(u, i) * powl(rest, degree - i),
+                      up = i > 0 ? share * i * powl(u, i - 1) * powl(rest, degree - i) : 0,
+                      down = i < degree ? share * (degree - i) * powl(u, i) * powl(rest, degree - i - 1) : 0;
+    assert_int_equal(ffd_displacement_by_uvw(lattice, uvw, delta, by_uvw), 1);
+    if (fabsl(delta[0] - value) > 1e-14L * value + 1e-320L ||
+        fabsl(by_uvw[0] - (up - down)) > 1e-14L * (up + down) + 1e-320L ||
+        fabsl(by_uvw[1] + 2 * value) > 2e-14L * value + 1e-320L)
+        fail_msg("degree %d, function %d at 1 - %g, by %g: %.17g, not %.17Lg; %.17g, not %.17Lg; %.17g",
+                 degree, i, rest, distance, delta[0], value, by_uvw[0], up - down, by_uvw[1]);
+    ffd_lattice_destroy(&lattice);
+}
+
+static void functions_are_exact_at_the_ends_of_spans(void **state)
+{
+    static const double distances[] = {1, 0.3, 1e-290, 1e300};
+    for (int degree = 1; degree <= 9; degree++)
+        for (int i = 0; i <= degree; i++)
+            for (int k = 0; k <= 53; k++)
+                check_function(degree, i, k < 53 ? ldexp(1, -k) : 0, distances[k % 4]);
+    (void)state;
+}
+
 static void what_is_not_there_is_not_available(void **state)
 {
     assert_true(ffd_isa_available(FFD_ISA_AUTO) && ffd_isa_available(FFD_ISA_SCALAR));
@@ -190,6 +233,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(batches_give_what_points_get_alone),
         cmocka_unit_test(corners_are_exact),
+        cmocka_unit_test(functions_are_exact_at_the_ends_of_spans),
         cmocka_unit_test(what_is_not_there_is_not_available),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
