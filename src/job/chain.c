@@ -10,12 +10,27 @@
 #include "lattice/lattice.h"
 #include <string.h>
 
+/* The lattice of a job before, if it is this one. */
+static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_t i)
+{
+    chain_link *const link = &chain->links[i];
+    if (!chain->share || files->set_count > 0 || ffd_file_is_stream(files->paths[i]) ||
+        !ffd_file_stamp(files->paths[i], &link->stamp))
+        return;
+    link->path = files->paths[i];
+    link->lattice = ffd_share_find_lattice(chain->share, link->path, &link->stamp, &link->rest);
+    link->lattice_is_lent = link->lattice;
+}
+
 static ffd_status load_link(const chain_files *files, bool *used, lattice_chain *chain, size_t i,
                             ffd_error *error)
 {
     chain_link *link = &chain->links[i];
-    ffd_status status =
-        ffd_lattice_load_set(files->paths[i], files->set, files->set_count, used, &link->lattice, error);
+    ffd_status status = FFD_OK;
+    borrow_lattice(files, chain, i);
+    if (!link->lattice)
+        status =
+            ffd_lattice_load_set(files->paths[i], files->set, files->set_count, used, &link->lattice, error);
     if (!status && !ffd_lattice_needs_bounds(link->lattice))
         status = ffd_chain_prepare(chain, i, error);
     if (status)
@@ -59,7 +74,8 @@ void ffd_chain_free(lattice_chain *chain)
         ffd_boundary_destroy(&chain->links[i].border);
         if (!chain->links[i].locator_is_lent)
             ffd_locator_destroy(&chain->links[i].locator);
-        ffd_lattice_destroy(&chain->links[i].lattice);
+        if (!chain->links[i].lattice_is_lent)
+            ffd_lattice_destroy(&chain->links[i].lattice);
     }
     ffd_free(chain->links);
     *chain = (lattice_chain){0};
@@ -70,7 +86,8 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
     chain_link *made = &chain->links[link];
     ffd_status status = FFD_OK;
     if (chain->share) {
-        made->rest = ffd_embedding_hash_lattice(made->lattice);
+        if (!made->lattice_is_lent)
+            made->rest = ffd_embedding_hash_lattice(made->lattice);
         made->locator = ffd_share_find_locator(chain->share, &made->rest, chain->isa);
         made->locator_is_lent = made->locator;
     }

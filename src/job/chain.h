@@ -3,6 +3,7 @@
 #define FFD_JOB_CHAIN_H
 
 #include "base/fail.h"
+#include "base/file.h"
 #include "base/hash.h"
 #include "deform/displacement.h"
 #include "embed/boundary.h"
@@ -21,11 +22,13 @@ typedef struct chain_outside {
 
 typedef struct chain_link {
     ffd_lattice *lattice;
-    ffd_locator *locator; /* NULL until the lattice has its place */
-    bool locator_is_lent; /* by the chain's share */
-    hash128 rest;         /* of the rest volume, once there is a locator; only in a chain with a share */
-    boundary *border;     /* likewise; NULL too where points outside stay */
-    double falloff;       /* chain_outside's */
+    ffd_locator *locator;                  /* NULL until the lattice has its place */
+    bool lattice_is_lent, locator_is_lent; /* by the chain's share */
+    const char *path;                      /* the caller's: of a file that is all that the lattice comes of */
+    file_stamp stamp;                      /* its, from before it was read; path NULL: it has none */
+    hash128 rest;     /* of the rest volume, once there is a locator; only in a chain with a share */
+    boundary *border; /* likewise; NULL too where points outside stay */
+    double falloff;   /* chain_outside's */
 } chain_link;
 
 typedef struct lattice_chain {

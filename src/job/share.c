@@ -6,13 +6,22 @@
 #include "job/source.h"
 #include <string.h>
 
-/* A rest volume and what it is searched with. */
+/* A lattice, owned: of a file, or because a locator looks at it. */
+typedef struct kept_lattice {
+    ffd_lattice *lattice;
+    char *path; /* NULL: not for whoever asks for a file */
+    file_stamp stamp;
+    hash128 rest;
+    bool used; /* by the job under way */
+} kept_lattice;
+
+/* What a rest volume is searched with. */
 typedef struct kept_rest {
     hash128 hash;
     ffd_isa isa;
-    ffd_lattice *lattice; /* which the locator looks at */
+    const ffd_lattice *lattice; /* which the locator looks at: one that is kept */
     ffd_locator *locator;
-    bool used; /* by the job under way */
+    bool used;
 } kept_rest;
 
 struct ffd_share {
@@ -25,8 +34,9 @@ struct ffd_share {
     path_list files;
     file_stamp *stamps; /* files.count */
 
+    kept_lattice *lattices;
     kept_rest *rests;
-    size_t rest_count;
+    size_t lattice_count, lattice_room, rest_count, rest_room;
 
     ffd_location *locations; /* of the vertices of the mesh that is kept, or was last */
     hash128 located;         /* in the rest volume with this hash */
@@ -62,10 +72,10 @@ static void forget_locations(ffd_share *share)
     share->is_located = false;
 }
 
-static void free_rest(kept_rest *rest)
+static void free_lattice(kept_lattice *kept)
 {
-    ffd_locator_destroy(&rest->locator);
-    ffd_lattice_destroy(&rest->lattice);
+    ffd_lattice_destroy(&kept->lattice);
+    ffd_free(kept->path);
 }
 
 void ffd_share_destroy(ffd_share **share)
@@ -75,8 +85,11 @@ void ffd_share_destroy(ffd_share **share)
     forget_mesh(*share);
     forget_locations(*share);
     for (size_t i = 0; i < (*share)->rest_count; i++)
-        free_rest(&(*share)->rests[i]);
+        ffd_locator_destroy(&(*share)->rests[i].locator);
+    for (size_t i = 0; i < (*share)->lattice_count; i++)
+        free_lattice(&(*share)->lattices[i]);
     ffd_free((*share)->rests);
+    ffd_free((*share)->lattices);
     ffd_free(*share);
     *share = NULL;
 }
@@ -178,7 +191,21 @@ void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_doc
         ffd_source_close(&document);
 }
 
-/* Rest volumes */
+/* Lattices and their rest volumes */
+
+ffd_lattice *ffd_share_find_lattice(const ffd_share *share, const char *path, const file_stamp *stamp,
+                                    hash128 *rest)
+{
+    for (size_t i = 0; share && i < share->lattice_count; i++) {
+        kept_lattice *const kept = &share->lattices[i];
+        if (kept->path && strcmp(kept->path, path) == 0 && ffd_stamp_equal(&kept->stamp, stamp)) {
+            kept->used = true;
+            *rest = kept->rest;
+            return kept->lattice;
+        }
+    }
+    return NULL;
+}
 
 static kept_rest *find_rest(const ffd_share *share, const hash128 *rest, ffd_isa isa)
 {
@@ -197,31 +224,68 @@ ffd_locator *ffd_share_find_locator(const ffd_share *share, const hash128 *rest,
     return found->locator;
 }
 
-void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain)
+/* There is room for one more of each. */
+static void keep_link(ffd_share *share, chain_link *link, ffd_isa isa)
 {
-    kept_rest *kept = share ? ffd_alloc(share->rest_count + chain->count, sizeof *kept) : NULL;
-    size_t count = 0;
-    if (!kept)
-        return;
-    for (size_t i = 0; i < share->rest_count; i++) {
-        if (share->rests[i].used)
-            kept[count++] = share->rests[i];
-        else
-            free_rest(&share->rests[i]);
-    }
-    ffd_free(share->rests);
-    share->rests = kept;
-    share->rest_count = count;
-    for (size_t i = 0; i < chain->count; i++) {
-        chain_link *const link = &chain->links[i];
-        if (!link->locator || link->locator_is_lent || find_rest(share, &link->rest, chain->isa))
-            continue;
-        kept[share->rest_count++] = (kept_rest){link->rest, chain->isa, link->lattice, link->locator, false};
-        link->lattice = NULL;
+    const bool adds_rest = link->locator && !link->locator_is_lent && !find_rest(share, &link->rest, isa);
+    const bool is_of_file = link->path && link->lattice && !ffd_lattice_needs_bounds(link->lattice);
+    if (adds_rest) {
+        share->rests[share->rest_count++] = (kept_rest){link->rest, isa, link->lattice, link->locator, true};
         link->locator = NULL;
     }
+    if (link->lattice_is_lent || (!adds_rest && !is_of_file))
+        return;
+    share->lattices[share->lattice_count++] =
+        (kept_lattice){.lattice = link->lattice,
+                       .path = is_of_file ? ffd_text_copy(link->path) : NULL,
+                       .stamp = link->stamp,
+                       .rest = link->rest,
+                       .used = true};
+    link->lattice = NULL;
+}
+
+static bool is_looked_at(const ffd_share *share, const ffd_lattice *lattice)
+{
     for (size_t i = 0; i < share->rest_count; i++)
-        kept[i].used = false;
+        if (share->rests[i].lattice == lattice)
+            return true;
+    return false;
+}
+
+static void forget_unused(ffd_share *share)
+{
+    size_t rests = 0, lattices = 0;
+    for (size_t i = 0; i < share->rest_count; i++) {
+        if (share->rests[i].used)
+            share->rests[rests++] = share->rests[i];
+        else
+            ffd_locator_destroy(&share->rests[i].locator);
+    }
+    share->rest_count = rests;
+    for (size_t i = 0; i < share->lattice_count; i++) {
+        if (share->lattices[i].used || is_looked_at(share, share->lattices[i].lattice))
+            share->lattices[lattices++] = share->lattices[i];
+        else
+            free_lattice(&share->lattices[i]);
+    }
+    share->lattice_count = lattices;
+    for (size_t i = 0; i < rests; i++)
+        share->rests[i].used = false;
+    for (size_t i = 0; i < lattices; i++)
+        share->lattices[i].used = false;
+}
+
+void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain)
+{
+    if (!share)
+        return;
+    if (ffd_grow((void **)&share->rests, &share->rest_room, share->rest_count + chain->count,
+                 sizeof *share->rests) &&
+        ffd_grow((void **)&share->lattices, &share->lattice_room, share->lattice_count + chain->count,
+                 sizeof *share->lattices))
+        for (size_t i = 0; i < chain->count; i++)
+            keep_link(share, &chain->links[i], chain->isa);
+    forget_unused(share);
 }
 
 /* Locations */

@@ -1,5 +1,5 @@
-/* share.h - what jobs that follow each other have in common (public: ffd/job.h): the last one's mesh, what
-   its lattices' rest volumes are searched with, and where the mesh's vertices are in one of them. */
+/* share.h - what jobs that follow each other have in common (public: ffd/job.h): the last one's mesh, its
+   lattices, what their rest volumes are searched with, and where the mesh's vertices are in one of them. */
 #ifndef FFD_JOB_SHARE_H
 #define FFD_JOB_SHARE_H
 
@@ -19,10 +19,14 @@ void ffd_share_note_mesh(ffd_share *share, const ffd_deform_desc *desc, bool onl
    closes it. */
 void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document);
 
+/* The lattice that a job before made of the file of this path when it had this stamp, with the hash of its
+   rest volume: lent, and not to be changed, until the next ffd_share_keep_chain. NULL: there is none. */
+ffd_lattice *ffd_share_find_lattice(const ffd_share *share, const char *path, const file_stamp *stamp,
+                                    hash128 *rest);
 /* The locator of a rest volume with this hash (ffd_embedding_hash_lattice) for these instructions, lent until
    the next ffd_share_keep_chain; NULL: there is none. */
 ffd_locator *ffd_share_find_locator(const ffd_share *share, const hash128 *rest, ffd_isa isa);
-/* Takes the locators that the chain made, with their lattices, and lets those go that it did not use. */
+/* Takes the lattices and locators that the chain made, and lets those go that it did not use. */
 void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain);
 
 /* Room for the locations of a document's vertices in a rest volume, for ffd_pass_run to fill or, *filled, to

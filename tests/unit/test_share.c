@@ -1,4 +1,4 @@
-/* test_share.c - a mesh that is kept for the next job is not taken for one that has changed. */
+/* test_share.c - a mesh or a lattice that is kept for the next job is not taken for one that has changed. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -104,11 +104,68 @@ static void test_selection(void **state)
     (void)state;
 }
 
+#define HEAD "{\"format\": \"ffd-lattice\", \"version\": 1, \"degree\": [1, 1, 1], \"size\": [2, 2, 2], "
+#define BENT(x)                                                                                              \
+    HEAD "\"rest\": {\"points\": [[" x                                                                       \
+         ", 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]]}}"
+#define MESH_BOX HEAD "\"rest\": {\"box\": \"mesh\"}}"
+
+/* What a job with these files had of the share, bit by bit: its lattices, then its locators. */
+static unsigned borrowed(ffd_share *share, const chain_files *files, ffd_isa isa)
+{
+    static const chain_outside outside;
+    lattice_chain chain;
+    ffd_error error;
+    unsigned found = 0;
+    if (ffd_chain_load(files, &outside, isa, share, &chain, &error))
+        fail_msg("%s", error.message);
+    for (size_t i = 0; i < chain.count; i++) {
+        found |= (unsigned)chain.links[i].lattice_is_lent << i;
+        found |= (unsigned)chain.links[i].locator_is_lent << (chain.count + i);
+    }
+    ffd_share_keep_chain(share, &chain);
+    ffd_chain_free(&chain);
+    return found;
+}
+
+static void test_lattices(void **state)
+{
+    char a_path[4096], box_path[4096];
+    snprintf(a_path, sizeof a_path, "%s", in_folder("a.json"));
+    snprintf(box_path, sizeof box_path, "%s", in_folder("box.json"));
+    const char *const one_path[] = {a_path}, *const both_paths[] = {a_path, box_path};
+    const chain_files a = {one_path, 1, NULL, 0}, both = {both_paths, 2, NULL, 0};
+    ffd_share *share;
+    assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
+    put_text("a.json", BENT("0"));
+    put_text("box.json", MESH_BOX);
+    assert_int_equal(borrowed(share, &a, FFD_ISA_AUTO), 0);
+    assert_int_equal(borrowed(share, &a, FFD_ISA_AUTO), 3);
+    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 1); /* another search in the same lattice */
+    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 3);
+    /* A box that goes round each mesh is read for each. */
+    assert_int_equal(borrowed(share, &both, FFD_ISA_SCALAR), 5);
+    assert_int_equal(borrowed(share, &both, FFD_ISA_SCALAR), 5);
+
+    let_time_pass();
+    put_text("a.json", BENT("0.25"));
+    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 0);
+    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 3);
+    /* The same rest volume in another file: its search is looked at with the lattice that it was made of. */
+    let_time_pass();
+    put_text("a.json", BENT("0.25") " ");
+    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 2);
+    assert_int_equal(borrowed(share, &a, FFD_ISA_SCALAR), 3);
+    ffd_share_destroy(&share);
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_mesh),
         cmocka_unit_test(test_selection),
+        cmocka_unit_test(test_lattices),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
