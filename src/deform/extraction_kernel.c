@@ -1,7 +1,7 @@
 /* extraction_kernel.c - compiled once for each instruction set: FFD_EXTRACTION_KERNEL is the function's name.
    From a cell's control points to its weighted Bezier points (P&T 5.3): N_j = sum_r E_rj B_r, so that those
    along a direction are sum_j E_rj P_j, in ascending j; the rows of E are weighted. */
-#include "base/inline.h"
+#include "base/quad.h"
 #include "deform/kernel.h"
 #include <stdbool.h>
 #include <string.h>
@@ -19,19 +19,17 @@ static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, s
         }
 }
 
-/* Four numbers at once: a vector and what stands behind it, which the next vector then replaces. */
-typedef double quad __attribute__((vector_size(32)));
-
+/* As quads: a vector of three and what stands behind it, which the next vector then replaces. */
 static ALWAYS_INLINE void combine_points(const double *extraction, const double *from, double *to)
 {
     quad point[4];
     for (int j = 0; j < 4; j++)
-        memcpy(&point[j], from + 3 * j, sizeof point[j]);
+        point[j] = quad_load(from + 3 * j);
     for (int r = 0; r < 4; r++, extraction += 4) {
-        quad sum = extraction[0] * point[0];
+        quad sum = quad_times(extraction[0], &point[0]);
         for (int j = 1; j < 4; j++)
-            sum += extraction[j] * point[j];
-        memcpy(to + 3 * r, &sum, sizeof sum);
+            quad_add(&sum, extraction[j], &point[j]);
+        quad_store(&sum, to + 3 * r);
     }
 }
 
@@ -42,17 +40,16 @@ static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, 
         combine_rows(extraction, order, inner, from + first, to + first);
 }
 
-/* Rows of d+1 points. */
+/* The slopes of rows of d+1 points, likewise. */
 static ALWAYS_INLINE void find_slopes(size_t degree, size_t rows, const double *points, double *slopes)
 {
     for (size_t r = 0; r < rows; r++, points += 3 * (degree + 1), slopes += 3 * degree)
         for (size_t i = 0; i < degree; i++) {
             const double up = (double)(i + 1), down = (double)(degree - i);
-            quad point, next;
-            memcpy(&point, points + 3 * i, sizeof point);
-            memcpy(&next, points + 3 * (i + 1), sizeof next);
-            point = up * next - down * point;
-            memcpy(slopes + 3 * i, &point, sizeof point);
+            const quad point = quad_load(points + 3 * i), next = quad_load(points + 3 * (i + 1));
+            quad slope = quad_times(up, &next);
+            quad_add(&slope, -down, &point);
+            quad_store(&slope, slopes + 3 * i);
         }
 }
 

@@ -1,5 +1,4 @@
-/* bezier_box.h - a lattice's volume over one span cell, or a part of it, in Bezier form; hulls and the
-   contraction bound that make a search certain.
+/* bezier_box.h - a lattice's volume over one span cell, or a part of it, in Bezier form, and its hulls.
 
    The equation is F(t) = A(t) - p W(t) = 0 with A = sum h P B, W = sum h B (h = 1 and W = 1 without weights):
    its roots are those of C(t) = p, and F is a polynomial also for a rational volume. */
@@ -21,6 +20,12 @@ typedef struct bezier_box {
 size_t ffd_bezier_count(const int order[3]); /* points */
 size_t ffd_bezier_size(const int order[3]);  /* doubles */
 
+/* From a point to its neighbour along a. */
+static inline size_t ffd_bezier_stride(const int order[3], int a)
+{
+    return a == 0 ? 1 : a == 1 ? (size_t)order[0] : (size_t)order[0] * (size_t)order[1];
+}
+
 /* From the control points h P, h of a span's basis functions (box->coefficients, u fastest) to the Bezier
    form of that cell, in place; matrix[a] is the span's ffd_bezier_extraction. order and rational must be set;
    lo and hi become those of the whole cell. */
@@ -35,21 +40,12 @@ bounds ffd_bezier_hull(const bezier_box *box);
 /* Bounds of the weights. */
 void ffd_bezier_weights(const bezier_box *box, double *least, double *greatest);
 
+/* The direction in which the box is widest in space. */
+int ffd_bezier_widest(const bezier_box *box);
+
 /* Bounds of F over the box for one p. */
 bounds ffd_bezier_equation_hull(const bezier_box *box, const double p[3]);
 /* Bounds of Y F over the box for one p. */
 bounds ffd_bezier_image(const bezier_box *box, const double inverse[9], const double p[3]);
-
-typedef struct contraction_bound {
-    bool regular;      /* J_F(centre) has an inverse; else inverse and bound are not set */
-    double inverse[9]; /* Y = J_F(centre)^{-1}, in box coordinates t in [0,1]^3 */
-    double bound;      /* L: the greatest row sum of |I - Y J_F| over the box and all p in middle +- reach */
-} contraction_bound;
-
-/* columns: 9 * ffd_bezier_count doubles, which become the coefficients of Y J_F. */
-void ffd_bezier_contraction(const bezier_box *box, const double middle[3], const double reach[3],
-                            double *columns, contraction_bound *result);
-/* The direction whose halving lowers that bound most. found, columns: as ffd_bezier_contraction left them. */
-int ffd_bezier_halving(const bezier_box *box, const contraction_bound *found, double *columns);
 
 #endif

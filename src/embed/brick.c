@@ -104,6 +104,7 @@ static bool add_leaf(cell_cutter *cutter, const bezier_box *box, const bounds *h
 
 static bool cut(cell_cutter *cutter, bezier_box *box, int depth)
 {
+    const contraction_kernel *const kernel = cutter->locator->cells->contraction;
     const bounds hull = ffd_bezier_hull(box);
     double middle[3], reach[3];
     for (int a = 0; a < 3; a++) {
@@ -112,14 +113,14 @@ static bool cut(cell_cutter *cutter, bezier_box *box, int depth)
     }
     contraction_bound found;
     cutter->budget--;
-    ffd_bezier_contraction(box, middle, reach, cutter->columns, &found);
+    kernel->find_bound(box, middle, reach, cutter->columns, &found);
     if (found.regular && found.bound <= LEAF_BOUND)
         return add_leaf(cutter, box, &hull, &found, false);
     if (depth == LEAF_DEPTH || cutter->budget <= 0)
         return add_leaf(cutter, box, &hull, &found, true);
     bezier_box lower = {.coefficients = cutter->slots + (size_t)(depth + 1) * ffd_bezier_size(box->order)};
     bezier_box upper = {.coefficients = box->coefficients};
-    ffd_bezier_halve(box, ffd_bezier_halving(box, &found, cutter->columns), &lower, &upper);
+    ffd_bezier_halve(box, kernel->find_halving(box, &found, cutter->columns), &lower, &upper);
     return cut(cutter, &lower, depth + 1) && cut(cutter, &upper, depth + 1);
 }
 
@@ -130,7 +131,7 @@ static bool cut_brick(const ffd_locator *locator, uint32_t number, cell_brick *b
     size_t first[3], last[3], cell[3];
     bool done = false;
     cutter.slots = ffd_alloc(LEAF_DEPTH + 2, ffd_bezier_size(cells->order) * sizeof(double));
-    cutter.columns = ffd_alloc(9 * ffd_bezier_count(cells->order), sizeof(double));
+    cutter.columns = ffd_alloc(3 * ffd_bezier_size(cells->order), sizeof(double));
     if (!cutter.slots || !cutter.columns)
         goto out;
     brick_cells(cells, number, first, last);

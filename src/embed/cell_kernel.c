@@ -1,34 +1,8 @@
-/* cell_kernel.c - compiled once for each instruction set: FFD_CELL_KERNEL is the function's name, FFD_LANES
-   the number of doubles that a register holds. */
+/* cell_kernel.c - compiled once for each instruction set: FFD_CELL_KERNEL is the function's name. */
 #include "embed/cell_kernel.h"
-#include <string.h>
+#include "base/quad.h"
 
-enum { N = BEZIER_COMPONENTS, WIDTH = FFD_LANES < N ? FFD_LANES : N, PARTS = N / WIDTH };
-
-#if FFD_LANES == 1
-typedef double lanes;
-#else
-typedef double lanes __attribute__((vector_size(8 * (FFD_LANES < 4 ? FFD_LANES : 4))));
-#endif
-
-/* The components of a point. */
-typedef struct quad {
-    lanes part[PARTS];
-} quad;
-
-static inline quad take(const double *components)
-{
-    quad taken;
-    memcpy(&taken, components, sizeof taken);
-    return taken;
-}
-
-/* *sum += factor * term */
-static inline void add(quad *sum, double factor, const quad *term)
-{
-    for (int p = 0; p < PARTS; p++)
-        sum->part[p] += factor * term->part[p];
-}
+enum { N = BEZIER_COMPONENTS };
 
 static inline void sum_cell(const cell_basis *basis, const int order[3], const cell_rows *rows,
                             homogeneous *result)
@@ -40,23 +14,23 @@ static inline void sum_cell(const cell_basis *basis, const int order[3], const c
         for (int j = 0; j < order[1]; j++) {
             quad line = zero, line_u = zero;
             for (int i = 0; i < order[0]; i++) {
-                const quad point = take((*rows)[k][j] + N * i);
-                add(&line, basis->value[0][i], &point);
-                add(&line_u, basis->slope[0][i], &point);
+                const quad point = quad_load((*rows)[k][j] + N * i);
+                quad_add(&line, basis->value[0][i], &point);
+                quad_add(&line_u, basis->slope[0][i], &point);
             }
-            add(&plane, basis->value[1][j], &line);
-            add(&plane_u, basis->value[1][j], &line_u);
-            add(&plane_v, basis->slope[1][j], &line);
+            quad_add(&plane, basis->value[1][j], &line);
+            quad_add(&plane_u, basis->value[1][j], &line_u);
+            quad_add(&plane_v, basis->slope[1][j], &line);
         }
-        add(&sum, basis->value[2][k], &plane);
-        add(&by_u, basis->value[2][k], &plane_u);
-        add(&by_v, basis->value[2][k], &plane_v);
-        add(&by_w, basis->slope[2][k], &plane);
+        quad_add(&sum, basis->value[2][k], &plane);
+        quad_add(&by_u, basis->value[2][k], &plane_u);
+        quad_add(&by_v, basis->value[2][k], &plane_v);
+        quad_add(&by_w, basis->slope[2][k], &plane);
     }
-    memcpy(result->value, &sum, sizeof sum);
-    memcpy(result->derivative[0], &by_u, sizeof by_u);
-    memcpy(result->derivative[1], &by_v, sizeof by_v);
-    memcpy(result->derivative[2], &by_w, sizeof by_w);
+    quad_store(&sum, result->value);
+    quad_store(&by_u, result->derivative[0]);
+    quad_store(&by_v, result->derivative[1]);
+    quad_store(&by_w, result->derivative[2]);
 }
 
 void FFD_CELL_KERNEL(const cell_basis *basis, const int order[3], const cell_rows *rows, homogeneous *result)

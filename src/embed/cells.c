@@ -179,16 +179,17 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
 /* Those of an instruction set; region is NULL where points are searched one by one. */
 typedef struct kernel_set {
     cell_kernel *cell;
+    const contraction_kernel *contraction;
     region_kernel *region;
     size_t lanes; /* of region */
 } kernel_set;
 
 static const kernel_set kernels[] = {
-    [FFD_ISA_SCALAR] = {ffd_cell_kernel_scalar, NULL, 0},
+    [FFD_ISA_SCALAR] = {ffd_cell_kernel_scalar, &ffd_contraction_kernel_scalar, NULL, 0},
 #ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_cell_kernel_sse2, ffd_region_kernel_sse2, 2},
-    [FFD_ISA_AVX2] = {ffd_cell_kernel_avx2, ffd_region_kernel_avx2, 4},
-    [FFD_ISA_AVX512] = {ffd_cell_kernel_avx512, ffd_region_kernel_avx512, 8},
+    [FFD_ISA_SSE2] = {ffd_cell_kernel_sse2, &ffd_contraction_kernel_sse2, ffd_region_kernel_sse2, 2},
+    [FFD_ISA_AVX2] = {ffd_cell_kernel_avx2, &ffd_contraction_kernel_avx2, ffd_region_kernel_avx2, 4},
+    [FFD_ISA_AVX512] = {ffd_cell_kernel_avx512, &ffd_contraction_kernel_avx512, ffd_region_kernel_avx512, 8},
 #endif
 };
 
@@ -196,6 +197,7 @@ static void choose_kernels(cell_search *cells, ffd_isa isa)
 {
     const kernel_set *set = &kernels[ffd_isa_resolve(isa)];
     cells->kernel = set->cell;
+    cells->contraction = set->contraction;
     cells->region_kernel = set->region;
     cells->lanes = set->lanes;
 }

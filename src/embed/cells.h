@@ -7,6 +7,7 @@
 #include "embed/bezier_box.h"
 #include "embed/cell_kernel.h"
 #include "embed/collapse.h"
+#include "embed/contraction_kernel.h"
 #include "embed/locator.h"
 #include "embed/region_kernel.h"
 #include "spline/basis.h"
@@ -56,6 +57,7 @@ typedef struct cell_search {
     size_t bricks[3];
     bool rational;
     cell_kernel *kernel;
+    const contraction_kernel *contraction;
     region_kernel *region_kernel; /* for so many points at a time; NULL: one by one */
     int lanes;
     /* The search's units: powers of two that bring the lattice and its weights to size 1, so that products of

@@ -25,7 +25,7 @@ static bool make_memory(point_search *search)
     if (!scratch->slots)
         scratch->slots = ffd_alloc(HARD_LEVELS + 1, ffd_bezier_size(order) * sizeof(double));
     if (!scratch->columns)
-        scratch->columns = ffd_alloc(9 * ffd_bezier_count(order), sizeof(double));
+        scratch->columns = ffd_alloc(3 * ffd_bezier_size(order), sizeof(double));
     if (scratch->slots && scratch->columns)
         return true;
     search->status = ffd_fail_memory(search->error);
@@ -93,6 +93,11 @@ typedef struct hard_search {
     int budget, singular;
 } hard_search;
 
+static const contraction_kernel *kernel_of(const hard_search *hard)
+{
+    return hard->search->locator->cells->contraction;
+}
+
 static bool holds_zero(const bounds *box, const double slack[3])
 {
     static const double zero[3] = {0, 0, 0};
@@ -135,7 +140,7 @@ static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bou
     bounds hull = ffd_bezier_equation_hull(box, search->x);
     if (!holds_zero(&hull, slack))
         return true;
-    ffd_bezier_contraction(box, search->x, no_reach, search->scratch->columns, found);
+    kernel_of(hard)->find_bound(box, search->x, no_reach, search->scratch->columns, found);
     ffd_cell_region(search->locator, hard->span, box, found, region);
     if (!found->regular)
         return false;
@@ -167,7 +172,9 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     if (settle_box(hard, box, &found, &region, &blurred))
         return;
     const int across =
-        blurred ? -1 : direction_to_halve(box, ffd_bezier_halving(box, &found, search->scratch->columns));
+        blurred
+            ? -1
+            : direction_to_halve(box, kernel_of(hard)->find_halving(box, &found, search->scratch->columns));
     if (across < 0) {
         if (polish(search, &region))
             hard->singular++;
