@@ -1,5 +1,4 @@
 #include "deform/displacement.h"
-#include "deform/displacement_cell.h"
 #include <string.h>
 
 /* Delta form (maths.md 7): sum (Q - P) R, so that an inversion's residual enters only through the

@@ -132,9 +132,9 @@ void ffd_displacement_scratch_clear(displacement_scratch *scratch)
 /* Makes the kept cells those of the lattice. */
 static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *kept)
 {
-    const size_t numbers = ffd_displacement_cell_numbers(lattice, use) + 1;
     if (kept->lattice == lattice && kept->use == use)
         return;
+    const size_t numbers = ffd_displacement_cell_numbers(lattice, use) + 1;
     kept->lattice = lattice;
     kept->use = use;
     kept->numbers = numbers;

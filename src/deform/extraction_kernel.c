@@ -41,7 +41,7 @@ static ALWAYS_INLINE void combine_slabs(const double *extraction, size_t order, 
 }
 
 /* The slopes of rows of d+1 points, likewise. */
-static ALWAYS_INLINE void find_slopes(size_t degree, size_t rows, const double *points, double *slopes)
+static ALWAYS_INLINE void find_point_slopes(size_t degree, size_t rows, const double *points, double *slopes)
 {
     for (size_t r = 0; r < rows; r++, points += 3 * (degree + 1), slopes += 3 * degree)
         for (size_t i = 0; i < degree; i++) {
@@ -84,7 +84,8 @@ void FFD_EXTRACTION_KERNEL(const int degree[3], const double *const extraction[3
     else
         extract(degree, extraction, points);
     if (slopes && is_cubic)
-        find_slopes(3, 16, points, slopes);
+        find_point_slopes(3, 16, points, slopes);
     else if (slopes)
-        find_slopes((size_t)degree[0], (size_t)(degree[1] + 1) * (size_t)(degree[2] + 1), points, slopes);
+        find_point_slopes((size_t)degree[0], (size_t)(degree[1] + 1) * (size_t)(degree[2] + 1), points,
+                          slopes);
 }

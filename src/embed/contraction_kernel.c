@@ -19,6 +19,11 @@ static void bernstein_at_half(int degree, double value[MAX_ORDER])
     }
 }
 
+static ALWAYS_INLINE quad quad_of(double x, double y, double z)
+{
+    return quad_load((const double[N]){x, y, z, 0});
+}
+
 /* J_F at the centre, row by row. */
 static void centre_jacobian(const bezier_box *box, const double p[3], double jacobian[9])
 {
@@ -31,7 +36,7 @@ static void centre_jacobian(const bezier_box *box, const double p[3], double jac
         for (int i = 0; i <= degree; i++)
             slope[a][i] = degree * ((i > 0 ? lower[i - 1] : 0) - (i < degree ? lower[i] : 0));
     }
-    const quad middle = quad_load((const double[N]){p[0], p[1], p[2], 0});
+    const quad middle = quad_of(p[0], p[1], p[2]);
     const double *c = box->coefficients;
     quad by_t[3] = {0};
     for (int k = 0; k < box->order[2]; k++)
@@ -72,10 +77,10 @@ static column_form column_of(const bezier_box *box, int b, double *columns)
 static void fill_column(const bezier_box *box, int b, const double p[3], const double inverse[9],
                         const column_form *column)
 {
-    const quad middle = quad_load((const double[N]){p[0], p[1], p[2], 0});
+    const quad middle = quad_of(p[0], p[1], p[2]);
     quad turned[3];
     for (int c = 0; c < 3; c++)
-        turned[c] = quad_load((const double[N]){inverse[c], inverse[3 + c], inverse[6 + c], 0});
+        turned[c] = quad_of(inverse[c], inverse[3 + c], inverse[6 + c]);
     const size_t stride = ffd_bezier_stride(box->order, b), slab = stride * (size_t)box->order[b],
                  count = ffd_bezier_count(box->order);
     const double degree = box->order[b] - 1;
@@ -101,7 +106,7 @@ static void fill_column(const bezier_box *box, int b, const double p[3], const d
 static void column_distance(const column_form *column, int b, const double reach[3], const double inverse[9],
                             double distance[N])
 {
-    const quad identity = quad_load((const double[N]){b == 0, b == 1, b == 2, 0});
+    const quad identity = quad_of(b == 0, b == 1, b == 2);
     double away[N] = {0};
     for (int r = 0; r < 3; r++) {
         const double *row = inverse + 3 * r;
@@ -109,13 +114,15 @@ static void column_distance(const column_form *column, int b, const double reach
     }
     const quad reached = quad_load(away);
     const double *const end = column->numbers + ffd_bezier_size(column->size);
-    quad greatest = {0};
+    quad greatest = {0}, zero = {0};
     for (const double *numbers = column->numbers; numbers < end; numbers += N) {
         const quad value = quad_load(numbers), off = quad_difference(&identity, &value);
         quad with_reach = quad_magnitude(&off);
         quad_add(&with_reach, fabs(numbers[3]), &reached);
-        greatest = quad_larger(&greatest, &with_reach); /* which is no number where that is none */
+        greatest = quad_larger(&with_reach, &greatest);
+        quad_add(&zero, 0, &with_reach); /* what is not finite must not pass as a small bound */
     }
+    quad_add(&greatest, 1, &zero);
     quad_store(&greatest, distance);
 }
 
@@ -134,7 +141,7 @@ static void column_spread(const column_form *column, int a, double spread[3][3])
                 greatest = quad_larger(&greatest, &value);
             }
             const quad found = quad_difference(&greatest, &least);
-            widest = quad_larger(&widest, &found);
+            widest = quad_larger(&found, &widest);
         }
     double rows[N];
     quad_store(&widest, rows);
@@ -191,10 +198,7 @@ static void find_bound(const bezier_box *box, const double middle[3], const doub
         for (int r = 0; r < 3; r++)
             sum[r] += distance[r];
     }
-    result->bound = sum[0];
-    for (int r = 1; r < 3; r++)
-        if (!(sum[r] <= result->bound))
-            result->bound = sum[r];
+    result->bound = vec_is_finite(sum) ? larger_of(sum[0], larger_of(sum[1], sum[2])) : HUGE_VAL;
 }
 
 static int find_halving(const bezier_box *box, const contraction_bound *found, double *columns)

@@ -27,7 +27,6 @@ static ffd_status load_link(const chain_files *files, bool *used, lattice_chain 
 {
     chain_link *link = &chain->links[i];
     ffd_status status = FFD_OK;
-    borrow_lattice(files, chain, i);
     if (!link->lattice)
         status =
             ffd_lattice_load_set(files->paths[i], files->set, files->set_count, used, &link->lattice, error);
@@ -58,6 +57,9 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     chain->links = ffd_alloc_zero(files->count, sizeof *chain->links);
     ffd_status status = used && chain->links ? FFD_OK : ffd_fail_memory(error);
     chain->count = status ? 0 : files->count;
+    for (size_t i = 0; i < chain->count; i++)
+        borrow_lattice(files, chain, i);
+    ffd_share_forget_lattices(share);
     for (size_t i = 0; i < chain->count && !status; i++)
         status = load_link(files, used, chain, i, error);
     if (!status)

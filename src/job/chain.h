@@ -24,8 +24,8 @@ typedef struct chain_link {
     ffd_lattice *lattice;
     ffd_locator *locator;                  /* NULL until the lattice has its place */
     bool lattice_is_lent, locator_is_lent; /* by the chain's share */
-    const char *path;                      /* the caller's: of a file that is all that the lattice comes of */
-    file_stamp stamp;                      /* its, from before it was read; path NULL: it has none */
+    const char *path;                      /* the caller's: of a file in which no values are set; or NULL */
+    file_stamp stamp;                      /* its, from before it was read */
     hash128 rest;     /* of the rest volume, once there is a locator; only in a chain with a share */
     boundary *border; /* likewise; NULL too where points outside stay */
     double falloff;   /* chain_outside's */

@@ -252,26 +252,37 @@ static bool is_looked_at(const ffd_share *share, const ffd_lattice *lattice)
     return false;
 }
 
-static void forget_unused(ffd_share *share)
+void ffd_share_forget_lattices(ffd_share *share)
 {
-    size_t rests = 0, lattices = 0;
-    for (size_t i = 0; i < share->rest_count; i++) {
-        if (share->rests[i].used)
-            share->rests[rests++] = share->rests[i];
-        else
-            ffd_locator_destroy(&share->rests[i].locator);
-    }
-    share->rest_count = rests;
-    for (size_t i = 0; i < share->lattice_count; i++) {
+    size_t count = 0;
+    for (size_t i = 0; share && i < share->lattice_count; i++) {
         if (share->lattices[i].used || is_looked_at(share, share->lattices[i].lattice))
-            share->lattices[lattices++] = share->lattices[i];
+            share->lattices[count++] = share->lattices[i];
         else
             free_lattice(&share->lattices[i]);
     }
-    share->lattice_count = lattices;
-    for (size_t i = 0; i < rests; i++)
+    if (share)
+        share->lattice_count = count;
+}
+
+static void forget_rests(ffd_share *share)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < share->rest_count; i++) {
+        if (share->rests[i].used)
+            share->rests[count++] = share->rests[i];
+        else
+            ffd_locator_destroy(&share->rests[i].locator);
+    }
+    share->rest_count = count;
+}
+
+/* The job is over. */
+static void take_back(ffd_share *share)
+{
+    for (size_t i = 0; i < share->rest_count; i++)
         share->rests[i].used = false;
-    for (size_t i = 0; i < lattices; i++)
+    for (size_t i = 0; i < share->lattice_count; i++)
         share->lattices[i].used = false;
 }
 
@@ -285,7 +296,9 @@ void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain)
                  sizeof *share->lattices))
         for (size_t i = 0; i < chain->count; i++)
             keep_link(share, &chain->links[i], chain->isa);
-    forget_unused(share);
+    forget_rests(share);
+    ffd_share_forget_lattices(share);
+    take_back(share);
 }
 
 /* Locations */

@@ -23,6 +23,8 @@ void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_doc
    rest volume: lent, and not to be changed, until the next ffd_share_keep_chain. NULL: there is none. */
 ffd_lattice *ffd_share_find_lattice(const ffd_share *share, const char *path, const file_stamp *stamp,
                                     hash128 *rest);
+/* Lets those lattices go that are not lent, nor looked at by a locator: there is room for others then. */
+void ffd_share_forget_lattices(ffd_share *share);
 /* The locator of a rest volume with this hash (ffd_embedding_hash_lattice) for these instructions, lent until
    the next ffd_share_keep_chain; NULL: there is none. */
 ffd_locator *ffd_share_find_locator(const ffd_share *share, const hash128 *rest, ffd_isa isa);

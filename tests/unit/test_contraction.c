@@ -28,7 +28,7 @@ static void random_box(draw *d, bezier_box *box, double bend)
 {
     double *c = box->coefficients;
     for (int a = 0; a < 3; a++) {
-        box->order[a] = draw_int(d, 2, 5);
+        box->order[a] = draw_int(d, 2, 10);
         box->lo[a] = 0;
         box->hi[a] = 1;
     }
@@ -145,6 +145,35 @@ static void bounds_hold_and_kernels_agree(void **state)
     (void)state;
 }
 
+static void what_has_no_bound_gets_none(void **state)
+{
+    static const double zero[3] = {0, 0, 0};
+    double numbers[4 * 8], columns[3 * 4 * 8];
+    bezier_box box = {.order = {2, 2, 2}, .hi = {1, 1, 1}, .coefficients = numbers};
+    contraction_bound found;
+    /* So thin that the inverse leaves the range of numbers on its way. */
+    for (int n = 0; n < 8; n++) {
+        const double i = n & 1, j = n >> 1 & 1, k = n >> 2;
+        const double point[4] = {i * 2.42e-308 + (1 - j) * 1.9, (1 - j) * 1.9, k, 1};
+        memcpy(numbers + 4 * n, point, sizeof point);
+    }
+    for (ffd_isa isa = FFD_ISA_SCALAR; isa <= FFD_ISA_AVX512; isa++) {
+        if (!ffd_isa_available(isa))
+            continue;
+        kernels[isa]->find_bound(&box, zero, zero, columns, &found);
+        assert_true(!found.regular || found.bound == HUGE_VAL);
+    }
+    /* Flat, and longest along v. */
+    for (int n = 0; n < 8; n++) {
+        const double point[4] = {n & 1, 2 * (n >> 1 & 1), 0, 1};
+        memcpy(numbers + 4 * n, point, sizeof point);
+    }
+    ffd_contraction_kernel_scalar.find_bound(&box, zero, zero, columns, &found);
+    assert_false(found.regular);
+    assert_int_equal(ffd_contraction_kernel_scalar.find_halving(&box, &found, columns), 1);
+    (void)state;
+}
+
 /* The lower half has at t what the box has at t/2, the upper one what it has at (1+t)/2. */
 static void halves_are_parts(void **state)
 {
@@ -174,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_hold_and_kernels_agree),
+        cmocka_unit_test(what_has_no_bound_gets_none),
         cmocka_unit_test(halves_are_parts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
