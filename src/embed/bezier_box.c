@@ -45,9 +45,7 @@ void ffd_bezier_extract(bezier_box *box, const double *const matrix[3])
             box->coefficients[N * i + 3] = 1;
 }
 
-/* De Casteljau's scheme at 1/2. The upper half arises in place: after step k, points k.. hold the level-k
-   values of the line, and point k+.. of the lower half is the first of them. */
-static void halve_slab(size_t order, size_t inner, double *restrict low, double *restrict high)
+void ffd_bezier_halve_lines(size_t order, size_t inner, double *restrict low, double *restrict high)
 {
     for (size_t k = 0; k < order; k++) {
         memcpy(low + k * inner, high, inner * sizeof *low);
@@ -63,7 +61,7 @@ void ffd_bezier_halve(const bezier_box *box, int a, bezier_box *lower, bezier_bo
     if (upper->coefficients != box->coefficients)
         memcpy(upper->coefficients, box->coefficients, size * sizeof(double));
     for (size_t slab = 0; slab < size; slab += order * inner)
-        halve_slab(order, inner, lower->coefficients + slab, upper->coefficients + slab);
+        ffd_bezier_halve_lines(order, inner, lower->coefficients + slab, upper->coefficients + slab);
     const double middle = 0.5 * (box->lo[a] + box->hi[a]), end = box->hi[a];
     for (int b = 0; b < 3; b++) {
         lower->order[b] = upper->order[b] = box->order[b];
@@ -135,15 +133,17 @@ bounds ffd_bezier_image(const bezier_box *box, const double inverse[9], const do
     return hull;
 }
 
-/* Every line of control points along a: the first point's number from a running number of lines. */
-static size_t line_start(const int order[3], int a, size_t line)
+/* Of the polygon through a line of control points, in space. */
+static double polygon_length(const double *first, size_t stride, int count)
 {
-    if (a == 0)
-        return line * (size_t)order[0];
-    if (a == 2)
-        return line;
-    const size_t u = line % (size_t)order[0], w = line / (size_t)order[0];
-    return u + w * (size_t)order[0] * (size_t)order[1];
+    double length = 0;
+    for (int i = 0; i + 1 < count; i++) {
+        const double *c = first + (size_t)i * stride, *d = c + stride;
+        const double step[3] = {d[0] / d[3] - c[0] / c[3], d[1] / d[3] - c[1] / c[3],
+                                d[2] / d[3] - c[2] / c[3]};
+        length += vec_length(step);
+    }
+    return length;
 }
 
 int ffd_bezier_widest(const bezier_box *box)
@@ -151,22 +151,16 @@ int ffd_bezier_widest(const bezier_box *box)
     int best = 0;
     double longest = -1;
     for (int a = 0; a < 3; a++) {
-        const size_t stride = N * ffd_bezier_stride(box->order, a);
-        const size_t lines = ffd_bezier_count(box->order) / (size_t)box->order[a];
-        for (size_t line = 0; line < lines; line++) {
-            const double *first = box->coefficients + N * line_start(box->order, a, line);
-            double length = 0;
-            for (int i = 0; i + 1 < box->order[a]; i++) {
-                const double *c = first + (size_t)i * stride, *d = c + stride;
-                const double step[3] = {d[0] / d[3] - c[0] / c[3], d[1] / d[3] - c[1] / c[3],
-                                        d[2] / d[3] - c[2] / c[3]};
-                length += vec_length(step);
+        const size_t inner = N * ffd_bezier_stride(box->order, a), size = ffd_bezier_size(box->order),
+                     slab = inner * (size_t)box->order[a];
+        for (size_t first = 0; first < size; first += slab)
+            for (size_t line = first; line < first + inner; line += N) {
+                const double length = polygon_length(box->coefficients + line, inner, box->order[a]);
+                if (length > longest) {
+                    longest = length;
+                    best = a;
+                }
             }
-            if (length > longest) {
-                longest = length;
-                best = a;
-            }
-        }
     }
     return best;
 }

@@ -171,17 +171,6 @@ typedef struct curve_search {
     double at; /* the answer: a fraction of the span */
 } curve_search;
 
-/* De Casteljau's scheme at 1/2, as in ffd_bezier_halve. */
-static void halve_curve(int order, double curve[MAX_ORDER][N], double lower[MAX_ORDER][N])
-{
-    for (int k = 0; k < order; k++) {
-        memcpy(lower[k], curve[0], sizeof lower[k]);
-        for (int i = 0; i + 1 < order - k; i++)
-            for (int c = 0; c < N; c++)
-                curve[i][c] = 0.5 * curve[i][c] + 0.5 * curve[i + 1][c];
-    }
-}
-
 /* Whether the part [lo, lo + width] of the span comes to x; the least such place is stored. */
 static bool search_curve(curve_search *search, double curve[MAX_ORDER][N], double lo, double width, int level)
 {
@@ -201,7 +190,7 @@ static bool search_curve(curve_search *search, double curve[MAX_ORDER][N], doubl
         return short_enough;
     }
     double lower[MAX_ORDER][N];
-    halve_curve(search->order, curve, lower);
+    ffd_bezier_halve_lines((size_t)search->order, N, (double *)lower, (double *)curve);
     return search_curve(search, lower, lo, 0.5 * width, level + 1) ||
            search_curve(search, curve, lo + 0.5 * width, 0.5 * width, level + 1);
 }
