@@ -122,7 +122,7 @@ def start(folder, cache, *options):
     """A batch in a session of its own, which says what it has to say to the file "said" of the cache."""
     environment = {**os.environ, "LD_PRELOAD": TRAP, "XDG_CACHE_HOME": cache}
     with open(os.path.join(cache, "said"), "wb") as said:
-        return subprocess.Popen([FFD, "batch", "m.jsonl", "-j", "2", "--timeout", "1", "-q", *options], cwd=folder,
+        return subprocess.Popen([FFD, "batch", "m.jsonl", "-j", "2", "--timeout", "3", "-q", *options], cwd=folder,
                                 env=environment, start_new_session=True, stdin=subprocess.DEVNULL, stdout=said, stderr=said)
 
 
