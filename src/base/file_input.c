@@ -189,6 +189,17 @@ void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
         madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
 }
 
+void ffd_file_bring_in(const void *bytes, size_t size)
+{
+#ifdef MADV_POPULATE_READ
+    const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = (uintptr_t)bytes / page * page;
+    madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* advice only */
+#else
+    (void)bytes;
+    (void)size;
+#endif
+}
+
 ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *same, ffd_error *error)
 {
     file_input there;

@@ -1,4 +1,4 @@
-#define _DEFAULT_SOURCE /* flock, madvise, realpath */
+#define _DEFAULT_SOURCE /* flock, realpath */
 #include "base/cleanup.h"
 #include "base/file.h"
 #include "base/memory.h"
@@ -6,16 +6,15 @@
 #include "base/temporary.h"
 #include <errno.h>
 #include <fcntl.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define BLOCK ((size_t)1 << 18)
+/* Bytes that are held back until they are worth a call of the system. */
+#define BLOCK ((size_t)1 << 16)
 
 typedef struct output_file {
     char *target;    /* where it shall appear; links are followed beforehand */
@@ -195,20 +194,6 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
     return FFD_OK;
 }
 
-/* Brings the pages of a mapped file, if it is one, into memory, where the system has a call for that. The
-   system copies without waiting for pages, clears what it could not fill, and begins again: once a page. */
-static void bring_in(const unsigned char *bytes, size_t size)
-{
-#ifdef MADV_POPULATE_READ
-    const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = (uintptr_t)bytes / page * page;
-    madvise((void *)first, (uintptr_t)bytes + size - first,
-            MADV_POPULATE_READ); /* the write tells of failures */
-#else
-    (void)bytes;
-    (void)size;
-#endif
-}
-
 static ffd_status write_all(const output_file *file, const unsigned char *bytes, size_t size,
                             ffd_error *error)
 {
@@ -302,29 +287,14 @@ ffd_status ffd_output_folder(file_output *output, const char *path, ffd_error *e
 
 ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size, ffd_error *error)
 {
-    const unsigned char *from = bytes;
-    while (size > 0) {
-        if (output->filled == 0 && size >= BLOCK) {
-            const size_t whole = size - size % BLOCK;
-            bring_in(from, whole);
-            const ffd_status status = write_all(&output->files[output->count - 1], from, whole, error);
-            if (status)
-                return status;
-            from += whole;
-            size -= whole;
-            continue;
-        }
-        const size_t room = BLOCK - output->filled, part = size < room ? size : room;
-        memcpy(output->block + output->filled, from, part);
-        output->filled += part;
-        from += part;
-        size -= part;
-        if (output->filled == BLOCK) {
-            const ffd_status status = flush(output, error);
-            if (status)
-                return status;
-        }
-    }
+    const ffd_status status = size > BLOCK - output->filled ? flush(output, error) : FFD_OK;
+    if (status)
+        return status;
+    if (size >= BLOCK)
+        return write_all(&output->files[output->count - 1], bytes, size, error);
+    if (size > 0)
+        memcpy(output->block + output->filled, bytes, size);
+    output->filled += size;
     return FFD_OK;
 }
 

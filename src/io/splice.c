@@ -1,10 +1,8 @@
 #include "io/splice.h"
-#include "base/memory.h"
 #include <string.h>
 
-#define BLOCK ((size_t)256 * 1024)
 /* Of a file, in memory while it is copied. */
-#define PIECE ((size_t)8 * 1024 * 1024)
+#define PIECE ((size_t)2 * 1024 * 1024)
 
 void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
                       file_output *output, ffd_error *error)
@@ -13,11 +11,6 @@ void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_s
     *splice = (file_splice){
         .input = input, .output = output, .error = error, .copied = data, .last = data + input->size};
     splice->status = ffd_output_begin(output, options->path, options->force, error);
-    if (splice->status)
-        return;
-    splice->block = ffd_alloc(BLOCK, sizeof *splice->block);
-    if (!splice->block)
-        splice->status = ffd_fail_memory(error);
 }
 
 void ffd_splice_begin_part(file_splice *splice, const char *first, const char *last, byte_buffer *text,
@@ -26,33 +19,18 @@ void ffd_splice_begin_part(file_splice *splice, const char *first, const char *l
     *splice = (file_splice){.error = error, .copied = first, .last = last, .text = text};
 }
 
-static void flush(file_splice *splice)
-{
-    if (splice->status == FFD_OK && splice->used)
-        splice->status = ffd_output_write(splice->output, splice->block, splice->used, splice->error);
-    splice->used = 0;
-}
-
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size)
 {
-    if (splice->text) {
+    if (splice->text)
         ffd_buffer_append(splice->text, bytes, size);
-        return;
-    }
-    if (size > BLOCK - splice->used)
-        flush(splice);
-    if (splice->status)
-        return;
-    if (size < BLOCK) {
-        memcpy(splice->block + splice->used, bytes, size);
-        splice->used += size;
-    } else
+    else if (splice->status == FFD_OK)
         splice->status = ffd_output_write(splice->output, bytes, size, splice->error);
 }
 
 void ffd_splice_copy(file_splice *splice, const char *to)
 {
     while (splice->input && (size_t)(to - splice->copied) > PIECE) {
+        ffd_file_bring_in(splice->copied, PIECE);
         ffd_splice_bytes(splice, splice->copied, PIECE);
         ffd_file_forget(splice->input, splice->copied, PIECE);
         splice->copied += PIECE;
@@ -64,7 +42,10 @@ void ffd_splice_copy(file_splice *splice, const char *to)
 void ffd_splice_part(file_splice *splice, const char *first, const char *last, const byte_buffer *text)
 {
     ffd_splice_copy(splice, first);
-    ffd_splice_bytes(splice, text->data, text->size);
+    if (text)
+        ffd_splice_bytes(splice, text->data, text->size);
+    else
+        ffd_splice_bytes(splice, first, (size_t)(last - first));
     ffd_file_forget(splice->input, first, (size_t)(last - first));
     splice->copied = last;
 }
@@ -118,8 +99,5 @@ ffd_status ffd_splice_end(file_splice *splice)
     ffd_splice_copy(splice, splice->last);
     if (splice->text)
         return splice->text->failed ? ffd_fail_memory(splice->error) : FFD_OK;
-    flush(splice);
-    ffd_free(splice->block);
-    splice->block = NULL;
     return splice->status;
 }

@@ -14,9 +14,7 @@ typedef struct file_splice {
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
     const char *copied, *last; /* the file is copied up to here, and ends there */
-    char *block;
-    size_t used;
-    byte_buffer *text; /* of a part: what takes its bytes; NULL: output does */
+    byte_buffer *text;         /* of a part: what takes its bytes; NULL: output does */
 } file_splice;
 
 /* Begins the output that options name. To be followed by ffd_splice_end, which tells of failures. */
@@ -26,7 +24,7 @@ void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_s
    side. To be followed by ffd_splice_end. */
 void ffd_splice_begin_part(file_splice *splice, const char *first, const char *last, byte_buffer *text,
                            ffd_error *error);
-/* Writes a part that has ended in the place of the file's bytes [first, last). */
+/* Writes a part that has ended in the place of the file's bytes [first, last); text NULL: writes these. */
 void ffd_splice_part(file_splice *splice, const char *first, const char *last, const byte_buffer *text);
 /* Copies the file up to a place not before the last one. */
 void ffd_splice_copy(file_splice *splice, const char *to);

@@ -297,6 +297,15 @@ void ffd_gltf_forget(const gltf_document *d)
             ffd_file_forget(&d->buffers[i].file, d->buffers[i].file.data, d->buffers[i].file.size);
 }
 
+void ffd_gltf_forget_bytes(const gltf_document *d, const gltf_buffer *buffer, size_t offset, size_t size)
+{
+    const file_input *input = buffer->kind == BUFFER_FILE ? &buffer->file : &d->input;
+    const bool in_file = buffer->kind == BUFFER_FILE || buffer->kind == BUFFER_BIN;
+    if (in_file && offset < buffer->size)
+        ffd_file_forget(input, buffer->data + offset,
+                        size < buffer->size - offset ? size : buffer->size - offset);
+}
+
 static ffd_status list_files(const mesh_document *document, path_list *files, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);

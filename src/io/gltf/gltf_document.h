@@ -159,6 +159,9 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
 
 /* Gives back the memory of the files' bytes, which are read again when they are needed. */
 void ffd_gltf_forget(const gltf_document *document);
+/* The same for those of one buffer's bytes [offset, offset + size) that it has. */
+void ffd_gltf_forget_bytes(const gltf_document *document, const gltf_buffer *buffer, size_t offset,
+                           size_t size);
 
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {

@@ -6,12 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes of a buffer written at once: a multiple of 3, so that pieces of base64 join. */
-#define BLOCK ((size_t)3 << 14)
-/* Most bytes of the input that are written at once, and written until those so far are given back. */
-#define LARGEST_WRITE ((size_t)4 << 20)
-#define MOST_HELD ((size_t)6 << 20)
-
 void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...)
 {
     if (!saver->log || !saver->log->function)
@@ -34,65 +28,6 @@ static ffd_status put_padding(const gltf_saver *saver, size_t size, char with, f
     char bytes[4];
     memset(bytes, with, sizeof bytes);
     return put(saver, bytes, size, error);
-}
-
-/* Counts what has been written, and gives the input back from time to time. */
-static void note_written(const gltf_saver *saver, size_t size, size_t *written)
-{
-    *written += size;
-    if (*written < MOST_HELD)
-        return;
-    ffd_gltf_forget(saver->document);
-    *written = 0;
-}
-
-static size_t least(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
-static ffd_status put_base64(const gltf_saver *saver, size_t buffer, ffd_error *error)
-{
-    const size_t size = ffd_gltf_content_size(saver, buffer);
-    size_t written = 0;
-    unsigned char *block = ffd_alloc(BLOCK, 1);
-    char *text = ffd_alloc(ffd_base64_length(BLOCK), 1);
-    ffd_status status = block && text ? FFD_OK : ffd_fail_memory(error);
-    for (size_t at = 0; at < size && status == FFD_OK; at += BLOCK) {
-        const size_t part = least(size - at, BLOCK);
-        ffd_gltf_content_read(saver, buffer, at, part, block);
-        ffd_base64_encode(block, part, text);
-        status = put(saver, text, ffd_base64_length(part), error);
-        note_written(saver, part, &written);
-    }
-    ffd_free(block);
-    ffd_free(text);
-    return status;
-}
-
-/* Writes a buffer's new content. What stands in memory as it is to be is not copied before. */
-static ffd_status put_content(const gltf_saver *saver, size_t buffer, ffd_error *error)
-{
-    const size_t size = ffd_gltf_content_size(saver, buffer);
-    size_t written = 0;
-    unsigned char *block = ffd_alloc(BLOCK, 1);
-    ffd_status status = block ? FFD_OK : ffd_fail_memory(error);
-    for (size_t at = 0, part; at < size && status == FFD_OK; at += part) {
-        const unsigned char *bytes;
-        const size_t next = least(size - at, BLOCK);
-        const size_t ready = ffd_gltf_content_at(saver, buffer, at, &bytes);
-        if (ready >= next) {
-            part = least(ready, LARGEST_WRITE);
-            status = put(saver, bytes, part, error);
-        } else {
-            part = next;
-            ffd_gltf_content_read(saver, buffer, at, part, block);
-            status = put(saver, block, part, error);
-        }
-        note_written(saver, part, &written);
-    }
-    ffd_free(block);
-    return status;
 }
 
 static size_t edit_size(const gltf_saver *saver, const json_edit *edit)
@@ -130,7 +65,7 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
         if (status)
             return status;
         if (edit->buffer != EDIT_NO_BUFFER)
-            status = put_base64(saver, (size_t)edit->buffer, error);
+            status = ffd_gltf_write_content(saver, (size_t)edit->buffer, true, error);
         else if (edit->text_size > 0)
             status = put(saver, saver->edits.pool.data + edit->text, edit->text_size, error);
         at = edit->end;
@@ -196,7 +131,7 @@ static ffd_status put_bin(const gltf_saver *saver, const glb_sizes *sizes, ffd_e
         return status;
     if (!sizes->own_bin)
         return put(saver, d->input.data + d->glb.bin_begin, d->glb.bin_size, error);
-    status = put_content(saver, 0, error);
+    status = ffd_gltf_write_content(saver, 0, false, error);
     return status ? status : put_padding(saver, sizes->bin_chunk - sizes->bin, 0, error);
 }
 
@@ -241,7 +176,7 @@ static ffd_status put_buffer_files(const gltf_saver *saver, ffd_error *error)
             continue;
         status = ffd_output_begin(saver->output, saver->buffers[b].target, overwrites(saver), error);
         if (status == FFD_OK)
-            status = put_content(saver, b, error);
+            status = ffd_gltf_write_content(saver, b, false, error);
     }
     return status;
 }

@@ -94,6 +94,9 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t buffer, size_t offset
 size_t ffd_gltf_content_at(const gltf_saver *saver, size_t buffer, size_t offset,
                            const unsigned char **bytes);
 
+/* gltf_content_write.c: writes it, in base64 or as it is. */
+ffd_status ffd_gltf_write_content(const gltf_saver *saver, size_t buffer, bool base64, ffd_error *error);
+
 /* gltf_container.c: how the output holds each buffer. A .gltf that becomes a GLB has its first buffer in the
    BIN chunk and the other files as data URIs, so that it is one file; a GLB that becomes a .gltf has its BIN
    chunk in a file beside it, on standard output in a data URI. */

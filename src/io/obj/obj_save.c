@@ -175,9 +175,12 @@ static void make_tile(void *context, size_t tile, size_t first, size_t last, int
     byte_buffer text = s->texts[worker]; /* the thread's own: the list's share lines of the cache */
     (void)last;
     (void)tile;
+    const obj_block *block = &s->document->blocks.list[first];
     text.size = 0;
     if (can_change(s, first) && !atomic_load(&s->is_over))
         make_block(s, first, &text);
+    else
+        ffd_file_bring_in(block->first, (size_t)(block->last - block->first));
     s->texts[worker] = text;
 }
 
@@ -187,11 +190,11 @@ static void write_tile(void *context, size_t tile, size_t first, size_t last, in
     const obj_block *block = &s->document->blocks.list[first];
     (void)last;
     (void)tile;
-    if (!can_change(s, first) || atomic_load(&s->is_over))
+    if (atomic_load(&s->is_over))
         return;
     if (s->texts[worker].failed)
         s->splice->status = ffd_fail_memory(s->splice->error);
-    ffd_splice_part(s->splice, block->first, block->last, &s->texts[worker]);
+    ffd_splice_part(s->splice, block->first, block->last, can_change(s, first) ? &s->texts[worker] : NULL);
     if (s->splice->status)
         atomic_store(&s->is_over, true);
 }
