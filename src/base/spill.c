@@ -103,6 +103,8 @@ bool ffd_spill_grow(spill_array *array, size_t needed)
     void *data = ffd_realloc(array->data, size, 1);
     if (!data)
         return false;
+    if (!array->data)
+        ffd_expect_all(data, size, 1);
     array->data = data;
     array->size = size;
     return true;

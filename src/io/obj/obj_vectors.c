@@ -10,6 +10,9 @@
 #define BLOCKS 64
 #define SMALLEST_BLOCK ((size_t)16 * 1024)
 #define LARGEST_BLOCK ((size_t)1024 * 1024)
+/* Bytes of a line with three numbers, without its end. */
+#define SHORTEST_LINE ((size_t)7)
+#define LONGEST_LINE ((size_t)256)
 
 /* Elements of 3 numbers while they are being read. */
 typedef struct vectors {
@@ -115,6 +118,38 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
 }
 
+/* The numbers of `v` and `vn`, about, if each block went on as it begins. */
+static void estimate_counts(const obj_blocks *blocks, size_t *positions, size_t *normals)
+{
+    *positions = *normals = 0;
+    for (size_t i = 0; i < blocks->count; i++) {
+        const obj_block *block = &blocks->list[i];
+        const size_t size = (size_t)(block->last - block->first);
+        const size_t seen = size < LONGEST_LINE ? size : LONGEST_LINE;
+        const char *end =
+            seen > SHORTEST_LINE ? memchr(block->first + SHORTEST_LINE, '\n', seen - SHORTEST_LINE) : NULL;
+        if (!end || block->first[0] != 'v')
+            continue;
+        const size_t count = size / (size_t)(end + 1 - block->first);
+        if (block->first[1] == ' ')
+            *positions += count;
+        else if (block->first[1] == 'n')
+            *normals += count;
+    }
+}
+
+/* Makes room for all vectors at once where that is of use and in memory; what is missing then is made later.
+ */
+static bool expect_vectors(obj_document *d)
+{
+    size_t positions, normals;
+    estimate_counts(&d->blocks, &positions, &normals);
+    positions = (positions + positions / 16) * OBJ_VECTOR;
+    normals = d->only_positions ? 0 : (normals + normals / 16) * OBJ_VECTOR;
+    return (positions == 0 || positions >= SPILL_FROM || ffd_spill_grow(&d->position_store, positions)) &&
+           (normals == 0 || normals >= SPILL_FROM || ffd_spill_grow(&d->direction_store, normals));
+}
+
 static bool append(const vectors *from, size_t count, spill_array *to)
 {
     const size_t size = from->count * OBJ_VECTOR, old = count * OBJ_VECTOR;
@@ -183,7 +218,7 @@ static ffd_status check_counts(const obj_document *d, ffd_error *error)
 static ffd_status read_blocks(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
-    if (!ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
+    if (!expect_vectors(d) || !ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
         return ffd_fail_memory(error);
     d->vertices = r->vertices;
     d->texcoords = r->texcoords;
