@@ -3,6 +3,7 @@
 #include "base/path.h"
 #include "base/thread.h"
 #include "io/formats.h"
+#include "io/obj/obj_users.h"
 
 static void walk_blocks(const obj_document *d, size_t first, size_t last, obj_walk *walk)
 {
@@ -72,6 +73,16 @@ static void free_document(obj_document *d)
     ffd_free(d);
 }
 
+static ffd_status read_elements(obj_document *d, ffd_error *error)
+{
+    obj_users users = {0};
+    ffd_status status = ffd_obj_read_vectors(d, &users, error);
+    if (status == FFD_OK)
+        status = ffd_obj_read_faces(d, &users, error);
+    ffd_obj_users_free(d, &users);
+    return status;
+}
+
 ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
@@ -84,9 +95,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
     d->name = ffd_text_copy(ffd_path_shown(source->path));
     ffd_status status = d->name ? check_encoding(d, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
-        status = ffd_obj_read_vectors(d, error);
-    if (status == FFD_OK)
-        status = ffd_obj_read_faces(d, error);
+        status = read_elements(d, error);
     if (status) {
         free_document(d);
         return status;

@@ -1,7 +1,7 @@
 /* obj_vectors.c - the blocks of a file with their positions and normals. */
 #include "base/memory.h"
 #include "base/thread.h"
-#include "io/obj/obj_document.h"
+#include "io/obj/obj_users.h"
 #include <inttypes.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -25,12 +25,14 @@ typedef struct block_content {
     vectors positions, normals;
     size_t texcoords, faces, lines;
     size_t addition; /* behind the last `vn`, from the file's beginning; 0: none */
+    obj_block_users users;
     bool names_elements;
     ffd_status status;
 } block_content;
 
 typedef struct reader {
     obj_document *document;
+    obj_users *users;
     block_content *contents; /* of blocks that are not joined yet */
     /* Before the next block; the document gets them when no thread looks at it any more. */
     size_t line, vertices, texcoords, normals, faces;
@@ -67,17 +69,20 @@ static bool may_name_elements(obj_keyword keyword)
     return keyword == OBJ_FACE || keyword == OBJ_LINE || keyword == OBJ_POINT || keyword == OBJ_OTHER;
 }
 
-static ffd_status read_block(const obj_document *d, size_t block, block_content *content, ffd_error *error)
+static ffd_status read_block(const reader *r, size_t block, block_content *content, ffd_error *error)
 {
+    const obj_document *d = r->document;
     obj_walk walk;
     ffd_status status = FFD_OK;
     ffd_obj_document_walk_block(d, block, &walk);
     const size_t line = walk.scan.line;
     while (status == FFD_OK && ffd_obj_walk_next(&walk)) {
         const obj_keyword keyword = walk.scan.keyword;
-        content->names_elements = content->names_elements || may_name_elements(keyword);
         content->faces += keyword == OBJ_FACE;
-        if (keyword == OBJ_VERTEX) {
+        if (may_name_elements(keyword)) {
+            content->names_elements = true;
+            ffd_obj_users_look(d, r->users, &walk.scan, &content->users);
+        } else if (keyword == OBJ_VERTEX) {
             status = read_vector(d, &walk.scan, "vertex", &content->positions, error);
         } else if (keyword == OBJ_NORMAL) {
             status = read_vector(d, &walk.scan, "normal", &content->normals, error);
@@ -93,6 +98,7 @@ static ffd_status read_block(const obj_document *d, size_t block, block_content 
 static void clear_content(block_content *content)
 {
     content->positions.count = content->normals.count = 0;
+    ffd_obj_free_block_users(&content->users);
     *content = (block_content){.positions = content->positions, .normals = content->normals};
 }
 
@@ -100,6 +106,7 @@ static void free_content(block_content *content)
 {
     ffd_free(content->positions.xyz);
     ffd_free(content->normals.xyz);
+    ffd_obj_free_block_users(&content->users);
 }
 
 static void read_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -112,7 +119,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     clear_content(&content);
     if (!atomic_load(&r->is_over)) {
         block->plain = ffd_obj_is_plain(block->first, block->last);
-        content.status = read_block(r->document, first, &content, NULL);
+        content.status = read_block(r, first, &content, NULL);
     }
     r->contents[worker] = content;
     ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
@@ -138,16 +145,25 @@ static void estimate_counts(const obj_blocks *blocks, size_t *positions, size_t 
     }
 }
 
-/* Makes room for all vectors at once where that is of use and in memory; what is missing then is made later.
- */
-static bool expect_vectors(obj_document *d)
+static bool expect(size_t count, spill_array *store)
 {
+    const size_t size = count * OBJ_VECTOR;
+    return size == 0 || size >= SPILL_FROM || ffd_spill_grow(store, size);
+}
+
+/* Makes room for all elements at once, where there are not too many for memory; what is missing then is made
+   later. */
+static ffd_status expect_elements(reader *r, ffd_error *error)
+{
+    obj_document *d = r->document;
     size_t positions, normals;
     estimate_counts(&d->blocks, &positions, &normals);
-    positions = (positions + positions / 16) * OBJ_VECTOR;
-    normals = d->only_positions ? 0 : (normals + normals / 16) * OBJ_VECTOR;
-    return (positions == 0 || positions >= SPILL_FROM || ffd_spill_grow(&d->position_store, positions)) &&
-           (normals == 0 || normals >= SPILL_FROM || ffd_spill_grow(&d->direction_store, normals));
+    positions += positions / 16;
+    normals += normals / 16;
+    if (!expect(positions, &d->position_store) ||
+        !(d->only_positions || expect(normals, &d->direction_store)))
+        return ffd_fail_memory(error);
+    return ffd_obj_users_begin(d, positions, normals, r->users, error);
 }
 
 static bool append(const vectors *from, size_t count, spill_array *to)
@@ -167,7 +183,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     reader *r = context;
     obj_document *d = r->document;
     obj_block *block = &d->blocks.list[first];
-    const block_content *content = &r->contents[worker];
+    block_content *content = &r->contents[worker];
     (void)tile;
     (void)last;
     if (r->failed != SIZE_MAX)
@@ -194,17 +210,19 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     r->texcoords += content->texcoords;
     r->normals += content->normals.count;
     d->addition = content->addition ? content->addition : d->addition;
+    r->users->blocks[first] = content->users;
+    content->users = (obj_block_users){0};
 }
 
 /* Reads a block that has failed again, now that its place is known, for the words. */
-static ffd_status find_failure(const obj_document *d, size_t block, ffd_status status, ffd_error *error)
+static ffd_status find_failure(const reader *r, ffd_error *error)
 {
     block_content content = {0};
-    if (status == FFD_E_MEMORY)
+    if (r->status == FFD_E_MEMORY)
         return ffd_fail_memory(error);
-    status = read_block(d, block, &content, error);
+    const ffd_status status = read_block(r, r->failed, &content, error);
     free_content(&content);
-    return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
+    return status ? status : ffd_fail_file(error, FFD_E_IO, r->document->name, "changes while it is read");
 }
 
 static ffd_status check_counts(const obj_document *d, ffd_error *error)
@@ -218,13 +236,16 @@ static ffd_status check_counts(const obj_document *d, ffd_error *error)
 static ffd_status read_blocks(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
-    if (!expect_vectors(d) || !ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
+    const ffd_status status = expect_elements(r, error);
+    if (status)
+        return status;
+    if (!ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
         return ffd_fail_memory(error);
     d->vertices = r->vertices;
     d->texcoords = r->texcoords;
     d->normals = r->normals;
     if (r->failed != SIZE_MAX)
-        return find_failure(d, r->failed, r->status, error);
+        return find_failure(r, error);
     d->positions = d->position_store.data;
     d->directions = d->direction_store.data;
     return check_counts(d, error);
@@ -243,13 +264,14 @@ static ffd_status cut(obj_document *d, ffd_error *error)
     return ffd_obj_blocks_cut(&d->input, first, target, &d->blocks, error);
 }
 
-ffd_status ffd_obj_read_vectors(obj_document *d, ffd_error *error)
+ffd_status ffd_obj_read_vectors(obj_document *d, obj_users *users, ffd_error *error)
 {
     ffd_status status = cut(d, error);
     if (status)
         return status;
     const int slots = ffd_ordered_slots(d->threads);
     reader r = {.document = d,
+                .users = users,
                 .contents = ffd_alloc_zero((size_t)slots, sizeof *r.contents),
                 .line = 1,
                 .failed = SIZE_MAX};

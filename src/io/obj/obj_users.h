@@ -1,0 +1,55 @@
+/* obj_users.h - which elements of an OBJ file its faces, lines and points name by their numbers.
+
+   They are read together with the vectors, block by block, as long as they can be: what names elements by
+   their distance, or some that are not expected, is read once all elements are known. */
+#ifndef FFD_IO_OBJ_OBJ_USERS_H
+#define FFD_IO_OBJ_OBJ_USERS_H
+
+#include "io/obj/obj_document.h"
+#include <stdatomic.h>
+
+/* A corner's vertex and normal, from 0. */
+typedef struct obj_vertex_normal {
+    uint32_t vertex, normal;
+} obj_vertex_normal;
+
+/* The faces, lines and points of one block. */
+typedef struct obj_block_users {
+    size_t faces, corners, lines, points; /* corners: of faces */
+    size_t vertices, normals;             /* the greatest numbers that are named, from 1; 0: none */
+    obj_vertex_normal *others;            /* corners of faces with a normal that is not their vertex' first */
+    size_t other_count, other_capacity;
+    size_t counts_back; /* the place behind the last index of a normal that does; 0: none */
+    bool is_late;       /* not read yet */
+    ffd_status status;
+} obj_block_users;
+
+/* Those of a file. */
+struct obj_users {
+    obj_block_users *blocks; /* one a block */
+    /* Of each vertex a normal that is named together with it, whichever thread came first; OBJ_NONE: none so
+       far. Nearly all vertices of most meshes have but one. NULL: normals are not wanted, or none yet. */
+    _Atomic uint32_t *firsts;
+    size_t first_count;
+};
+
+/* Makes room for a document that has its blocks, where so many vertices and normals are expected. Errors:
+   FFD_E_MEMORY. To be freed. */
+ffd_status ffd_obj_users_begin(const obj_document *document, size_t vertices, size_t normals,
+                               obj_users *users, ffd_error *error);
+/* Takes the statement of a scan in, while elements are still being read, unless the block is late already or
+   becomes so. Any thread, each with blocks of its own, which *block is to be put among when it ends. */
+void ffd_obj_users_look(const obj_document *document, const obj_users *users, obj_scan *scan,
+                        obj_block_users *block);
+void ffd_obj_free_block_users(obj_block_users *block);
+/* Reads what is late, now that the document has its elements, and refuses what must not be named. firsts are
+   then those of all vertices, or NULL. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
+ffd_status ffd_obj_users_finish(const obj_document *document, obj_users *users, ffd_error *error);
+void ffd_obj_users_free(const obj_document *document, obj_users *users);
+
+static inline uint32_t ffd_obj_first_normal(const obj_users *users, size_t vertex)
+{
+    return atomic_load_explicit(&users->firsts[vertex], memory_order_relaxed);
+}
+
+#endif
