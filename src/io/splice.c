@@ -86,12 +86,12 @@ static void replace_number(file_splice *splice, text_word word, const double *va
         ffd_splice_replace(splice, word, text, format(run, value, text));
 }
 
-void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *before,
-                        const double *after, size_t count, decimal_run *run)
+void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *numbers, unsigned changes,
+                        size_t count, decimal_run *run)
 {
     for (size_t i = 0; i < count; i++)
-        if (memcmp(before + i, after + i, sizeof *after) != 0)
-            replace_number(splice, words[i], after + i, run);
+        if (changes >> i & 1)
+            replace_number(splice, words[i], numbers + i, run);
 }
 
 ffd_status ffd_splice_end(file_splice *splice)

@@ -242,6 +242,9 @@ struct mesh_document {
     /* Set before results: they are for another format (model), not for the file, and so not rounded to the
        steps of its integers. */
     bool converted;
+    /* Set before results: nobody looks at what the document was before once they are written, nor writes one
+       twice, so that they may take its place. */
+    bool in_place;
 };
 
 static inline ffd_status ffd_mesh_check(const mesh_document *document, ffd_error *error)

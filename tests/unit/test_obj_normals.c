@@ -130,8 +130,93 @@ static void test_random_files(void **state)
     assert_true(pairs > 400);
 }
 
+/* A file where each vertex has the normal of its number, as most have. */
+static void draw_plain_file(writer *w)
+{
+    w->vertices_total = w->normals_total = draw_int(w->d, 3, 20);
+    while (w->vertices < w->vertices_total) {
+        put_numbers(w, "v", ++w->vertices);
+        put_line_end(w);
+    }
+    while (w->normals < w->normals_total) {
+        put_numbers(w, "vn", ++w->normals);
+        put_line_end(w);
+    }
+    put(w, "f");
+    for (int i = 1; i <= w->vertices; i++) {
+        put(w, " ");
+        put_number(w, i);
+        put(w, "//");
+        put_number(w, i);
+    }
+}
+
+/* Half of the positions are moved, by an axis at least. */
+static void move_some(mesh_document *document, draw *d)
+{
+    const size_t count = document->parts->vertex_count;
+    double xyz[3 * 20];
+    uint8_t changed[20];
+    obj->read_positions(document, 0, 0, count, xyz);
+    for (size_t i = 0; i < count; i++) {
+        changed[i] = draw_int(d, 0, 1) == 1;
+        xyz[3 * i + (size_t)draw_int(d, 0, 2)] += 0.125;
+    }
+    obj->write_positions(document, 0, 0, count, xyz, changed);
+}
+
+/* The same changes, in the place of what was read or not. */
+static void saved_text(const writer *file, uint64_t seed, bool in_place, byte_buffer *text)
+{
+    draw d = {seed};
+    uint8_t changed[64];
+    file_input saved;
+    ffd_error error = {0};
+    mesh_document *document = opened_bytes(obj, file->text, strlen(file->text));
+    const size_t count = document->parts->normal_count;
+    assert_true(count <= sizeof changed);
+    double *values = draw_normals(document, &d);
+    memset(changed, 1, sizeof changed);
+    document->in_place = in_place;
+    assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
+    move_some(document, &d);
+    obj->write_normals(document, 0, 0, count, values, changed);
+    assert_int_equal(save_bytes(document, &saved, &error), FFD_OK);
+    ffd_buffer_append(text, saved.data, saved.size);
+    ffd_file_unload(&saved);
+    free(values);
+    obj->close(document);
+}
+
+static void results_in_place_give_the_same_file(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    size_t different = 0;
+    for (int round = 0; round < 400; round++) {
+        writer w = {.d = &d};
+        const uint64_t seed = draw_bits(&d);
+        byte_buffer beside = {0}, in_place = {0};
+        if (round % 2)
+            draw_file(&w);
+        else
+            draw_plain_file(&w);
+        saved_text(&w, seed, false, &beside);
+        saved_text(&w, seed, true, &in_place);
+        assert_int_equal(beside.size, in_place.size);
+        assert_memory_equal(beside.data, in_place.data, beside.size);
+        different += beside.size != strlen(w.text) || memcmp(beside.data, w.text, beside.size) != 0;
+        ffd_buffer_free(&beside);
+        ffd_buffer_free(&in_place);
+    }
+    assert_true(different > 300);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_random_files)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_random_files),
+        cmocka_unit_test(results_in_place_give_the_same_file),
+    };
     return cmocka_run_group_tests(tests, NULL, remove_saved);
 }

@@ -59,6 +59,7 @@ static void describe_part(obj_document *d)
 static void free_document(obj_document *d)
 {
     ffd_obj_blocks_free(&d->blocks);
+    ffd_obj_free_normals(d);
     ffd_free(d->name);
     ffd_spill_free(&d->position_store);
     ffd_spill_free(&d->direction_store);
@@ -69,7 +70,8 @@ static void free_document(obj_document *d)
     ffd_free(d->selected_faces);
     ffd_free(d->selected_pairs);
     ffd_free(d->held_normals);
-    ffd_free(d->new_directions);
+    ffd_free(d->position_changes);
+    ffd_free(d->direction_changes);
     ffd_free(d);
 }
 

@@ -39,8 +39,11 @@ typedef struct obj_document {
     /* What ffd_obj_select left: bytes of vertices, faces, pairs; and of `vn` that a corner of a face uses
        which is not selected, so that they must stay. NULL: all is selected. */
     uint8_t *selected_vertices, *selected_faces, *selected_pairs, *held_normals;
+    /* Results; either may stand where what was read did (in_place). */
     double *new_positions;  /* 3 a vertex; NULL before ffd_obj_begin_results */
     double *new_directions; /* 3 a pair; NULL: normals are kept */
+    /* Of each vertex, and of each pair, a bit for each coordinate that has other bits than before. */
+    uint8_t *position_changes, *direction_changes;
 } obj_document;
 
 static inline const obj_document *ffd_obj_of(const mesh_document *document)
@@ -63,6 +66,8 @@ ffd_status ffd_obj_read_vectors(obj_document *document, obj_users *users, ffd_er
 /* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
 ffd_status ffd_obj_read_faces(obj_document *document, obj_users *users, ffd_error *error);
 
+/* Frees the results of normals, if there are any: normals are kept. */
+void ffd_obj_free_normals(obj_document *document);
 /* Gives back the memory of positions and results of so many vertices, where they stand in a file. */
 void ffd_obj_forget_vectors(const obj_document *document, size_t first, size_t count);
 

@@ -1,6 +1,7 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "io/obj/obj_document.h"
+#include "io/splice.h"
 #include "io/vectors.h"
 #include <string.h>
 
@@ -47,26 +48,87 @@ static void copy_normals(void *context, size_t tile, size_t first, size_t last, 
     ffd_obj_read_normals(&d->base, 0, first, last - first, d->new_directions + 3 * first);
 }
 
-ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+/* Nothing has changed so far. */
+static bool clear_changes(uint8_t **changes, size_t count)
 {
-    obj_document *d = (obj_document *)document;
-    (void)tangents; /* there are none */
+    if (*changes)
+        memset(*changes, 0, count);
+    else
+        *changes = ffd_alloc_zero(count, sizeof **changes);
+    return *changes;
+}
+
+static ffd_status begin_positions(obj_document *d, ffd_error *error)
+{
+    if (!clear_changes(&d->position_changes, d->vertices))
+        return ffd_fail_memory(error);
+    if (d->base.in_place) {
+        d->new_positions = d->position_store.data;
+        return FFD_OK;
+    }
     if (!ffd_spill_grow(&d->result_store, d->vertices * OBJ_VECTOR))
         return ffd_fail_memory(error);
     d->new_positions = d->result_store.data;
     ffd_parallel_tiles(d->vertices, TILE, d->threads, copy_tile, d);
-    if (!normals || !d->pair_normal) {
-        ffd_free(d->new_directions);
-        d->new_directions = NULL;
+    return FFD_OK;
+}
+
+/* Whether each pair is the `vn` of the same number, so that its result can stand there. (Where only some
+   faces are selected the others show what was read: has_both, obj_model.c.) */
+static bool results_fit(const obj_document *d)
+{
+    bool fit = !d->selected_faces;
+    for (uint32_t i = 0; i < d->part.normal_count && fit; i++)
+        fit = d->pair_normal[i] == i;
+    return fit;
+}
+
+static ffd_status begin_normals(obj_document *d, ffd_error *error)
+{
+    const size_t count = d->part.normal_count;
+    if (!clear_changes(&d->direction_changes, count))
+        return ffd_fail_memory(error);
+    if (d->base.in_place && results_fit(d)) {
+        d->new_directions = d->direction_store.data;
         return FFD_OK;
     }
     if (!d->new_directions)
-        d->new_directions = ffd_alloc(d->part.normal_count, 3 * sizeof *d->new_directions);
+        d->new_directions = ffd_alloc(count, 3 * sizeof *d->new_directions);
     if (!d->new_directions)
         return ffd_fail_memory(error);
-    ffd_expect_all(d->new_directions, d->part.normal_count, 3 * sizeof *d->new_directions);
-    ffd_parallel_tiles(d->part.normal_count, TILE, d->threads, copy_normals, d);
+    ffd_expect_all(d->new_directions, count, 3 * sizeof *d->new_directions);
+    ffd_parallel_tiles(count, TILE, d->threads, copy_normals, d);
     return FFD_OK;
+}
+
+void ffd_obj_free_normals(obj_document *d)
+{
+    if (d->new_directions != d->directions)
+        ffd_free(d->new_directions);
+    d->new_directions = NULL;
+}
+
+ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+{
+    obj_document *d = (obj_document *)document;
+    (void)tangents; /* there are none */
+    const ffd_status status = begin_positions(d, error);
+    if (!status && normals && d->pair_normal)
+        return begin_normals(d, error);
+    ffd_obj_free_normals(d);
+    return status;
+}
+
+/* Puts those that are marked as changed into results, and notes which of their coordinates are. */
+static void write_vectors(double *results, uint8_t *changes, size_t first, size_t count, const double *xyz,
+                          const uint8_t *changed)
+{
+    for (size_t i = 0; i < count; i++)
+        if (changed[i]) {
+            double *const result = results + 3 * (first + i);
+            changes[first + i] = (uint8_t)ffd_splice_changes(result, xyz + 3 * i, 3);
+            memcpy(result, xyz + 3 * i, 3 * sizeof *xyz);
+        }
 }
 
 void ffd_obj_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
@@ -74,13 +136,15 @@ void ffd_obj_write_positions(mesh_document *document, size_t part, size_t first,
 {
     const obj_document *d = ffd_obj_of(document);
     (void)part;
-    ffd_vectors_write(d->new_positions, first, count, xyz, changed);
+    write_vectors(d->new_positions, d->position_changes, first, count, xyz, changed);
     ffd_obj_forget_vectors(d, first, count);
 }
 
 void ffd_obj_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
                            const double *xyz, const uint8_t *changed)
 {
+    const obj_document *d = ffd_obj_of(document);
     (void)part;
-    ffd_vectors_write(ffd_obj_of(document)->new_directions, first, count, xyz, changed);
+    if (d->new_directions)
+        write_vectors(d->new_directions, d->direction_changes, first, count, xyz, changed);
 }

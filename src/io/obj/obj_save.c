@@ -24,17 +24,17 @@ typedef struct block_saver {
     decimal_run positions, directions;
 } block_saver;
 
-/* Replaces those of a statement's three numbers that have other bits than before. */
-static void replace_numbers(block_saver *s, obj_scan *scan, const double *before, const double *after,
+/* Replaces those of a statement's three numbers that have changed. */
+static void replace_numbers(block_saver *s, obj_scan *scan, const double *numbers, unsigned changes,
                             decimal_run *run)
 {
     text_word words[3];
     size_t count = 0;
-    if (ffd_obj_same_vector(before, after))
+    if (!changes)
         return;
     while (count < 3 && ffd_obj_scan_word(scan, &words[count]))
         count++;
-    ffd_splice_numbers(&s->splice, words, before, after, count, run);
+    ffd_splice_numbers(&s->splice, words, numbers, changes, count, run);
 }
 
 static void renumber_corners(block_saver *s, obj_walk *walk)
@@ -113,7 +113,7 @@ static void replace_normal(block_saver *s, obj_walk *walk)
     const size_t n = walk->normals.seen - 1;
     const uint32_t keeper = s->all->split.keeper[n];
     if (keeper != OBJ_NONE)
-        replace_numbers(s, &walk->scan, d->directions + 3 * n, d->new_directions + 3 * (size_t)keeper,
+        replace_numbers(s, &walk->scan, d->new_directions + 3 * (size_t)keeper, d->direction_changes[keeper],
                         &s->directions);
     if (n + 1 == d->normals && d->addition < d->input.size)
         add_normals(s->all, &s->splice);
@@ -126,7 +126,7 @@ static void write_statement(block_saver *s, obj_walk *walk, size_t faces)
     const obj_document *d = all->document;
     const size_t v = walk->vertices.seen - 1;
     if (walk->scan.keyword == OBJ_VERTEX)
-        replace_numbers(s, &walk->scan, d->positions + 3 * v, d->new_positions + 3 * v, &s->positions);
+        replace_numbers(s, &walk->scan, d->new_positions + 3 * v, d->position_changes[v], &s->positions);
     else if (walk->scan.keyword == OBJ_NORMAL && all->split.keeper)
         replace_normal(s, walk);
     else if (walk->scan.keyword == OBJ_FACE && all->split.target &&

@@ -3,7 +3,7 @@
 #include "base/slots.h"
 #include <string.h>
 
-bool ffd_obj_same_vector(const double *a, const double *b)
+static bool same_vector(const double *a, const double *b)
 {
     return memcmp(a, b, 3 * sizeof *a) == 0;
 }
@@ -15,7 +15,7 @@ static const double *value_of(const obj_document *d, uint32_t pair)
 
 static bool is_unchanged(const obj_document *d, uint32_t pair)
 {
-    return ffd_obj_same_vector(value_of(d, pair), d->directions + 3 * (size_t)d->pair_normal[pair]);
+    return !d->direction_changes[pair];
 }
 
 static void choose_keepers(const obj_document *d, uint32_t *keeper)
@@ -36,7 +36,7 @@ static bool needs_own(const obj_document *d, const uint32_t *keeper, uint32_t pa
     const uint32_t kept = keeper[d->pair_normal[pair]];
     if (kept == OBJ_NONE)
         return !is_unchanged(d, pair);
-    return kept != pair && !ffd_obj_same_vector(value_of(d, pair), value_of(d, kept));
+    return kept != pair && !same_vector(value_of(d, pair), value_of(d, kept));
 }
 
 /* The finalizer of MurmurHash3 over the words of a value and its `vn`. */
@@ -65,7 +65,7 @@ static uint32_t find_or_add(const obj_document *d, const value_table *table, obj
     for (; table->slots[at] != OBJ_NONE; at = (at + 1) & table->mask) {
         const uint32_t other = split->added[table->slots[at]];
         if (d->pair_normal[other] == d->pair_normal[pair] &&
-            ffd_obj_same_vector(value_of(d, other), value_of(d, pair)))
+            same_vector(value_of(d, other), value_of(d, pair)))
             return table->slots[at];
     }
     table->slots[at] = (uint32_t)split->added_count;

@@ -18,7 +18,4 @@ typedef struct obj_split {
 ffd_status ffd_obj_split_normals(const obj_document *document, obj_split *split, ffd_error *error);
 void ffd_obj_split_free(obj_split *split);
 
-/* Whether both are the same three doubles, bit for bit. */
-bool ffd_obj_same_vector(const double *a, const double *b);
-
 #endif

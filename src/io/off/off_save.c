@@ -1,6 +1,12 @@
 #include "io/off/off_document.h"
 #include "io/splice.h"
 
+static void replace_numbers(file_splice *splice, const text_word *words, const double *before,
+                            const double *after, decimal_run *run)
+{
+    ffd_splice_numbers(splice, words, after, ffd_splice_changes(before, after, 3), 3, run);
+}
+
 static void write_vertices(const off_document *d, file_splice *splice)
 {
     off_walk walk;
@@ -12,11 +18,10 @@ static void write_vertices(const off_document *d, file_splice *splice)
         ffd_decimal_run_begin(&directions, d->new_directions + 3 * d->header.vertices);
     for (size_t i = 0; splice->status == FFD_OK && i < d->header.vertices; i++) {
         ffd_off_walk_vertex(&walk, &vertex);
-        ffd_splice_numbers(splice, vertex.numbers, d->positions + 3 * i, d->new_positions + 3 * i, 3,
-                           &positions);
+        replace_numbers(splice, vertex.numbers, d->positions + 3 * i, d->new_positions + 3 * i, &positions);
         if (d->new_directions)
-            ffd_splice_numbers(splice, vertex.numbers + 3, d->directions + 3 * i, d->new_directions + 3 * i,
-                               3, &directions);
+            replace_numbers(splice, vertex.numbers + 3, d->directions + 3 * i, d->new_directions + 3 * i,
+                            &directions);
     }
 }
 
