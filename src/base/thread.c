@@ -121,7 +121,7 @@ int ffd_ordered_slots(int threads)
 {
     if (threads <= 1)
         return 1;
-    return threads + (threads < MOST_WAITING ? threads : MOST_WAITING);
+    return threads + MOST_WAITING;
 }
 
 /* The slot that has the tile, if it is made; -1: none. */

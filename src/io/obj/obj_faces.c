@@ -1,4 +1,5 @@
 #include "base/memory.h"
+#include "base/thread.h"
 #include "io/obj/obj_users.h"
 #include <inttypes.h>
 #include <stdlib.h>
@@ -40,29 +41,39 @@ static void sort_numbers(uint32_t *numbers, size_t count)
     }
 }
 
-/* How many normals the lists of all vertices have, with repetitions. */
-static uint64_t count_normals(const obj_document *d, const obj_users *users, uint64_t *others)
+/* Vertices whose first normals a thread looks at at a time. */
+#define TILE ((size_t)1 << 14)
+
+/* The first normals, put one behind the other. */
+typedef struct first_list {
+    obj_document *document;
+    const obj_users *users;
+    uint32_t *counts; /* of each tile, then of all tiles before it */
+} first_list;
+
+static void count_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
-    uint64_t firsts = 0;
-    for (size_t i = 0; i < d->vertices; i++)
-        firsts += ffd_obj_first_normal(users, i) != OBJ_NONE;
-    *others = 0;
-    for (size_t b = 0; b < d->blocks.count; b++)
-        *others += users->blocks[b].other_count;
-    return firsts + *others;
+    const first_list *list = context;
+    uint32_t count = 0;
+    (void)worker;
+    for (size_t i = first; i < last; i++)
+        count += ffd_obj_first_normal(list->users, i) != 0;
+    list->counts[tile] = count;
 }
 
 /* Where no vertex has more than one. */
-static void take_firsts(obj_document *d, const obj_users *users)
+static void take_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
-    uint32_t count = 0;
-    for (size_t i = 0; i < d->vertices; i++) {
-        const uint32_t first = ffd_obj_first_normal(users, i);
+    const first_list *list = context;
+    obj_document *d = list->document;
+    uint32_t count = list->counts[tile];
+    (void)worker;
+    for (size_t i = first; i < last; i++) {
+        const uint32_t normal = ffd_obj_first_normal(list->users, i);
         d->pair_start[i] = count;
-        if (first != OBJ_NONE)
-            d->pair_normal[count++] = first;
+        if (normal)
+            d->pair_normal[count++] = normal - 1;
     }
-    d->pair_start[d->vertices] = count;
 }
 
 /* Counts the normals of each vertex, and fills each vertex's list from its end, which leaves pair_start[i +
@@ -70,15 +81,15 @@ static void take_firsts(obj_document *d, const obj_users *users)
 static void collect_normals(obj_document *d, const obj_users *users)
 {
     for (size_t i = 0; i < d->vertices; i++)
-        d->pair_start[i + 1] = ffd_obj_first_normal(users, i) != OBJ_NONE;
+        d->pair_start[i + 1] = ffd_obj_first_normal(users, i) != 0;
     for (size_t b = 0; b < d->blocks.count; b++)
         for (size_t i = 0; i < users->blocks[b].other_count; i++)
             d->pair_start[users->blocks[b].others[i].vertex + 1]++;
     for (size_t i = 0; i < d->vertices; i++)
         d->pair_start[i + 1] += d->pair_start[i];
     for (size_t i = 0; i < d->vertices; i++)
-        if (ffd_obj_first_normal(users, i) != OBJ_NONE)
-            d->pair_normal[--d->pair_start[i + 1]] = ffd_obj_first_normal(users, i);
+        if (ffd_obj_first_normal(users, i))
+            d->pair_normal[--d->pair_start[i + 1]] = ffd_obj_first_normal(users, i) - 1;
     for (size_t b = 0; b < d->blocks.count; b++)
         for (size_t i = 0; i < users->blocks[b].other_count; i++) {
             const obj_vertex_normal *other = &users->blocks[b].others[i];
@@ -104,10 +115,28 @@ static void join_equal_normals(obj_document *d, size_t total)
         d->pair_normal = block;
 }
 
-static ffd_status make_pairs(const obj_users *users, obj_document *d, ffd_error *error)
+/* How many normals the lists of all vertices have, with repetitions. */
+static uint64_t count_normals(first_list *list, uint64_t *others)
 {
+    const obj_document *d = list->document;
+    uint64_t firsts = 0;
+    ffd_parallel_tiles(d->vertices, TILE, d->threads, count_tile, list);
+    for (size_t tile = 0; tile * TILE < d->vertices; tile++) {
+        const uint32_t count = list->counts[tile];
+        list->counts[tile] = (uint32_t)firsts;
+        firsts += count;
+    }
+    *others = 0;
+    for (size_t b = 0; b < d->blocks.count; b++)
+        *others += list->users->blocks[b].other_count;
+    return firsts + *others;
+}
+
+static ffd_status make_lists(first_list *list, ffd_error *error)
+{
+    obj_document *d = list->document;
     uint64_t others;
-    const uint64_t count = count_normals(d, users, &others);
+    const uint64_t count = count_normals(list, &others);
     if (count == 0)
         return FFD_OK;
     if (count > UINT32_MAX)
@@ -118,12 +147,21 @@ static ffd_status make_pairs(const obj_users *users, obj_document *d, ffd_error 
     if (!d->pair_start || !d->pair_normal)
         return ffd_fail_memory(error);
     if (others == 0) {
-        take_firsts(d, users);
+        ffd_parallel_tiles(d->vertices, TILE, d->threads, take_tile, list);
+        d->pair_start[d->vertices] = (uint32_t)count;
         return FFD_OK;
     }
-    collect_normals(d, users);
+    collect_normals(d, list->users);
     join_equal_normals(d, (size_t)count);
     return FFD_OK;
+}
+
+static ffd_status make_pairs(const obj_users *users, obj_document *d, ffd_error *error)
+{
+    first_list list = {d, users, ffd_alloc(d->vertices / TILE + 1, sizeof *list.counts)};
+    const ffd_status status = list.counts ? make_lists(&list, error) : ffd_fail_memory(error);
+    ffd_free(list.counts);
+    return status;
 }
 
 ffd_status ffd_obj_read_faces(obj_document *d, obj_users *users, ffd_error *error)

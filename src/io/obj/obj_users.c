@@ -55,11 +55,12 @@ static void look_for_corners(const block_reader *r, obj_scan *scan, obj_block_us
 /* Whether the normal is the vertex' first one. */
 static bool is_first(_Atomic uint32_t *first, uint32_t normal)
 {
+    const uint32_t number = normal + 1;
     uint32_t there = atomic_load_explicit(first, memory_order_relaxed);
-    if (there == OBJ_NONE && atomic_compare_exchange_strong_explicit(
-                                 first, &there, normal, memory_order_relaxed, memory_order_relaxed))
+    if (there == 0 && atomic_compare_exchange_strong_explicit(first, &there, number, memory_order_relaxed,
+                                                              memory_order_relaxed))
         return true;
-    return there == normal;
+    return there == number;
 }
 
 static ffd_status add_normal(const block_reader *r, const obj_scan *scan, size_t vertex, obj_index index,
@@ -133,12 +134,14 @@ static bool grow_firsts(obj_users *users, size_t count)
 {
     if (count <= users->first_count)
         return true;
-    _Atomic uint32_t *firsts = ffd_realloc(users->firsts, count, sizeof *firsts);
+    _Atomic uint32_t *firsts = ffd_alloc_zero(count, sizeof *firsts);
     if (!firsts)
         return false;
+    for (size_t i = 0; i < users->first_count; i++)
+        atomic_init(&firsts[i], ffd_obj_first_normal(users, i));
+    ffd_free(users->firsts);
     users->firsts = firsts;
-    for (; users->first_count < count; users->first_count++)
-        atomic_init(&firsts[users->first_count], OBJ_NONE);
+    users->first_count = count;
     return true;
 }
 

@@ -27,8 +27,9 @@ typedef struct obj_block_users {
 /* Those of a file. */
 struct obj_users {
     obj_block_users *blocks; /* one a block */
-    /* Of each vertex a normal that is named together with it, whichever thread came first; OBJ_NONE: none so
-       far. Nearly all vertices of most meshes have but one. NULL: normals are not wanted, or none yet. */
+    /* Of each vertex the number, from 1, of a normal that is named together with it, whichever thread came
+       first; 0: none so far. Nearly all vertices of most meshes have but one. NULL: normals are not wanted,
+       or none yet. */
     _Atomic uint32_t *firsts;
     size_t first_count;
 };
@@ -47,6 +48,7 @@ void ffd_obj_free_block_users(obj_block_users *block);
 ffd_status ffd_obj_users_finish(const obj_document *document, obj_users *users, ffd_error *error);
 void ffd_obj_users_free(const obj_document *document, obj_users *users);
 
+/* That number. */
 static inline uint32_t ffd_obj_first_normal(const obj_users *users, size_t vertex)
 {
     return atomic_load_explicit(&users->firsts[vertex], memory_order_relaxed);
