@@ -187,6 +187,9 @@ static const char *const arguments[] = {
     "00000001/2",
     "12:4567890",
     "1/23?4567890",
+    "/1/2",
+    "//",
+    "1/123456789/2",
     "1234567\2001",
     "1/2\377/34567890",
     "1/2/3                  ",
@@ -198,14 +201,18 @@ static bool same_index(obj_index a, obj_index b)
            (a.text.last == a.text.first || a.text.first == b.text.first);
 }
 
+static const char far[] = " 4/5/6 7/8/9 10/11/12 13/14/15 16/17/18 19/20/21\nf 1 2 3\n";
+
 /* What is taken straight from the text must be all of the word and mean the same; what is not, stays. */
 static void arguments_are_read_as_words_are(void **state)
 {
     (void)state;
     size_t numbers = 0, corners = 0;
-    for (size_t i = 0; i < sizeof arguments / sizeof *arguments; i++) {
-        char text[80];
-        snprintf(text, sizeof text, "f  %s", arguments[i]);
+    const size_t count = sizeof arguments / sizeof *arguments;
+    for (size_t n = 0; n < 2 * count; n++) {
+        char text[160];
+        const size_t i = n % count; /* near the file's end, and far from it */
+        snprintf(text, sizeof text, "f  %s%s", arguments[i], n < count ? "" : far);
         obj_scan scan;
         text_word word;
         ffd_obj_scan_begin(&scan, text, strlen(text));
@@ -234,8 +241,43 @@ static void arguments_are_read_as_words_are(void **state)
             assert_ptr_equal(again.last, word.last);
         }
     }
-    assert_in_range(numbers, 8, 50);
-    assert_in_range(corners, 12, 50);
+    assert_in_range(numbers, 16, 100);
+    assert_in_range(corners, 24, 100);
+}
+
+/* Three words at once are those that come one by one, and what follows them is the same. */
+static void words_are_read_as_one_by_one(void **state)
+{
+    (void)state;
+    static const char drawn[] = "          aaaabbbb1111....\n\t\f\x01\x1f\x7f\xff";
+    draw d = {draw_seed()};
+    size_t complete = 0;
+    for (int round = 0; round < 20000; round++) {
+        char text[120] = "v ";
+        const int size = draw_int(&d, 3, 119);
+        const bool even = draw_int(&d, 0, 1);
+        for (int i = 1; i < size; i++)
+            text[i] = even ? (i % 9 == 1 ? ' ' : '5') : drawn[draw_int(&d, 0, sizeof drawn - 2)];
+        if (even && size > 40)
+            text[draw_int(&d, 20, 40)] = '\n';
+        text[1] = ' ';
+        obj_scan scan;
+        ffd_obj_scan_begin(&scan, text, (size_t)size);
+        scan.plain = ffd_obj_is_plain(text, text + size);
+        assert_true(scan.plain && ffd_obj_scan_next(&scan));
+        obj_scan one_by_one = scan;
+        text_word words[3], word;
+        const size_t count = ffd_obj_scan_words(&scan, words);
+        for (size_t i = 0; i < count; i++) {
+            assert_true(ffd_obj_scan_word(&one_by_one, &word));
+            assert_ptr_equal(words[i].first, word.first);
+            assert_ptr_equal(words[i].last, word.last);
+        }
+        assert_true(count == 3 || !ffd_obj_scan_word(&one_by_one, &word));
+        assert_ptr_equal(scan.at, one_by_one.at);
+        complete += count == 3;
+    }
+    assert_in_range(complete, 5000, 20000);
 }
 
 int main(void)
@@ -244,6 +286,7 @@ int main(void)
         cmocka_unit_test(any_cut_gives_the_same_statements),
         cmocka_unit_test(blocks_are_as_long_as_asked_for),
         cmocka_unit_test(arguments_are_read_as_words_are),
+        cmocka_unit_test(words_are_read_as_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

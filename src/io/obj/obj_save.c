@@ -29,11 +29,9 @@ static void replace_numbers(block_saver *s, obj_scan *scan, const double *number
                             decimal_run *run)
 {
     text_word words[3];
-    size_t count = 0;
     if (!changes)
         return;
-    while (count < 3 && ffd_obj_scan_word(scan, &words[count]))
-        count++;
+    const size_t count = ffd_obj_scan_words(scan, words);
     ffd_splice_numbers(&s->splice, words, numbers, changes, count, run);
 }
 

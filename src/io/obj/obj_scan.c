@@ -1,5 +1,5 @@
 #include "io/obj/obj_scan.h"
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include <string.h>
 
 const unsigned char ffd_obj_classes[256] = {
@@ -126,12 +126,10 @@ static bool ends_word(const obj_scan *scan, const char *at, bool names)
 /* Where a plain text has the next character that may not be ordinary: one below '!'. */
 static const char *pass_ordinary(const char *at, const char *last)
 {
-    const uint64_t ones = UINT64_C(0x0101010101010101), tops = 0x80 * ones;
     for (; last - at >= 8; at += 8) {
-        const uint64_t bytes = load_u64((const unsigned char *)at);
-        const uint64_t below = ~((bytes | tops) - '!' * ones) & ~bytes & tops;
-        if (below)
-            return at + __builtin_ctzll(below) / 8;
+        const uint64_t low = bytes_low(load_u64((const unsigned char *)at));
+        if (low)
+            return at + __builtin_ctzll(low) / 8;
     }
     return at;
 }
@@ -213,6 +211,38 @@ bool ffd_obj_scan_next(obj_scan *scan)
     scan->name = take_word(scan, false);
     scan->keyword = keyword_of(scan->name);
     return true;
+}
+
+/* Three words with a blank before each, and something that ends the last, all within 64 bytes. */
+static bool take_three(obj_scan *scan, text_word words[3])
+{
+    const char *const at = scan->at;
+    if (!scan->plain || scan->last - at < 64 || *at != ' ')
+        return false;
+    uint64_t ends = bytes_low_of_64(at);
+    const char *end = at;
+    for (int i = 0; i < 3; i++) {
+        ends &= ends - 1;
+        if (!ends || ffd_obj_class(end) != OBJ_BLANK)
+            return false;
+        words[i].first = end + 1;
+        end = words[i].last = at + __builtin_ctzll(ends);
+        if (words[i].first == end)
+            return false;
+    }
+    scan->at = end;
+    return ffd_obj_class(end) != OBJ_ORDINARY;
+}
+
+size_t ffd_obj_scan_words(obj_scan *scan, text_word words[3])
+{
+    const char *const at = scan->at;
+    size_t count = 0;
+    if (take_three(scan, words))
+        return 3;
+    for (scan->at = at; count < 3 && ffd_obj_scan_word(scan, &words[count]);)
+        count++;
+    return count;
 }
 
 bool ffd_obj_scan_word(obj_scan *scan, text_word *word)

@@ -45,6 +45,8 @@ void ffd_obj_scan_finish(obj_scan *scan);
 bool ffd_obj_scan_next(obj_scan *scan);
 /* Takes the next argument of the current statement. False (and *word is empty) where there is none left. */
 bool ffd_obj_scan_word(obj_scan *scan, text_word *word);
+/* Takes the next three, or as many as there are; returns how many. */
+size_t ffd_obj_scan_words(obj_scan *scan, text_word words[3]);
 
 /* What a character is to the scanner. */
 enum { OBJ_ORDINARY = 0, OBJ_BLANK, OBJ_LINE_END, OBJ_BACKSLASH, OBJ_HASH };

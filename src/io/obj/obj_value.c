@@ -1,5 +1,5 @@
 #include "io/obj/obj_value.h"
-#include "base/little_endian.h"
+#include "base/bytes.h"
 #include "base/number.h"
 
 static bool is_digit(char c)
@@ -77,35 +77,55 @@ static uint64_t join_digits(uint64_t digits)
     return (10000 * fours + (fours >> 32)) & UINT64_C(0xffffffff);
 }
 
-/* How many of eight bytes are digits before the first that is none, and the number that they make. */
-static int read_digits(const char *eight, uint64_t *number)
+/* An index of so many digits, 8 at most, where 8 bytes can be read. */
+static ALWAYS_INLINE obj_index index_at(const char *at, int count)
 {
-    /* A digit's byte becomes its value; of the first that is none the highest bit gets set. */
-    const uint64_t bytes = load_u64((const unsigned char *)eight) ^ UINT64_C(0x3030303030303030);
-    const uint64_t others = (bytes | (bytes + UINT64_C(0x7676767676767676))) & UINT64_C(0x8080808080808080);
-    const int count = others ? __builtin_ctzll(others) / 8 : 8;
-    *number = count ? join_digits(bytes << (64 - 8 * count)) : 0;
-    return count;
+    const uint64_t values = load_u64((const unsigned char *)at) ^ '0' * BYTES_ONES;
+    const uint64_t number = count ? join_digits(values << (64 - 8 * count)) : 0;
+    return (obj_index){(int64_t)number, {at, at + count}};
 }
 
 /* Takes the digits that a text begins with: eight at most, more are a word's. */
-static inline const char *take_digits(const char *at, const char *last, obj_index *index)
+static const char *take_digits(const char *at, const char *last, obj_index *index)
 {
-    uint64_t number = 0;
-    int count = 0;
-    if (last - at >= 8)
-        count = read_digits(at, &number);
-    else
-        for (; at + count < last && is_digit(at[count]); count++)
-            number = 10 * number + (uint64_t)(at[count] - '0');
-    *index = (obj_index){(int64_t)number, {at, at + count}};
-    return at + count;
+    if (last - at >= 8) {
+        const uint64_t others = bytes_not_digits(load_u64((const unsigned char *)at));
+        *index = index_at(at, others ? __builtin_ctzll(others) / 8 : 8);
+        return index->text.last;
+    }
+    *index = (obj_index){0, {at, at}};
+    for (; at < last && is_digit(*at); at++)
+        index->value = 10 * index->value + (*at - '0');
+    return index->text.last = at;
+}
+
+/* A corner with two slashes, where 40 bytes can be read. What it consists of is found at once: one index
+   after the other would be looked for only when the end of the one before is known. */
+static ALWAYS_INLINE const char *take_whole_corner(const char *at, obj_corner *corner)
+{
+    uint32_t others = bytes_not_digits_of_32(at);
+    int end[3];
+    for (int i = 0; i < 3; i++, others &= others - 1) {
+        if (!others)
+            return NULL;
+        end[i] = __builtin_ctz(others);
+    }
+    const int texcoord = end[1] - end[0] - 1, normal = end[2] - end[1] - 1;
+    if (at[end[0]] != '/' || at[end[1]] != '/' || end[0] == 0 || end[0] > 8 || texcoord > 8 || normal > 8)
+        return NULL;
+    corner->vertex = index_at(at, end[0]);
+    corner->texcoord = index_at(at + end[0] + 1, texcoord);
+    corner->normal = index_at(at + end[1] + 1, normal);
+    return at + end[2];
 }
 
 bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner)
 {
     const char *at = ffd_obj_scan_argument(scan);
     const char *const last = scan->last;
+    const char *const end = last - at >= 40 ? take_whole_corner(at, corner) : NULL;
+    if (end)
+        return ffd_obj_scan_take(scan, end);
     at = take_digits(at, last, &corner->vertex);
     corner->texcoord = corner->normal = (obj_index){0, {at, at}};
     if (corner->vertex.text.first == at)

@@ -1,0 +1,60 @@
+/* Which of many bytes are of a kind: as one after the other says, at any place, by any way. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../support/draw.h"
+#include "base/bytes.h"
+
+#define ROUNDS 20000
+
+static uint64_t low_one_by_one(const char *at)
+{
+    uint64_t found = 0;
+    for (int i = 0; i < 64; i++)
+        found |= (uint64_t)((unsigned char)at[i] < '!') << i;
+    return found;
+}
+
+static uint32_t not_digits_one_by_one(const char *at)
+{
+    uint32_t found = 0;
+    for (int i = 0; i < 32; i++)
+        found |= (uint32_t)(at[i] < '0' || at[i] > '9') << i;
+    return found;
+}
+
+/* Any bytes, or those around the ones that are looked for. */
+static void draw_bytes(draw *d, char *bytes, size_t count)
+{
+    static const char near[] = "\0\x1f !\"\x7f\x80\xa0\xff/0123456789:\xb0\xb9";
+    const int kind = draw_int(d, 0, 2);
+    for (size_t i = 0; i < count; i++)
+        bytes[i] = kind == 0   ? (char)draw_int(d, -128, 127)
+                   : kind == 1 ? near[draw_int(d, 0, sizeof near - 2)]
+                               : (char)draw_int(d, '/', ':');
+}
+
+static void all_ways_agree(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    char bytes[80];
+    for (int round = 0; round < ROUNDS; round++) {
+        const char *const at = bytes + round % 16;
+        draw_bytes(&d, bytes, sizeof bytes);
+        assert_int_equal(bytes_low_of_64_by_words(at), low_one_by_one(at));
+        assert_int_equal(bytes_low_of_64(at), low_one_by_one(at));
+        assert_int_equal(bytes_not_digits_of_32_by_words(at), not_digits_one_by_one(at));
+        assert_int_equal(bytes_not_digits_of_32(at), not_digits_one_by_one(at));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(all_ways_agree)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
