@@ -401,6 +401,20 @@ static void base64_is_read_and_written(void **state)
     assert_false(ffd_base64_decode("Z", 1, bytes, &count));
     assert_false(ffd_base64_decode("Z===", 4, bytes, &count));
     assert_false(ffd_base64_decode("Zm 9", 4, bytes, &count));
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (int c = 0; c < 256; c++)
+        for (size_t place = 0; place < 7; place++) { /* of the last characters '=' is none of the text */
+            const char *const digit = c ? strchr(digits, c) : NULL;
+            memcpy(text, "AAAAAAA", 7);
+            text[place] = (char)c;
+            const bool ends = c == '=' && place == 6;
+            assert_int_equal(ffd_base64_decode(text, 7, bytes, &count), digit || ends);
+            if (!digit)
+                continue;
+            const uint64_t bits = (uint64_t)(digit - digits) << (42 - 6 * place);
+            for (size_t i = 0; i < count; i++)
+                assert_int_equal(bytes[i], bits >> (40 - 8 * i) & 255);
+        }
 }
 
 static void paths_are_worked_in(void **state)

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -58,6 +59,36 @@ static void characters_are_decoded(void **state)
     assert_memory_equal(text, "\"\\/\b\f\n\r\t\xc3\xa4\xf0\x9f\x98\x80\0\xc3\xa4", 18);
     ffd_free(text);
     ffd_json_span_free(&tree);
+}
+
+/* Wherever it stands among others: what it is decoded to; NULL: it is refused. */
+static void a_character_is_seen_anywhere(void **state)
+{
+    (void)state;
+    static const char *const characters[][2] = {
+        {"\\n", "\n"}, {"\\\"", "\""},   {"\\\\", "\\"}, {"\\u00e9", "\xc3\xa9"},
+        {" ", " "},    {"\x7f", "\x7f"}, {"!", "!"},     {"\xc3\xa9", "\xc3\xa9"},
+        {"]", "]"},    {"\x1f", NULL},   {"\xff", NULL}, {"\xc3", NULL},
+        {"\\q", NULL}, {"\n", NULL},     {"[", "["},     {"\xe2\x82\xac", "\xe2\x82\xac"},
+    };
+    for (size_t c = 0; c < sizeof characters / sizeof *characters; c++)
+        for (int before = 0; before < 20; before++)
+            for (int behind = 0; behind < 20; behind++) {
+                char text[80], expected[80];
+                json_span tree;
+                snprintf(text, sizeof text, "\"%.*s%s%.*s\"", before, "aaaaaaaaaaaaaaaaaaaa",
+                         characters[c][0], behind, "~~~~~~~~~~~~~~~~~~~~");
+                const ffd_status status = parse(text, &tree, NULL);
+                assert_int_equal(status, characters[c][1] ? FFD_OK : FFD_E_INVALID);
+                if (status)
+                    continue;
+                snprintf(expected, sizeof expected, "%.*s%s%.*s", before, "aaaaaaaaaaaaaaaaaaaa",
+                         characters[c][1], behind, "~~~~~~~~~~~~~~~~~~~~");
+                char *string = ffd_json_span_string(&tree, 0, NULL);
+                assert_string_equal(string, expected);
+                ffd_free(string);
+                ffd_json_span_free(&tree);
+            }
 }
 
 static void broken_text_is_refused_with_its_line(void **state)
@@ -229,6 +260,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(spans_are_those_of_the_text),
         cmocka_unit_test(characters_are_decoded),
+        cmocka_unit_test(a_character_is_seen_anywhere),
         cmocka_unit_test(broken_text_is_refused_with_its_line),
         cmocka_unit_test(depth_is_limited),
         cmocka_unit_test(many_members_are_compared),

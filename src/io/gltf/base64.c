@@ -1,34 +1,61 @@
 #include "io/gltf/base64.h"
 #include <stdint.h>
 
-static int value_of(char c)
+#define NONE 64
+
+/* 6 bits of each character; NONE for what is no digit. */
+static const uint8_t values[256] = {
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, 62,   NONE, NONE, NONE, 63,
+    52,   53,   54,   55,   56,   57,   58,   59,   60,   61,   NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, 0,    1,    2,    3,    4,    5,    6,    7,    8,    9,    10,   11,   12,   13,   14,
+    15,   16,   17,   18,   19,   20,   21,   22,   23,   24,   25,   NONE, NONE, NONE, NONE, NONE,
+    NONE, 26,   27,   28,   29,   30,   31,   32,   33,   34,   35,   36,   37,   38,   39,   40,
+    41,   42,   43,   44,   45,   46,   47,   48,   49,   50,   51,   NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+    NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
+};
+
+/* Up to four digits, count of them, as the highest bits of 24. False where one is none. */
+static bool read_digits(const char *text, size_t count, uint32_t *bits)
 {
-    if (c >= 'A' && c <= 'Z')
-        return c - 'A';
-    if (c >= 'a' && c <= 'z')
-        return c - 'a' + 26;
-    if (c >= '0' && c <= '9')
-        return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
+    uint32_t all = 0;
+    *bits = 0;
+    for (size_t i = 0; i < 4; i++) {
+        const uint32_t value = i < count ? values[(unsigned char)text[i]] : 0;
+        *bits = *bits << 6 | value;
+        all |= value;
+    }
+    return all < NONE;
 }
 
 bool ffd_base64_decode(const char *text, size_t size, unsigned char *bytes, size_t *count)
 {
+    uint32_t bits;
     for (int i = 0; i < 2 && size > 0 && text[size - 1] == '='; i++)
         size--;
-    if (size % 4 == 1)
+    const size_t rest = size % 4, whole = size - rest;
+    if (rest == 1)
         return false;
-    size_t filled = 0;
-    uint32_t bits = 0;
-    for (size_t i = 0; i < size; i++) {
-        const int value = value_of(text[i]);
-        if (value < 0)
+    *count = whole / 4 * 3 + (rest ? rest - 1 : 0);
+    for (size_t i = 0; i < whole; i += 4, bytes += 3) {
+        if (!read_digits(text + i, 4, &bits))
             return false;
-        bits = bits << 6 | (uint32_t)value;
-        if (i % 4 != 0)
-            bytes[filled++] = (unsigned char)(bits >> (6 - 2 * (i % 4)));
+        bytes[0] = (unsigned char)(bits >> 16);
+        bytes[1] = (unsigned char)(bits >> 8);
+        bytes[2] = (unsigned char)bits;
     }
-    *count = filled;
+    if (!read_digits(text + whole, rest, &bits))
+        return false;
+    for (size_t i = 0; i + 1 < rest; i++)
+        bytes[i] = (unsigned char)(bits >> (16 - 8 * i));
     return true;
 }
 

@@ -1,4 +1,5 @@
 #include "io/gltf/json_chars.h"
+#include "base/bytes.h"
 
 static int hex_value(char c)
 {
@@ -101,6 +102,20 @@ const char *ffd_json_char(const char *c, const char *last, uint32_t *code)
     if (c == last || (unsigned char)*c < 0x20)
         return NULL;
     return *c == '\\' ? read_escape(c + 1, last, code) : read_utf8(c, last, code);
+}
+
+const char *ffd_json_pass_plain(const char *c, const char *last)
+{
+    for (; last - c >= 8; c += 8) {
+        const uint64_t bytes = load_u64((const unsigned char *)c);
+        const uint64_t quotes = bytes ^ '"' * BYTES_ONES, escapes = bytes ^ '\\' * BYTES_ONES;
+        /* Subtracting sets the highest bit of a byte that is smaller, and of none before the first such. */
+        const uint64_t others =
+            bytes | ((bytes - ' ' * BYTES_ONES) | (quotes - BYTES_ONES) | (escapes - BYTES_ONES));
+        if (others & BYTES_TOPS)
+            break;
+    }
+    return c;
 }
 
 size_t ffd_utf8_write(uint32_t code, char bytes[4])

@@ -10,6 +10,10 @@
    escape. */
 const char *ffd_json_char(const char *c, const char *last, uint32_t *code);
 
+/* Goes on behind characters that stand for themselves in a string and in UTF-8, several at a time: perhaps
+   not behind all of them. */
+const char *ffd_json_pass_plain(const char *c, const char *last);
+
 /* Writes a character as UTF-8; returns its 1 to 4 bytes. */
 size_t ffd_utf8_write(uint32_t code, char bytes[4]);
 

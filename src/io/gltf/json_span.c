@@ -45,13 +45,13 @@ static ffd_status scan_string(scanner *s)
     if (s->at == s->last || *s->at != '"')
         return syntax(s, s->at, "a string is expected");
     const char *const opened = s->at;
-    const char *c = opened + 1;
+    const char *c = ffd_json_pass_plain(opened + 1, s->last);
     while (c < s->last && *c != '"') {
         uint32_t code;
         const char *behind = ffd_json_char(c, s->last, &code);
         if (!behind)
             return syntax(s, c, "a string holds what is no UTF-8 character or escape");
-        c = behind;
+        c = ffd_json_pass_plain(behind, s->last);
     }
     if (c == s->last)
         return syntax(s, opened, "a string is not ended");
@@ -340,9 +340,15 @@ static char *decode(const json_span *tree, uint32_t begin, uint32_t end, size_t 
     size_t length = 0;
     const char *c = tree->text + begin + 1, *const last = tree->text + end - 1;
     while (c < last) {
-        uint32_t code = 0;
-        c = ffd_json_char(c, last, &code);
-        length += ffd_utf8_write(code, text + length);
+        const char *const plain = ffd_json_pass_plain(c, last);
+        memcpy(text + length, c, (size_t)(plain - c));
+        length += (size_t)(plain - c);
+        c = plain;
+        if (c < last) {
+            uint32_t code = 0;
+            c = ffd_json_char(c, last, &code);
+            length += ffd_utf8_write(code, text + length);
+        }
     }
     text[length] = 0;
     if (size)

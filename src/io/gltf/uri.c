@@ -43,8 +43,9 @@ static int hex_value(char c)
 
 size_t ffd_uri_decode(char *text, size_t size)
 {
-    size_t length = 0;
-    for (size_t i = 0; i < size; i++) {
+    const char *const escape = memchr(text, '%', size);
+    size_t length = escape ? (size_t)(escape - text) : size;
+    for (size_t i = length; i < size; i++) {
         const int high = text[i] == '%' && size - i > 2 ? hex_value(text[i + 1]) : -1;
         const int low = high >= 0 ? hex_value(text[i + 2]) : -1;
         if (low >= 0) {
