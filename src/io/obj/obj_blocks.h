@@ -19,6 +19,7 @@ typedef struct obj_block {
 typedef struct obj_blocks {
     obj_block *list; /* at least one */
     size_t count;
+    size_t vertices, normals; /* about so many, if each block goes on as it begins */
 } obj_blocks;
 
 /* Cuts the input from `first` on, behind its byte order mark, at line ends that nothing continues: at the

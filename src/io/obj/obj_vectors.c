@@ -10,9 +10,6 @@
 #define BLOCKS 64
 #define SMALLEST_BLOCK ((size_t)16 * 1024)
 #define LARGEST_BLOCK ((size_t)1024 * 1024)
-/* Bytes of a line with three numbers, without its end. */
-#define SHORTEST_LINE ((size_t)7)
-#define LONGEST_LINE ((size_t)256)
 
 /* Elements of 3 numbers while they are being read. */
 typedef struct vectors {
@@ -125,26 +122,6 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
 }
 
-/* The numbers of `v` and `vn`, about, if each block went on as it begins. */
-static void estimate_counts(const obj_blocks *blocks, size_t *positions, size_t *normals)
-{
-    *positions = *normals = 0;
-    for (size_t i = 0; i < blocks->count; i++) {
-        const obj_block *block = &blocks->list[i];
-        const size_t size = (size_t)(block->last - block->first);
-        const size_t seen = size < LONGEST_LINE ? size : LONGEST_LINE;
-        const char *end =
-            seen > SHORTEST_LINE ? memchr(block->first + SHORTEST_LINE, '\n', seen - SHORTEST_LINE) : NULL;
-        if (!end || block->first[0] != 'v')
-            continue;
-        const size_t count = size / (size_t)(end + 1 - block->first);
-        if (block->first[1] == ' ')
-            *positions += count;
-        else if (block->first[1] == 'n')
-            *normals += count;
-    }
-}
-
 static bool expect(size_t count, spill_array *store)
 {
     const size_t size = count * OBJ_VECTOR;
@@ -156,10 +133,8 @@ static bool expect(size_t count, spill_array *store)
 static ffd_status expect_elements(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
-    size_t positions, normals;
-    estimate_counts(&d->blocks, &positions, &normals);
-    positions += positions / 16;
-    normals += normals / 16;
+    const size_t positions = d->blocks.vertices + d->blocks.vertices / 16;
+    const size_t normals = d->blocks.normals + d->blocks.normals / 16;
     if (!expect(positions, &d->position_store) ||
         !(d->only_positions || expect(normals, &d->direction_store)))
         return ffd_fail_memory(error);
