@@ -29,7 +29,7 @@ void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size)
 
 void ffd_splice_copy(file_splice *splice, const char *to)
 {
-    while (splice->input && (size_t)(to - splice->copied) > PIECE) {
+    while (splice->status == FFD_OK && splice->input && (size_t)(to - splice->copied) > PIECE) {
         ffd_file_bring_in(splice->copied, PIECE);
         ffd_splice_bytes(splice, splice->copied, PIECE);
         ffd_file_forget(splice->input, splice->copied, PIECE);

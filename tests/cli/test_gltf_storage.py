@@ -606,4 +606,31 @@ def models_like_their_float_twins(run):
     check(done > 0, "no model was deformed")
 
 
+@case
+def buffers_of_many_pieces(run):
+    """An interleaved buffer of any length is put together in pieces, by any number of threads."""
+    run.write("l.json", lattice(low=(0, 0, 0), high=(9, 9, 9), moves=[{"by": list(SHIFT)}]))
+    piece = 3 << 16
+    for count, tail in ((piece // 24, 0), (piece // 24, 1), (piece // 24 - 1, 23), (2 * piece // 24, 2), (20001, 7)):
+        points = [(i % 64 / 8 + 1, i // 64 % 64 / 8 + 1, i % 5 / 4 + 1) for i in range(count)]
+        colors = [(i % 3 / 2, i % 7 / 8, i % 11 / 16) for i in range(count)]
+        end = bytes(i % 251 for i in range(tail))
+        moved = [tuple(p + s for p, s in zip(point, SHIFT)) for point in points]
+        data, expected = (b"".join(struct.pack("<6f", *p, *c) for p, c in zip(shape, colors)) + end
+                          for shape in (points, moved))
+        for container in CONTAINERS:
+            maker = Maker()
+            maker.data = data
+            maker.asset["bufferViews"] = [{"buffer": 0, "byteOffset": 0, "byteLength": 24 * count, "byteStride": 24}]
+            low, high = ([f(p[a] for p in points) for a in range(3)] for f in (min, max))
+            maker.accessor(count, bufferView=0, min=low, max=high)
+            maker.accessor(count, bufferView=0, byteOffset=12)
+            maker.mesh({"POSITION": 0, "COLOR_0": 1})
+            name = maker.write(run, "large", container)
+            for threads in ("1", "4"):
+                run.ffd("deform", name, "out-" + name, "-l", "l.json", "--force", "--threads", threads)
+                found = Gltf(run.path("out-" + name)).buffers[0]
+                equal(bytes(found[:len(expected)]) == expected, True, f"{count} {tail} {container} {threads}")
+
+
 main()

@@ -5,6 +5,7 @@
 
 #include <cmocka.h>
 
+#include "../support/draw.h"
 #include "../support/test_folder.h"
 #include "base/file.h"
 #include <fcntl.h>
@@ -107,6 +108,42 @@ static void test_appears_when_committed(void **state)
     assert_null(output);
     check_content("new.txt", "hello");
     assert_false(ffd_file_exists(in_folder(".new.txt.ffd-tmp")));
+    (void)state;
+}
+
+/* Sizes around those at which bytes are held back or written straight, into two files of a set. */
+static void test_pieces_of_any_size(void **state)
+{
+    enum { HELD = 1 << 16, LARGEST = 3 * HELD + 1, PIECES = 60 };
+    static const size_t sizes[] = {0, 1, 100, HELD - 1, HELD, HELD + 1, LARGEST};
+    static const char *const names[] = {"pieces-a", "pieces-b"};
+    unsigned char *bytes = malloc((size_t)LARGEST * PIECES);
+    draw d = {draw_seed()};
+    file_output *output;
+    size_t size[2] = {0, 0};
+    assert_non_null(bytes);
+    for (size_t i = 0; i < (size_t)LARGEST * PIECES; i++)
+        bytes[i] = (unsigned char)draw_number(&d);
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    for (int f = 0; f < 2; f++) {
+        assert_int_equal(ffd_output_begin(output, in_folder(names[f]), true, NULL), FFD_OK);
+        for (int piece = 0; piece < PIECES; piece++) {
+            const size_t more = sizes[draw_int(&d, 0, sizeof sizes / sizeof *sizes - 1)];
+            assert_int_equal(ffd_output_write(output, bytes + size[f], more, NULL), FFD_OK);
+            size[f] += more;
+        }
+    }
+    assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    ffd_output_destroy(&output);
+    for (int f = 0; f < 2; f++) {
+        file_input input;
+        assert_int_equal(ffd_file_load(in_folder(names[f]), &input, NULL), FFD_OK);
+        assert_int_equal(input.size, size[f]);
+        assert_memory_equal(input.data, bytes, size[f]);
+        ffd_file_unload(&input);
+        remove(in_folder(names[f]));
+    }
+    free(bytes);
     (void)state;
 }
 
@@ -326,6 +363,7 @@ int main(void)
         cmocka_unit_test(test_forget),
         cmocka_unit_test(test_load_within),
         cmocka_unit_test(test_appears_when_committed),
+        cmocka_unit_test(test_pieces_of_any_size),
         cmocka_unit_test(test_dropped),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_leftover_and_lock),

@@ -9,6 +9,9 @@
 /* Bytes of a piece: a multiple of 3, so that pieces of base64 join. */
 #define PIECE ((size_t)3 << 16)
 
+/* Pieces written until all files are given back, where what is appended may stand anywhere in them. */
+#define PIECES_HELD 32
+
 /* A piece until it is written. */
 typedef struct content_piece {
     unsigned char *block; /* NULL until one needs it: bytes that had to be put together */
@@ -71,14 +74,16 @@ static void write_piece(void *context, size_t tile, size_t first, size_t last, i
 {
     content_writer *w = context;
     const content_piece *piece = &w->pieces[slot];
-    (void)tile;
+    const gltf_new_buffer *buffer = &w->saver->buffers[w->buffer];
     if (atomic_load(&w->is_over))
         return;
     w->status = piece->bytes ? ffd_output_write(w->saver->output, piece->bytes, piece->size, w->error)
                              : ffd_fail_memory(w->error);
     if (w->status)
         atomic_store(&w->is_over, true);
-    ffd_gltf_forget_bytes(w->saver->document, w->saver->buffers[w->buffer].old, first, last - first);
+    ffd_gltf_forget_bytes(w->saver->document, buffer->old, first, last - first);
+    if (buffer->append_count > 0 && tile % PIECES_HELD == PIECES_HELD - 1)
+        ffd_gltf_forget(w->saver->document);
 }
 
 ffd_status ffd_gltf_write_content(const gltf_saver *saver, size_t buffer, bool base64, ffd_error *error)
