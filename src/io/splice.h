@@ -7,7 +7,6 @@
 #include "base/file.h"
 #include "io/text_scan.h"
 #include "mesh/mesh.h"
-#include <string.h>
 
 typedef struct file_splice {
     const file_input *input; /* NULL: of a part */
@@ -32,16 +31,8 @@ void ffd_splice_copy(file_splice *splice, const char *to);
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);
 /* Copies up to a word and writes bytes in its stead. */
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size);
-/* Which of count numbers, 32 at most, have other bits than before: a bit for each. */
-static inline unsigned ffd_splice_changes(const double *before, const double *after, size_t count)
-{
-    unsigned changes = 0;
-    for (size_t i = 0; i < count; i++)
-        changes |= (unsigned)(memcmp(before + i, after + i, sizeof *after) != 0) << i;
-    return changes;
-}
-/* Writes those of count numbers whose bit is set in the place of their words. run: of the array of the
-   numbers, or NULL. */
+/* Writes those of count numbers, 32 at most, whose bit is set in the place of their words. run: of the array
+   of the numbers, or NULL. */
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *numbers, unsigned changes,
                         size_t count, decimal_run *run);
 /* Copies the rest of the file, writes what is held back, frees, and tells whether all went well. */

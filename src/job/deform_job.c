@@ -124,7 +124,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     const mesh_format *format = job->document->format;
     ffd_status status = ffd_mesh_check(job->document, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->in_place = !job->desc->share && !wants_figures(job) && !job->recomputes;
+    job->document->results_replace = !job->desc->share && !wants_figures(job) && !job->recomputes;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)

@@ -204,7 +204,7 @@ typedef struct mesh_format {
     /* Results. begin_results must come first: it makes room, and lets go what an earlier deformation of the
        document has left. The writers may run in several threads on disjoint ranges, which begin at
        multiples of MESH_RANGE_STEP where a vector stands at each vertex. changed: one byte a vector, 0: kept
-       as it was (its values are then not read). */
+       as it was (its values are then not read). A vector is handed over once at most. */
     mesh_begin_results_function *begin_results;
     mesh_write_function *write_positions;
     mesh_write_function *write_normals;
@@ -242,9 +242,9 @@ struct mesh_document {
     /* Set before results: they are for another format (model), not for the file, and so not rounded to the
        steps of its integers. */
     bool converted;
-    /* Set before results: nobody looks at what the document was before once they are written, nor writes one
-       twice, so that they may take its place. */
-    bool in_place;
+    /* Set before the first results, and not changed: nobody looks at what the document was before once they
+       are written, so that they may take its place. */
+    bool results_replace;
 };
 
 static inline ffd_status ffd_mesh_check(const mesh_document *document, ffd_error *error)

@@ -686,4 +686,26 @@ def obj_with_a_part_kept(run):
         near([p for p, _, _ in two], [(0, 0, 0), (-1, 1, 0), (-1, 0, 0)], 1e-6, target)
 
 
+@case
+def the_same_beside_what_was_read(run):
+    """A report's figures look at the rest shape to the end; without one results may take its place."""
+    side = 40
+    corner = [f"{i + 1}//{i + 1}" for i in range(side * side)]
+    faces = [[k, k + 1, k + side + 1, k + side] for k in range(side * side - side) if (k + 1) % side]
+    run.write("a.obj", "".join(f"v {i % side / 8} {i // side / 8} {i % 7 / 16}\n" for i in range(side * side))
+              + "".join(f"vn {i % 3 - 1} 0.5 {i % 5}\n" for i in range(side * side))
+              + "".join(("g two\n" if n == len(faces) // 2 else "") + "f " + " ".join(corner[k] for k in face) + "\n"
+                        for n, face in enumerate(faces)))
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(6, 6, 2), moves=[{"twist": {"axis": "z", "degrees": 40}}]))
+    for target in ("obj", "glb", "gltf", "ply", "off", "stl"):
+        for options in ([], ["--only", "group:two"], ["--normals", "keep"], ["--as-morph", "bent"]):
+            if "--as-morph" in options and target not in ("glb", "gltf"):
+                continue
+            run.ffd("deform", "a.obj", f"b.{target}", "-l", "l.json", "-q", "--force", *options)
+            names = [name for name in run.names() if name.startswith("b.")]
+            before = [run.read(name) for name in names]
+            run.ffd("deform", "a.obj", f"b.{target}", "-l", "l.json", "-q", "--force", "--report", "r.json", *options)
+            equal([run.read(name) for name in names], before, f"{target} {options}")
+
+
 main()

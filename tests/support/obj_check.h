@@ -136,7 +136,7 @@ static inline void check_new_normals(mesh_document *document, draw *d, bool coun
     ffd_error error = {0};
     assert_non_null(changed);
     memset(changed, 1, document->parts->normal_count + 1);
-    document->in_place = draw_int(d, 0, 1) == 1;
+    document->results_replace = draw_int(d, 0, 1) == 1;
     assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
     obj->write_normals(document, 0, 0, document->parts->normal_count, values, changed);
     if (save_bytes(document, &saved, &error) != FFD_OK)

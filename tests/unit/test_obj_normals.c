@@ -177,7 +177,7 @@ static void saved_text(const writer *file, uint64_t seed, bool in_place, byte_bu
     assert_true(count <= sizeof changed);
     double *values = draw_normals(document, &d);
     memset(changed, 1, sizeof changed);
-    document->in_place = in_place;
+    document->results_replace = in_place;
     assert_int_equal(obj->begin_results(document, true, false, NULL), FFD_OK);
     move_some(document, &d);
     obj->write_normals(document, 0, 0, count, values, changed);

@@ -39,7 +39,7 @@ typedef struct obj_document {
     /* What ffd_obj_select left: bytes of vertices, faces, pairs; and of `vn` that a corner of a face uses
        which is not selected, so that they must stay. NULL: all is selected. */
     uint8_t *selected_vertices, *selected_faces, *selected_pairs, *held_normals;
-    /* Results; either may stand where what was read did (in_place). */
+    /* Results; either may stand where what was read did (results_replace). */
     double *new_positions;  /* 3 a vertex; NULL before ffd_obj_begin_results */
     double *new_directions; /* 3 a pair; NULL: normals are kept */
     /* Of each vertex, and of each pair, a bit for each coordinate that has other bits than before. */
@@ -61,7 +61,7 @@ void ffd_obj_document_walk_users(const obj_document *document, obj_walk *walk);
 /* The same over one block. */
 void ffd_obj_document_walk_block(const obj_document *document, size_t block, obj_walk *walk);
 /* obj_vectors.c: cuts the file into blocks, and fills in the blocks, the numbers of elements, their
-   coordinates, and addition as if no index counted back. *users (obj_users.h) is to be freed. */
+   coordinates, and addition as if no index counted back. *users (obj_users.h) is to be freed in any case. */
 ffd_status ffd_obj_read_vectors(obj_document *document, obj_users *users, ffd_error *error);
 /* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
 ffd_status ffd_obj_read_faces(obj_document *document, obj_users *users, ffd_error *error);

@@ -1,7 +1,6 @@
 #include "base/memory.h"
 #include "base/thread.h"
 #include "io/obj/obj_document.h"
-#include "io/splice.h"
 #include "io/vectors.h"
 #include <string.h>
 
@@ -62,7 +61,7 @@ static ffd_status begin_positions(obj_document *d, ffd_error *error)
 {
     if (!clear_changes(&d->position_changes, d->vertices))
         return ffd_fail_memory(error);
-    if (d->base.in_place) {
+    if (d->base.results_replace) {
         d->new_positions = d->position_store.data;
         return FFD_OK;
     }
@@ -88,7 +87,7 @@ static ffd_status begin_normals(obj_document *d, ffd_error *error)
     const size_t count = d->part.normal_count;
     if (!clear_changes(&d->direction_changes, count))
         return ffd_fail_memory(error);
-    if (d->base.in_place && results_fit(d)) {
+    if (d->base.results_replace && results_fit(d)) {
         d->new_directions = d->direction_store.data;
         return FFD_OK;
     }
@@ -126,7 +125,7 @@ static void write_vectors(double *results, uint8_t *changes, size_t first, size_
     for (size_t i = 0; i < count; i++)
         if (changed[i]) {
             double *const result = results + 3 * (first + i);
-            changes[first + i] = (uint8_t)ffd_splice_changes(result, xyz + 3 * i, 3);
+            changes[first + i] = (uint8_t)ffd_vectors_changes(result, xyz + 3 * i, 3);
             memcpy(result, xyz + 3 * i, 3 * sizeof *xyz);
         }
 }
@@ -145,6 +144,6 @@ void ffd_obj_write_normals(mesh_document *document, size_t part, size_t first, s
 {
     const obj_document *d = ffd_obj_of(document);
     (void)part;
-    if (d->new_directions)
+    if (d->new_directions) /* else normals are kept */
         write_vectors(d->new_directions, d->direction_changes, first, count, xyz, changed);
 }

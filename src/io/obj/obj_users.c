@@ -134,6 +134,7 @@ static bool grow_firsts(obj_users *users, size_t count)
 {
     if (count <= users->first_count)
         return true;
+    /* Zeros are atomic zeros, and cost nothing where no thread comes. */
     _Atomic uint32_t *firsts = ffd_alloc_zero(count, sizeof *firsts);
     if (!firsts)
         return false;
@@ -149,8 +150,10 @@ ffd_status ffd_obj_users_begin(const obj_document *d, size_t vertices, size_t no
                                ffd_error *error)
 {
     *users = (obj_users){.blocks = ffd_alloc_zero(d->blocks.count, sizeof *users->blocks)};
-    if (!users->blocks || (normals > 0 && !d->only_positions && !grow_firsts(users, vertices)))
+    if (!users->blocks)
         return ffd_fail_memory(error);
+    if (normals > 0 && !d->only_positions)
+        (void)grow_firsts(users, vertices); /* without them all that has normals is late */
     return FFD_OK;
 }
 

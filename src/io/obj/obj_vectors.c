@@ -122,10 +122,12 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
 }
 
-static bool expect(size_t count, spill_array *store)
+/* Without this room the store grows as it is filled. */
+static void expect(size_t count, spill_array *store)
 {
     const size_t size = count * OBJ_VECTOR;
-    return size == 0 || size >= SPILL_FROM || ffd_spill_grow(store, size);
+    if (size > 0 && size < SPILL_FROM)
+        (void)ffd_spill_grow(store, size);
 }
 
 /* Makes room for all elements at once, where there are not too many for memory; what is missing then is made
@@ -135,9 +137,9 @@ static ffd_status expect_elements(reader *r, ffd_error *error)
     obj_document *d = r->document;
     const size_t positions = d->blocks.vertices + d->blocks.vertices / 16;
     const size_t normals = d->blocks.normals + d->blocks.normals / 16;
-    if (!expect(positions, &d->position_store) ||
-        !(d->only_positions || expect(normals, &d->direction_store)))
-        return ffd_fail_memory(error);
+    expect(positions, &d->position_store);
+    if (!d->only_positions)
+        expect(normals, &d->direction_store);
     return ffd_obj_users_begin(d, positions, normals, r->users, error);
 }
 

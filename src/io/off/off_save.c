@@ -1,10 +1,11 @@
 #include "io/off/off_document.h"
 #include "io/splice.h"
+#include "io/vectors.h"
 
 static void replace_numbers(file_splice *splice, const text_word *words, const double *before,
                             const double *after, decimal_run *run)
 {
-    ffd_splice_numbers(splice, words, after, ffd_splice_changes(before, after, 3), 3, run);
+    ffd_splice_numbers(splice, words, after, ffd_vectors_changes(before, after, 3), 3, run);
 }
 
 static void write_vertices(const off_document *d, file_splice *splice)

@@ -1,6 +1,7 @@
 #include "base/vec.h"
 #include "io/splice.h"
 #include "io/stl/stl_document.h"
+#include "io/vectors.h"
 #include <string.h>
 
 typedef struct stl_saver {
@@ -35,8 +36,8 @@ static void write_text_facet(stl_saver *s, const stl_facet *facet, const double 
     for (int a = 0; a < 3; a++)
         ffd_stl_text_normal(facet->normal[a], &old[a]);
     if (renew_normal(s->document, before, after, old, normal))
-        ffd_splice_numbers(&s->splice, facet->normal, normal, ffd_splice_changes(old, normal, 3), 3, NULL);
-    ffd_splice_numbers(&s->splice, facet->corners, after, ffd_splice_changes(before, after, 9), 9, NULL);
+        ffd_splice_numbers(&s->splice, facet->normal, normal, ffd_vectors_changes(old, normal, 3), 3, NULL);
+    ffd_splice_numbers(&s->splice, facet->corners, after, ffd_vectors_changes(before, after, 9), 9, NULL);
 }
 
 static void write_binary_facet(stl_saver *s, size_t facet, const double *before, const double *after)
