@@ -25,24 +25,30 @@ static const char *find_cut(const char *first, const char *at, const char *last)
     return last;
 }
 
-/* Bytes of a line with three numbers, without its end. */
-#define SHORTEST_LINE ((size_t)7)
-#define LONGEST_LINE ((size_t)256)
+/* Bytes of a block in which a line is looked for that tells what the block has. */
+#define HEAD ((size_t)1024)
 
-/* Counts the lines of the block as if all were like the first. That one is in memory: it is where the cut
-   before was looked for. */
+/* Counts the lines of the block as if all were like the first `v` or `vn`, unless others than those of a
+   file's or an object's beginning come before. They are in memory: the cut before was looked for there. */
 static void estimate(const obj_block *block, obj_blocks *blocks)
 {
     const size_t size = (size_t)(block->last - block->first);
-    const size_t seen = size < LONGEST_LINE ? size : LONGEST_LINE;
-    const char *end = NULL;
-    if (seen > SHORTEST_LINE && block->first[0] == 'v')
-        end = memchr(block->first + SHORTEST_LINE, '\n', seen - SHORTEST_LINE);
-    const size_t count = end ? size / (size_t)(end + 1 - block->first) : 0;
-    if (count > 0 && block->first[1] == ' ')
-        blocks->vertices += count;
-    else if (count > 0 && block->first[1] == 'n')
-        blocks->normals += count;
+    const char *at = block->first, *const last = at + (size < HEAD ? size : HEAD);
+    while (at < last) {
+        const char *const end = memchr(at, '\n', (size_t)(last - at));
+        if (!end || end - at < 2)
+            return;
+        const size_t count = size / (size_t)(end + 1 - at);
+        if (at[0] == 'v' && at[1] == ' ')
+            blocks->vertices += count;
+        else if (at[0] == 'v' && at[1] == 'n')
+            blocks->normals += count;
+        else if (at[0] == '#' || at[0] == 'o' || at[0] == 'g' || at[0] == 'm') {
+            at = end + 1;
+            continue;
+        }
+        return;
+    }
 }
 
 /* So many cuts until the pages that they were looked for in are given back: the system brings up to 2 MB in

@@ -135,8 +135,8 @@ static void expect(size_t count, spill_array *store)
 static ffd_status expect_elements(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
-    const size_t positions = d->blocks.vertices + d->blocks.vertices / 16;
-    const size_t normals = d->blocks.normals + d->blocks.normals / 16;
+    const size_t positions = d->blocks.vertices + d->blocks.vertices / 8;
+    const size_t normals = d->blocks.normals + d->blocks.normals / 8;
     expect(positions, &d->position_store);
     if (!d->only_positions)
         expect(normals, &d->direction_store);
