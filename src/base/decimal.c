@@ -96,7 +96,8 @@ static uint64_t eight_digits(uint32_t value)
     return tens | (pairs - 10 * tens) << 8;
 }
 
-/* The shortest digits of a number, as decimal_batch has them. */
+/* The shortest digits of a number, 0 to 9, one a byte, the foremost lowest: one (0 where there are 16), eight
+   and eight. */
 typedef struct number_digits {
     uint64_t first, middle, low;
 } number_digits;
@@ -213,8 +214,8 @@ static decimal_kernel *find_kernel(void)
     return NULL;
 }
 
-/* Whether the run has the digits of a number now. It looks for them where the numbers before were near: of
-   an array that is gone through otherwise it would find many in vain. */
+/* Whether the run has the text of a number now. It makes texts where the numbers before were near: of
+   an array that is gone through otherwise it would make many in vain. */
 static bool reach(decimal_run *run, const double *value)
 {
     const double *const before = run->before;
@@ -242,10 +243,10 @@ size_t ffd_decimal_run_format(decimal_run *run, const double *value, char text[F
         return ffd_number_format(*value, text);
     const size_t i = (size_t)(value - run->first);
     const decimal_batch *const batch = &run->batch;
-    const number_digits digits = {batch->first[i], batch->middle[i], batch->low[i]};
-    if (batch->point[i] == 0)
+    if (batch->size[i] == 0)
         return ffd_number_format(*value, text);
-    return put_digits(*value, &digits, (int)batch->point[i], text);
+    put(&(characters){{batch->words[0][i], batch->words[1][i], batch->words[2][i]}}, text);
+    return (size_t)batch->size[i];
 }
 
 #else

@@ -19,11 +19,11 @@ const char *ffd_decimal_parse(const char *first, const char *last, double *value
    power of two. */
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY]);
 
-/* Numbers of an array whose texts are wanted nearly one after the other: the digits of many are found at
-   once. The numbers must not change meanwhile. */
+/* Numbers of an array whose texts are wanted nearly one after the other: those of many are made at once. The
+ * numbers must not change meanwhile. */
 typedef struct decimal_run {
     decimal_kernel *kernel;
-    const double *first;  /* the digits of this number and of those behind it are known; NULL: of none */
+    const double *first;  /* the texts of this number and of those behind it are there; NULL: of none */
     const double *before; /* the number that was wanted last; NULL: none */
     const double *end;    /* of the array */
     decimal_batch batch;

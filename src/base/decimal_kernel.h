@@ -1,4 +1,4 @@
-/* decimal_kernel.h - the digits of many numbers at once (inside decimal). */
+/* decimal_kernel.h - the texts of many numbers at once (inside decimal). */
 #ifndef FFD_BASE_DECIMAL_KERNEL_H
 #define FFD_BASE_DECIMAL_KERNEL_H
 
@@ -9,18 +9,19 @@
 #define LEAST_EXPONENT (-84)
 #define MANTISSA_BITS 52
 
-/* As many as LEAST_EXPONENT asks for. */
-#define POWERS_OF_FIVE 27
+/* As many as LEAST_EXPONENT asks for, and zeros up to the room of four registers. */
+#define POWERS_OF_FIVE 32
 extern const uint64_t ffd_powers_of_five[POWERS_OF_FIVE];
 
-/* Numbers that are found at once. */
+/* Numbers that are made at once. */
 #define DECIMAL_BATCH 24
 
-/* A number's shortest digits: first (nothing where it is 0), the 8 of middle and the 8 of low, whose bytes
-   are 0 to 9, the foremost lowest; and how many places they are to be moved by: 0 where the number is none of
-   those that ffd_decimal_format is for. */
+/* The shortest texts of numbers, as ffd_number_format has them: three times 8 characters of each, the first
+   lowest, and how many of them it has; 0 where it is to be made by itself: none of those that
+   ffd_decimal_format is for, or one that is written with an exponent or has 7 or more digits before the
+   point. */
 typedef struct decimal_batch {
-    uint64_t first[DECIMAL_BATCH], middle[DECIMAL_BATCH], low[DECIMAL_BATCH], point[DECIMAL_BATCH];
+    uint64_t words[3][DECIMAL_BATCH], size[DECIMAL_BATCH];
 } decimal_batch;
 
 /* Of the one instruction set that is much faster by it than by one number after the other. */

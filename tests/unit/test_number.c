@@ -244,7 +244,9 @@ static void test_read(void **state)
 /* A number as meshes have them, or any. */
 static double any_number(draw *d)
 {
-    switch (draw_int(d, 0, 5)) {
+    switch (draw_int(d, 0, 6)) {
+    case 6: /* around where the form changes */
+        return draw_int(d, -12, 12) * pow(10, draw_int(d, -10, 8)) + draw_int(d, 0, 1) / 8.0;
     case 0:
         return draw_int(d, -1000, 1000) / 16.0;
     case 1:
