@@ -28,6 +28,9 @@ static const char *find_cut(const char *first, const char *at, const char *last)
 /* Bytes of a block in which a line is looked for that tells what the block has. */
 #define HEAD ((size_t)1024)
 
+/* Of a line with numbers: "v 1 2 3". One that is shorter tells nothing. */
+#define SHORTEST_LINE 8
+
 /* Counts the lines of the block as if all were like the first `v` or `vn`, unless others than those of a
    file's or an object's beginning come before. They are in memory: the cut before was looked for there. */
 static void estimate(const obj_block *block, obj_blocks *blocks)
@@ -36,9 +39,9 @@ static void estimate(const obj_block *block, obj_blocks *blocks)
     const char *at = block->first, *const last = at + (size < HEAD ? size : HEAD);
     while (at < last) {
         const char *const end = memchr(at, '\n', (size_t)(last - at));
-        if (!end || end - at < 2)
+        if (!end)
             return;
-        const size_t count = size / (size_t)(end + 1 - at);
+        const size_t length = (size_t)(end + 1 - at), count = length < SHORTEST_LINE ? 0 : size / length;
         if (at[0] == 'v' && at[1] == ' ')
             blocks->vertices += count;
         else if (at[0] == 'v' && at[1] == 'n')
