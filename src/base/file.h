@@ -25,13 +25,17 @@ ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error);
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
                                 file_input *input, ffd_error *error);
 void ffd_file_unload(file_input *input);
-/* For bytes, of a mapped file or any others, that are about to be written: brings them into memory at once,
-   where the system has a call for that. It copies without waiting for pages, clears what it could not fill,
-   and begins again, once a page. Any thread. */
+/* For bytes, of a mapped file or any others, that are about to be read or written: brings them into memory at
+   once, where the system has a call for that. Else a read waits for a few pages at a time; and a write copies
+   without waiting for any, clears what it could not fill, and begins again, once a page. Any thread. */
 void ffd_file_bring_in(const void *bytes, size_t size);
 /* For bytes that are not needed for a while: gives back the memory that they take where the system can read
    them again, by itself, from the file. Any thread. */
 void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
+/* For a file that is gone through from its beginning on: gives back what stands before a place and has not
+   been given back, *forgotten bytes at first, where that is worth the call, which stops the other threads for
+   a moment. Pages that another thread still reads come again. One thread at a time. */
+void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten);
 
 /* Whether path names a stream of this process or nothing, and no file that stands somewhere: "-",
    /dev/stdin, /dev/fd/N, /dev/null. */

@@ -17,6 +17,9 @@
 /* Bytes of two files that are in memory while they are compared: a multiple of any page. */
 #define COMPARED ((size_t)1 << 22)
 
+/* Bytes that are given back at a time where a file is gone through: a multiple of any page. */
+#define FORGOTTEN ((size_t)1 << 23)
+
 static const unsigned char nothing[1] = {0};
 
 /* Reads what has no size to be mapped: pipes, terminals, /dev/stdin, files of /proc. */
@@ -188,6 +191,15 @@ void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
     const size_t last = begin + size == input->size ? input->size : (begin + size) / page * page;
     if (input->mapped && first < last) /* a mapping begins at a page */
         madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
+}
+
+void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten)
+{
+    const size_t until = (size_t)((const unsigned char *)place - input->data) / FORGOTTEN * FORGOTTEN;
+    if (until <= *forgotten)
+        return;
+    ffd_file_forget(input, input->data + *forgotten, until - *forgotten);
+    *forgotten = until;
 }
 
 void ffd_file_bring_in(const void *bytes, size_t size)

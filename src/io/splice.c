@@ -32,8 +32,8 @@ void ffd_splice_copy(file_splice *splice, const char *to)
     while (splice->status == FFD_OK && splice->input && (size_t)(to - splice->copied) > PIECE) {
         ffd_file_bring_in(splice->copied, PIECE);
         ffd_splice_bytes(splice, splice->copied, PIECE);
-        ffd_file_forget(splice->input, splice->copied, PIECE);
         splice->copied += PIECE;
+        ffd_file_forget_until(splice->input, splice->copied, &splice->forgotten);
     }
     ffd_splice_bytes(splice, splice->copied, (size_t)(to - splice->copied));
     splice->copied = to;
@@ -46,8 +46,8 @@ void ffd_splice_part(file_splice *splice, const char *first, const char *last, c
         ffd_splice_bytes(splice, text->data, text->size);
     else
         ffd_splice_bytes(splice, first, (size_t)(last - first));
-    ffd_file_forget(splice->input, first, (size_t)(last - first));
     splice->copied = last;
+    ffd_file_forget_until(splice->input, last, &splice->forgotten);
 }
 
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size)
@@ -62,36 +62,46 @@ static size_t format(decimal_run *run, const double *value, char *text)
     return run ? ffd_decimal_run_format(run, value, text) : ffd_number_format(*value, text);
 }
 
-/* Straight into the text: a mesh has millions of them. */
-static void replace_in_text(file_splice *splice, text_word word, const double *value, decimal_run *run)
+/* What stands between two numbers is a blank mostly: eight bytes are copied faster than so many. There is
+   room for them. */
+static char *copy_between(const file_splice *splice, const char *to, char *room)
 {
-    const size_t before = (size_t)(word.first - splice->copied);
-    char *const room = ffd_buffer_room(splice->text, before + FFD_NUMBER_CAPACITY);
-    if (!room)
-        return;
-    if (before == 1)
-        *room = *splice->copied;
+    const size_t size = (size_t)(to - splice->copied);
+    if (size <= 8 && splice->last - splice->copied >= 8)
+        memcpy(room, splice->copied, 8);
     else
-        memcpy(room, splice->copied, before);
-    splice->text->size += before + format(run, value, room + before);
-    splice->copied = word.last;
+        memcpy(room, splice->copied, size);
+    return room + size;
 }
 
-static void replace_number(file_splice *splice, text_word word, const double *value, decimal_run *run)
+/* Straight into the text, whose room is looked for once: a mesh has millions of them. */
+static void replace_in_text(file_splice *splice, const text_word *words, const double *numbers,
+                            unsigned changes, size_t count, decimal_run *run)
 {
-    char text[FFD_NUMBER_CAPACITY];
-    if (splice->text)
-        replace_in_text(splice, word, value, run);
-    else
-        ffd_splice_replace(splice, word, text, format(run, value, text));
+    const size_t before = (size_t)(words[count - 1].last - splice->copied);
+    char *const room = ffd_buffer_room(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = room;
+    if (!room)
+        return;
+    for (size_t i = 0; i < count; i++)
+        if (changes >> i & 1) {
+            at = copy_between(splice, words[i].first, at);
+            at += format(run, numbers + i, at);
+            splice->copied = words[i].last;
+        }
+    splice->text->size += (size_t)(at - room);
 }
 
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *numbers, unsigned changes,
                         size_t count, decimal_run *run)
 {
+    char text[FFD_NUMBER_CAPACITY];
+    if (splice->text && count > 0) {
+        replace_in_text(splice, words, numbers, changes, count, run);
+        return;
+    }
     for (size_t i = 0; i < count; i++)
         if (changes >> i & 1)
-            replace_number(splice, words[i], numbers + i, run);
+            ffd_splice_replace(splice, words[i], text, format(run, numbers + i, text));
 }
 
 ffd_status ffd_splice_end(file_splice *splice)

@@ -76,6 +76,28 @@ static void test_forget(void **state)
     (void)state;
 }
 
+/* What is gone through is given back in large pieces, and is there when it is read. */
+static void test_forget_until(void **state)
+{
+    enum { SIZE = 20000000, STEP = 700001, PIECE = 1 << 23 };
+    file_input input;
+    size_t forgotten = 0;
+    put_text("gone through", "");
+    assert_int_equal(truncate(in_folder("gone through"), SIZE), 0);
+    assert_int_equal(ffd_file_load(in_folder("gone through"), &input, NULL), FFD_OK);
+    for (size_t at = 0; at < SIZE; at += STEP) {
+        ffd_file_bring_in(input.data + at, SIZE - at < STEP ? SIZE - at : STEP);
+        assert_int_equal(input.data[at], 0);
+        ffd_file_forget_until(&input, input.data + at, &forgotten);
+        assert_int_equal(forgotten, at / PIECE * PIECE);
+    }
+    ffd_file_forget_until(&input, input.data, &forgotten); /* not back again */
+    assert_int_equal(forgotten, 2 * PIECE);
+    assert_int_equal(input.data[0] | input.data[SIZE - 1], 0);
+    ffd_file_unload(&input);
+    (void)state;
+}
+
 static void test_load_within(void **state)
 {
     file_input input;
@@ -361,6 +383,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_load),
         cmocka_unit_test(test_forget),
+        cmocka_unit_test(test_forget_until),
         cmocka_unit_test(test_load_within),
         cmocka_unit_test(test_appears_when_committed),
         cmocka_unit_test(test_pieces_of_any_size),

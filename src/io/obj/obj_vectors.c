@@ -33,6 +33,7 @@ typedef struct reader {
     block_content *contents; /* of blocks that are not joined yet */
     /* Before the next block; the document gets them when no thread looks at it any more. */
     size_t line, vertices, texcoords, normals, faces;
+    size_t forgotten;  /* bytes of the file that are given back (ffd_file_forget_until) */
     size_t failed;     /* the first block that could not be read; SIZE_MAX: none so far */
     ffd_status status; /* of that block */
     atomic_bool is_over;
@@ -115,11 +116,11 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     (void)last;
     clear_content(&content);
     if (!atomic_load(&r->is_over)) {
+        ffd_file_bring_in(block->first, (size_t)(block->last - block->first));
         block->plain = ffd_obj_is_plain(block->first, block->last);
         content.status = read_block(r, first, &content, NULL);
     }
     r->contents[worker] = content;
-    ffd_file_forget(&r->document->input, block->first, (size_t)(block->last - block->first));
 }
 
 /* Without this room the store grows as it is filled. */
@@ -163,6 +164,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     block_content *content = &r->contents[worker];
     (void)tile;
     (void)last;
+    ffd_file_forget_until(&d->input, block->last, &r->forgotten);
     if (r->failed != SIZE_MAX)
         return;
     block->line = r->line;
