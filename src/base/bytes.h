@@ -1,4 +1,4 @@
-/* bytes.h - which of many bytes are of a kind, at once. */
+/* bytes.h - which of many bytes are of a kind, and the number that digits make, at once. */
 #ifndef FFD_BASE_BYTES_H
 #define FFD_BASE_BYTES_H
 
@@ -51,6 +51,47 @@ static ALWAYS_INLINE uint32_t bytes_not_digits_of_32_by_words(const char *at)
     return (uint32_t)found;
 }
 
+/* The number that eight digits make, 0 to 9, one a byte, the foremost lowest: neighbours join to pairs, pairs
+   to fours. */
+static ALWAYS_INLINE uint64_t bytes_number(uint64_t digits)
+{
+    const uint64_t pairs = (10 * digits + (digits >> 8)) & UINT64_C(0x00ff00ff00ff00ff);
+    const uint64_t fours = (100 * pairs + (pairs >> 16)) & UINT64_C(0x0000ffff0000ffff);
+    return (10000 * fours + (fours >> 32)) & UINT64_C(0xffffffff);
+}
+
+/* Those that sixteen digits make. */
+typedef struct byte_numbers {
+    uint32_t first, second;
+} byte_numbers;
+
+static ALWAYS_INLINE byte_numbers bytes_two_numbers_by_words(uint64_t first, uint64_t second)
+{
+    return (byte_numbers){(uint32_t)bytes_number(first), (uint32_t)bytes_number(second)};
+}
+
+/* So many first ones of eight bytes, 0 or less for none. */
+static ALWAYS_INLINE uint64_t bytes_first(int count)
+{
+    return count <= 0 ? 0 : count >= 8 ? UINT64_MAX : ((uint64_t)1 << (8 * count)) - 1;
+}
+
+/* The number of 16 digits that begins with `count` digits of a text, 16 at most, and goes on with zeros. The
+   first `before` of them stand at its beginning, the others behind one more character, which is passed over.
+   17 characters of the text are read. */
+static ALWAYS_INLINE uint64_t bytes_digits_around_by_words(const char *text, int before, int count)
+{
+    uint64_t number = 0;
+    for (int i = 0; i < 16; i += 8) {
+        const uint64_t there = load_u64((const unsigned char *)text + i),
+                       behind = load_u64((const unsigned char *)text + i + 1), kept = bytes_first(before - i),
+                       wanted = bytes_first(count - i);
+        const uint64_t digits = (((there & kept) | (behind & ~kept)) ^ '0' * BYTES_ONES) & wanted;
+        number = number * 100000000 + bytes_number(digits);
+    }
+    return number;
+}
+
 #ifdef __SSE2__
 /* The same, with instructions that every x86-64 has. */
 static ALWAYS_INLINE __m128i bytes_sixteen(const char *at)
@@ -80,11 +121,54 @@ static ALWAYS_INLINE uint32_t bytes_not_digits_of_32_sse2(const char *at)
     return ~digits;
 }
 
+static ALWAYS_INLINE byte_numbers bytes_join_sse2(__m128i digits)
+{
+    const __m128i tens = _mm_mullo_epi16(_mm_and_si128(digits, _mm_set1_epi16(0xff)), _mm_set1_epi16(10));
+    const __m128i pairs = _mm_add_epi16(tens, _mm_srli_epi16(digits, 8));
+    const __m128i fours = _mm_madd_epi16(pairs, _mm_set1_epi32(1 << 16 | 100));
+    const __m128i eights = _mm_madd_epi16(_mm_packs_epi32(fours, fours), _mm_set1_epi32(1 << 16 | 10000));
+    uint64_t both;
+    _mm_storel_epi64((__m128i *)(void *)&both, eights);
+    return (byte_numbers){(uint32_t)both, (uint32_t)(both >> 32)};
+}
+
+static ALWAYS_INLINE byte_numbers bytes_two_numbers_sse2(uint64_t first, uint64_t second)
+{
+    return bytes_join_sse2(_mm_set_epi64x((int64_t)second, (int64_t)first));
+}
+
+/* So many first ones of 16 bytes. */
+static ALWAYS_INLINE __m128i bytes_first_sse2(int count)
+{
+    static const signed char bytes[32] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    return bytes_sixteen((const char *)bytes + 16 - count);
+}
+
+static ALWAYS_INLINE uint64_t bytes_digits_around_sse2(const char *text, int before, int count)
+{
+    const __m128i there = bytes_sixteen(text), behind = bytes_sixteen(text + 1);
+    const __m128i kept = bytes_first_sse2(before), wanted = bytes_first_sse2(count);
+    const __m128i digits = _mm_or_si128(_mm_and_si128(kept, there), _mm_andnot_si128(kept, behind));
+    const byte_numbers halves =
+        bytes_join_sse2(_mm_and_si128(wanted, _mm_xor_si128(digits, _mm_set1_epi8('0'))));
+    return halves.first * UINT64_C(100000000) + halves.second;
+}
+
 #define bytes_low_of_64 bytes_low_of_64_sse2
 #define bytes_not_digits_of_32 bytes_not_digits_of_32_sse2
+#define bytes_two_numbers bytes_two_numbers_sse2
+#define bytes_digits_around bytes_digits_around_sse2
 #else
 #define bytes_low_of_64 bytes_low_of_64_by_words
 #define bytes_not_digits_of_32 bytes_not_digits_of_32_by_words
+#define bytes_two_numbers bytes_two_numbers_by_words
+#define bytes_digits_around bytes_digits_around_by_words
 #endif
+
+/* Of 64 bytes, a bit for each that is no digit. */
+static ALWAYS_INLINE uint64_t bytes_not_digits_of_64(const char *at)
+{
+    return bytes_not_digits_of_32(at) | (uint64_t)bytes_not_digits_of_32(at + 32) << 32;
+}
 
 #endif

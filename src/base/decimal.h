@@ -5,10 +5,29 @@
 
 #include "base/decimal_kernel.h"
 #include "base/number.h"
+#include <float.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Powers of ten that are doubles, and those below 0. */
+#define POWERS_OF_TEN 20
+extern const double ffd_powers_of_ten[2][POWERS_OF_TEN];
+
+/* A number, not negative and below 2^62, by a power of ten, or below 0 that much. False where the quotient
+   may not be the nearest double. A whole number up to 2^53, or one with enough factors 2, and a power of ten
+   up to 10^22 are doubles, so that their quotient is rounded once (Clinger, How to Read Floating Point
+   Numbers Accurately, 1990), unless it were longer than a double first. */
+static inline bool ffd_decimal_quotient(int64_t number, int power, bool negative, double *value)
+{
+    const double whole = (double)number;
+    if ((FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1) || (int64_t)whole != number)
+        return false;
+    *value = whole / ffd_powers_of_ten[negative][power];
+    return true;
+}
 
 /* Reads digits with a point in them or not, of a value that one division by a power of ten gives exactly
    rounded. Returns the place behind it; NULL where something else stands there. */

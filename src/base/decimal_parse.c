@@ -1,5 +1,4 @@
 #include "base/decimal.h"
-#include <float.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -20,15 +19,15 @@ static const char *take_digits(const char *at, const char *last, uint64_t *numbe
     return at;
 }
 
-/* A whole number up to 2^53 and a power of ten up to 10^22 are doubles, so that their quotient is rounded
-   once (Clinger, How to Read Floating Point Numbers Accurately, 1990). */
+const double ffd_powers_of_ten[2][POWERS_OF_TEN] = {
+    {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,
+     1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19},
+    {-1e0,  -1e1,  -1e2,  -1e3,  -1e4,  -1e5,  -1e6,  -1e7,  -1e8,  -1e9,
+     -1e10, -1e11, -1e12, -1e13, -1e14, -1e15, -1e16, -1e17, -1e18, -1e19},
+};
+
 const char *ffd_decimal_parse(const char *first, const char *last, double *value)
 {
-    static const double powers[MOST_DIGITS + 1] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
-                                                   1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
-                                                   1e14, 1e15, 1e16, 1e17, 1e18, 1e19};
-    if (FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1) /* a longer quotient would be rounded twice */
-        return NULL;
     const bool negative = first < last && *first == '-';
     const char *const digits = first + negative;
     uint64_t number = 0;
@@ -45,7 +44,5 @@ const char *ffd_decimal_parse(const char *first, const char *last, double *value
     if (count == 0 || count > MOST_DIGITS || number > (uint64_t)1 << 53 ||
         (at < last && (*at == 'e' || *at == 'E')))
         return NULL;
-    const double size = (double)number / powers[behind];
-    *value = negative ? -size : size;
-    return at;
+    return ffd_decimal_quotient((int64_t)number, (int)behind, negative, value) ? at : NULL;
 }

@@ -9,6 +9,7 @@
 #include "../support/mesh_bytes.h"
 #include "io/formats.h"
 #include "io/obj/obj_document.h"
+#include "io/obj/obj_number.h"
 #include <math.h>
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))

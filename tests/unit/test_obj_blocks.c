@@ -3,11 +3,13 @@
 #include "../support/draw.h"
 #include "base/memory.h"
 #include "io/obj/obj_blocks.h"
-#include "io/obj/obj_value.h"
+#include "io/obj/obj_corner.h"
+#include "io/obj/obj_number.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -280,6 +282,77 @@ static void words_are_read_as_one_by_one(void **state)
     assert_in_range(complete, 5000, 20000);
 }
 
+/* A word as numbers are, or nearly. */
+static size_t put_number(draw *d, char *text)
+{
+    static const char odd[] = "0123456789..--+eE#\\/x\t\x01\xff";
+    size_t size = 0;
+    if (draw_int(d, 0, 2) == 0)
+        text[size++] = '-';
+    for (int before = draw_int(d, 0, draw_int(d, 0, 9) ? 3 : 18); before > 0; before--)
+        text[size++] = (char)draw_int(d, '0', '9');
+    if (draw_int(d, 0, 4))
+        text[size++] = '.';
+    for (int behind = draw_int(d, 0, draw_int(d, 0, 5) ? 7 : 18); behind > 0; behind--)
+        text[size++] = (char)draw_int(d, '0', '9');
+    if (size && draw_int(d, 0, 30) == 0)
+        text[draw_int(d, 0, (int)size - 1)] = odd[draw_int(d, 0, sizeof odd - 2)];
+    return size;
+}
+
+/* A line of three numbers and what may follow it, that ends with its block: nothing behind is to be read. */
+static char *draw_line(draw *d, size_t *size)
+{
+    static const char *const ends[] = {"\n", "\r\n", "\r", " 1\n", "#\n", "\\\n", "\t\n", " \n"};
+    char text[400] = "v";
+    size_t at = 1;
+    for (int i = 0; i < 3; i++) {
+        text[at++] = draw_int(d, 0, 60) ? ' ' : '\t';
+        if (draw_int(d, 0, 60) == 0)
+            text[at++] = ' ';
+        at += put_number(d, text + at);
+    }
+    at += (size_t)snprintf(text + at, 8, "%s", ends[draw_int(d, 0, 20) ? 0 : draw_int(d, 0, 7)]);
+    for (int more = draw_int(d, 0, 120); more > 0; more--)
+        text[at++] = (char)('0' + more % 10);
+    char *const line = malloc(at);
+    assert_non_null(line);
+    memcpy(line, text, at);
+    *size = at;
+    return line;
+}
+
+/* Three numbers at once are those that words are one by one, to the last bit; what is not taken, stays. */
+static void numbers_are_read_as_one_by_one(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    size_t complete = 0;
+    for (int round = 0; round < 40000; round++) {
+        size_t size;
+        char *const line = draw_line(&d, &size);
+        obj_scan scan;
+        double at_once[3], value;
+        ffd_obj_scan_begin(&scan, line, size);
+        assert_true(ffd_obj_scan_next(&scan));
+        obj_scan one_by_one = scan;
+        const char *const before = scan.at;
+        if (ffd_obj_scan_numbers(&scan, at_once)) {
+            for (int i = 0; i < 3; i++) {
+                text_word word;
+                assert_true(ffd_obj_scan_word(&one_by_one, &word) && ffd_obj_number(word, &value));
+                assert_memory_equal(&at_once[i], &value, sizeof value);
+            }
+            assert_ptr_equal(scan.at, one_by_one.at);
+            complete++;
+        } else {
+            assert_ptr_equal(scan.at, before);
+        }
+        free(line);
+    }
+    assert_in_range(complete, 10000, 40000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +360,7 @@ int main(void)
         cmocka_unit_test(blocks_are_as_long_as_asked_for),
         cmocka_unit_test(arguments_are_read_as_words_are),
         cmocka_unit_test(words_are_read_as_one_by_one),
+        cmocka_unit_test(numbers_are_read_as_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -260,6 +260,14 @@ static void the_first_fault_is_told(void **state)
         {"f 1//-301", "normal index -301 is out of range: 300 stand before"},
         {"f 1 2 0", "vertex index 0: the first is 1"},
         {"f 1 2 x", "not a corner"},
+        {"f 1/1/1 2/2/2 0/3/3", "vertex index 0: the first is 1"},
+        {"f 1/1/1 2/2/2 3/3/0", "normal index 0: the first is 1"},
+        {"f 1/1/1 2/2/2 601/3/3", "vertex index 601 is out of range: the file has 600"},
+        {"f 1/1/1 2/2/2 3/3/301", "normal index 301 is out of range: the file has 300"},
+        {"f 1/1/1 2/2/2 99999999/3/3", "vertex index 99999999 is out of range: the file has 600"},
+        {"f 1/1/1 2/2/2/ 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2/2/\""},
+        {"f 1/1/1 2/2/2\\2 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2/2\\2\""},
+        {"f 1/1/1 2/2/2- 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2/2-\""},
     };
     draw d = {draw_seed()};
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) {

@@ -4,6 +4,7 @@
    blanks, continuations and line ends are no part of the mesh; names and mtllib are. */
 #include "io/difference.h"
 #include "io/obj/obj_document.h"
+#include "io/obj/obj_number.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 #include "base/buffer.h"
 #include "base/memory.h"
 #include "io/obj/obj_document.h"
+#include "io/obj/obj_number.h"
 #include "io/vectors.h"
 #include <string.h>
 

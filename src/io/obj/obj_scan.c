@@ -60,11 +60,6 @@ bool ffd_obj_is_plain(const char *first, const char *last)
 
 static void pass_plain_line(obj_scan *scan)
 {
-    if (scan->at < scan->last && *scan->at == '\n') { /* all arguments were taken */
-        scan->at++;
-        scan->line++;
-        return;
-    }
     const char *end = scan->at < scan->last ? memchr(scan->at, '\n', (size_t)(scan->last - scan->at)) : NULL;
     scan->line += end != NULL;
     scan->at = end ? end + 1 : scan->last;
@@ -149,6 +144,14 @@ static bool is_blank_at(const obj_scan *scan, ptrdiff_t offset)
     return scan->last - scan->at > offset && ffd_obj_class(scan->at + offset) == OBJ_BLANK;
 }
 
+static void begin_statement(obj_scan *scan, text_word name)
+{
+    scan->inside = true;
+    scan->keyword_line = scan->line;
+    scan->name = name;
+    scan->at = name.last;
+}
+
 /* The statements that files consist of. */
 static bool take_common_keyword(obj_scan *scan)
 {
@@ -164,9 +167,19 @@ static bool take_common_keyword(obj_scan *scan)
     } else {
         return false;
     }
-    scan->name = (text_word){scan->at, scan->at + size};
-    scan->at += size;
+    begin_statement(scan, (text_word){scan->at, scan->at + size});
     return true;
+}
+
+/* Most often a statement's arguments are all taken, and the next line begins with one of these. */
+static bool take_next_line(obj_scan *scan)
+{
+    if (scan->at == scan->last || *scan->at != '\n' || !scan->inside)
+        return false;
+    scan->inside = false;
+    scan->at++;
+    scan->line++;
+    return scan->at < scan->last && take_common_keyword(scan);
 }
 
 static obj_keyword keyword_of(text_word word)
@@ -191,6 +204,8 @@ static obj_keyword keyword_of(text_word word)
 
 bool ffd_obj_scan_next(obj_scan *scan)
 {
+    if (take_next_line(scan))
+        return true;
     ffd_obj_scan_finish(scan);
     for (;;) {
         ffd_obj_scan_pass_blanks(scan);
@@ -204,11 +219,9 @@ bool ffd_obj_scan_next(obj_scan *scan)
         else
             break;
     }
-    scan->inside = true;
-    scan->keyword_line = scan->line;
     if (take_common_keyword(scan))
         return true;
-    scan->name = take_word(scan, false);
+    begin_statement(scan, take_word(scan, false));
     scan->keyword = keyword_of(scan->name);
     return true;
 }

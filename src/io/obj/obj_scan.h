@@ -73,9 +73,15 @@ static inline const char *ffd_obj_scan_argument(obj_scan *scan)
     return scan->at;
 }
 
+/* Whether a character ends words wherever it stands. */
+static inline bool ffd_obj_ends_any_word(const char *at)
+{
+    return ffd_obj_class(at) == OBJ_BLANK || ffd_obj_class(at) == OBJ_LINE_END;
+}
+
 static inline bool ffd_obj_scan_take(obj_scan *scan, const char *end)
 {
-    if (end < scan->last && ffd_obj_class(end) != OBJ_BLANK && ffd_obj_class(end) != OBJ_LINE_END)
+    if (end < scan->last && !ffd_obj_ends_any_word(end))
         return false;
     scan->at = end;
     return true;

@@ -80,6 +80,29 @@ static ffd_status add_normal(const block_reader *r, const obj_scan *scan, size_t
     return FFD_OK;
 }
 
+/* Takes corners of a face as long as each is like most: with a vertex and the normal that is its first. */
+static void pass_common_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
+{
+    const char *at = scan->at;
+    while (scan->last - at > OBJ_CORNER_ROOM && *at == ' ') {
+        byte_numbers indices;
+        const char *const end = ffd_obj_pair_at(at + 1, &indices);
+        if (!end || !ffd_obj_ends_any_word(end))
+            break;
+        /* 0 becomes one of those that are too large. */
+        const size_t vertex = (size_t)indices.first - 1, normal = (size_t)indices.second - 1;
+        if (vertex >= r->vertices.total || normal >= r->normals.total)
+            break;
+        if (r->users->firsts && !is_first(&r->users->firsts[vertex], (uint32_t)normal))
+            break;
+        note_greatest(&block->vertices, vertex);
+        note_greatest(&block->normals, normal);
+        block->corners++;
+        at = end;
+    }
+    scan->at = at;
+}
+
 /* Checks the corners of a face, line or point. Only what is used is refused: a texcoord's index is not, nor a
    normal's in a file without any `vn`. */
 static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
@@ -88,7 +111,11 @@ static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block
     text_word word;
     obj_corner corner;
     ffd_status status = FFD_OK;
-    while (status == FFD_OK && !ffd_obj_scan_is_over(scan)) {
+    while (status == FFD_OK) {
+        if (is_face && r->any_normals)
+            pass_common_corners(r, scan, block);
+        if (ffd_obj_scan_is_over(scan))
+            break;
         size_t vertex;
         const bool plain = ffd_obj_scan_corner(scan, &corner);
         if (!plain && !ffd_obj_scan_word(scan, &word))

@@ -1,6 +1,7 @@
 /* obj_vectors.c - the blocks of a file with their positions and normals. */
 #include "base/memory.h"
 #include "base/thread.h"
+#include "io/obj/obj_number.h"
 #include "io/obj/obj_users.h"
 #include <inttypes.h>
 #include <stdatomic.h>
@@ -45,8 +46,10 @@ static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char 
     text_word word;
     if (!ffd_grow((void **)&list->xyz, &list->capacity, list->count + 1, 3 * sizeof *list->xyz))
         return ffd_fail_memory(error);
-    for (int a = 0; a < 3; a++) {
-        double *value = &list->xyz[3 * list->count + (size_t)a];
+    double *const xyz = list->xyz + 3 * list->count;
+    const bool at_once = ffd_obj_scan_numbers(scan, xyz);
+    for (int a = 0; a < 3 && !at_once; a++) {
+        double *value = &xyz[a];
         if (ffd_obj_scan_number(scan, value))
             continue;
         if (!ffd_obj_scan_word(scan, &word))

@@ -2,7 +2,7 @@
 #ifndef FFD_IO_OBJ_OBJ_WALK_H
 #define FFD_IO_OBJ_OBJ_WALK_H
 
-#include "io/obj/obj_value.h"
+#include "io/obj/obj_corner.h"
 
 /* Elements of one kind: in the whole file, and up to the current statement (which is the last of them where
    it is one itself). Positive indices count in the former, negative ones in the latter. */

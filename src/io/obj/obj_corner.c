@@ -1,33 +1,8 @@
-#include "io/obj/obj_value.h"
-#include "base/bytes.h"
-#include "base/number.h"
+#include "io/obj/obj_corner.h"
 
 static bool is_digit(char c)
 {
     return c >= '0' && c <= '9';
-}
-
-static bool is_misplaced_exponent(const char *at, const char *last)
-{
-    if (last - at < 3 || (at[0] != '+' && at[0] != '-') || (at[1] != 'e' && at[1] != 'E'))
-        return false;
-    for (at += 2; at < last; at++)
-        if (!is_digit(*at))
-            return false;
-    return true;
-}
-
-bool ffd_obj_number(text_word word, double *value)
-{
-    const char *end = ffd_number_parse(word.first, word.last, value);
-    return end && (end == word.last || is_misplaced_exponent(end, word.last));
-}
-
-bool ffd_obj_scan_number(obj_scan *scan, double *value)
-{
-    const char *const at = ffd_obj_scan_argument(scan);
-    const char *const end = ffd_number_parse(at, scan->last, value);
-    return end && ffd_obj_scan_take(scan, end);
 }
 
 /* Reads an optional index at *at and goes behind it. */
@@ -68,20 +43,11 @@ bool ffd_obj_corner(text_word word, obj_corner *corner)
     return false;
 }
 
-/* The number that eight digits make, one a byte, the first lowest: neighbours join to pairs, pairs to fours.
- */
-static uint64_t join_digits(uint64_t digits)
-{
-    const uint64_t pairs = (10 * digits + (digits >> 8)) & UINT64_C(0x00ff00ff00ff00ff);
-    const uint64_t fours = (100 * pairs + (pairs >> 16)) & UINT64_C(0x0000ffff0000ffff);
-    return (10000 * fours + (fours >> 32)) & UINT64_C(0xffffffff);
-}
-
 /* An index of so many digits, 8 at most, where 8 bytes can be read. */
 static ALWAYS_INLINE obj_index index_at(const char *at, int count)
 {
     const uint64_t values = load_u64((const unsigned char *)at) ^ '0' * BYTES_ONES;
-    const uint64_t number = count ? join_digits(values << (64 - 8 * count)) : 0;
+    const uint64_t number = count ? bytes_number(values << (64 - 8 * count)) : 0;
     return (obj_index){(int64_t)number, {at, at + count}};
 }
 
@@ -99,31 +65,23 @@ static const char *take_digits(const char *at, const char *last, obj_index *inde
     return index->text.last = at;
 }
 
-/* A corner with two slashes, where 40 bytes can be read. What it consists of is found at once: one index
-   after the other would be looked for only when the end of the one before is known. */
+/* A corner with two slashes. */
 static ALWAYS_INLINE const char *take_whole_corner(const char *at, obj_corner *corner)
 {
-    uint32_t others = bytes_not_digits_of_32(at);
-    int end[3];
-    for (int i = 0; i < 3; i++, others &= others - 1) {
-        if (!others)
-            return NULL;
-        end[i] = __builtin_ctz(others);
-    }
-    const int texcoord = end[1] - end[0] - 1, normal = end[2] - end[1] - 1;
-    if (at[end[0]] != '/' || at[end[1]] != '/' || end[0] == 0 || end[0] > 8 || texcoord > 8 || normal > 8)
+    obj_corner_form form;
+    if (!ffd_obj_find_slashes(at, &form))
         return NULL;
-    corner->vertex = index_at(at, end[0]);
-    corner->texcoord = index_at(at + end[0] + 1, texcoord);
-    corner->normal = index_at(at + end[1] + 1, normal);
-    return at + end[2];
+    corner->vertex = index_at(at, form.vertex);
+    corner->texcoord = index_at(at + form.vertex + 1, form.texcoord);
+    corner->normal = index_at(at + form.end - form.normal, form.normal);
+    return at + form.end;
 }
 
 bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner)
 {
     const char *at = ffd_obj_scan_argument(scan);
     const char *const last = scan->last;
-    const char *const end = last - at >= 40 ? take_whole_corner(at, corner) : NULL;
+    const char *const end = last - at >= OBJ_CORNER_ROOM ? take_whole_corner(at, corner) : NULL;
     if (end)
         return ffd_obj_scan_take(scan, end);
     at = take_digits(at, last, &corner->vertex);

@@ -1,0 +1,66 @@
+/* obj_corner.h - the corners of an OBJ file's faces, lines and points. */
+#ifndef FFD_IO_OBJ_OBJ_CORNER_H
+#define FFD_IO_OBJ_OBJ_CORNER_H
+
+#include "base/bytes.h"
+#include "io/obj/obj_scan.h"
+#include <stdint.h>
+
+/* An index of a corner: as written, from 1 or counting back from -1. Too large ones stay out of every range.
+ */
+typedef struct obj_index {
+    int64_t value;
+    text_word text; /* empty: there is none */
+} obj_index;
+
+typedef struct obj_corner {
+    obj_index vertex, texcoord, normal;
+} obj_corner;
+
+/* Takes a scan's next argument if it is a corner in digits and slashes alone, and its vertex is there. False,
+   and nothing is taken, where it is anything else: it is then a word to be looked at. */
+bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner);
+
+/* Reads v, v/t, v//n or v/t/n; a slash with nothing behind it is allowed. False for anything else. */
+bool ffd_obj_corner(text_word word, obj_corner *corner);
+
+/* So many bytes must be there for the following. */
+#define OBJ_CORNER_ROOM 40
+
+/* How many digits the three indices of a corner have, and the place behind the last. */
+typedef struct obj_corner_form {
+    int vertex, texcoord, normal, end;
+} obj_corner_form;
+
+/* Finds the two slashes of a text that begins with digits, at most eight to each index, one or more of the
+   vertex. All at once: one index after the other would be looked for only when the end of the one before is
+   known. False where it begins otherwise. */
+static ALWAYS_INLINE bool ffd_obj_find_slashes(const char *at, obj_corner_form *form)
+{
+    uint32_t others = bytes_not_digits_of_32(at);
+    int end[3];
+    for (int i = 0; i < 3; i++, others &= others - 1) {
+        if (!others)
+            return false;
+        end[i] = __builtin_ctz(others);
+    }
+    *form = (obj_corner_form){end[0], end[1] - end[0] - 1, end[2] - end[1] - 1, end[2]};
+    return at[end[0]] == '/' && at[end[1]] == '/' && form->vertex > 0 && form->vertex <= 8 &&
+           form->texcoord <= 8 && form->normal <= 8;
+}
+
+/* Reads the vertex and normal of a corner that has both and two slashes: their indices, as two numbers.
+   Returns the place behind it; NULL where something else stands there. */
+static ALWAYS_INLINE const char *ffd_obj_pair_at(const char *at, byte_numbers *indices)
+{
+    obj_corner_form form;
+    if (!ffd_obj_find_slashes(at, &form) || form.normal == 0)
+        return NULL;
+    const unsigned char *const text = (const unsigned char *)at;
+    const uint64_t vertex = load_u64(text) ^ '0' * BYTES_ONES,
+                   normal = load_u64(text + form.end - form.normal) ^ '0' * BYTES_ONES;
+    *indices = bytes_two_numbers(vertex << (64 - 8 * form.vertex), normal << (64 - 8 * form.normal));
+    return at + form.end;
+}
+
+#endif
