@@ -34,27 +34,34 @@ static size_t take_cell(const size_t span[3], size_t key, displacement_scratch *
     return made;
 }
 
-/* Bounds of the cell that the point before was in. */
-typedef struct cell_range {
-    double lo[3], hi[3];
-} cell_range;
+/* A non-empty span, and where it begins and ends. */
+typedef struct span_range {
+    size_t number;
+    double first, last;
+} span_range;
 
-static bool range_holds(const cell_range *range, const double uvw[3])
+static bool span_holds(const span_range *span, double u)
 {
-    return range->lo[0] <= uvw[0] && uvw[0] < range->hi[0] && range->lo[1] <= uvw[1] &&
-           uvw[1] < range->hi[1] && range->lo[2] <= uvw[2] && uvw[2] < range->hi[2];
+    return span->first <= u && u < span->last;
 }
 
+static bool cell_holds(const span_range cell[3], const double uvw[3])
+{
+    return span_holds(&cell[0], uvw[0]) && span_holds(&cell[1], uvw[1]) && span_holds(&cell[2], uvw[2]);
+}
+
+/* The cell of a point, from that of the point before: most often it is another span in one direction. */
 static size_t find_cell(const ffd_lattice *lattice, const double uvw[3], displacement_scratch *scratch,
-                        cell_range *range)
+                        span_range cell[3])
 {
     const knot_vector *const knots = lattice->knots;
-    size_t span[3];
-    for (int a = 0; a < 3; a++) {
-        span[a] = ffd_knots_span_number(&knots[a], uvw[a]);
-        range->lo[a] = knots[a].t[knots[a].spans[span[a]]];
-        range->hi[a] = knots[a].t[knots[a].spans[span[a]] + 1];
-    }
+    for (int a = 0; a < 3; a++)
+        if (!span_holds(&cell[a], uvw[a])) {
+            const size_t number = ffd_knots_span_number(&knots[a], ffd_knots_wrap(&knots[a], uvw[a]));
+            const double *const span = knots[a].t + knots[a].spans[number];
+            cell[a] = (span_range){number, span[0], span[1]};
+        }
+    const size_t span[3] = {cell[0].number, cell[1].number, cell[2].number};
     return take_cell(span, (span[2] * knots[1].span_count + span[1]) * knots[0].span_count + span[0],
                      scratch);
 }
@@ -69,17 +76,15 @@ static const double *uvw_of(const displacement_batch *batch, size_t k)
 static void find_cells(const ffd_lattice *lattice, const displacement_batch *batch,
                        displacement_scratch *scratch)
 {
-    cell_range range = {{0}, {0}}; /* nothing */
+    span_range cell[3] = {{0}}; /* of nothing */
     size_t stretches = 0;
     scratch->cell_count = 0;
     memset(scratch->buckets, 0xff, sizeof scratch->buckets);
     for (size_t k = 0; k < batch->count; k++) {
-        double inside[3];
-        if (range_holds(&range, uvw_of(batch, k)))
+        if (cell_holds(cell, uvw_of(batch, k)))
             continue;
-        ffd_displacement_wrap(lattice, uvw_of(batch, k), inside);
-        const size_t cell = find_cell(lattice, inside, scratch, &range);
-        scratch->stretches[stretches++] = (batch_stretch){(uint32_t)k, (uint32_t)cell};
+        const size_t found = find_cell(lattice, uvw_of(batch, k), scratch, cell);
+        scratch->stretches[stretches++] = (batch_stretch){(uint32_t)k, (uint32_t)found};
     }
     scratch->stretches[stretches].first = (uint32_t)batch->count;
     scratch->stretch_count = stretches;

@@ -293,11 +293,11 @@ static double wrap_period(double u, double first, double last)
     return wrapped >= last ? first : wrapped;
 }
 
-double ffd_knots_wrap(const knot_vector *knots, double u)
+double ffd_knots_wrap_outside(const knot_vector *knots, double u)
 {
     const double first = ffd_knots_first(knots), last = ffd_knots_last(knots);
     if (ffd_knots_closed(knots))
-        return first <= u && u < last ? u : wrap_period(u, first, last);
+        return wrap_period(u, first, last);
     if (u < first)
         return first;
     return u > last ? last : u;

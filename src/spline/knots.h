@@ -50,8 +50,14 @@ static inline bool ffd_knots_closed(const knot_vector *knots)
 double ffd_knots_first(const knot_vector *knots);
 double ffd_knots_last(const knot_vector *knots);
 
+/* The following for what is not in the domain, or is its end. */
+double ffd_knots_wrap_outside(const knot_vector *knots, double u);
 /* u in the domain's nearest point; closed: modulo the period into [b_0, b_n). */
-double ffd_knots_wrap(const knot_vector *knots, double u);
+static inline double ffd_knots_wrap(const knot_vector *knots, double u)
+{
+    const bool inside = knots->t[knots->degree] <= u && u < knots->t[knots->functions];
+    return inside ? u : ffd_knots_wrap_outside(knots, u);
+}
 
 /* The span s of the domain with t_s <= u < t_{s+1}, clipped to the first and last non-empty one (P&T A2.1).
  */
