@@ -18,8 +18,8 @@ extern const uint64_t ffd_powers_of_five[POWERS_OF_FIVE];
 
 /* The shortest texts of numbers, as ffd_number_format has them: three times 8 characters of each, the first
    lowest, and how many of them it has; 0 where it is to be made by itself: none of those that
-   ffd_decimal_format is for, or one that is written with an exponent or has 7 or more digits before the
-   point. */
+   ffd_decimal_format is for, or one that is written with an exponent or has more than seven characters before
+   the point, the sign among them. */
 typedef struct decimal_batch {
     uint64_t words[3][DECIMAL_BATCH], size[DECIMAL_BATCH];
 } decimal_batch;

@@ -3,7 +3,7 @@
 #include <stdint.h>
 
 /* Digits of a number that is read: more could be more than 2^53. */
-#define MOST_DIGITS 19
+#define MOST_DIGITS (POWERS_OF_TEN - 1)
 
 static unsigned digit_of(char c)
 {

@@ -33,8 +33,9 @@ void ffd_file_bring_in(const void *bytes, size_t size);
    them again, by itself, from the file. Any thread. */
 void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
 /* For a file that is gone through from its beginning on: gives back what stands before a place and has not
-   been given back, *forgotten bytes at first, where that is worth the call, which stops the other threads for
-   a moment. Pages that another thread still reads come again. One thread at a time. */
+   been given back, behind *forgotten bytes, where that is worth the call, which stops the other threads for a
+   moment; what is left in the end is the caller's to give back. Pages that another thread still reads come
+   again. One thread at a time. */
 void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten);
 
 /* Whether path names a stream of this process or nothing, and no file that stands somewhere: "-",

@@ -109,5 +109,7 @@ ffd_status ffd_splice_end(file_splice *splice)
     ffd_splice_copy(splice, splice->last);
     if (splice->text)
         return splice->text->failed ? ffd_fail_memory(splice->error) : FFD_OK;
+    ffd_file_forget(splice->input, splice->input->data + splice->forgotten,
+                    splice->input->size - splice->forgotten);
     return splice->status;
 }

@@ -50,11 +50,12 @@ static ALWAYS_INLINE bool number_at(const char *text, int size, uint64_t others,
                                 value);
 }
 
-/* All within 64 bytes, whose kinds are found at once. */
+/* All within 64 bytes, whose kinds are found at once. The first two take 38 of them at most, with the blanks
+   before them, so that the digits of the third are read there too. */
 bool ffd_obj_scan_numbers(obj_scan *scan, double values[3])
 {
     const char *const at = scan->at;
-    if (scan->last - at < 64 + 17 || *at != ' ')
+    if (scan->last - at < 64 || *at != ' ')
         return false;
     const uint64_t others = bytes_not_digits_of_64(at);
     uint64_t ends = bytes_low_of_64(at);

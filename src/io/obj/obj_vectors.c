@@ -223,6 +223,7 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
         return status;
     if (!ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
         return ffd_fail_memory(error);
+    ffd_file_forget(&d->input, d->input.data + r->forgotten, d->input.size - r->forgotten);
     d->vertices = r->vertices;
     d->texcoords = r->texcoords;
     d->normals = r->normals;
