@@ -205,6 +205,30 @@ static bool same_index(obj_index a, obj_index b)
 
 static const char far[] = " 4/5/6 7/8/9 10/11/12 13/14/15 16/17/18 19/20/21\nf 1 2 3\n";
 
+/* How many vectors a text has is told by the first line with one, if that is long enough for three numbers.
+ */
+static void vectors_are_estimated_by_the_first(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        size_t vertices, normals;
+    } cases[] = {
+        {"v 1 2 3\nf 1 1 1\nf 1 1 1\nf 1 1 1\n", 4, 0},
+        {"# a\no b\nvn 1 2 3\nf 1 1 1\nf 1 1 1\n", 0, 3},
+        {"v 1 2\nf 1 1 1\nf 1 1 1\nf 1 1 1\n", 0, 0},
+        {"vn\nf 1 1 1\nf 1 1 1\nf 1 1 1\n", 0, 0},
+        {"v 1 2 3", 0, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        obj_blocks blocks;
+        assert_int_equal(cut_text(cases[i].text, strlen(cases[i].text), 1000, &blocks), FFD_OK);
+        assert_int_equal(blocks.vertices, cases[i].vertices);
+        assert_int_equal(blocks.normals, cases[i].normals);
+        ffd_obj_blocks_free(&blocks);
+    }
+}
+
 /* What is taken straight from the text must be all of the word and mean the same; what is not, stays. */
 static void arguments_are_read_as_words_are(void **state)
 {
@@ -358,6 +382,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(any_cut_gives_the_same_statements),
         cmocka_unit_test(blocks_are_as_long_as_asked_for),
+        cmocka_unit_test(vectors_are_estimated_by_the_first),
         cmocka_unit_test(arguments_are_read_as_words_are),
         cmocka_unit_test(words_are_read_as_one_by_one),
         cmocka_unit_test(numbers_are_read_as_one_by_one),

@@ -98,7 +98,7 @@ static void put_faces(file *f, int faces)
         if (draw_int(f->d, 0, 99) > 0) {
             put_face(f);
         } else {
-            put_line(f, "l 1 2 1");
+            put_line(f, f->normals_total ? "l 1/2/1 2/3/1 1/1/1 2/2/1 1/3/1 2/1/1 1/2/1 2/3/1" : "l 1 2 1");
             f->named_lines++;
         }
 }
