@@ -19,6 +19,36 @@ static ALWAYS_INLINE lanes clip_to_unit(lanes t)
     return lanes_choose(t < 0, lanes_all(0), lanes_choose(t > 1, lanes_all(1), t));
 }
 
+/* The numbers of the lanes' regions. */
+typedef struct numbers_lanes {
+    lanes lo[3], width[3], inverse[9], bound, centre[BEZIER_COMPONENTS], greatest_weight, weight_ratio;
+} numbers_lanes;
+
+static ALWAYS_INLINE void take_numbers(const cell_region *const region[REGION_LANES], numbers_lanes *numbers)
+{
+    for (int l = 0; l < FFD_LANES; l++) {
+        const cell_region *const of = region[l];
+        for (int a = 0; a < 3; a++) {
+            numbers->lo[a][l] = of->lo[a];
+            numbers->width[a][l] = of->width[a];
+        }
+        for (int i = 0; i < 9; i++)
+            numbers->inverse[i][l] = of->inverse[i];
+        numbers->bound[l] = of->bound;
+        for (int c = 0; c < BEZIER_COMPONENTS; c++)
+            numbers->centre[c][l] = of->centre[c];
+        numbers->greatest_weight[l] = of->greatest_weight;
+        numbers->weight_ratio[l] = of->weight_ratio;
+    }
+}
+
+/* out = m v; it must not be v. */
+static ALWAYS_INLINE void apply(const lanes m[9], const lanes v[3], lanes out[3])
+{
+    for (int r = 0; r < 3; r++)
+        out[r] = m[3 * r] * v[0] + m[3 * r + 1] * v[1] + m[3 * r + 2] * v[2];
+}
+
 typedef struct basis_lanes {
     lanes value[MAX_ORDER], slope[MAX_ORDER];
 } basis_lanes;
@@ -59,12 +89,13 @@ typedef struct sample_lanes {
     lanes equation[3], jacobian[9];
 } sample_lanes;
 
-static ALWAYS_INLINE void evaluate(const region_kernel_cell *cell, const int order[3], const lanes x[3],
-                                   const lanes t[3], sample_lanes *at)
+static ALWAYS_INLINE void evaluate(const region_kernel_cell *cell, const int order[3],
+                                   const numbers_lanes *region, const lanes x[3], const lanes t[3],
+                                   sample_lanes *at)
 {
     basis_lanes basis[3];
     for (int a = 0; a < 3; a++) {
-        const lanes offset = cell->region->lo[a] + t[a] * cell->region->width[a];
+        const lanes offset = region->lo[a] + t[a] * region->width[a];
         find_basis(cell->schemes[a], order[a] - 1, offset, &basis[a]);
     }
     lanes sum[3], by[3][3];
@@ -100,7 +131,7 @@ static ALWAYS_INLINE void evaluate(const region_kernel_cell *cell, const int ord
     for (int r = 0; r < 3; r++) {
         at->equation[r] = sum[r] - x[r];
         for (int a = 0; a < 3; a++)
-            at->jacobian[3 * r + a] = (by[a][r] - x[r] * 0.0) * cell->region->width[a];
+            at->jacobian[3 * r + a] = (by[a][r] - x[r] * 0.0) * region->width[a];
     }
 }
 
@@ -171,23 +202,23 @@ static ALWAYS_INLINE void count_evaluation(mask which, region_lanes *result)
 }
 
 /* A bound of the distance from the root. */
-static ALWAYS_INLINE lanes radius_at(const double *inverse, const sample_lanes *at, lanes noise, double bound)
+static ALWAYS_INLINE lanes radius_at(const numbers_lanes *region, const sample_lanes *at, lanes noise)
 {
     lanes image[3];
-    lanes_apply(inverse, at->equation, image);
-    return (greatest(image) + noise) / (1 - bound);
+    apply(region->inverse, at->equation, image);
+    return (greatest(image) + noise) / (1 - region->bound);
 }
 
 /* The step -Y F of the contraction, for those lanes that Newton's does not serve. */
-static ALWAYS_INLINE void contract(const region_kernel_cell *cell, const int order[3], const lanes x[3],
-                                   const progress *now, const lanes image[3], mask which, lanes t[3],
-                                   sample_lanes *at)
+static ALWAYS_INLINE void contract(const region_kernel_cell *cell, const int order[3],
+                                   const numbers_lanes *region, const lanes x[3], const progress *now,
+                                   const lanes image[3], mask which, lanes t[3], sample_lanes *at)
 {
     lanes to[3];
     sample_lanes there;
     for (int a = 0; a < 3; a++)
         to[a] = clip_to_unit(now->t[a] + -image[a]);
-    evaluate(cell, order, x, to, &there);
+    evaluate(cell, order, region, x, to, &there);
     for (int a = 0; a < 3; a++) {
         t[a] = lanes_choose(which, to[a], t[a]);
         at->equation[a] = lanes_choose(which, there.equation[a], at->equation[a]);
@@ -198,53 +229,53 @@ static ALWAYS_INLINE void contract(const region_kernel_cell *cell, const int ord
 
 static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3], region_lanes *result)
 {
-    const cell_region *const region = cell->region;
-    const double *const y = region->inverse;
-    const double bound = region->bound;
     lanes x[3], tolerance[3], accepted[3], equation[3], step[3], image[3], t[3], noise = lanes_all(0);
     sample_lanes at;
     progress now;
+    numbers_lanes region;
+    take_numbers(result->region, &region);
+    const lanes bound = region.bound;
     for (int a = 0; a < 3; a++) {
         x[a] = lanes_load(result->x[a]);
         tolerance[a] = lanes_load(result->tolerance[a]);
-        accepted[a] = tolerance[a] * region->weight_ratio;
-        equation[a] = x[a] * region->centre[3] - region->centre[a];
+        accepted[a] = tolerance[a] * region.weight_ratio;
+        equation[a] = x[a] * region.centre[3] - region.centre[a];
     }
     for (int r = 0; r < 3; r++) {
-        const double *const row = y + 3 * r;
-        const lanes sum =
-            (fabs(row[0]) * tolerance[0] + fabs(row[1]) * tolerance[1] + fabs(row[2]) * tolerance[2]) *
-            region->greatest_weight;
+        const lanes *const row = region.inverse + 3 * r;
+        const lanes sum = (lanes_magnitude(row[0]) * tolerance[0] + lanes_magnitude(row[1]) * tolerance[1] +
+                           lanes_magnitude(row[2]) * tolerance[2]) *
+                          region.greatest_weight;
         noise = lanes_choose(sum > noise, sum, noise);
     }
     const lanes least = lanes_choose(4.0 * noise > 1e-12, 4.0 * noise, lanes_all(1e-12));
     now.open = ~(mask){0};
     now.e = lanes_all(0.5);
     memset(result->evaluations, 0, sizeof result->evaluations);
-    lanes_apply(y, equation, step);
+    apply(region.inverse, equation, step);
     settle(&now, ~(mask)(greatest(step) <= (1 + bound) * now.e + noise), REGION_EMPTY, result);
     if (!lanes_any(now.open))
         return;
     for (int a = 0; a < 3; a++)
         now.t[a] = clip_to_unit(0.5 + step[a]);
     now.e = bound * now.e + noise;
-    evaluate(cell, order, x, now.t, &now.at);
+    evaluate(cell, order, &region, x, now.t, &now.at);
     count_evaluation(now.open, result);
     for (int i = 0; i < LEAF_STEPS; i++) {
         now.e = lanes_choose(now.e > least, now.e, least);
         settle(&now, accepts(&now.at, accepted), REGION_FOUND, result);
-        lanes_apply(y, now.at.equation, image);
+        apply(region.inverse, now.at.equation, image);
         settle(&now, ~(mask)(greatest(image) <= (1 + bound) * now.e + noise), REGION_EMPTY, result);
         const lanes shorter = bound * now.e + noise;
         settle(&now, ~newton_step(&now.at, now.t, t), REGION_UNCERTAIN, result);
         if (!lanes_any(now.open))
             break;
-        evaluate(cell, order, x, t, &at);
+        evaluate(cell, order, &region, x, t, &at);
         count_evaluation(now.open, result);
-        lanes radius = radius_at(y, &at, noise, bound);
+        lanes radius = radius_at(&region, &at, noise);
         const mask slow = now.open & ~((mask)(radius <= shorter) | accepts(&at, accepted));
         if (lanes_any(slow)) {
-            contract(cell, order, x, &now, image, slow, t, &at);
+            contract(cell, order, &region, x, &now, image, slow, t, &at);
             count_evaluation(slow, result);
             radius = lanes_choose(slow, shorter, radius);
         }

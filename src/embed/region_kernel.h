@@ -1,4 +1,5 @@
-/* region_kernel.h - the root of one region for several points at a time (maths.md 6.4), each in a lane. */
+/* region_kernel.h - the roots of regions of one cell for several points at a time (maths.md 6.4), each in a
+   lane. */
 #ifndef FFD_EMBED_REGION_KERNEL_H
 #define FFD_EMBED_REGION_KERNEL_H
 
@@ -20,9 +21,8 @@ typedef struct cell_region {
     double greatest_weight, weight_ratio;
 } cell_region;
 
-/* What is the same for all points of a region of a lattice without weights. */
+/* What is the same for all points of a cell of a lattice without weights. */
 typedef struct region_kernel_cell {
-    const cell_region *region;
     int order[3];
     const span_scheme *schemes[3];
     span_scheme own_schemes[3]; /* which they may point to */
@@ -37,6 +37,7 @@ typedef enum region_outcome {
 
 /* One point a lane; all lanes are filled, if need be with points twice. */
 typedef struct region_lanes {
+    const cell_region *region[REGION_LANES];
     double x[3][REGION_LANES], tolerance[3][REGION_LANES]; /* as point_search has them */
     /* Results: */
     region_outcome outcome[REGION_LANES];

@@ -1,7 +1,7 @@
-/* search_many.c - points of a general lattice, several at a time. A point waits until others of its leaf are
-   there; their steps are then taken together. One that has several leaves waits in each, and is judged when
-   all of them are through. Whatever is not settled so is searched for alone (search.c), and what is settled
-   has the bits that it would get there. */
+/* search_many.c - points of a general lattice, several at a time. A point waits until others of its cell are
+   there; their steps are then taken together, each in its own leaf. One that has several leaves waits in
+   each, and is judged when all of them are through. Whatever is not settled so is searched for alone
+   (search.c), and what is settled has the bits that it would get there. */
 #include "base/memory.h"
 #include "base/vec.h"
 #include "embed/packet.h"
@@ -31,11 +31,11 @@ typedef struct shared_point {
     leaf_result *results; /* in the order in which it is in them */
 } shared_point;
 
-/* The points that wait in one leaf. */
-typedef struct leaf_group {
-    const cell_leaf *leaf;
+/* The points that wait in leaves of one cell. */
+typedef struct cell_group {
+    const int *span;
     size_t first, count; /* among the grouped */
-} leaf_group;
+} cell_group;
 
 #define MOST_WAITING (2 * CELLS_AT_ONCE)
 #define BUCKETS (2 * MOST_WAITING)
@@ -44,8 +44,8 @@ typedef struct leaf_group {
 struct many_scratch {
     waiting_point waiting[MOST_WAITING], grouped[MOST_WAITING];
     uint16_t group_of[MOST_WAITING]; /* of those waiting */
-    leaf_group groups[MOST_WAITING];
-    uint16_t buckets[BUCKETS]; /* groups by their leaves */
+    cell_group groups[MOST_WAITING];
+    uint16_t buckets[BUCKETS]; /* groups by their cells */
     shared_point shared[CELLS_AT_ONCE / 2];
     leaf_result results[CELLS_AT_ONCE];
     region_kernel_cell cell;
@@ -53,29 +53,35 @@ struct many_scratch {
     region_lanes lanes;
 };
 
-/* The group of the leaf, made where it is new. */
-static leaf_group *take_group(struct many_scratch *many, const cell_leaf *leaf, size_t *group_count)
+static bool same_cell(const int a[3], const int b[3])
 {
-    size_t bucket = (size_t)((uintptr_t)leaf / sizeof *leaf) % BUCKETS;
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* The group of the cell, made where it is new. */
+static cell_group *take_group(struct many_scratch *many, const int span[3], size_t *group_count)
+{
+    size_t bucket = ((size_t)span[0] + 61 * (size_t)span[1] + 3727 * (size_t)span[2]) % BUCKETS;
     for (; many->buckets[bucket] != NO_GROUP; bucket = (bucket + 1) % BUCKETS)
-        if (many->groups[many->buckets[bucket]].leaf == leaf)
+        if (same_cell(many->groups[many->buckets[bucket]].span, span))
             return &many->groups[many->buckets[bucket]];
     many->buckets[bucket] = (uint16_t)*group_count;
-    leaf_group *const made = &many->groups[(*group_count)++];
-    *made = (leaf_group){.leaf = leaf};
+    cell_group *const made = &many->groups[(*group_count)++];
+    *made = (cell_group){.span = span};
     return made;
 }
 
-/* Brings the points of each leaf together, in their order, into many->grouped. Returns how many leaves there
+/* Brings the points of each cell together, in their order, into many->grouped. Returns how many cells there
    are. */
 static size_t group_waiting(struct many_scratch *many, size_t count)
 {
     size_t group_count = 0, first = 0;
     memset(many->buckets, 0xff, sizeof many->buckets);
     for (size_t i = 0; i < count; i++) {
-        const bool same = i > 0 && many->waiting[i].leaf == many->waiting[i - 1].leaf;
-        leaf_group *const group = same ? &many->groups[many->group_of[i - 1]]
-                                       : take_group(many, many->waiting[i].leaf, &group_count);
+        const int *const span = many->waiting[i].leaf->region.span;
+        const bool same = i > 0 && same_cell(span, many->waiting[i - 1].leaf->region.span);
+        cell_group *const group =
+            same ? &many->groups[many->group_of[i - 1]] : take_group(many, span, &group_count);
         many->group_of[i] = (uint16_t)(group - many->groups);
         group->count++;
     }
@@ -85,25 +91,24 @@ static size_t group_waiting(struct many_scratch *many, size_t count)
         many->groups[g].count = 0;
     }
     for (size_t i = 0; i < count; i++) {
-        leaf_group *const group = &many->groups[many->group_of[i]];
+        cell_group *const group = &many->groups[many->group_of[i]];
         many->grouped[group->first + group->count++] = many->waiting[i];
     }
     return group_count;
 }
 
-static void load_cell(const ffd_locator *locator, const cell_region *region, double *own,
-                      region_kernel_cell *cell)
+static void load_cell(const ffd_locator *locator, const int span[3], double *own, region_kernel_cell *cell)
 {
-    cell->region = region;
     for (int a = 0; a < 3; a++) {
         cell->order[a] = locator->cells->order[a];
-        cell->schemes[a] = ffd_cells_scheme(locator, a, region->span[a], &cell->own_schemes[a]);
+        cell->schemes[a] = ffd_cells_scheme(locator, a, span[a], &cell->own_schemes[a]);
     }
-    ffd_cells_rows(locator, region->span, cell->rows, own);
+    ffd_cells_rows(locator, span, cell->rows, own);
 }
 
-static void load_point(const point_search *search, int lane, region_lanes *lanes)
+static void load_point(const point_search *search, const cell_leaf *leaf, int lane, region_lanes *lanes)
 {
+    lanes->region[lane] = &leaf->region;
     for (int a = 0; a < 3; a++) {
         lanes->x[a][lane] = search->x[a];
         lanes->tolerance[a][lane] = search->tolerance[a];
@@ -147,23 +152,23 @@ static ffd_status find_alone(const ffd_locator *locator, const double *p, uint32
     return ffd_cells_find(locator, p + 3 * (size_t)number, scratch, &locations[number], error);
 }
 
-/* The points of one leaf. */
-static ffd_status find_in_leaf(const ffd_locator *locator, const double *p, const waiting_point *waiting,
+/* The points of one cell. */
+static ffd_status find_in_cell(const ffd_locator *locator, const double *p, const waiting_point *waiting,
                                size_t count, search_scratch **scratch, ffd_location *locations,
                                ffd_error *error)
 {
-    const cell_region *const region = &waiting->leaf->region;
     const size_t width = (size_t)locator->cells->lanes;
     region_lanes *const lanes = &(*scratch)->many->lanes;
     ffd_status status = FFD_OK;
-    load_cell(locator, region, (*scratch)->many->own, &(*scratch)->many->cell);
+    load_cell(locator, waiting->leaf->region.span, (*scratch)->many->own, &(*scratch)->many->cell);
     for (size_t first = 0; first < count && !status; first += width) {
         const size_t filled = count - first < width ? count - first : width;
         for (size_t l = 0; l < width; l++) {
+            const waiting_point *const point = &waiting[first + (l < filled ? l : filled - 1)];
             point_search search;
             ffd_search_begin(&search, locator);
-            ffd_search_place(&search, p + 3 * (size_t)waiting[first + (l < filled ? l : filled - 1)].number);
-            load_point(&search, (int)l, lanes);
+            ffd_search_place(&search, p + 3 * (size_t)point->number);
+            load_point(&search, point->leaf, (int)l, lanes);
         }
         locator->cells->region_kernel(&(*scratch)->many->cell, lanes);
         for (size_t l = 0; l < filled && !status; l++) {
@@ -188,7 +193,7 @@ static ffd_status find_waiting(const ffd_locator *locator, const double *p, size
     struct many_scratch *const many = (*scratch)->many;
     const size_t groups = group_waiting(many, count);
     for (size_t g = 0; g < groups && !status; g++)
-        status = find_in_leaf(locator, p, many->grouped + many->groups[g].first, many->groups[g].count,
+        status = find_in_cell(locator, p, many->grouped + many->groups[g].first, many->groups[g].count,
                               scratch, locations, error);
     return status;
 }
