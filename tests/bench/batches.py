@@ -3,6 +3,7 @@
 import json
 import os
 import shutil
+import tempfile
 
 import lattices
 import meshes
@@ -37,13 +38,17 @@ def by_commands(bench, jobs):
 
 
 def rates(bench, out, ways):
-    """What each way of doing its jobs reaches, in turns; the folder of outputs is empty before each."""
-    reached = [[] for _ in ways]
-    for _ in range(bench.runs):
-        for (way, jobs), values in zip(ways, reached):
+    """What each way of doing its jobs reaches, in turns; the folder of outputs is empty before each.
+
+    What was written stays until the benchmark ends: ext4 takes long to make files in the seconds after as many were
+    removed, for it does not give their inodes away again and looks for others.
+    """
+    reached, kept = [[] for _ in ways], tempfile.mkdtemp(dir=bench.folder)
+    for run in range(bench.runs):
+        for number, ((way, jobs), values) in enumerate(zip(ways, reached)):
             os.mkdir(out)
             values.append(way(bench, jobs))
-            shutil.rmtree(out)
+            os.rename(out, os.path.join(kept, f"{run}-{number}"))
     return reached
 
 
