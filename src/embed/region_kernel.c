@@ -46,7 +46,7 @@ static ALWAYS_INLINE void take_numbers(const cell_region *const region[REGION_LA
 static ALWAYS_INLINE void apply(const lanes m[9], const lanes v[3], lanes out[3])
 {
     for (int r = 0; r < 3; r++)
-        out[r] = m[3 * r] * v[0] + m[3 * r + 1] * v[1] + m[3 * r + 2] * v[2];
+        out[r] = lanes_dot(m + 3 * r, v);
 }
 
 typedef struct basis_lanes {

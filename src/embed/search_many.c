@@ -61,6 +61,7 @@ static bool same_cell(const int a[3], const int b[3])
 /* The group of the cell, made where it is new. */
 static cell_group *take_group(struct many_scratch *many, const int span[3], size_t *group_count)
 {
+    /* Primes: neighbours are in different buckets. */
     size_t bucket = ((size_t)span[0] + 61 * (size_t)span[1] + 3727 * (size_t)span[2]) % BUCKETS;
     for (; many->buckets[bucket] != NO_GROUP; bucket = (bucket + 1) % BUCKETS)
         if (same_cell(many->groups[many->buckets[bucket]].span, span))
