@@ -3,7 +3,6 @@
 #define FFD_BASE_FILE_H
 
 #include "base/fail.h"
-#include "base/path_list.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -67,10 +66,9 @@ char *ffd_path_resolve(const char *path);
    order of begin. */
 typedef struct file_output file_output;
 
-/* The files that a run has written so far. Two names can lead to one file (links, "./"), and names are
-   derived from others (a .gltf's buffers): only the files themselves tell. */
-typedef path_list written_files;
-
+/* The files that a run has written so far (written_files.h). */
+typedef struct written_files written_files;
+/* Whether path leads to one of them, under whatever name it was written. */
 bool ffd_written_holds(const written_files *written, const char *path);
 
 ffd_status ffd_output_create(file_output **output, ffd_error *error);

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "base/path.h"
 #include "base/temporary.h"
+#include "base/written_files.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -60,14 +61,6 @@ ffd_status ffd_output_create(file_output **output, ffd_error *error)
     return ffd_fail_memory(error);
 }
 
-bool ffd_written_holds(const written_files *written, const char *path)
-{
-    for (size_t i = 0; i < written->count; i++)
-        if (ffd_file_same(written->paths[i], path))
-            return true;
-    return false;
-}
-
 void ffd_output_record(file_output *output, written_files *written)
 {
     output->written = written;
@@ -81,20 +74,31 @@ static ffd_status refuse_written(const file_output *output, const char *path, ff
                          "was written by this run already, under this name or another");
 }
 
-/* Room in the record is made before the renames, so that nothing is written that it does not hold. */
-static ffd_status prepare_record(const file_output *output, ffd_error *error)
+/* No target may be one of the record's, also none that has come to be since it was begun. */
+static ffd_status refuse_recorded(const file_output *output, ffd_error *error)
 {
-    written_files *written = output->written;
-    for (size_t i = 0; i < output->count; i++) {
-        const ffd_status status =
-            output->files[i].temporary ? refuse_written(output, output->files[i].target, error) : FFD_OK;
-        if (status)
-            return status;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < output->count && !status; i++)
+        if (output->files[i].temporary)
+            status = refuse_written(output, output->files[i].target, error);
+    return status;
+}
+
+/* Before the renames, so that nothing is written that the record does not hold: a file stays the same one
+   when it gets another name. */
+static ffd_status record_files(const file_output *output, bool stays, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < output->count && output->written && !status; i++) {
+        const output_file *const file = &output->files[i];
+        file_stamp stamp;
+        if (!file->temporary)
+            continue;
+        if (!ffd_file_stamp(stays ? file->target : file->temporary, &stamp))
+            return fail_errno(error, file->target, "cannot be written");
+        status = ffd_written_add(output->written, &stamp, file->target, error);
     }
-    if (written && !ffd_grow((void **)&written->paths, &written->capacity, written->count + output->count,
-                             sizeof *written->paths))
-        return ffd_fail_memory(error);
-    return FFD_OK;
+    return status;
 }
 
 /* The descriptor of a stream; -1 for other paths. A stream that was led into a file is written like any
@@ -303,15 +307,6 @@ void ffd_output_remove_first(file_output *output)
     output->files[output->count - 1].remove_first = true;
 }
 
-/* The record takes the target's name over. */
-static void record_file(file_output *output, output_file *file)
-{
-    if (!output->written || !file->temporary)
-        return;
-    output->written->paths[output->written->count++] = file->target;
-    file->target = NULL;
-}
-
 /* Some file systems tell of a full disk only when a file is closed. Closing a twin asks them, while the old
    target is still there, and does not give up the lock. */
 static ffd_status check_written(const file_output *output, ffd_error *error)
@@ -352,7 +347,7 @@ static bool is_to_stay(const file_output *output)
 }
 
 /* Takes the temporary file's name away: to the target or, where that stays, altogether. */
-static ffd_status settle_file(file_output *output, output_file *file, bool stays, ffd_error *error)
+static ffd_status settle_file(output_file *file, bool stays, ffd_error *error)
 {
     if (file->temporary && (stays ? unlink(file->temporary) : rename(file->temporary, file->target)) != 0)
         return fail_errno(error, file->target, "cannot be written");
@@ -361,10 +356,7 @@ static ffd_status settle_file(file_output *output, output_file *file, bool stays
     /* Closing gives up the lock: only now may another run take the name. */
     const int fd = file->fd;
     file->fd = -1;
-    if (close(fd) != 0)
-        return fail_errno(error, file->target, "cannot be written");
-    record_file(output, file);
-    return FFD_OK;
+    return close(fd) == 0 ? FFD_OK : fail_errno(error, file->target, "cannot be written");
 }
 
 static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
@@ -375,7 +367,7 @@ static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
             return fail_errno(error, file->target, "cannot be replaced");
     }
     for (size_t i = 0; i < output->count; i++) {
-        const ffd_status status = settle_file(output, &output->files[i], stays, error);
+        const ffd_status status = settle_file(&output->files[i], stays, error);
         if (status)
             return status;
     }
@@ -389,12 +381,14 @@ ffd_status ffd_output_commit(file_output *output, ffd_error *error)
 {
     ffd_status status = flush(output, error);
     if (!status)
-        status = prepare_record(output, error);
+        status = refuse_recorded(output, error);
     if (!status)
         status = check_written(output, error);
+    const bool stays = !status && output->keeps_equal && is_to_stay(output);
+    if (!status)
+        status = record_files(output, stays, error);
     if (status)
         return status;
-    const bool stays = output->keeps_equal && is_to_stay(output);
     /* A signal comes before all renames or after them: a set is not torn apart. */
     ffd_cleanup_hold();
     status = settle_all(output, stays, error);

@@ -76,6 +76,12 @@ bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *num
     return true;
 }
 
+bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *number)
+{
+    *number = table->count > 0 ? *find_slot(table, key, size) : FREE_SLOT;
+    return *number != FREE_SLOT;
+}
+
 const char *ffd_intern_key(const intern_table *table, uint32_t number)
 {
     return table->pool + table->starts[number];

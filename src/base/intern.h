@@ -19,6 +19,8 @@ typedef struct intern_table {
 /* The number of the key, which is copied where it is new. False when there is no memory, or the numbers have
    run out. */
 bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *number);
+/* The number of a key that is there already; false for others. */
+bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *number);
 /* A key, ended by 0; lent until the next one is added. */
 const char *ffd_intern_key(const intern_table *table, uint32_t number);
 void ffd_intern_free(intern_table *table);

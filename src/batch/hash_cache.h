@@ -5,6 +5,7 @@
 
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/path_list.h"
 #include <ffd/job.h>
 
 /* Files that are remembered: those looked at last. */

@@ -11,7 +11,7 @@ void ffd_written_destroy(ffd_written **written)
 {
     if (!written || !*written)
         return;
-    ffd_paths_free(&(*written)->files);
+    ffd_written_free(&(*written)->files);
     ffd_free(*written);
     *written = NULL;
 }

@@ -9,6 +9,7 @@
 #include "base/buffer.h"
 #include "base/file.h"
 #include "base/json_text.h"
+#include "base/path_list.h"
 #include "base/vec.h"
 #include "mesh/model.h"
 #include "mesh/room.h"
