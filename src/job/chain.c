@@ -83,13 +83,25 @@ void ffd_chain_free(lattice_chain *chain)
     *chain = (lattice_chain){0};
 }
 
+/* Of the rest volume and of how it is searched: one volume may be known as a box or by its points, with
+   weights of 1 or with none, and u,v,w differs in the last bits. */
+static hash128 hash_rest(const ffd_lattice *lattice)
+{
+    const bool is_box = lattice->form == REST_BOX_AFFINE;
+    const double way[] = {is_box, lattice->rest_weights != NULL};
+    const hash128 parts[] = {ffd_embedding_hash_lattice(lattice), ffd_hash_doubles(way, 2),
+                             ffd_hash_doubles(lattice->origin, is_box ? 3 : 0),
+                             ffd_hash_doubles(lattice->frame, is_box ? 9 : 0)};
+    return ffd_hash(parts, sizeof parts);
+}
+
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error)
 {
     chain_link *made = &chain->links[link];
     ffd_status status = FFD_OK;
     if (chain->share) {
         if (!made->lattice_is_lent)
-            made->rest = ffd_embedding_hash_lattice(made->lattice);
+            made->rest = hash_rest(made->lattice);
         made->locator = ffd_share_find_locator(chain->share, &made->rest, chain->isa);
         made->locator_is_lent = made->locator;
     }

@@ -84,3 +84,8 @@ def traced(run, calls, *arguments):
     equal(done.returncode, 0, done.stderr.decode())
     with open(log, encoding="utf-8", errors="replace") as file:
         return file.read()
+
+
+def opened(log, name):
+    """How often a file was opened."""
+    return sum(f'"{name}"' in line and "= -1" not in line for line in log.splitlines() if "open" in line)

@@ -2,52 +2,12 @@
 """ffd batch: neighbours share a mesh, and yet each output is that of a run of its own, in every format."""
 
 import re
-import struct
 import subprocess
 import time
 
-from batches import MOVE, SANITIZED, batch, case, check, equal, job, lattice, lines_of, main, report, start, traced
-from harness import CUBE, CUBE_FACES, FFD, OK, glb, gltf_json
-
-NORMALS = [[0.0, 0.0, 1.0]] * 6
-POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.5], [0, 0, 1], [-1, 0.25, 1]]
-
-
-def write_meshes(run):
-    """A mesh in every format. Returns their names."""
-    run.write("m.obj", CUBE + "vn 0 0 1\nvn 1 0 0\nf 1//1 2//2 3//1\n")
-    asset, data = gltf_json(POINTS, normals=NORMALS)
-    run.write("m.glb", glb(asset, data))
-    asset, data = gltf_json(POINTS, normals=NORMALS, uri="m.bin")
-    run.write("m.gltf", asset)
-    run.write("m.bin", data)
-    run.write("m.off", "OFF\n8 6 0\n" + "".join(line[2:] + "\n" for line in CUBE.splitlines() if line.startswith("v "))
-              + "".join("4 " + " ".join(str(i - 1) for i in face) + "\n" for face in CUBE_FACES))
-    header = "ply\nformat %s 1.0\nelement vertex 6\n" + "".join(f"property {{0}} {c}\n" for c in "xyz") + "end_header\n"
-    run.write("m.ply", (header % "ascii").format("double") + "".join("%r %r %r\n" % tuple(p) for p in POINTS))
-    run.write("b.ply", (header % "binary_little_endian").format("float").encode() + b"".join(struct.pack("<3f", *p) for p in POINTS))
-    run.write("m.stl", b" " * 80 + struct.pack("<I", 2) + b"".join(
-        struct.pack("<12fH", 0, 0, 1, *POINTS[i], *POINTS[i + 1], *POINTS[i + 2], 0) for i in range(2)))
-    return ["m.obj", "m.glb", "m.gltf", "m.off", "m.ply", "b.ply", "m.stl"]
-
-
-LATTICES = {
-    "twist.json": lattice(moves=[{"twist": {"axis": "z", "degrees": 70}}]),
-    "bend.json": lattice(moves=[{"bend": {"axis": "z", "toward": [1, 0, 0], "degrees": 50}}]),
-    "round.json": lattice(rest={"box": "mesh", "margin": 0.1}, units="box", moves=[{"by": [0, 0.25, 0]}]),
-    "half.json": lattice(high=(2, 2, 0.25), moves=[{"by": [0.1, 0, 0]}]),
-    "curved.json": lattice(moves=[{"at": [3, 3, 3], "by": [1, 1, 1]}], rest={"points": [
-        [-2 + 4 * i / 3 + 0.1 * ((i + j * k) % 2), -2 + 4 * j / 3, -2 + 4 * k / 3 + 0.05 * (i % 2)]
-        for k in range(4) for j in range(4) for i in range(4)]}),
-}
-COMBINATIONS = [(["twist.json"], {}), (["bend.json"], {}), (["twist.json", "bend.json"], {}), (["round.json"], {}),
-                (["half.json"], {"outside": "extend"}), (["half.json"], {"outside": "extend", "falloff": 0.5}),
-                (["curved.json"], {}), (["curved.json"], {"normals": "recompute"}), (["curved.json", "twist.json"], {"normals": "keep"}),
-                (["twist.json"], {"threads": 1, "isa": "scalar"}), (["half.json"], {"fail-on": "outside"}), (["twist.json"], {"space": "mesh"})]
-
-
-def words(options):
-    return [str(x) for name, value in options.items() for x in ("--" + name, value)]
+from batches import MOVE, SANITIZED, batch, case, check, equal, job, lattice, lines_of, main, opened, report, start, traced
+from harness import CUBE, FFD, OK
+from neighbours import COMBINATIONS, LATTICES, words, write_meshes
 
 
 @case
@@ -84,11 +44,6 @@ def every_format(run):
     equal(run.names("out"), run.names("single/out"))
     for name in run.names("out"):
         equal(run.read("out/" + name) == run.read("single/out/" + name), True, f"{name} is that of a single run")
-
-
-def opened(log, name):
-    """How often a file was opened."""
-    return sum(f'"{name}"' in line and "= -1" not in line for line in log.splitlines() if "open" in line)
 
 
 @case
@@ -138,6 +93,32 @@ def workers_are_reused(run):
     if log is not None:
         started = sum("execve(" in line and "= -1" not in line for line in log.splitlines())
         check(started <= 3, started, "programs were started for 50 jobs by 2 workers")
+
+
+@case
+def equal_volumes_that_are_known_otherwise(run):
+    """As a box or by its points, with weights of 1 or with none: u,v,w may differ in the last bits, so none of it is
+    taken from a neighbour."""
+    low, high, moves = (0.1, 0.2, 0.3), (1.3, 1.7, 2.9), [{"at": [[1, 3], 2, [1, 3]], "by": [0.1, 0.2, 0.05]}]
+    start(run)
+    along = [[a + (b - a) * g for g in (0, 0.5 / 3, 0.5, 2.5 / 3, 1)] for a, b in zip(low, high)]
+    points = [[x, y, z] for z in along[2] for y in along[1] for x in along[0]]
+    kinds = {"box": {}, "points": {"rest": {"points": points}}, "weights": {"rest": {"points": points}, "weights": [1] * 125}}
+    for name, members in kinds.items():
+        run.write(name + ".json", lattice((5, 5, 5), low, high, moves, **members))
+    run.write("a.obj", "".join(f"v {low[0] + 0.0123 * i} {low[1] + 0.0149 * i} {high[2] - 0.0259 * i}\n" for i in range(90)))
+    run.ffd("embed", "a.obj", "-l", "box.json", "-o", "box.npy")
+    alone = {}
+    for name in kinds:
+        run.ffd("deform", "a.obj", "x.obj", "-l", name + ".json", "--embedding", "box.npy", "--force")  # it is the same volume
+        run.ffd("deform", "a.obj", "x.obj", "-l", name + ".json", "--force")
+        alone[name] = run.read("x.obj")
+    check(alone["box"] != alone["points"], "nothing to be mistaken")
+    order = [*kinds, *reversed(kinds)]
+    run.write("m.jsonl", lines_of([job(i, lattice=name + ".json") for i, name in enumerate(order)]))
+    batch(run, "m.jsonl", "-j1", done=len(order))
+    for i, name in enumerate(order):
+        equal(run.read(f"o{i}.obj") == alone[name], True, f"{name}, job {i}")
 
 
 def peak(run, jobs, *arguments):
