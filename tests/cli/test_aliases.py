@@ -30,6 +30,16 @@ def one_file_is_deformed_once_in_place(run):
 
 
 @case
+def what_stays_as_it_is_was_written_too(run):
+    once = start(run)
+    os.link(run.path("once.obj"), run.path("link.obj"))
+    run.write("still.json", lattice(moves=[]))
+    run.ffd("deform", "once.obj", "link.obj", "--in-place", "--if-changed", "-l", "still.json", code=NO,
+            err="link.obj: was written by this run already, under this name or another")
+    equal(run.read("link.obj"), once)
+
+
+@case
 def no_two_outputs_share_a_buffer(run):
     """m.gltf has two buffers, so its second is m-1.bin, which m-1.gltf wants for its first."""
     run.write("l.json", UP)

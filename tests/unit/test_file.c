@@ -7,7 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/test_folder.h"
-#include "base/file.h"
+#include "base/written_files.h"
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -393,6 +393,52 @@ static void test_full_disk(void **state)
     (void)state;
 }
 
+static void write_file(const char *name, bool force, written_files *written, ffd_status expected)
+{
+    file_output *output;
+    assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+    ffd_output_record(output, written);
+    assert_int_equal(ffd_output_begin(output, in_folder(name), force, NULL), expected);
+    if (expected == FFD_OK) {
+        assert_int_equal(ffd_output_write(output, name, strlen(name), NULL), FFD_OK);
+        assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+    }
+    ffd_output_destroy(&output);
+}
+
+/* A file is known by whatever name leads to it, and one that others have put in its place is not it. */
+static void test_written(void **state)
+{
+    written_files written = {0};
+    char link_path[4096];
+    put_text("w-before", "");
+    for (int i = 0; i < 100; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "w%d", i);
+        assert_false(ffd_written_holds(&written, in_folder(name)));
+        write_file(name, false, &written, FFD_OK);
+        assert_true(ffd_written_holds(&written, in_folder(name)));
+    }
+    for (int i = 0; i < 100; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "./w%d", i);
+        assert_true(ffd_written_holds(&written, in_folder(name)));
+        write_file(name, true, &written, FFD_E_EXISTS);
+    }
+    assert_false(ffd_written_holds(&written, in_folder("w-before")));
+    assert_false(ffd_written_holds(&written, in_folder("w-none")));
+
+    snprintf(link_path, sizeof link_path, "%s", in_folder("w-link"));
+    assert_int_equal(link(in_folder("w7"), link_path), 0);
+    assert_true(ffd_written_holds(&written, link_path));
+    assert_int_equal(unlink(in_folder("w7")), 0);
+    assert_false(ffd_written_holds(&written, link_path)); /* nothing stands where it was written */
+    write_file("w7", false, &written, FFD_OK);
+    assert_true(ffd_written_holds(&written, in_folder("w7")));
+    ffd_written_free(&written);
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -409,6 +455,7 @@ int main(void)
         cmocka_unit_test(test_bits_of_a_leftover),
         cmocka_unit_test(test_keep_equal),
         cmocka_unit_test(test_set),
+        cmocka_unit_test(test_written),
         cmocka_unit_test(test_folders),
         cmocka_unit_test(test_full_disk),
     };

@@ -28,11 +28,15 @@ static void keys_are_numbered_in_order(void **state)
             assert_int_equal(number, i);
             assert_string_equal(ffd_intern_key(&table, number), key);
         }
+    assert_true(ffd_intern_find(&table, "1", 1, &number));
+    assert_string_equal(ffd_intern_key(&table, number), "1");
+    assert_false(ffd_intern_find(&table, "none", 4, &number));
     assert_true(ffd_intern(&table, NULL, 0, &number));
     assert_int_equal(number, 1000);
     assert_true(ffd_intern(&table, "1\0", 2, &number)); /* not the key "1" */
     assert_int_equal(number, 1001);
     ffd_intern_free(&table);
+    assert_false(ffd_intern_find(&table, "1", 1, &number));
 }
 
 static model_corner plain(uint32_t position)
