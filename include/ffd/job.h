@@ -85,13 +85,15 @@ FFD_API ffd_status ffd_written_create(ffd_written **written, ffd_error *error);
 /* Frees the record and clears the pointer. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_written_destroy(ffd_written **written);
 
-/* What a job leaves for the next one: its mesh, where that stays as it is, its lattices, what the rest
-   volumes are searched with, and the mesh's u,v,w in the rest lattice where there is only one. A job that
-   needs the same again does not read or make it anew; its output and its figures but for the seconds are the
-   same either way. One job at a time. */
+/* What a job leaves for the next one: its mesh, where that stays as it is, its lattices, whether they fold,
+   what the rest volumes are searched with, and the mesh's u,v,w in the rest lattice where there is only one.
+   A job that needs the same again does not read or make it anew; its output and its figures but for the
+   seconds are the same either way. One job at a time. */
 typedef struct ffd_share ffd_share;
 
 FFD_API ffd_status ffd_share_create(ffd_share **share, ffd_error *error);
+/* For jobs of which each has another mesh: only lattices, and what their rest volumes are searched with. */
+FFD_API ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error);
 /* Frees what is kept and clears the pointer. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_share_destroy(ffd_share **share);
 

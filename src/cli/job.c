@@ -236,6 +236,7 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->threads = job->threads;
     desc->isa = (ffd_isa)job->isa;
     desc->written = job->written;
+    desc->share = job->share;
     desc->log = cli_log;
     desc->log_user = &job->talk;
     job->talk.subject = input;
@@ -268,6 +269,7 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
     ffd_error error;
     int code = EXIT_DONE;
     if (ffd_written_create(&job->written, &error) ||
+        (inputs > 1 && ffd_share_create_for_lattices(&job->share, &error)) ||
         (job->report && ffd_report_create(job->report, job->stable, job->written, &report, &error)))
         code = cli_fail(&error);
     else
@@ -278,5 +280,6 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
     }
     ffd_report_destroy(&report);
     ffd_written_destroy(&job->written);
+    ffd_share_destroy(&job->share);
     return code;
 }

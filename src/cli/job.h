@@ -23,6 +23,7 @@ typedef struct cli_job {
     uint64_t memory;
     bool stable;
     ffd_written *written; /* by the jobs so far */
+    ffd_share *share;     /* of several jobs: all have one set of lattices */
     cli_talk talk;
     bool help;
 } cli_job;

@@ -201,6 +201,11 @@ static ffd_status check_heavy(cell_search *cells, ffd_error *error)
     return FFD_OK;
 }
 
+bool ffd_locator_is_strained(const ffd_locator *locator)
+{
+    return locator->cells && atomic_load(&locator->cells->heavy_leaves) > 0;
+}
+
 static void keep_light(cell_search *cells, uint32_t number, cell_brick *mine, own_bricks *own,
                        const cell_brick **kept)
 {

@@ -44,6 +44,9 @@ struct ffd_locator {
 ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_locator **locator,
                                   ffd_error *error);
 
+/* Whether points so far needed what a limit counts (FFD_E_LIMIT): then it has less room for others. */
+bool ffd_locator_is_strained(const ffd_locator *locator);
+
 /* tol_a = 16 eps (max|P_a| + |p_a|), p with the origin subtracted (maths.md 6.6). */
 static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
 {

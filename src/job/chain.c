@@ -18,8 +18,7 @@ static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_
         !ffd_file_stamp(files->paths[i], &link->stamp))
         return;
     link->path = files->paths[i];
-    link->lattice = ffd_share_find_lattice(chain->share, link->path, &link->stamp, &link->rest);
-    link->lattice_is_lent = link->lattice;
+    ffd_share_lend_lattice(chain->share, link);
 }
 
 static ffd_status load_link(const chain_files *files, bool *used, lattice_chain *chain, size_t i,
@@ -73,7 +72,8 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
 void ffd_chain_free(lattice_chain *chain)
 {
     for (size_t i = 0; i < chain->count; i++) {
-        ffd_boundary_destroy(&chain->links[i].border);
+        if (!chain->links[i].border_is_lent)
+            ffd_boundary_destroy(&chain->links[i].border);
         if (!chain->links[i].locator_is_lent)
             ffd_locator_destroy(&chain->links[i].locator);
         if (!chain->links[i].lattice_is_lent)
@@ -102,15 +102,15 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
     if (chain->share) {
         if (!made->lattice_is_lent)
             made->rest = hash_rest(made->lattice);
-        made->locator = ffd_share_find_locator(chain->share, &made->rest, chain->isa);
-        made->locator_is_lent = made->locator;
+        ffd_share_lend_rest(chain->share, chain, made);
     }
     if (!made->locator)
         status = ffd_locator_create_for(made->lattice, chain->isa, &made->locator, error);
     if (status || !chain->outside.extend)
         return status;
     made->falloff = chain->outside.falloff;
-    return ffd_boundary_create(made->lattice, &made->border, error);
+    /* Of the lattice that the locator looks at, whose rest volume is the same: both are kept together. */
+    return made->border ? FFD_OK : ffd_boundary_create(made->locator->lattice, &made->border, error);
 }
 
 bounds ffd_chain_reach(const lattice_chain *chain, size_t link)

@@ -9,6 +9,7 @@
 #include "embed/boundary.h"
 #include "embed/box_tree.h"
 #include <ffd/embedding.h>
+#include <ffd/fold.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <stdbool.h>
@@ -22,13 +23,16 @@ typedef struct chain_outside {
 
 typedef struct chain_link {
     ffd_lattice *lattice;
-    ffd_locator *locator;                  /* NULL until the lattice has its place */
-    bool lattice_is_lent, locator_is_lent; /* by the chain's share */
-    const char *path;                      /* the caller's: of a file in which no values are set; or NULL */
-    file_stamp stamp;                      /* its, from before it was read */
-    hash128 rest;     /* of the rest volume, once there is a locator; only in a chain with a share */
+    ffd_locator *locator;                                  /* NULL until the lattice has its place */
+    bool lattice_is_lent, locator_is_lent, border_is_lent; /* by the chain's share */
+    const char *path; /* the caller's: of a file in which no values are set; or NULL */
+    file_stamp stamp; /* its, from before it was read */
+    hash128 rest; /* of the rest volume and how it is searched, once there is a locator; only in a chain with
+                     a share */
     boundary *border; /* likewise; NULL too where points outside stay */
     double falloff;   /* chain_outside's */
+    bool has_folds;   /* they were looked for: */
+    ffd_folds folds;  /* of the lattice, which had its place then */
 } chain_link;
 
 typedef struct lattice_chain {

@@ -76,7 +76,7 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     ffd_source source = desc->input;
     source.only_positions = job->only_positions;
     file_stamp stamp;
-    const bool is_file = desc->share && ffd_file_stamp(source.path, &stamp);
+    const bool is_file = ffd_share_keeps_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
     ffd_status status = ffd_source_open(&source, job->threads, &job->document, error);
     if (!status)
         status = ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
@@ -124,7 +124,8 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     const mesh_format *format = job->document->format;
     ffd_status status = ffd_mesh_check(job->document, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->results_replace = !job->desc->share && !wants_figures(job) && !job->recomputes;
+    job->document->results_replace =
+        !ffd_share_keeps_meshes(job->desc->share) && !wants_figures(job) && !job->recomputes;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)

@@ -97,20 +97,22 @@ static void join_folds(ffd_folds *all, const ffd_folds *next)
     all->min_det = before.min_det < next->min_det ? before.min_det : next->min_det;
 }
 
-ffd_status ffd_figures_folds(const lattice_chain *chain, int threads, ffd_job_result *result,
-                             ffd_error *error)
+ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *result, ffd_error *error)
 {
     for (size_t l = 0; l < chain->count; l++) {
-        ffd_folds folds;
-        const ffd_status status = ffd_folds_find(chain->links[l].lattice, threads, &folds, error);
-        if (status)
-            return status;
-        if (folds.has_witness && !result->folds.has_witness)
+        chain_link *const link = &chain->links[l];
+        if (!link->has_folds) {
+            const ffd_status status = ffd_folds_find(link->lattice, threads, &link->folds, error);
+            if (status)
+                return status;
+            link->has_folds = true;
+        }
+        if (link->folds.has_witness && !result->folds.has_witness)
             result->folds_lattice = l;
         if (l == 0)
-            result->folds = folds;
+            result->folds = link->folds;
         else
-            join_folds(&result->folds, &folds);
+            join_folds(&result->folds, &link->folds);
     }
     result->has_folds = true;
     return FFD_OK;

@@ -21,8 +21,7 @@ ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, f
 void ffd_figures_free(figure_arrays *arrays);
 
 /* Proves for each lattice of the chain that it does not fold, and joins the outcomes. */
-ffd_status ffd_figures_folds(const lattice_chain *chain, int threads, ffd_job_result *result,
-                             ffd_error *error);
+ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *result, ffd_error *error);
 
 /* After the pass: det F, flipped faces, for a check the edges; of selected faces, which are all that it
    leaves in arrays. */

@@ -12,6 +12,8 @@ typedef struct kept_lattice {
     char *path; /* NULL: not for whoever asks for a file */
     file_stamp stamp;
     hash128 rest;
+    bool has_folds;
+    ffd_folds folds;
     bool used; /* by the job under way */
 } kept_lattice;
 
@@ -19,12 +21,14 @@ typedef struct kept_lattice {
 typedef struct kept_rest {
     hash128 hash;
     ffd_isa isa;
-    const ffd_lattice *lattice; /* which the locator looks at: one that is kept */
+    const ffd_lattice *lattice; /* which both look at: one that is kept */
     ffd_locator *locator;
+    boundary *border; /* NULL: no job has needed it so far */
     bool used;
 } kept_rest;
 
 struct ffd_share {
+    bool only_lattices;
     mesh_document *document; /* NULL: none, or in a job's hands */
     bool is_noted;           /* what follows is known of it */
     ffd_source source;       /* its path is owned */
@@ -47,6 +51,19 @@ ffd_status ffd_share_create(ffd_share **share, ffd_error *error)
 {
     *share = ffd_alloc_zero(1, sizeof **share);
     return *share ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error)
+{
+    const ffd_status status = ffd_share_create(share, error);
+    if (!status)
+        (*share)->only_lattices = true;
+    return status;
+}
+
+bool ffd_share_keeps_meshes(const ffd_share *share)
+{
+    return share && !share->only_lattices;
 }
 
 static void forget_mesh(ffd_share *share)
@@ -72,6 +89,12 @@ static void forget_locations(ffd_share *share)
     share->is_located = false;
 }
 
+static void free_rest(kept_rest *kept)
+{
+    ffd_locator_destroy(&kept->locator);
+    ffd_boundary_destroy(&kept->border);
+}
+
 static void free_lattice(kept_lattice *kept)
 {
     ffd_lattice_destroy(&kept->lattice);
@@ -85,7 +108,7 @@ void ffd_share_destroy(ffd_share **share)
     forget_mesh(*share);
     forget_locations(*share);
     for (size_t i = 0; i < (*share)->rest_count; i++)
-        ffd_locator_destroy(&(*share)->rests[i].locator);
+        free_rest(&(*share)->rests[i]);
     for (size_t i = 0; i < (*share)->lattice_count; i++)
         free_lattice(&(*share)->lattices[i]);
     ffd_free((*share)->rests);
@@ -176,7 +199,7 @@ static bool note_files(ffd_share *share, const ffd_source *source, const file_st
 void ffd_share_note_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
                          const file_stamp *stamp, const mesh_document *document)
 {
-    if (!share)
+    if (!ffd_share_keeps_meshes(share))
         return;
     forget_mesh(share);
     share->is_noted = leaves_mesh(desc) && note_source(share, desc, only_positions) &&
@@ -193,18 +216,27 @@ void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_doc
 
 /* Lattices and their rest volumes */
 
-ffd_lattice *ffd_share_find_lattice(const ffd_share *share, const char *path, const file_stamp *stamp,
-                                    hash128 *rest)
+static kept_lattice *find_lattice(const ffd_share *share, const char *path, const file_stamp *stamp)
 {
     for (size_t i = 0; share && i < share->lattice_count; i++) {
         kept_lattice *const kept = &share->lattices[i];
-        if (kept->path && strcmp(kept->path, path) == 0 && ffd_stamp_equal(&kept->stamp, stamp)) {
-            kept->used = true;
-            *rest = kept->rest;
-            return kept->lattice;
-        }
+        if (kept->path && strcmp(kept->path, path) == 0 && ffd_stamp_equal(&kept->stamp, stamp))
+            return kept;
     }
     return NULL;
+}
+
+void ffd_share_lend_lattice(const ffd_share *share, chain_link *link)
+{
+    kept_lattice *const kept = find_lattice(share, link->path, &link->stamp);
+    if (!kept)
+        return;
+    kept->used = true;
+    link->lattice = kept->lattice;
+    link->lattice_is_lent = true;
+    link->rest = kept->rest;
+    link->has_folds = kept->has_folds;
+    link->folds = kept->folds;
 }
 
 static kept_rest *find_rest(const ffd_share *share, const hash128 *rest, ffd_isa isa)
@@ -215,36 +247,68 @@ static kept_rest *find_rest(const ffd_share *share, const hash128 *rest, ffd_isa
     return NULL;
 }
 
-ffd_locator *ffd_share_find_locator(const ffd_share *share, const hash128 *rest, ffd_isa isa)
+void ffd_share_lend_rest(const ffd_share *share, const lattice_chain *chain, chain_link *link)
 {
-    kept_rest *const found = find_rest(share, rest, isa);
+    kept_rest *const found = find_rest(share, &link->rest, chain->isa);
     if (!found)
-        return NULL;
+        return;
     found->used = true;
-    return found->locator;
+    link->locator = found->locator;
+    link->locator_is_lent = true;
+    if (!chain->outside.extend || !found->border)
+        return;
+    link->border = found->border;
+    link->border_is_lent = true;
+}
+
+/* Takes the border, which looks at the lattice that the locator looks at. */
+static void keep_border(kept_rest *rest, chain_link *link)
+{
+    if (rest->border || link->border_is_lent)
+        return;
+    rest->border = link->border;
+    link->border = NULL;
+}
+
+/* Takes locator and border, if there are none yet for such a rest volume. Returns whether they look at the
+   link's own lattice. There is room for one more. */
+static bool keep_rest(ffd_share *share, chain_link *link, ffd_isa isa)
+{
+    if (link->locator_is_lent)
+        keep_border(find_rest(share, &link->rest, isa), link);
+    if (!link->locator || link->locator_is_lent || find_rest(share, &link->rest, isa))
+        return false;
+    kept_rest *const rest = &share->rests[share->rest_count++];
+    *rest = (kept_rest){link->rest, isa, link->lattice, link->locator, NULL, true};
+    link->locator = NULL;
+    keep_border(rest, link);
+    return true;
 }
 
 /* There is room for one more of each. */
 static void keep_link(ffd_share *share, chain_link *link, ffd_isa isa)
 {
-    const bool adds_rest = link->locator && !link->locator_is_lent && !find_rest(share, &link->rest, isa);
+    const bool is_looked_at = keep_rest(share, link, isa);
     const bool is_of_file = link->path && link->lattice && !ffd_lattice_needs_bounds(link->lattice);
-    if (adds_rest) {
-        share->rests[share->rest_count++] = (kept_rest){link->rest, isa, link->lattice, link->locator, true};
-        link->locator = NULL;
+    if (link->lattice_is_lent) {
+        kept_lattice *const kept = find_lattice(share, link->path, &link->stamp);
+        kept->has_folds = link->has_folds;
+        kept->folds = link->folds;
     }
-    if (link->lattice_is_lent || (!adds_rest && !is_of_file))
+    if (link->lattice_is_lent || (!is_looked_at && !is_of_file))
         return;
     share->lattices[share->lattice_count++] =
         (kept_lattice){.lattice = link->lattice,
                        .path = is_of_file ? ffd_text_copy(link->path) : NULL,
                        .stamp = link->stamp,
                        .rest = link->rest,
+                       .has_folds = link->has_folds,
+                       .folds = link->folds,
                        .used = true};
     link->lattice = NULL;
 }
 
-static bool is_looked_at(const ffd_share *share, const ffd_lattice *lattice)
+static bool has_searcher(const ffd_share *share, const ffd_lattice *lattice)
 {
     for (size_t i = 0; i < share->rest_count; i++)
         if (share->rests[i].lattice == lattice)
@@ -256,7 +320,7 @@ void ffd_share_forget_lattices(ffd_share *share)
 {
     size_t count = 0;
     for (size_t i = 0; share && i < share->lattice_count; i++) {
-        if (share->lattices[i].used || is_looked_at(share, share->lattices[i].lattice))
+        if (share->lattices[i].used || has_searcher(share, share->lattices[i].lattice))
             share->lattices[count++] = share->lattices[i];
         else
             free_lattice(&share->lattices[i]);
@@ -265,14 +329,17 @@ void ffd_share_forget_lattices(ffd_share *share)
         share->lattice_count = count;
 }
 
+/* Those that the job did not use. Without meshes nobody runs a job again that has met a limit with what is
+   kept: what is nearer to it for the jobs before goes too. */
 static void forget_rests(ffd_share *share)
 {
     size_t count = 0;
     for (size_t i = 0; i < share->rest_count; i++) {
-        if (share->rests[i].used)
+        if (share->rests[i].used &&
+            !(share->only_lattices && ffd_locator_is_strained(share->rests[i].locator)))
             share->rests[count++] = share->rests[i];
         else
-            ffd_locator_destroy(&share->rests[i].locator);
+            free_rest(&share->rests[i]);
     }
     share->rest_count = count;
 }
@@ -307,7 +374,7 @@ ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, boo
                                   bool *filled)
 {
     *filled = false;
-    if (!share)
+    if (!ffd_share_keeps_meshes(share))
         return NULL;
     if (taken && share->is_located && ffd_hash_equal(&share->located, rest)) {
         *filled = true;

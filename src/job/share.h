@@ -7,9 +7,11 @@
 #include "job/chain.h"
 #include "mesh/mesh.h"
 
+/* Whether meshes, and where their vertices are, are kept at all. */
+bool ffd_share_keeps_meshes(const ffd_share *share);
 /* The mesh that desc asks for, opened and with its selection applied, if it is the one that is kept and its
    files have not changed since: it is the caller's now. Else NULL, and none is kept any more. share may be
-   NULL, here and below. */
+   NULL, here, above and below. */
 mesh_document *ffd_share_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions);
 /* Takes note of a document that was just opened as desc asks, before its file had this stamp (NULL: it had
    none): what changes its files from now on is seen. */
@@ -19,15 +21,16 @@ void ffd_share_note_mesh(ffd_share *share, const ffd_deform_desc *desc, bool onl
    closes it. */
 void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document);
 
-/* The lattice that a job before made of the file of this path when it had this stamp, with the hash of its
-   rest volume: lent, and not to be changed, until the next ffd_share_keep_chain. NULL: there is none. */
-ffd_lattice *ffd_share_find_lattice(const ffd_share *share, const char *path, const file_stamp *stamp,
-                                    hash128 *rest);
+/* Gives the link, which has its path and stamp, the lattice that a job before made of the file of this path
+   when it had this stamp, with the hash of its rest volume and, where they are known, its folds: lent, and
+   not to be changed, until the next ffd_share_keep_chain. Else the link stays as it is. */
+void ffd_share_lend_lattice(const ffd_share *share, chain_link *link);
 /* Lets those lattices go that are not lent, nor looked at by a locator: there is room for others then. */
 void ffd_share_forget_lattices(ffd_share *share);
-/* The locator of a rest volume with this hash (ffd_embedding_hash_lattice) for these instructions, lent until
-   the next ffd_share_keep_chain; NULL: there is none. */
-ffd_locator *ffd_share_find_locator(const ffd_share *share, const hash128 *rest, ffd_isa isa);
+/* Gives the link, of which the hash of the rest volume is known, the locator of such a volume for the chain's
+   instructions, and its border where the chain needs one: lent until the next ffd_share_keep_chain. What is
+   not there stays as it is. */
+void ffd_share_lend_rest(const ffd_share *share, const lattice_chain *chain, chain_link *link);
 /* Takes the lattices and locators that the chain made, and lets those go that it did not use. */
 void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain);
 

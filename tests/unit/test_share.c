@@ -7,6 +7,9 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
+#include "embed/cells.h"
+#include "job/deform_job.h"
+#include "job/figures.h"
 #include "job/share.h"
 #include "job/source.h"
 #include <time.h>
@@ -108,6 +111,10 @@ static void test_selection(void **state)
 #define BENT(x)                                                                                              \
     HEAD "\"rest\": {\"points\": [[" x                                                                       \
          ", 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]]}}"
+#define CURVED                                                                                               \
+    HEAD "\"rest\": {\"points\": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1.25, 1, 0.125], [0, 0, 1], [1, 0.25, "  \
+         "1], "                                                                                              \
+         "[0, 1, 1], [1, 1, 1]]}}"
 #define MESH_BOX HEAD "\"rest\": {\"box\": \"mesh\"}}"
 
 /* Each locator still has its lattice to look at. */
@@ -123,15 +130,22 @@ static void look_up(lattice_chain *chain, size_t link)
     assert_int_equal(location.status, FFD_INSIDE);
 }
 
+static lattice_chain load(ffd_share *share, const chain_files *files, const chain_outside *outside,
+                          ffd_isa isa)
+{
+    lattice_chain chain;
+    ffd_error error;
+    if (ffd_chain_load(files, outside, isa, share, &chain, &error))
+        fail_msg("%s", error.message);
+    return chain;
+}
+
 /* What a job with these files had of the share, bit by bit: its lattices, then its locators. */
 static unsigned borrowed(ffd_share *share, const chain_files *files, ffd_isa isa)
 {
     static const chain_outside outside;
-    lattice_chain chain;
-    ffd_error error;
+    lattice_chain chain = load(share, files, &outside, isa);
     unsigned found = 0;
-    if (ffd_chain_load(files, &outside, isa, share, &chain, &error))
-        fail_msg("%s", error.message);
     for (size_t i = 0; i < chain.count; i++) {
         look_up(&chain, i);
         found |= (unsigned)chain.links[i].lattice_is_lent << i;
@@ -174,12 +188,80 @@ static void test_lattices(void **state)
     (void)state;
 }
 
+/* Whether the lattice folds, and its border, are there for the next job once one has asked. */
+static void test_folds_and_border(void **state)
+{
+    static const chain_outside keep_them, extend = {.extend = true};
+    char path[4096];
+    snprintf(path, sizeof path, "%s", in_folder("f.json"));
+    const char *const paths[] = {path};
+    const chain_files files = {paths, 1, NULL, 0};
+    ffd_job_result result, again;
+    ffd_share *share;
+    put_text("f.json", BENT("0"));
+    assert_int_equal(ffd_share_create_for_lattices(&share, NULL), FFD_OK);
+    for (int job = 0; job < 6; job++) {
+        lattice_chain chain = load(share, &files, job == 1 || job >= 4 ? &extend : &keep_them, FFD_ISA_AUTO);
+        const chain_link *const link = &chain.links[0];
+        assert_int_equal(link->lattice_is_lent && link->locator_is_lent, job > 0);
+        assert_int_equal(link->border != NULL, job == 1 || job >= 4);
+        assert_int_equal(link->border_is_lent, job >= 4);
+        assert_int_equal(link->has_folds, job > 2);
+        ffd_result_clear(&result);
+        if (job >= 2)
+            assert_int_equal(ffd_figures_folds(&chain, 1, &result, NULL), FFD_OK);
+        if (job == 2)
+            again = result;
+        if (job > 2)
+            assert_true(result.has_folds && result.folds.cells == again.folds.cells &&
+                        result.folds.min_det == again.folds.min_det && result.folds.cells == 1);
+        ffd_share_keep_chain(share, &chain);
+        ffd_chain_free(&chain);
+    }
+    ffd_share_destroy(&share);
+    (void)state;
+}
+
+static void test_only_lattices(void **state)
+{
+    static const chain_outside outside;
+    char path[4096];
+    ffd_deform_desc desc;
+    ffd_share *share;
+    file_stamp stamp;
+    ffd_deform_desc_init(&desc);
+    put_text("o.obj", one);
+    desc.input.path = in_folder("o.obj");
+    assert_true(ffd_file_stamp(desc.input.path, &stamp));
+    assert_int_equal(ffd_share_create_for_lattices(&share, NULL), FFD_OK);
+    assert_false(ffd_share_keeps_meshes(share) || ffd_share_keeps_meshes(NULL));
+    keep(share, &desc, &stamp);
+    assert_false(takes(share, &desc, false));
+
+    snprintf(path, sizeof path, "%s", in_folder("o.json"));
+    const char *const paths[] = {path};
+    const chain_files files = {paths, 1, NULL, 0};
+    put_text("o.json", CURVED);
+    assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 0);
+    assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 3);
+    /* What counts against a limit would make the next job meet it sooner than alone. */
+    lattice_chain chain = load(share, &files, &outside, FFD_ISA_AUTO);
+    assert_non_null(chain.links[0].locator->cells);
+    atomic_store(&chain.links[0].locator->cells->heavy_leaves, 1);
+    ffd_share_keep_chain(share, &chain);
+    ffd_chain_free(&chain);
+    assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 1);
+    assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 3);
+    ffd_share_destroy(&share);
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mesh),
-        cmocka_unit_test(test_selection),
-        cmocka_unit_test(test_lattices),
+        cmocka_unit_test(test_mesh),          cmocka_unit_test(test_selection),
+        cmocka_unit_test(test_lattices),      cmocka_unit_test(test_folds_and_border),
+        cmocka_unit_test(test_only_lattices),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+"""ffd deform and ffd check with many meshes: what they have in common is found once, and each output is that of a
+run of its own."""
+
+from batches import case, check, equal, main, opened, report, traced
+from harness import CUBE, OK, lattice
+from neighbours import COMBINATIONS, LATTICES, words, write_meshes
+
+ANY = {"code": tuple(range(8)), "err": lambda said: None}
+
+
+def start(run):
+    """Returns the names of the meshes."""
+    for name, content in LATTICES.items():
+        run.write(name, content)
+    return write_meshes(run)
+
+
+def lattice_words(grids):
+    return [word for grid in grids for word in ("-l", grid)]
+
+
+@case
+def every_format(run):
+    meshes = start(run)
+    failures = 0
+    for i, (grids, options) in enumerate(COMBINATIONS):
+        many, single = run.folder_of(f"many{i}"), run.folder_of(f"single{i}")
+        said = [*lattice_words(grids), *words(options), "--report-stable"]
+        run.ffd("deform", *meshes, "--out-dir", many, *said, "--report", "m.json", **ANY)
+        entries = report(run, "m.json")
+        equal([entry["input"] for entry in entries], meshes)
+        for mesh, entry in zip(meshes, entries):
+            done = run.ffd("deform", mesh, f"{single}/{mesh}", *said, "--report", "s.json", **ANY)
+            alone = report(run, "s.json")[0]
+            alone["output"] = entry["output"]
+            equal(entry, alone, f"report of {mesh} with {grids} {options}")
+            failures += done.code != OK
+        equal(run.names(many), run.names(single))
+        for name in run.names(many):
+            equal(run.read(f"{many}/{name}") == run.read(f"{single}/{name}"), True, f"{name} with {grids} {options}")
+    check(0 < failures < len(meshes) * len(COMBINATIONS) / 2, failures, "jobs failed")
+
+
+@case
+def checks(run):
+    meshes = start(run)
+    for grids in (["curved.json"], ["half.json", "twist.json"], ["round.json"]):
+        many = run.ffd("check", *meshes, *lattice_words(grids), **ANY)
+        alone = [run.ffd("check", mesh, *lattice_words(grids), **ANY) for mesh in meshes]
+        equal(many.text, "".join(one.text for one in alone))
+        equal(many.err, [line for one in alone for line in one.err])
+
+
+def copies(run, count):
+    for i in range(count):
+        run.write(f"in/{i}.obj", CUBE)
+    return [f"in/{i}.obj" for i in range(count)]
+
+
+@case
+def a_lattice_is_read_once(run):
+    run.write("l.json", LATTICES["curved.json"])
+    run.folder_of("out")
+    log = traced(run, "open,openat,openat2", "deform", *copies(run, 20), "--out-dir", "out", "-l", "l.json", "--outside",
+                 "extend")
+    if log is not None:
+        equal(opened(log, "l.json"), 1, "how often the lattice was opened")
+
+
+@case
+def each_mesh_takes_the_same_number_of_calls(run):
+    """None is compared with all that were written before."""
+    run.write("l.json", lattice(moves=[{"by": [1, 0, 0]}]))
+    calls = []
+    for count in (10, 20, 40):
+        out = run.folder_of(f"out{count}")
+        log = traced(run, "%file", "deform", *copies(run, count), "--out-dir", out, "-l", "l.json")
+        if log is None:
+            return  # strace is not allowed to run
+        calls.append(log.count("\n"))
+    check(calls[2] - calls[1] <= 2 * (calls[1] - calls[0]) + 5, "calls of the system for 10, 20, 40 meshes:", calls)
+
+
+main()
