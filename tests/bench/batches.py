@@ -32,6 +32,14 @@ def by_batch(bench, jobs):
     return len(jobs) / programs.measure(programs.Command(command))[0]
 
 
+def by_many(bench, jobs):
+    """All meshes in one command, which deforms them one after the other with one lattice."""
+    sources, (lattice, *_), targets = zip(*jobs)
+    command = [bench.ffd, "deform", *sources, "--out-dir", os.path.dirname(targets[0]), "-l", lattice, "--quiet",
+               *(["--threads", str(bench.threads)] if bench.threads else [])]
+    return len(jobs) / programs.measure(programs.Command(command))[0]
+
+
 def by_commands(bench, jobs):
     return len(jobs) / sum(programs.measure(bench.deform(source, lattice, target=target))[0]
                            for source, lattice, target in jobs)
@@ -73,9 +81,10 @@ def batch(bench):
         for name, lattice in bench.lattices.items():
             different = [(source, lattice, target) for source, target in zip(sources, targets)]
             shared = [(sources[0], lattice, target) for target in targets]
-            alone, many, one = rates(bench, out, [(by_commands, different[:few(bench)]),
-                                                  (by_batch, different), (by_batch, shared)])
+            alone, following, many, one = rates(bench, out, [(by_commands, different[:few(bench)]), (by_many, different),
+                                                             (by_batch, different), (by_batch, shared)])
             row = bench.table.add(f"{ending}, {name}: a command each", alone, "meshes/s")
+            bench.table.add(f"{ending}, {name}: ffd deform IN...", following, "meshes/s", row)
             bench.table.add(f"{ending}, {name}: batch", many, "meshes/s", row, ">= 1000 /s")
             bench.table.add(f"{ending}, {name}: batch, outputs of one mesh", one, "meshes/s", row)
 
