@@ -4,15 +4,18 @@
      displacement [RUNS] [POINTS]     default 7 runs of 1,000,000 points, one thread
 
    Millions a second: median (least to greatest), of the displacement alone and with its gradient, for a box,
-   where d uvw / d p is one for all, and for a lattice in general. First the kernels alone, with points of one
-   cell side by side, in the cache; the same with u,v,w from floats and displacements to floats, through all
-   memory; then with what a tile of a mesh costs beside them: the cells of the points are found, and the
-   points of each brought together. These lie on a wavy surface through the lattice, row by row. */
+   where d uvw / d p is one for all, and for a lattice in general. First how many points a second there could
+   be if a displacement were its multiplications and nothing else: of what it takes, they keep the processor
+   longest. Then the kernels alone, with points of one cell side by side, in the cache; the same with u,v,w
+   from floats and displacements to floats, through all memory; then with what a tile of a mesh costs beside
+   them: the cells of the points are found, and the points of each brought together. These lie on a wavy
+   surface through the lattice, row by row. */
 #include "deform/displacement.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "base/array_kernel.h"
 #include "base/clock.h"
+#include <assert.h>
 #include <math.h>
 
 #define MOST_RUNS 99
@@ -162,6 +165,36 @@ static void copy(sample *s)
     memcpy(s->to, s->from, 3 * s->count * sizeof *s->to);
 }
 
+#ifdef FFD_X86
+/* What one displacement of degree 3 multiplies: 7 times for the functions of each direction, and with 64, 16
+   and 4 vectors of three. As many chains as hide how long one multiplication takes, and fit the registers. */
+#define PRODUCTS (3 * 7 + 3 * (64 + 16 + 4))
+#define CHAINS 13
+static_assert(PRODUCTS % CHAINS == 0, "every chain multiplies as often");
+
+static volatile double multiplied_by = 1, multiplied;
+
+#define MULTIPLY(name, width, instructions)                                                                  \
+    __attribute__((target(instructions))) static void name(sample *s)                                        \
+    {                                                                                                        \
+        typedef double lanes __attribute__((vector_size(8 * (width))));                                      \
+        const lanes factor = multiplied_by - (lanes){0};                                                     \
+        lanes chain[CHAINS];                                                                                 \
+        for (int c = 0; c < CHAINS; c++)                                                                     \
+            chain[c] = factor;                                                                               \
+        for (size_t n = 0; n < s->count; n += (width))                                                       \
+            for (int turn = 0; turn < PRODUCTS / CHAINS; turn++)                                             \
+                for (int c = 0; c < CHAINS; c++)                                                             \
+                    chain[c] = chain[c] * factor;                                                            \
+        for (int c = 0; c < CHAINS; c++)                                                                     \
+            multiplied = chain[c][0];                                                                        \
+    }
+
+MULTIPLY(multiply_sse2, 2, "sse2")
+MULTIPLY(multiply_avx2, 4, "avx2")
+MULTIPLY(multiply_avx512, 8, "avx512f")
+#endif
+
 static int compare(const void *a, const void *b)
 {
     const double x = *(const double *)a, y = *(const double *)b;
@@ -186,6 +219,23 @@ static void measure(sample *s, void (*run)(sample *), int runs)
         seconds[r] = ffd_clock_seconds() - start;
     }
     print_rate(s->count, seconds, runs);
+}
+
+static void print_limits(sample *s, int runs)
+{
+#ifdef FFD_X86
+    static void (*const multiply[])(sample *) = {
+        [FFD_ISA_SSE2] = multiply_sse2, [FFD_ISA_AVX2] = multiply_avx2, [FFD_ISA_AVX512] = multiply_avx512};
+    printf("multiplications alone, millions a second\n");
+    for (ffd_isa isa = FFD_ISA_SSE2; isa <= FFD_ISA_AVX512; isa++)
+        if (ffd_isa_available(isa)) {
+            printf("  %-7s", names[isa]);
+            measure(s, multiply[isa], runs);
+            printf("\n");
+        }
+#else
+    (void)s, (void)runs;
+#endif
 }
 
 static void print_rates(sample *s, void (*run)(sample *), const char *what, int runs)
@@ -222,6 +272,7 @@ int main(int count, char **arguments)
     printf("copy     ");
     measure(s, copy, runs);
     printf("\n");
+    print_limits(s, runs);
     for (size_t size = 8; size <= 64; size *= 8)
         for (int box = 1; box >= 0; box--) {
             s->lattice = make_lattice(size, box);

@@ -9,6 +9,7 @@ import sys
 # Median, least and greatest of a measurement, as both programs print them.
 SPREAD = re.compile(r"([\d.]+) \(([\d.]+) to ([\d.]+)\)")
 BARS = {"sse2": ">= 15 M/s", "avx2": ">= 50 M/s", "avx512": ">= 100 M/s"}
+LIMIT = "multiplications alone"
 LIBRARIES = {"SciPy": "map_coordinates, cubic", "VTK": "vtkBSplineTransform"}
 # The lattice of embedding.c that is most like the warped one of lattices.py.
 WARPED = "smooth warp 8x8x8, degree 3"
@@ -33,15 +34,19 @@ def instruction_sets(bench):
     """Adds the rows of displacement.c; returns that of a mesh in a box lattice with the widest instructions."""
     copy = widest = None
     section = ""
+    limits = {}  # by instruction set, where they are known
     for line in lines_of(bench, "displacement", bench.side ** 2):
         name, found = line.split()[0], values_of(line)
         if not found:
             section = line.split(", millions")[0]
         elif name == "copy":
             copy = bench.table.add("copy", found[0], "M/s")
+        elif section == LIMIT:
+            limits[name] = bench.table.add(f"{section}, {name}", found[0], "M/s", copy)
         else:
-            bar = BARS.get(name, "") if section.startswith("kernel") else ""
-            row = bench.table.add(f"{section}, {name}", found[0], "M/s", copy, bar)
+            is_kernel = section.startswith("kernel")
+            row = bench.table.add(f"{section}, {name}", found[0], "M/s", limits.get(name, copy) if is_kernel else copy,
+                                  BARS.get(name, "") if is_kernel else "")
             bench.table.add(f"{section}, {name}, with gradient", found[1], "M/s", copy)
             widest = row if section == "8^3 box" else widest
     return widest

@@ -6,6 +6,7 @@
 
 import csv
 import os
+import platform
 import stat
 import subprocess
 import sys
@@ -29,6 +30,8 @@ SUBJECTS = {
     "Sweep of 2 lattices": ["box: batch"],
     "Large OBJ": ["box: peak memory (bar: for 10 GB)"],
 }
+if platform.machine() == "x86_64":
+    SUBJECTS["Displacement"] += ["multiplications alone, sse2", "kernel alone, general, sse2, with gradient"]
 # Peers that need not be there: a row, or a line that says so.
 MAY_MISS = ["tinyobjloader", "assimp", "SciPy", "VTK"]
 # Takes the arguments after -- as Blender hands them to its script.
