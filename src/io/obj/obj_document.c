@@ -85,6 +85,16 @@ static ffd_status read_elements(obj_document *d, ffd_error *error)
     return status;
 }
 
+/* Bytes for each thread: it takes longer to start one than to read fewer. */
+#define THREAD_BYTES ((size_t)128 * 1024)
+
+static int threads_for(const ffd_source *source, size_t size)
+{
+    const int threads = source->threads > 0 ? source->threads : ffd_processor_count();
+    const size_t busy = size / THREAD_BYTES + 1;
+    return (size_t)threads < busy ? threads : (int)busy;
+}
+
 ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
@@ -92,7 +102,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return ffd_fail_memory(error);
     d->input = *input;
-    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
+    d->threads = threads_for(source, input->size);
     d->only_positions = source->only_positions;
     d->name = ffd_text_copy(ffd_path_shown(source->path));
     ffd_status status = d->name ? check_encoding(d, error) : ffd_fail_memory(error);
