@@ -587,7 +587,7 @@ static void compare_derivative(const ffd_lattice *lattice, const boundary *borde
         for (int a = 0; a < 3; a++) {
             const double forth = ahead.uvw[a] - nearest->uvw[a], back = nearest->uvw[a] - behind.uvw[a];
             const double change = fmax(fabs(forth), fabs(back));
-            smooth = smooth && fabs(forth - back) <= 0.01 * change && change < 0.01;
+            smooth = smooth && fabs(forth - back) <= 0.001 * change && change < 0.01;
             for (int i = 0; i < 3; i++)
                 smooth = smooth && fabs(ahead.uvw_by_p[3 * a + i] - behind.uvw_by_p[3 * a + i]) <=
                                        0.02 * fabs(nearest->uvw_by_p[3 * a + i]) + 0.001 / lattice->diagonal;
