@@ -1,22 +1,35 @@
 #include "embed/box_tree.h"
 #include "base/memory.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define ITEMS_A_NODE 2
-/* Every split halves the items, so 2^31 of them need no more levels than this. */
-#define DEPTH 40
+#define ITEMS_A_LEAF 2
+/* The halves of a node's halves, so that all their boxes are tested at once. */
+#define CHILDREN 4
+/* Every node quarters the items, so 2^31 of them need no more levels than this. */
+#define DEPTH 20
+
+typedef struct box_tree_child {
+    uint32_t first; /* leaf: its place in items; else its node */
+    uint32_t count; /* of a leaf's items; 0: a node */
+} box_tree_child;
 
 typedef struct box_tree_node {
-    bounds box;
-    uint32_t first; /* leaf: its place in items; inner node: its first child, the second follows */
-    uint32_t count; /* 0: inner node */
+    double lo[3][CHILDREN], hi[3][CHILDREN]; /* NaN where there is no child: nothing meets it */
+    box_tree_child children[CHILDREN];
 } box_tree_node;
 
 typedef struct sort_key {
     double centre;
     uint32_t item;
 } sort_key;
+
+typedef struct tree_builder {
+    const bounds *boxes;
+    box_tree *tree;
+    sort_key *keys;
+} tree_builder;
 
 static int compare_keys(const void *left, const void *right)
 {
@@ -56,32 +69,55 @@ static int widest_direction(const bounds *boxes, const uint32_t *items, size_t c
     return widest;
 }
 
-static void split(box_tree *tree, uint32_t node_number, const bounds *boxes, size_t first, size_t count,
-                  sort_key *keys)
+/* Orders the items by the centres of their boxes, in the direction in which these spread most. */
+static void sort_items(const tree_builder *builder, size_t first, size_t count)
 {
-    box_tree_node *node = &tree->nodes[node_number];
-    node->box = enclose(boxes, tree->items + first, count);
-    if (count <= ITEMS_A_NODE) {
-        node->first = (uint32_t)first;
-        node->count = (uint32_t)count;
-        return;
-    }
-    const int a = widest_direction(boxes, tree->items + first, count);
-    for (size_t i = 0; i < count; i++) {
-        const uint32_t item = tree->items[first + i];
-        keys[i] = (sort_key){0.5 * boxes[item].lo[a] + 0.5 * boxes[item].hi[a], item};
-    }
-    qsort(keys, count, sizeof *keys, compare_keys);
+    const bounds *const boxes = builder->boxes;
+    uint32_t *const items = builder->tree->items + first;
+    const int a = widest_direction(boxes, items, count);
     for (size_t i = 0; i < count; i++)
-        tree->items[first + i] = keys[i].item;
+        builder->keys[i] = (sort_key){0.5 * boxes[items[i]].lo[a] + 0.5 * boxes[items[i]].hi[a], items[i]};
+    qsort(builder->keys, count, sizeof *builder->keys, compare_keys);
+    for (size_t i = 0; i < count; i++)
+        items[i] = builder->keys[i].item;
+}
 
-    const uint32_t child = (uint32_t)tree->node_count;
-    tree->node_count += 2;
-    node->first = child;
-    node->count = 0;
-    const size_t half = count / 2;
-    split(tree, child, boxes, first, half, keys);
-    split(tree, child + 1, boxes, first + half, count - half, keys);
+static uint32_t add_node(const tree_builder *builder, size_t first, size_t count);
+
+static void set_child(const tree_builder *builder, uint32_t parent, int place, size_t first, size_t count)
+{
+    box_tree_node *const node = &builder->tree->nodes[parent];
+    const bounds box = enclose(builder->boxes, builder->tree->items + first, count);
+    for (int a = 0; a < 3; a++) {
+        node->lo[a][place] = box.lo[a];
+        node->hi[a][place] = box.hi[a];
+    }
+    node->children[place] = count <= ITEMS_A_LEAF ? (box_tree_child){(uint32_t)first, (uint32_t)count}
+                                                  : (box_tree_child){add_node(builder, first, count), 0};
+}
+
+/* Returns its number. */
+static uint32_t add_node(const tree_builder *builder, size_t first, size_t count)
+{
+    const uint32_t number = (uint32_t)builder->tree->node_count++;
+    const size_t ends[] = {first, first + count / 2, first + count};
+    box_tree_node *const node = &builder->tree->nodes[number];
+    for (int a = 0; a < 3; a++)
+        for (int i = 0; i < CHILDREN; i++)
+            node->lo[a][i] = node->hi[a][i] = NAN;
+    int place = 0;
+    if (count > ITEMS_A_LEAF)
+        sort_items(builder, first, count);
+    for (int h = 0; h < 2; h++) {
+        const size_t half = ends[h + 1] - ends[h], quarter = half > ITEMS_A_LEAF ? half / 2 : half;
+        if (half > ITEMS_A_LEAF)
+            sort_items(builder, ends[h], half);
+        if (quarter > 0)
+            set_child(builder, number, place++, ends[h], quarter);
+        if (quarter < half)
+            set_child(builder, number, place++, ends[h] + quarter, half - quarter);
+    }
+    return number;
 }
 
 bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree)
@@ -89,18 +125,19 @@ bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree)
     memset(tree, 0, sizeof *tree);
     if (count == 0)
         return true;
-    sort_key *keys = ffd_alloc(count, sizeof *keys);
+    tree_builder builder = {.boxes = boxes, .tree = tree};
+    builder.keys = ffd_alloc(count, sizeof *builder.keys);
     tree->items = ffd_alloc(count, sizeof *tree->items);
-    tree->nodes = ffd_alloc(2 * count, sizeof *tree->nodes);
-    if (keys && tree->items && tree->nodes) {
+    /* A node but the first has three items at least, which no node beside it has. */
+    tree->nodes = ffd_alloc(count, sizeof *tree->nodes);
+    if (builder.keys && tree->items && tree->nodes) {
         for (size_t i = 0; i < count; i++)
             tree->items[i] = (uint32_t)i;
-        tree->node_count = 1;
-        split(tree, 0, boxes, 0, count, keys);
+        add_node(&builder, 0, count);
     } else {
         ffd_box_tree_free(tree);
     }
-    ffd_free(keys);
+    ffd_free(builder.keys);
     return tree->nodes != NULL;
 }
 
@@ -118,25 +155,50 @@ bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double sl
     return ffd_box_tree_visit_box(tree, &place, slack, visit, context);
 }
 
+/* Two are tested at once where the processor can, and every one has such registers or does without. */
+typedef double pair __attribute__((vector_size(16)));
+typedef int64_t pair_mask __attribute__((vector_size(16)));
+
+static pair load_pair(const double *numbers)
+{
+    pair loaded;
+    memcpy(&loaded, numbers, sizeof loaded);
+    return loaded;
+}
+
+/* One bit a child whose box, grown by slack, meets places. */
+static unsigned meet_children(const box_tree_node *node, const bounds *places, const double slack[3])
+{
+    unsigned met = 0;
+    for (int i = 0; i < CHILDREN; i += 2) {
+        pair_mask meets = {-1, -1};
+        for (int a = 0; a < 3; a++)
+            meets &= (places->hi[a] >= load_pair(node->lo[a] + i) - slack[a]) &
+                     (places->lo[a] <= load_pair(node->hi[a] + i) + slack[a]);
+        met |= ((unsigned)meets[0] & 1) << i | ((unsigned)meets[1] & 2) << i;
+    }
+    return met;
+}
+
 bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *places, const double slack[3],
                             box_tree_visitor visit, void *context)
 {
-    uint32_t stack[2 * DEPTH];
+    box_tree_child stack[CHILDREN * DEPTH];
     int height = 0;
     if (tree->node_count > 0)
-        stack[height++] = 0;
+        stack[height++] = (box_tree_child){0, 0};
     while (height > 0) {
-        const box_tree_node *node = &tree->nodes[stack[--height]];
-        if (!bounds_meet(&node->box, places, slack))
-            continue;
-        if (node->count == 0) {
-            stack[height++] = node->first + 1;
-            stack[height++] = node->first;
-            continue;
-        }
-        for (uint32_t i = 0; i < node->count; i++)
-            if (!visit(context, tree->items[node->first + i]))
+        const box_tree_child at = stack[--height];
+        for (uint32_t i = 0; i < at.count; i++)
+            if (!visit(context, tree->items[at.first + i]))
                 return false;
+        if (at.count > 0)
+            continue;
+        const box_tree_node *const node = &tree->nodes[at.first];
+        const unsigned met = meet_children(node, places, slack);
+        for (int i = CHILDREN - 1; i >= 0; i--)
+            if (met >> i & 1)
+                stack[height++] = node->children[i];
     }
     return true;
 }

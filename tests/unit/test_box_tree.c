@@ -1,0 +1,152 @@
+/* test_box_tree.c - the tree of boxes against a walk over all of them. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/draw.h"
+#include "embed/box_tree.h"
+#include <math.h>
+
+enum { MOST = 300 };
+
+typedef struct seen {
+    uint32_t items[MOST];
+    size_t count, stop; /* after so many, if any */
+} seen;
+
+static bool note(void *context, uint32_t item)
+{
+    seen *const s = context;
+    assert_true(s->count < MOST);
+    s->items[s->count++] = item;
+    return s->count != s->stop;
+}
+
+/* Flat, equal and unbounded ones too. */
+static void draw_boxes(draw *d, bounds *boxes, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        for (int a = 0; a < 3; a++) {
+            const uint32_t kind = draw_number(d) % 16;
+            const double corner = draw_between(d, -1, 1), side = draw_between(d, 0, 0.3);
+            boxes[i].lo[a] = kind == 0 ? -HUGE_VAL : kind == 1 ? 0.25 : corner;
+            boxes[i].hi[a] = kind == 2 ? HUGE_VAL : kind == 1 ? 0.25 : kind == 3 ? corner : corner + side;
+        }
+}
+
+static bool has(const seen *s, uint32_t item)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (s->items[i] == item)
+            return true;
+    return false;
+}
+
+static void test_none_is_missed(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    size_t visited = 0, met = 0, all = 0;
+    for (int round = 0; round < 3000; round++) {
+        static bounds boxes[MOST];
+        const size_t count = draw_number(&d) % (round % 2 ? 12 : MOST);
+        box_tree tree;
+        seen s = {.count = 0};
+        bounds places;
+        double slack[3];
+        draw_boxes(&d, boxes, count);
+        assert_true(ffd_box_tree_build(boxes, count, &tree));
+        for (int a = 0; a < 3; a++) {
+            places.lo[a] = draw_number(&d) % 4 ? draw_between(&d, -1.2, 1.2) : 0.25;
+            places.hi[a] = places.lo[a] + (round % 3 ? 0 : draw_between(&d, 0, 0.2));
+            slack[a] = draw_number(&d) % 2 ? 0 : draw_between(&d, 0, 0.1);
+        }
+        if (round % 3)
+            assert_true(ffd_box_tree_visit(&tree, places.lo, slack, note, &s));
+        else
+            assert_true(ffd_box_tree_visit_box(&tree, &places, slack, note, &s));
+        for (size_t i = 0; i < s.count; i++)
+            for (size_t k = 0; k < i; k++)
+                assert_int_not_equal(s.items[i], s.items[k]);
+        for (uint32_t i = 0; i < count; i++) {
+            const bool meets = bounds_meet(&boxes[i], &places, slack);
+            assert_true(!meets || has(&s, i));
+            met += meets;
+        }
+        visited += s.count;
+        all += count;
+        ffd_box_tree_free(&tree);
+    }
+    /* It tells most of the others apart, too. */
+    assert_true(met > 1000);
+    if (visited - met > (all - met) / 10)
+        fail_msg("%zu of %zu boxes are visited, where %zu meet", visited, all, met);
+}
+
+/* The order is that of the tree: the same in every walk, whatever is asked for. */
+static void test_order(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    static bounds boxes[MOST];
+    const double slack[3] = {0, 0, 0};
+    const bounds everywhere = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    box_tree tree;
+    seen whole = {.count = 0};
+    draw_boxes(&d, boxes, MOST);
+    assert_true(ffd_box_tree_build(boxes, MOST, &tree));
+    assert_true(ffd_box_tree_visit_box(&tree, &everywhere, slack, note, &whole));
+    assert_int_equal(whole.count, MOST);
+    for (int i = 0; i < 200; i++) {
+        const double p[3] = {draw_between(&d, -1, 1), draw_between(&d, -1, 1), draw_between(&d, -1, 1)};
+        seen some = {.count = 0};
+        size_t at = 0;
+        assert_true(ffd_box_tree_visit(&tree, p, slack, note, &some));
+        for (size_t k = 0; k < some.count; k++, at++) {
+            while (at < MOST && whole.items[at] != some.items[k])
+                at++;
+            assert_true(at < MOST);
+        }
+    }
+    ffd_box_tree_free(&tree);
+}
+
+static void test_stops(void **state)
+{
+    (void)state;
+    static bounds boxes[MOST];
+    const double p[3] = {0, 0, 0}, slack[3] = {0, 0, 0};
+    box_tree tree;
+    assert_true(ffd_box_tree_build(boxes, MOST, &tree));
+    for (size_t stop = 1; stop <= MOST; stop += 37) {
+        seen s = {.stop = stop};
+        assert_false(ffd_box_tree_visit(&tree, p, slack, note, &s));
+        assert_int_equal(s.count, stop);
+    }
+    ffd_box_tree_free(&tree);
+}
+
+static void test_no_boxes(void **state)
+{
+    (void)state;
+    const double p[3] = {0, 0, 0}, slack[3] = {1, 1, 1};
+    box_tree tree;
+    seen s = {.count = 0};
+    assert_true(ffd_box_tree_build(NULL, 0, &tree));
+    assert_true(ffd_box_tree_visit(&tree, p, slack, note, &s));
+    assert_int_equal(s.count, 0);
+    ffd_box_tree_free(&tree);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_none_is_missed),
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_stops),
+        cmocka_unit_test(test_no_boxes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
