@@ -79,13 +79,14 @@ def attributes(bench):
 
 
 def threads(bench):
-    """What a second thread brings to four times as many vertices."""
+    """What a second thread brings to four times as many vertices, and how fast a plain copy is, which bounds both."""
     side = 2 * bench.side
     source = bench.mesh("four.glb", meshes.write_glb, side)
     bench.table.title(f"Threads (GLB, {vertices(side)})")
     for name, lattice in bench.lattices.items():
         rows = [[side * side / 1e6 / seconds for seconds in sample.seconds] for sample in programs.in_turns(
-            [bench.deform(source, lattice, threads=count) for count in (1, 2)], bench.runs)]
+            [*(bench.deform(source, lattice, threads=count) for count in (1, 2)), bench.copy(source)], bench.runs)]
+        bench.table.add(f"{name}: dd bs=64M", rows[2], "M/s")
         one = bench.table.add(f"{name}: 1 thread", rows[0], "M/s")
         bench.table.add(f"{name}: 2 threads", rows[1], "M/s", one, ">= 1.8")
 
