@@ -74,7 +74,8 @@ class Bench:
     def deform(self, source, lattice, *options, target=None, threads=0):
         target, threads = target or self.path("out" + os.path.splitext(source)[1]), threads or self.threads
         return programs.Command([self.ffd, "deform", source, target, "-l", lattice, "--quiet", *options,
-                                 *(["--threads", str(threads)] if threads else [])], target)
+                                 *(["--threads", str(threads)] if threads else [])],
+                                None if target == "-" else target)
 
     def copy(self, source):
         target = self.path("copy")

@@ -79,16 +79,25 @@ def attributes(bench):
 
 
 def threads(bench):
-    """What a second thread brings to four times as many vertices, and how fast a plain copy is, which bounds both."""
+    """What a second thread brings to four times as many vertices, and how fast a plain copy is; the box also without a
+    file to write, which has one writer at a time."""
     side = 2 * bench.side
     source = bench.mesh("four.glb", meshes.write_glb, side)
     bench.table.title(f"Threads (GLB, {vertices(side)})")
-    for name, lattice in bench.lattices.items():
-        rows = [[side * side / 1e6 / seconds for seconds in sample.seconds] for sample in programs.in_turns(
-            [*(bench.deform(source, lattice, threads=count) for count in (1, 2)), bench.copy(source)], bench.runs)]
-        bench.table.add(f"{name}: dd bs=64M", rows[2], "M/s")
-        one = bench.table.add(f"{name}: 1 thread", rows[0], "M/s")
-        bench.table.add(f"{name}: 2 threads", rows[1], "M/s", one, ">= 1.8")
+
+    def measure(name, copy, *options, **target):
+        commands = [bench.deform(source, bench.lattices[name], *options, threads=count, **target) for count in (1, 2)]
+        return [[side * side / 1e6 / seconds for seconds in sample.seconds]
+                for sample in programs.in_turns([*commands, *copy], bench.runs)]
+
+    def add(name, one, two):
+        bench.table.add(f"{name}: 2 threads", two, "M/s", bench.table.add(f"{name}: 1 thread", one, "M/s"), ">= 1.8")
+
+    for name in bench.lattices:
+        one, two, copied = measure(name, [bench.copy(source)])
+        bench.table.add(f"{name}: dd bs=64M", copied, "M/s")
+        add(name, one, two)
+    add("box, to /dev/null", *measure("box", [], "--output-format", "glb", target="-"))
 
 
 def inversion(bench):

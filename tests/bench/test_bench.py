@@ -22,7 +22,7 @@ SUBJECTS = {
     "Others on the same OBJ": ["ffd deform, box", "OpenMesh: read", "OpenMesh: read, write",
                                "Blender: read, lattice modifier, write"],
     "Normals and tangents": ["box: with normals and tangents"],
-    "Threads (GLB, 6,400 vertices)": ["box: dd bs=64M", "warped: 2 threads"],
+    "Threads (GLB, 6,400 vertices)": ["box: dd bs=64M", "warped: 2 threads", "box, to /dev/null: 2 threads"],
     "Inversion": ["certified vertices"],
     "Displacement": ["copy", "kernel alone, box, scalar", "8^3 box, scalar", "64^3 general, scalar, with gradient"],
     "Finding u,v,w": ["smooth warp 8x8x8, degree 3"],
