@@ -128,8 +128,9 @@ bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree)
     tree_builder builder = {.boxes = boxes, .tree = tree};
     builder.keys = ffd_alloc(count, sizeof *builder.keys);
     tree->items = ffd_alloc(count, sizeof *tree->items);
-    /* A node but the first has three items at least, which no node beside it has. */
-    tree->nodes = ffd_alloc(count, sizeof *tree->nodes);
+    /* From three items on (count - 1) / 2 nodes at most, by induction: one for three, and of four children
+       that are nodes each leaves half a node to their parent. */
+    tree->nodes = ffd_alloc(count / 2 + 1, sizeof *tree->nodes);
     if (builder.keys && tree->items && tree->nodes) {
         for (size_t i = 0; i < count; i++)
             tree->items[i] = (uint32_t)i;

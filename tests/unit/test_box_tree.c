@@ -113,6 +113,27 @@ static void test_order(void **state)
     ffd_box_tree_free(&tree);
 }
 
+/* However many boxes there are, each is in the tree once. */
+static void test_every_count(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    static bounds boxes[MOST];
+    const double slack[3] = {0, 0, 0};
+    const bounds everywhere = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    draw_boxes(&d, boxes, MOST);
+    for (size_t count = 1; count <= MOST; count++) {
+        box_tree tree;
+        seen s = {.count = 0};
+        assert_true(ffd_box_tree_build(boxes, count, &tree));
+        assert_true(ffd_box_tree_visit_box(&tree, &everywhere, slack, note, &s));
+        assert_int_equal(s.count, count);
+        for (uint32_t i = 0; i < count; i++)
+            assert_true(has(&s, i));
+        ffd_box_tree_free(&tree);
+    }
+}
+
 static void test_stops(void **state)
 {
     (void)state;
@@ -143,9 +164,8 @@ static void test_no_boxes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_none_is_missed),
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_stops),
+        cmocka_unit_test(test_none_is_missed), cmocka_unit_test(test_order),
+        cmocka_unit_test(test_every_count),    cmocka_unit_test(test_stops),
         cmocka_unit_test(test_no_boxes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
