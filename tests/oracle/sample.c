@@ -244,10 +244,6 @@ void sample_axes(sample *s, random_source *random, const sample_limits *limits)
         else
             sample_named_axis(s, a, kinds[random_int(random, 0, 3)], n, degree);
     }
-    s->default_degree = true;
-    for (int a = 0; a < 3; a++)
-        s->default_degree =
-            s->default_degree && s->axis[a].degree == (s->axis[a].n < 4 ? s->axis[a].n - 1 : 3);
 }
 
 void sample_weights(sample *s, random_source *random, double spread)
@@ -317,7 +313,6 @@ void sample_round_cylinder(sample *s, random_source *random, bool full_turn)
     if (sample_widest_angle(s) <= 100)
         return;
     const int degree = s->axis[1].degree, n = s->axis[1].n < degree + 4 ? degree + 4 : s->axis[1].n;
-    s->default_degree = false;
     sample_named_axis(s, 1, full_turn ? "closed" : "clamped", n, degree);
 }
 
@@ -370,13 +365,22 @@ static void write_deformed(sample *s, text *j)
     text_add(j, "}");
 }
 
+/* Whether the degrees are those that a file without the key "degree" gets. */
+static bool has_default_degrees(const sample *s)
+{
+    for (int a = 0; a < 3; a++)
+        if (s->axis[a].degree != (s->axis[a].n < 4 ? s->axis[a].n - 1 : 3))
+            return false;
+    return true;
+}
+
 void sample_write(sample *s)
 {
     text *j = &s->json;
     text_free(j);
     text_add(j, "{\"format\":\"ffd-lattice\",\"version\":1,\n\"size\":[%d,%d,%d],\n", s->axis[0].n,
              s->axis[1].n, s->axis[2].n);
-    if (!s->default_degree)
+    if (!has_default_degrees(s))
         text_add(j, "\"degree\":[%d,%d,%d],\n", s->axis[0].degree, s->axis[1].degree, s->axis[2].degree);
     text_add(j, "\"knots\":[%s,%s,%s],\n\"rest\":", s->knots[0].data, s->knots[1].data, s->knots[2].data);
     write_rest(s, j);

@@ -40,8 +40,7 @@ typedef enum sample_rest { SAMPLE_BOX, SAMPLE_CYLINDER, SAMPLE_POINTS } sample_r
 typedef struct sample {
     uint64_t seed;
     oracle_axis axis[3];
-    text knots[3];       /* the JSON value of each direction */
-    bool default_degree; /* leave the key out */
+    text knots[3]; /* the JSON value of each direction */
     sample_rest rest;
     double box_min[3], box_max[3], box_axes[9];
     bool has_axes, uniform_spacing;

@@ -282,7 +282,6 @@ static void begin(shape *x, sample *s, random_source *random, shape_kind kind, c
         break;
     }
     sample_clear_axes(s);
-    s->default_degree = false;
 }
 
 /* The exact torus (P&T 8.5): quarter circles as quadratics with the weights 1, sqrt(1/2), 1; the tube in one

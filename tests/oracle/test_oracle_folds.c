@@ -408,7 +408,6 @@ static double make_closed(trial *t, sample *s, random_source *random)
 {
     const sample_limits limits = {.max_degree = 3, .max_extra = 2};
     sample_axes(s, random, &limits);
-    s->default_degree = false;
     sample_named_axis(s, 1, "closed", random_int(random, 8, 12), random_int(random, 2, 3));
     sample_ring(s, random);
     if (random_chance(random, 0.5))
@@ -421,7 +420,6 @@ static double make_collapsed(trial *t, sample *s, random_source *random)
 {
     const sample_limits limits = {.max_degree = 3, .max_extra = 2, .always_closed = {false, true, false}};
     sample_axes(s, random, &limits);
-    s->default_degree = false;
     sample_named_axis(s, 0, "clamped", random_int(random, 4, 5), random_int(random, 1, 3));
     sample_round_cylinder(s, random, true);
     s->radius[0] = 0;
