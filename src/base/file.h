@@ -12,21 +12,24 @@ typedef struct file_input {
     size_t size;
     void *block; /* how it is held: mapped or allocated */
     bool mapped;
-    uint64_t identity[2]; /* the same for every input of one mapped file, whatever name led to it */
+    uint64_t identity[2]; /* of a regular file that is not empty: the same whatever name led to it */
 } file_input;
 
-/* Reads path ("-": standard input, also where that is a pipe). Regular files are mapped. A folder, a pipe and
-   a device are refused (FFD_E_IO), but for /dev/stdin, /dev/fd/N and /dev/null; so is a stream that does not
-   end (FFD_E_LIMIT). */
+/* Reads path ("-": standard input, also where that is a pipe). Large regular files are mapped. A folder, a
+   pipe and a device are refused (FFD_E_IO), but for /dev/stdin, /dev/fd/N and /dev/null; so is a stream that
+   does not end (FFD_E_LIMIT). */
 ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error);
-/* Reads a file that a model refers to: relative must lead to a regular file inside folder, links followed
+/* Maps small ones too: for files of which there may be many at a time, that are to take no memory then. */
+ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error);
+/* Maps a file that a model refers to: relative must lead to a regular file inside folder, links followed
    (canonical paths are compared). Else FFD_E_IO with `named_by` as the file of the message. */
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
                                 file_input *input, ffd_error *error);
 void ffd_file_unload(file_input *input);
 /* For bytes, of a mapped file or any others, that are about to be read or written: brings them into memory at
    once, where the system has a call for that. Else a read waits for a few pages at a time; and a write copies
-   without waiting for any, clears what it could not fill, and begins again, once a page. Any thread. */
+   without waiting for any, clears what it could not fill, and begins again, once a page. Does nothing where
+   there are so few that it is not worth the call. Any thread. */
 void ffd_file_bring_in(const void *bytes, size_t size);
 /* For bytes that are not needed for a while: gives back the memory that they take where the system can read
    them again, by itself, from the file. Any thread. */

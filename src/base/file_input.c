@@ -1,4 +1,4 @@
-#define _XOPEN_SOURCE 700 /* realpath */
+#define _XOPEN_SOURCE 700 /* realpath, pread */
 #define _DEFAULT_SOURCE   /* madvise */
 #include "base/file.h"
 #include "base/memory.h"
@@ -16,6 +16,14 @@
 #define LONGEST_STREAM ((size_t)1 << 32)
 /* Bytes of two files that are in memory while they are compared: a multiple of any page. */
 #define COMPARED ((size_t)1 << 22)
+
+/* Files of fewer bytes are read: to map them would take longer. A mapped page costs a fault, and to give it
+   back stops every processor that the program runs on; under some hypervisors each takes as long as reading a
+   hundred kilobytes. */
+#define SMALL ((size_t)1 << 18)
+
+/* Fewer bytes are not brought in. */
+#define FEW ((size_t)1 << 16)
 
 /* Bytes that are given back at a time where a file is gone through: a multiple of any page. */
 #define FORGOTTEN ((size_t)1 << 23)
@@ -51,12 +59,39 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
     return FFD_OK;
 }
 
+static ffd_status fail_room(const char *name, size_t size, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size);
+}
+
+/* As a mapping has it: all of the file, wherever the descriptor stands, without what is added meanwhile. */
+static ffd_status read_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
+{
+    unsigned char *const block = ffd_alloc(size, 1);
+    if (!block)
+        return fail_room(name, size, error);
+    size_t done = 0;
+    while (done < size) {
+        const ssize_t got = pread(fd, block + done, size - done, (off_t)done);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            ffd_free(block);
+            return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
+        }
+        if (got == 0)
+            break;
+        done += (size_t)got;
+    }
+    *input = (file_input){.data = block, .size = done, .block = block};
+    return FFD_OK;
+}
+
 static ffd_status map_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
 {
     void *block = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
     if (block == MAP_FAILED)
-        return errno == ENOMEM ? ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size)
-                               : read_stream(fd, name, input, error);
+        return errno == ENOMEM ? fail_room(name, size, error) : read_stream(fd, name, input, error);
     *input = (file_input){.data = block, .size = size, .block = block, .mapped = true};
     return FFD_OK;
 }
@@ -102,38 +137,50 @@ static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
                          S_ISFIFO(info.st_mode) ? "pipe" : "device");
 }
 
-static ffd_status load_descriptor(int fd, const char *name, file_input *input, ffd_error *error)
+static ffd_status load_descriptor(int fd, const char *name, size_t least_mapped, file_input *input,
+                                  ffd_error *error)
 {
     struct stat info;
     if (fstat(fd, &info) != 0)
         return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
     if (S_ISDIR(info.st_mode))
         return ffd_fail_file(error, FFD_E_IO, name, "is a folder");
-    if (S_ISREG(info.st_mode) && info.st_size > 0) {
-        if ((unsigned long long)info.st_size > (size_t)-1)
-            return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
-        const ffd_status status = map_file(fd, name, (size_t)info.st_size, input, error);
-        input->identity[0] = (uint64_t)info.st_dev;
-        input->identity[1] = (uint64_t)info.st_ino;
-        return status;
-    }
-    return read_stream(fd, name, input, error);
+    if (!S_ISREG(info.st_mode) || info.st_size <= 0)
+        return read_stream(fd, name, input, error);
+    if ((unsigned long long)info.st_size > (size_t)-1)
+        return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
+    const size_t size = (size_t)info.st_size;
+    const ffd_status status = size < least_mapped ? read_file(fd, name, size, input, error)
+                                                  : map_file(fd, name, size, input, error);
+    input->identity[0] = (uint64_t)info.st_dev;
+    input->identity[1] = (uint64_t)info.st_ino;
+    return status;
 }
 
-ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error)
+static ffd_status load(const char *path, size_t least_mapped, file_input *input, ffd_error *error)
 {
     *input = (file_input){.data = nothing};
     if (strcmp(path, "-") == 0)
-        return load_descriptor(STDIN_FILENO, "standard input", input, error);
+        return load_descriptor(STDIN_FILENO, "standard input", least_mapped, input, error);
     /* A pipe is not waited for: it is refused. The flags of descriptors are left alone. */
     const int fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
     if (fd < 0)
         return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(errno));
     ffd_status status = refuse_special(fd, path, error);
     if (!status)
-        status = load_descriptor(fd, path, input, error);
+        status = load_descriptor(fd, path, least_mapped, input, error);
     close(fd);
     return status;
+}
+
+ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error)
+{
+    return load(path, SMALL, input, error);
+}
+
+ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error)
+{
+    return load(path, 1, input, error);
 }
 
 static bool is_inside(const char *folder, const char *path)
@@ -167,7 +214,7 @@ ffd_status ffd_file_load_within(const char *folder, const char *relative, const 
     else if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
         status = ffd_fail_file(error, FFD_E_IO, named_by, "\"%s\" is not a file", relative);
     else
-        status = ffd_file_load(path, input, error);
+        status = ffd_file_map(path, input, error);
     free(root);
     free(path);
     ffd_free(joined);
@@ -206,7 +253,8 @@ void ffd_file_bring_in(const void *bytes, size_t size)
 {
 #ifdef MADV_POPULATE_READ
     const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = (uintptr_t)bytes / page * page;
-    madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* advice only */
+    if (size >= FEW)
+        madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* advice only */
 #else
     (void)bytes;
     (void)size;

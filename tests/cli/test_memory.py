@@ -174,6 +174,18 @@ def one_file_for_many_buffers(run):
 
 
 @case
+def many_buffers_name_one_small_file(run):
+    """Such a file is mapped, though others of its size are read, for each buffer has its bytes."""
+    size, count = 250000, 1000
+    run.write("b.bin", bytes(size))
+    content = {"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1, "uri": "b.bin"}] * count}
+    run.write("a.gltf", json.dumps(content, separators=(",", ":")))
+    code, peak, line = measure(run, ["info", "a.gltf"])
+    equal(code, OK, line)
+    check(peak < size * count / 2, f"{peak / 1e6:.1f} MB")
+
+
+@case
 def corners_of_one_primitive(run):
     """Faces are made beside a copy of a primitive's corners."""
     content = {"accessors": [{"componentType": 5126, "count": 3, "type": "VEC3", "min": [0] * 3, "max": [0] * 3},

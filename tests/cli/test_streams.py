@@ -68,6 +68,21 @@ def every_format_through(run):
 
 
 @case
+def one_open_file_for_several_runs(run):
+    """A file that is standard input counts as a whole, small or large, wherever it has been read to."""
+    start(run)
+    large = "# " + 300000 * "x" + "\n"
+    for name, text in (("a.obj", CUBE), ("large.obj", CUBE + large)):
+        run.write(name, text)
+        with open(run.path(name), "rb") as given:
+            given.read(10)
+            for _ in range(2):
+                done = subprocess.run([FFD, "compare", name, "-", "--input-format", "obj"], cwd=run.folder, stdin=given,
+                                      timeout=SECONDS, check=False)
+                equal(done.returncode, 0, name)
+
+
+@case
 def other_streams(run):
     """Reports, lattices and arrays to a stream that was led into a file go behind what is there, as text would."""
     start(run)

@@ -50,6 +50,50 @@ static void test_load(void **state)
     (void)state;
 }
 
+/* Bytes that differ from place to place; free with free(). */
+static char *put_bytes(const char *name, size_t size)
+{
+    char *const bytes = malloc(size);
+    FILE *const file = fopen(in_folder(name), "wb");
+    assert_non_null(bytes);
+    assert_non_null(file);
+    for (size_t i = 0; i < size; i++)
+        bytes[i] = (char)(i * 31 + i / 251);
+    assert_int_equal(fwrite(bytes, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+    return bytes;
+}
+
+static void check_loaded(size_t size, bool mapped)
+{
+    file_input loaded, map;
+    char *const bytes = put_bytes("sized", size);
+    assert_int_equal(ffd_file_load(in_folder("sized"), &loaded, NULL), FFD_OK);
+    assert_int_equal(ffd_file_map(in_folder("sized"), &map, NULL), FFD_OK);
+    assert_int_equal(loaded.mapped, mapped);
+    assert_true(map.mapped);
+    assert_int_equal(loaded.size, size);
+    assert_int_equal(map.size, size);
+    assert_memory_equal(loaded.data, bytes, size);
+    assert_memory_equal(map.data, bytes, size);
+    assert_memory_equal(loaded.identity, map.identity, sizeof map.identity);
+    ffd_file_unload(&map);
+    ffd_file_unload(&loaded);
+    free(bytes);
+}
+
+/* Small files are read, but for those that are asked to be mapped. */
+static void test_sizes(void **state)
+{
+    enum { SMALL = 1 << 18 };
+    check_loaded(1, false);
+    check_loaded(65537, false);
+    check_loaded(SMALL - 1, false);
+    check_loaded(SMALL, true);
+    check_loaded(SMALL + 1, true);
+    (void)state;
+}
+
 /* What is forgotten is there when it is read. */
 static void test_forget(void **state)
 {
@@ -61,7 +105,7 @@ static void test_forget(void **state)
         text[i] = (char)('a' + i % 23);
     text[SIZE] = 0;
     put_text("long", text);
-    assert_int_equal(ffd_file_load(in_folder("long"), &input, NULL), FFD_OK);
+    assert_int_equal(ffd_file_map(in_folder("long"), &input, NULL), FFD_OK);
     assert_memory_equal(input.data, text, SIZE);
     ffd_file_forget(&input, input.data + 1, SIZE - 1);
     ffd_file_forget(&input, input.data, SIZE);
@@ -443,6 +487,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_load),
+        cmocka_unit_test(test_sizes),
         cmocka_unit_test(test_forget),
         cmocka_unit_test(test_forget_until),
         cmocka_unit_test(test_load_within),

@@ -12,7 +12,7 @@
 #define OBJECT_BYTES 1024
 #define KEPT_OBJECT_BYTES 256
 
-/* Of a file's byte: itself, as it is mapped. */
+/* Of a file's byte: itself. */
 #define KEPT_PER_BYTE 1
 
 const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};

@@ -18,13 +18,9 @@ void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *form
     saver->log->function(saver->log->user, level, line);
 }
 
-/* Bytes of a file that are worth being brought in at once. */
-#define LARGE ((size_t)1 << 16)
-
 static ffd_status put(const gltf_saver *saver, const void *bytes, size_t size, ffd_error *error)
 {
-    if (size >= LARGE)
-        ffd_file_bring_in(bytes, size);
+    ffd_file_bring_in(bytes, size);
     return ffd_output_write(saver->output, bytes, size, error);
 }
 
