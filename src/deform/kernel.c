@@ -32,6 +32,7 @@ typedef struct field_sum {
 static ALWAYS_INLINE void raise_powers(int degree, lanes t, lanes rest, lanes *power)
 {
     power[degree] = power[degree - 1] * t;
+#pragma GCC unroll 4
     for (int i = 0; i < degree; i++)
         power[i] = power[i] * rest;
 }
@@ -41,6 +42,7 @@ static ALWAYS_INLINE void find_slopes(int degree, double width, const lanes *low
 {
     const double factor = 1 / width;
     slope[0] = -degree * factor * lower[0];
+#pragma GCC unroll 4
     for (int i = 1; i < degree; i++)
         slope[i] = i * factor * lower[i - 1] - (degree - i) * factor * lower[i];
     slope[degree] = degree * factor * lower[degree - 1];
@@ -53,6 +55,7 @@ static ALWAYS_INLINE void find_basis(const kernel_cell *cell, int a, int degree,
     lanes *const power = basis->value;
     power[0] = rest;
     power[1] = t;
+#pragma GCC unroll 4
     for (int d = 2; d < degree; d++)
         raise_powers(d, t, rest, power);
     if (derivatives && a == 0) {
@@ -234,6 +237,7 @@ static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3],
     span_basis basis[3];
     lanes uvw[3];
     take(places, uvw);
+#pragma GCC unroll 3
     for (int a = 0; a < 3; a++)
         find_basis(cell, a, degree[a], uvw[a], derivatives, &basis[a]);
     if (!derivatives) {
