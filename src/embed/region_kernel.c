@@ -59,6 +59,7 @@ static ALWAYS_INLINE void raise_degree(const span_scheme *scheme, int d, int deg
     const double *const right = scheme->knots + d, *const left = right - degree;
     const double *const reciprocal = scheme->reciprocals + degree * (degree - 1) / 2;
     lanes from_left = lanes_all(0);
+#pragma GCC unroll 4
     for (int r = 0; r < degree; r++) {
         const lanes share = value[r] * reciprocal[r];
         value[r] = from_left + (right[r] - u) * share;
@@ -73,8 +74,10 @@ static ALWAYS_INLINE void find_basis(const span_scheme *scheme, int d, lanes off
     const lanes u = offset / scheme->length;
     lanes before = lanes_all(0);
     basis->value[0] = lanes_all(1);
+#pragma GCC unroll 4
     for (int degree = 1; degree < d; degree++)
         raise_degree(scheme, d, degree, u, basis->value);
+#pragma GCC unroll 4
     for (int r = 0; r < d; r++) {
         const lanes quotient = basis->value[r] * scheme->factors[r];
         basis->slope[r] = before - quotient;
@@ -94,6 +97,7 @@ static ALWAYS_INLINE void evaluate(const region_kernel_cell *cell, const int ord
                                    sample_lanes *at)
 {
     basis_lanes basis[3];
+#pragma GCC unroll 3
     for (int a = 0; a < 3; a++) {
         const lanes offset = region->lo[a] + t[a] * region->width[a];
         find_basis(cell->schemes[a], order[a] - 1, offset, &basis[a]);
