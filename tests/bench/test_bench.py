@@ -15,7 +15,7 @@ import tempfile
 BENCH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bench.py")
 # What begins a title, and rows that must be below it.
 SUBJECTS = {
-    "Start": ["ffd --version", "100 vertices, box", "100 vertices, warped"],
+    "Start": ["a C++ program that does nothing", "ffd --version", "100 vertices, box", "100 vertices, warped"],
     ".glb, 1,600 vertices": ["box: dd bs=64M", "box: ffd deform", "box: peak memory", "warped: ffd deform"],
     "Lattice size": ["4^3: a vertex", "64^3: whole process"],
     ".obj, 1,600 vertices": ["box: ffd deform", "warped: peak memory"],
