@@ -1,6 +1,7 @@
 /* region_kernel.c - compiled once for each instruction set with lanes: FFD_REGION_KERNEL is the function's
    name, FFD_LANES the number of points in hand at a time. Operation by operation it is leaf.c, evaluation
-   included: a lane that is done keeps its numbers while the others go on. */
+   included: a lane that is done keeps its numbers while the others go on. Loops are unrolled as in
+   deform/kernel.c. */
 #include "embed/region_kernel.h"
 #include "base/lanes.h"
 #include <float.h>
