@@ -171,26 +171,27 @@ if build gcc gcc g++ -Dbuildtype=debugoptimized; then
 fi
 
 if [ -n "$all" ]; then
+    # The program by its command line: with assertions by gcc above, with clang and its sanitizers below.
     if build clang clang clang++ -Dbuildtype=debugoptimized; then
-        suites clang clang --no-suite rules --no-suite slow
+        suites clang clang --suite unit --suite property --suite oracle --suite fuzz --suite golden --no-suite slow
     fi
     drop clang
 
     if build release gcc g++ -Dbuildtype=release; then
-        suites release release --suite golden --suite rules --suite cli --no-suite slow
+        suites release release --suite golden --suite rules --suite property --no-suite slow
     fi
     drop release
 
     # gcc needs minutes for this one.
     if build asan clang clang++ -Dbuildtype=debug -Doptimization=1 -Db_sanitize=address,undefined \
         -Db_lundef=false; then
-        suites asan asan --no-suite rules --no-suite slow --timeout-multiplier 6
+        suites asan asan --no-suite rules --no-suite oracle --no-suite bench --no-suite batch --no-suite slow --timeout-multiplier 6
     fi
     drop asan
 
     # The address space must not be shuffled more than the thread sanitizer of Debian 12 copes with.
     if build tsan gcc g++ -Dbuildtype=debugoptimized -Db_sanitize=thread -Db_lundef=false; then
-        suites tsan tsan --suite unit --suite property --suite cli --no-suite slow --wrap "setarch -R" --timeout-multiplier 10
+        suites tsan tsan --suite unit --suite property --suite threads --no-suite slow --wrap "setarch -R" --timeout-multiplier 10
     fi
     drop tsan
 
