@@ -30,33 +30,43 @@
 
 static const unsigned char nothing[1] = {0};
 
+/* Where a descriptor stands, in place of a place in its file. */
+#define FROM_HERE ((off_t)-1)
+
+/* As many bytes as come at once. *got: 0 at the end. */
+static ffd_status read_piece(int fd, const char *name, off_t place, void *to, size_t room, size_t *got,
+                             ffd_error *error)
+{
+    ssize_t count;
+    do
+        count = place == FROM_HERE ? read(fd, to, room) : pread(fd, to, room, place);
+    while (count < 0 && errno == EINTR);
+    if (count < 0)
+        return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
+    *got = (size_t)count;
+    return FFD_OK;
+}
+
 /* Reads what has no size to be mapped: pipes, terminals, /dev/stdin, files of /proc. */
 static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_error *error)
 {
     unsigned char *block = NULL;
-    size_t capacity = 0, size = 0;
-    for (;;) {
-        if (size >= LONGEST_STREAM) {
-            ffd_free(block);
-            return ffd_fail_file(error, FFD_E_LIMIT, name, "goes on after %zu bytes", size);
-        }
-        if (!ffd_grow((void **)&block, &capacity, size + 65536, 1)) {
-            ffd_free(block);
-            return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
-        }
-        const ssize_t got = read(fd, block + size, capacity - size);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0) {
-            ffd_free(block);
-            return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
-        }
-        if (got == 0)
-            break;
-        size += (size_t)got;
-    }
-    *input = (file_input){.data = block, .size = size, .block = block};
-    return FFD_OK;
+    size_t capacity = 0, size = 0, got = 0;
+    ffd_status status;
+    do {
+        size += got;
+        if (size >= LONGEST_STREAM)
+            status = ffd_fail_file(error, FFD_E_LIMIT, name, "goes on after %zu bytes", size);
+        else if (!ffd_grow((void **)&block, &capacity, size + 65536, 1))
+            status = ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
+        else
+            status = read_piece(fd, name, FROM_HERE, block + size, capacity - size, &got, error);
+    } while (!status && got > 0);
+    if (status)
+        ffd_free(block);
+    else
+        *input = (file_input){.data = block, .size = size, .block = block};
+    return status;
 }
 
 static ffd_status fail_room(const char *name, size_t size, ffd_error *error)
@@ -70,21 +80,17 @@ static ffd_status read_file(int fd, const char *name, size_t size, file_input *i
     unsigned char *const block = ffd_alloc(size, 1);
     if (!block)
         return fail_room(name, size, error);
-    size_t done = 0;
-    while (done < size) {
-        const ssize_t got = pread(fd, block + done, size - done, (off_t)done);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0) {
-            ffd_free(block);
-            return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
-        }
-        if (got == 0)
-            break;
-        done += (size_t)got;
-    }
-    *input = (file_input){.data = block, .size = done, .block = block};
-    return FFD_OK;
+    size_t done = 0, got = 0;
+    ffd_status status;
+    do {
+        status = read_piece(fd, name, (off_t)done, block + done, size - done, &got, error);
+        done += got;
+    } while (!status && got > 0 && done < size);
+    if (status)
+        ffd_free(block);
+    else
+        *input = (file_input){.data = block, .size = done, .block = block};
+    return status;
 }
 
 static ffd_status map_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
