@@ -7,7 +7,7 @@
 
 /* Blocks from this size on get large pages. */
 #define LARGE_BLOCK ((size_t)4 << 20)
-#define LARGE_PAGE ((uintptr_t)2 << 20)
+#define LARGE_PAGE ((size_t)2 << 20)
 
 /* For tests only; negative: allocations never fail on purpose. */
 static atomic_long remaining_successes = -1;
@@ -52,6 +52,22 @@ void *ffd_alloc(size_t count, size_t size)
     return malloc(bytes ? bytes : 1);
 }
 
+void *ffd_alloc_whole(size_t count, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    size_t bytes;
+    if (ffd_multiply_size(count, size, &bytes) && bytes >= LARGE_BLOCK && bytes <= SIZE_MAX - LARGE_PAGE) {
+        /* From page to page, for the system has large ones for no others. */
+        const size_t whole = (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+        void *block = fails_on_purpose() ? NULL : aligned_alloc(LARGE_PAGE, whole);
+        if (block)
+            madvise(block, whole, MADV_HUGEPAGE); /* advice only */
+        return block;
+    }
+#endif
+    return ffd_alloc(count, size);
+}
+
 void *ffd_alloc_zero(size_t count, size_t size)
 {
     size_t bytes;
@@ -66,22 +82,6 @@ void *ffd_realloc(void *block, size_t count, size_t size)
     if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
         return NULL;
     return realloc(block, bytes ? bytes : 1);
-}
-
-void ffd_expect_all(void *block, size_t count, size_t size)
-{
-#ifdef MADV_HUGEPAGE
-    const size_t bytes = count * size;
-    if (block && bytes >= LARGE_BLOCK) {
-        const uintptr_t first = ((uintptr_t)block + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
-        const uintptr_t last = ((uintptr_t)block + bytes) / LARGE_PAGE * LARGE_PAGE;
-        madvise((void *)first, last - first, MADV_HUGEPAGE); /* advice only */
-    }
-#else
-    (void)block;
-    (void)count;
-    (void)size;
-#endif
 }
 
 void ffd_free(void *block)

@@ -17,10 +17,10 @@ void *ffd_alloc_zero(size_t count, size_t size);
 void *ffd_realloc(void *block, size_t count, size_t size);
 void ffd_free(void *block);
 
-/* Tells the system that a new block (or NULL) of ffd_alloc or ffd_alloc_zero, of these sizes, will be used
-   from end to end: it may have large pages then, for a page's first touch costs more than filling it. Not for
-   memory of which little may be touched. */
-void ffd_expect_all(void *block, size_t count, size_t size);
+/* As ffd_alloc, for a block that will be used from end to end: if it is large it has large pages, where the
+   system knows them, for a page's first touch costs more than filling it. Not for memory of which little may
+   be touched. */
+void *ffd_alloc_whole(size_t count, size_t size);
 
 /* Makes room for at least `needed` elements of `size` bytes in *block, whose capacity is *capacity elements,
    growing by half at least. False when there is no memory; nothing is changed then. */

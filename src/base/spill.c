@@ -100,11 +100,9 @@ bool ffd_spill_grow(spill_array *array, size_t needed)
         return grow_mapped(array, size) || grow_mapped(array, needed) || leave_file(array, needed);
     if (needed >= SPILL_FROM && move_to_file(array, size))
         return true;
-    void *data = ffd_realloc(array->data, size, 1);
+    void *data = array->data ? ffd_realloc(array->data, size, 1) : ffd_alloc_whole(size, 1);
     if (!data)
         return false;
-    if (!array->data)
-        ffd_expect_all(data, size, 1);
     array->data = data;
     array->size = size;
     return true;

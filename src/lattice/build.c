@@ -32,10 +32,8 @@ static ffd_status make_knots(const lattice_spec *spec, ffd_lattice *lattice, ffd
 
 static ffd_status make_points(ffd_lattice *lattice, ffd_error *error)
 {
-    lattice->rest = ffd_alloc(lattice->count, 3 * sizeof *lattice->rest);
-    lattice->deformed = ffd_alloc(lattice->count, 3 * sizeof *lattice->deformed);
-    ffd_expect_all(lattice->rest, lattice->count, 3 * sizeof *lattice->rest);
-    ffd_expect_all(lattice->deformed, lattice->count, 3 * sizeof *lattice->deformed);
+    lattice->rest = ffd_alloc_whole(lattice->count, 3 * sizeof *lattice->rest);
+    lattice->deformed = ffd_alloc_whole(lattice->count, 3 * sizeof *lattice->deformed);
     return lattice->rest && lattice->deformed ? FFD_OK : ffd_fail_memory(error);
 }
 

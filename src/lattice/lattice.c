@@ -171,10 +171,8 @@ ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error)
         status = make_diagonal(lattice, error);
     if (status)
         return status;
-    if (!lattice->difference) {
-        lattice->difference = ffd_alloc(lattice->count, 3 * sizeof *lattice->difference);
-        ffd_expect_all(lattice->difference, lattice->count, 3 * sizeof *lattice->difference);
-    }
+    if (!lattice->difference)
+        lattice->difference = ffd_alloc_whole(lattice->count, 3 * sizeof *lattice->difference);
     if (!lattice->moved)
         lattice->moved = ffd_alloc(lattice->count, sizeof *lattice->moved);
     if (!lattice->difference || !lattice->moved)

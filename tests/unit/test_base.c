@@ -33,6 +33,29 @@ static void test_sizes(void **state)
     (void)state;
 }
 
+/* Around the size from which blocks have large pages: each has all its bytes, and grows as any other. */
+static void test_whole(void **state)
+{
+    static const size_t sizes[] = {0, 1, ((size_t)4 << 20) - 1, (size_t)4 << 20, ((size_t)6 << 20) + 1};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        unsigned char *block = ffd_alloc_whole(sizes[i], 1);
+        assert_non_null(block);
+        memset(block, (int)i + 1, sizes[i]);
+        block = ffd_realloc(block, sizes[i] + 4096, 1);
+        assert_non_null(block);
+        for (size_t at = 0; at < sizes[i]; at++)
+            if (block[at] != i + 1)
+                fail_msg("byte %zu of %zu", at, sizes[i]);
+        ffd_free(block);
+        ffd_alloc_fail_after(0);
+        assert_null(ffd_alloc_whole(sizes[i], 1));
+        ffd_alloc_fail_after(-1);
+    }
+    assert_null(ffd_alloc_whole(SIZE_MAX / 2, 4));
+    assert_null(ffd_alloc_whole(SIZE_MAX, 1));
+    (void)state;
+}
+
 static void test_slots(void **state)
 {
     static const size_t masks[][2] = {{0, 15}, {8, 15}, {9, 31}, {16, 31}, {1000, 2047}};
@@ -294,17 +317,12 @@ static void test_tiles_in_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_slots),
-        cmocka_unit_test(test_grow),
-        cmocka_unit_test(test_buffer),
-        cmocka_unit_test(test_words),
-        cmocka_unit_test(test_paths),
-        cmocka_unit_test(test_json_text),
-        cmocka_unit_test(test_messages),
-        cmocka_unit_test(test_json_text_is_utf8),
-        cmocka_unit_test(test_exit_codes),
-        cmocka_unit_test(test_tiles),
+        cmocka_unit_test(test_sizes),          cmocka_unit_test(test_whole),
+        cmocka_unit_test(test_slots),          cmocka_unit_test(test_grow),
+        cmocka_unit_test(test_buffer),         cmocka_unit_test(test_words),
+        cmocka_unit_test(test_paths),          cmocka_unit_test(test_json_text),
+        cmocka_unit_test(test_messages),       cmocka_unit_test(test_json_text_is_utf8),
+        cmocka_unit_test(test_exit_codes),     cmocka_unit_test(test_tiles),
         cmocka_unit_test(test_tiles_in_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -83,11 +83,11 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
         const ffd_status status = ffd_room_take(&d->base.room, count, 3 * sizeof *stream->result, error);
         if (status)
             return status;
-        stream->result = d->morph_name ? ffd_alloc_zero(count, 3 * sizeof *stream->result)
-                                       : ffd_alloc(count, 3 * sizeof *stream->result);
+        stream->result = ffd_alloc_whole(count, 3 * sizeof *stream->result);
         if (!stream->result)
             return ffd_fail_memory(error);
-        ffd_expect_all(stream->result, count, 3 * sizeof *stream->result);
+        if (d->morph_name)
+            memset(stream->result, 0, count * 3 * sizeof *stream->result);
     }
     ffd_free(stream->is_there); /* of an earlier deformation */
     stream->is_there = NULL;

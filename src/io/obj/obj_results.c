@@ -92,10 +92,9 @@ static ffd_status begin_normals(obj_document *d, ffd_error *error)
         return FFD_OK;
     }
     if (!d->new_directions)
-        d->new_directions = ffd_alloc(count, 3 * sizeof *d->new_directions);
+        d->new_directions = ffd_alloc_whole(count, 3 * sizeof *d->new_directions);
     if (!d->new_directions)
         return ffd_fail_memory(error);
-    ffd_expect_all(d->new_directions, count, 3 * sizeof *d->new_directions);
     ffd_parallel_tiles(count, TILE, d->threads, copy_normals, d);
     return FFD_OK;
 }
