@@ -7,10 +7,10 @@
 #include <stdatomic.h>
 
 /* Bytes of a piece: a multiple of 3, so that pieces of base64 join. */
-#define PIECE ((size_t)3 << 16)
+#define PIECE ((size_t)3 << 18)
 
 /* Pieces written until all files are given back, where what is appended may stand anywhere in them. */
-#define PIECES_HELD 32
+#define PIECES_HELD 8
 
 /* A piece until it is written. */
 typedef struct content_piece {
