@@ -84,25 +84,32 @@ def attributes(bench):
 
 
 def threads(bench):
-    """What a second thread brings to four times as many vertices, and how fast a plain copy is; the box also without a
-    file to write, which has one writer at a time."""
+    """What a second thread brings to four times as many vertices, and how fast a plain copy is; and without a file to
+    write, which has one writer at a time, beside what the machine has for two processes that share nothing."""
     side = 2 * bench.side
     source = bench.mesh("four.glb", meshes.write_glb, side)
     bench.table.title(f"Threads (GLB, {vertices(side)})")
 
-    def measure(name, copy, *options, **target):
-        commands = [bench.deform(source, bench.lattices[name], *options, threads=count, **target) for count in (1, 2)]
-        return [[side * side / 1e6 / seconds for seconds in sample.seconds]
-                for sample in programs.in_turns([*commands, *copy], bench.runs)]
+    def measure(*commands):
+        return [[command.at_once * side * side / 1e6 / seconds for seconds in sample.seconds]
+                for command, sample in zip(commands, programs.in_turns(commands, bench.runs))]
 
     def add(name, one, two):
-        bench.table.add(f"{name}: 2 threads", two, "M/s", bench.table.add(f"{name}: 1 thread", one, "M/s"), ">= 1.8")
+        row = bench.table.add(f"{name}: 1 thread", one, "M/s")
+        bench.table.add(f"{name}: 2 threads", two, "M/s", row, ">= 1.8")
+        return row
 
-    for name in bench.lattices:
-        one, two, copied = measure(name, [bench.copy(source)])
+    for name, lattice in bench.lattices.items():
+        one, two, copied = measure(*(bench.deform(source, lattice, threads=count) for count in (1, 2)),
+                                   bench.copy(source))
         bench.table.add(f"{name}: dd bs=64M", copied, "M/s")
         add(name, one, two)
-    add("box, to /dev/null", *measure("box", [], "--output-format", "glb", target="-"))
+    for name, lattice in bench.lattices.items():
+        single, double = (bench.deform(source, lattice, "--output-format", "glb", target="-", threads=count)
+                          for count in (1, 2))
+        one, two, apart = measure(single, double, single._replace(at_once=2))
+        row = add(f"{name}, to /dev/null", one, two)
+        bench.table.add(f"{name}, to /dev/null: 2 processes at once", apart, "M/s", row)
 
 
 def inversion(bench):

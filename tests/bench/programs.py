@@ -10,6 +10,7 @@ import typing
 class Command(typing.NamedTuple):
     words: list
     output: str = None
+    at_once: int = 1  # so many processes, side by side
 
 
 class Samples(typing.NamedTuple):
@@ -27,15 +28,21 @@ def measure(command):
     which depends on the file system."""
     remove(command.output)
     start = time.perf_counter()
-    process = subprocess.Popen(command.words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    processes = [subprocess.Popen(command.words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                 for _ in range(command.at_once)]
+    megabytes = max(end(process) for process in processes)
+    return time.perf_counter() - start, megabytes
+
+
+def end(process):
+    """Waits for the process; its peak megabytes."""
     with process.stderr:
         errors = process.stderr.read()
     _, status, usage = os.wait4(process.pid, 0)
-    seconds = time.perf_counter() - start
     process.returncode = os.waitstatus_to_exitcode(status)
     if process.returncode != 0:
-        sys.exit(f"exit {process.returncode}: {' '.join(command.words)}\n{errors.decode(errors='replace')}")
-    return seconds, usage.ru_maxrss * 1024 / 1e6
+        sys.exit(f"exit {process.returncode}: {' '.join(process.args)}\n{errors.decode(errors='replace')}")
+    return usage.ru_maxrss * 1024 / 1e6
 
 
 def in_turns(commands, runs):
