@@ -19,6 +19,8 @@ DECODED = {DRACO, QUANTIZED, *MESHOPT}
 
 SIZES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
+# Bytes that are compared at once.
+BLOCK = 4096
 
 
 class Number(str):
@@ -96,7 +98,7 @@ def draco_accessors(asset):
 
 
 def element_ranges(asset, index):
-    """(buffer, start, end) of every element of an accessor that has plain bytes, its sparse parts too."""
+    """(buffer, start, end) of what the elements of an accessor with plain bytes take, its sparse parts too."""
     accessor = asset["accessors"][index]
     size = SIZES[accessor["componentType"]] * WIDTHS[accessor["type"]]
     if "bufferView" in accessor:
@@ -104,8 +106,11 @@ def element_ranges(asset, index):
         if any(name in view.get("extensions", {}) for name in MESHOPT):
             return
         start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        for i in range(accessor["count"]):
-            at = start + i * view.get("byteStride", size)
+        stride, count = view.get("byteStride", size), accessor["count"]
+        if stride == size:  # nothing between them: one range
+            yield view["buffer"], start, start + count * size
+            return
+        for at in range(start, start + count * stride, stride):
             yield view["buffer"], at, at + size
 
 
@@ -221,7 +226,8 @@ class Change:
             for buffer, start, end in element_ranges(self.before.plain, index):
                 if buffer == number:
                     may[start:end] = (b"\1" if index in self.deformed else b"\0") * (end - start)
-        wrong = [i for i in range(len(old)) if old[i] != new[i] and not may[i]]
+        wrong = [i for first in range(0, len(old), BLOCK) if old[first:first + BLOCK] != new[first:first + BLOCK]
+                 for i in range(first, min(first + BLOCK, len(old))) if old[i] != new[i] and not may[i]]
         if wrong:
             self.note(f"buffer {number} byte {wrong[0]}", old[wrong[0]], f"{new[wrong[0]]} ({len(wrong)} such bytes)")
 

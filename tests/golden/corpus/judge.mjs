@@ -112,12 +112,13 @@ function judgePrimitive(context, part, after) {
     const { volume, tally, groups } = context;
     const { primitive: before, name } = part;
     const at = placementsOf(part.node, before, open.space);
+    const keys = open.keys[name] ??= []; // as text, once for all lattices
     for (let v = 0; v < before.POSITION.values.length; v++) {
         const p = before.POSITION.values[v];
         const placement = at(v);
         const field = fieldAt(volume, placement, p);
         const found = after.POSITION.values[v];
-        const key = `${placement.key} at ${p}`;
+        const key = keys[v] ??= `${placement.key} at ${p}`;
         groups.add(`${before.POSITION.step} ${key}`, found, `${name} vertex ${v}`);
         if (context.across && !before.POSITION.step)
             across.add(`float ${key}`, found, `${open.file} ${name} vertex ${v}`);
@@ -186,7 +187,7 @@ async function openModel({ kind, file, space, folder, name }) {
     const lattices = latticesOf(boundsOf(kind === 'gltf' ? placedPoints(model, space) : model.positions));
     for (const [lattice, { volume, moves }] of Object.entries(lattices))
         await writeFile(path.join(folder, `${lattice}.json`), JSON.stringify(volume.file(moves)));
-    open = { kind, file: name, space, model, lattices };
+    open = { kind, file: name, space, model, lattices, keys: {} };
     return { lattices: Object.keys(lattices) };
 }
 

@@ -52,6 +52,9 @@ export class Tally {
     }
 }
 
+// 0 and -0 are equal positions.
+const equal = (a, b) => a === b || (Number.isNaN(a) && Number.isNaN(b));
+
 // Equal inputs have equal outputs: remembers the first output of every input.
 export class Groups {
     constructor() {
@@ -62,11 +65,10 @@ export class Groups {
     }
 
     add(key, output, where) {
-        const text = output.map((x) => x + 0).join(' '); // 0 and -0 are equal positions
         const first = this.outputs.get(key);
-        if (!first) return void this.outputs.set(key, { text, where });
+        if (!first) return void this.outputs.set(key, { output, where });
         this.compared++;
-        if (first.text !== text && this.failed++ < SHOWN)
-            this.failures.push(`${key}: ${first.where} has ${first.text}, ${where} has ${text}`);
+        if (!output.every((x, i) => equal(x, first.output[i])) && this.failed++ < SHOWN)
+            this.failures.push(`${key}: ${first.where} has ${first.output}, ${where} has ${output}`);
     }
 }
