@@ -7,6 +7,9 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+#if FFD_LANES > 1
+#include <immintrin.h>
+#endif
 
 #if FFD_LANES == 1
 typedef double quad_part;
@@ -68,10 +71,17 @@ static ALWAYS_INLINE quad quad_magnitude(const quad *a)
     return magnitude;
 }
 
+/* a > b ? a : b, a < b ? a : b. The processor's own steps where there are any: a compiler may take no other
+   choice for them, for they tell 0 from -0 and numbers from what is none by the order of a and b. */
 #if FFD_LANES == 1
-#define QUAD_CHOOSE(is_a, a, b) ((is_a) ? (a) : (b))
+#define QUAD_LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define QUAD_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#elif FFD_LANES == 2
+#define QUAD_LARGER(a, b) _mm_max_pd(a, b)
+#define QUAD_LESSER(a, b) _mm_min_pd(a, b)
 #else
-#define QUAD_CHOOSE(is_a, a, b) ((quad_part)(((is_a) & (quad_mask)(a)) | (~(is_a) & (quad_mask)(b))))
+#define QUAD_LARGER(a, b) _mm256_max_pd(a, b)
+#define QUAD_LESSER(a, b) _mm256_min_pd(a, b)
 #endif
 
 /* a > b ? a : b, one by one. */
@@ -79,7 +89,7 @@ static ALWAYS_INLINE quad quad_larger(const quad *a, const quad *b)
 {
     quad larger;
     for (int p = 0; p < QUAD_PARTS; p++)
-        larger.part[p] = QUAD_CHOOSE(a->part[p] > b->part[p], a->part[p], b->part[p]);
+        larger.part[p] = QUAD_LARGER(a->part[p], b->part[p]);
     return larger;
 }
 
@@ -88,7 +98,7 @@ static ALWAYS_INLINE quad quad_lesser(const quad *a, const quad *b)
 {
     quad lesser;
     for (int p = 0; p < QUAD_PARTS; p++)
-        lesser.part[p] = QUAD_CHOOSE(a->part[p] < b->part[p], a->part[p], b->part[p]);
+        lesser.part[p] = QUAD_LESSER(a->part[p], b->part[p]);
     return lesser;
 }
 
