@@ -185,7 +185,7 @@ if [ -n "$all" ]; then
     # gcc needs minutes for this one.
     if build asan clang clang++ -Dbuildtype=debug -Doptimization=1 -Db_sanitize=address,undefined \
         -Db_lundef=false; then
-        suites asan asan --no-suite rules --no-suite slow --timeout-multiplier 6
+        suites asan asan --no-suite rules --no-suite bench --no-suite slow --timeout-multiplier 6
     fi
     drop asan
 
