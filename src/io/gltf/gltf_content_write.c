@@ -6,11 +6,15 @@
 #include "io/gltf/gltf_saver.h"
 #include <stdatomic.h>
 
-/* Bytes of a piece: a multiple of 3, so that pieces of base64 join. */
-#define PIECE ((size_t)3 << 18)
+/* Bytes of a piece, multiples of 3, so that pieces of base64 join: many, for each changes hands; fewer where
+   so many threads have one each that all of them would take more than MOST_HELD. */
+#define MOST_PIECE ((size_t)3 << 18)
+#define LEAST_PIECE ((size_t)3 << 16)
+#define MOST_HELD ((size_t)3 << 22)
 
-/* Pieces written until all files are given back, where what is appended may stand anywhere in them. */
-#define PIECES_HELD 8
+/* Bytes written, a multiple of a piece, until all files are given back, where what is appended may stand
+   anywhere in them. */
+#define MOST_WRITTEN ((size_t)3 << 21)
 
 /* A piece until it is written. */
 typedef struct content_piece {
@@ -24,6 +28,7 @@ typedef struct content_writer {
     const gltf_saver *saver;
     size_t buffer;
     bool base64;
+    size_t piece_size;
     content_piece *pieces; /* one a slot */
     ffd_status status;
     ffd_error *error;
@@ -38,16 +43,16 @@ static const unsigned char *find_content(const content_writer *w, size_t offset,
     if (ffd_gltf_content_at(w->saver, w->buffer, offset, &bytes) >= size)
         return bytes;
     if (!piece->block)
-        piece->block = ffd_alloc(PIECE, 1);
+        piece->block = ffd_alloc(w->piece_size, 1);
     if (piece->block)
         ffd_gltf_content_read(w->saver, w->buffer, offset, size, piece->block);
     return piece->block;
 }
 
-static void encode(content_piece *piece)
+static void encode(const content_writer *w, content_piece *piece)
 {
     if (!piece->text)
-        piece->text = ffd_alloc(ffd_base64_length(PIECE), 1);
+        piece->text = ffd_alloc(ffd_base64_length(w->piece_size), 1);
     if (piece->text)
         ffd_base64_encode(piece->bytes, piece->size, piece->text);
     piece->bytes = piece->text;
@@ -64,7 +69,7 @@ static void make_piece(void *context, size_t tile, size_t first, size_t last, in
     piece.size = last - first;
     piece.bytes = find_content(w, first, piece.size, &piece);
     if (piece.bytes && w->base64)
-        encode(&piece);
+        encode(w, &piece);
     else if (piece.bytes)
         ffd_file_bring_in(piece.bytes, piece.size);
     w->pieces[slot] = piece;
@@ -82,8 +87,16 @@ static void write_piece(void *context, size_t tile, size_t first, size_t last, i
     if (w->status)
         atomic_store(&w->is_over, true);
     ffd_gltf_forget_bytes(w->saver->document, buffer->old, first, last - first);
-    if (buffer->append_count > 0 && tile % PIECES_HELD == PIECES_HELD - 1)
+    if (buffer->append_count > 0 && (tile + 1) * w->piece_size % MOST_WRITTEN == 0)
         ffd_gltf_forget(w->saver->document);
+}
+
+static size_t piece_size(size_t slots)
+{
+    size_t size = MOST_PIECE;
+    while (size > LEAST_PIECE && slots * size > MOST_HELD)
+        size /= 2;
+    return size;
 }
 
 ffd_status ffd_gltf_write_content(const gltf_saver *saver, size_t buffer, bool base64, ffd_error *error)
@@ -92,12 +105,13 @@ ffd_status ffd_gltf_write_content(const gltf_saver *saver, size_t buffer, bool b
     content_writer w = {.saver = saver,
                         .buffer = buffer,
                         .base64 = base64,
+                        .piece_size = piece_size((size_t)slots),
                         .pieces = ffd_alloc_zero((size_t)slots, sizeof *w.pieces),
                         .error = error};
     atomic_init(&w.is_over, false);
     ffd_gltf_forget(saver->document);
-    if (!w.pieces || !ffd_parallel_in_order(ffd_gltf_content_size(saver, buffer), PIECE, threads, make_piece,
-                                            write_piece, &w))
+    if (!w.pieces || !ffd_parallel_in_order(ffd_gltf_content_size(saver, buffer), w.piece_size, threads,
+                                            make_piece, write_piece, &w))
         w.status = ffd_fail_memory(error);
     for (int i = 0; w.pieces && i < slots; i++) {
         ffd_free(w.pieces[i].block);
