@@ -1,6 +1,6 @@
 /* compare_json.c - a comparison for programs. */
 #include "base/fail.h"
-#include "base/json_text.h"
+#include "json/json_text.h"
 #include <ffd/job.h>
 
 static void write_difference(json_text *json, const char *key, const ffd_difference *difference)

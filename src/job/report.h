@@ -2,7 +2,7 @@
 #ifndef FFD_JOB_REPORT_H
 #define FFD_JOB_REPORT_H
 
-#include "base/json_text.h"
+#include "json/json_text.h"
 #include <ffd/job.h>
 
 /* What a report says of a job. */

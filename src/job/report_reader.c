@@ -1,5 +1,5 @@
 #include "job/report_reader.h"
-#include "io/gltf/json_span.h"
+#include "json/json_span.h"
 #include <stdio.h>
 #include <string.h>
 

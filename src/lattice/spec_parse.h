@@ -3,7 +3,7 @@
 #define FFD_LATTICE_SPEC_PARSE_H
 
 #include "lattice/spec.h"
-#include "lattice/spec_json.h"
+#include "json/json_reader.h"
 
 /* spec_parse.c: 3*count numbers, one array of three a control point, into a new block. */
 ffd_status ffd_spec_parse_points(json_place *place, const json_t *value, size_t count, double **points);

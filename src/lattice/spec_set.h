@@ -3,7 +3,7 @@
 #define FFD_LATTICE_SPEC_SET_H
 
 #include "lattice/spec.h"
-#include "lattice/spec_json.h"
+#include "json/json_reader.h"
 
 /* Puts values in the place of every {"$": "NAME"} within moves, which stands at place and is changed. Those
    that are used are marked. Errors: FFD_E_INVALID for one that has no value. */

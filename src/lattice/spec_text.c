@@ -1,5 +1,5 @@
-#include "base/json_text.h"
 #include "lattice/spec.h"
+#include "json/json_text.h"
 
 static void write_counts(json_text *json, const char *key, const size_t values[], size_t count)
 {

@@ -8,12 +8,12 @@
 
 #include "base/buffer.h"
 #include "base/file.h"
-#include "base/json_text.h"
 #include "base/path_list.h"
 #include "base/vec.h"
 #include "mesh/model.h"
 #include "mesh/room.h"
 #include "mesh/selector.h"
+#include "json/json_text.h"
 #include <ffd/job.h>
 #include <stdbool.h>
 #include <stddef.h>

@@ -7,12 +7,12 @@
 
 #include "base/buffer.h"
 #include "base/fail.h"
-#include "base/json_text.h"
 #include "base/memory.h"
 #include "base/path.h"
 #include "base/slots.h"
 #include "base/thread.h"
 #include "base/words.h"
+#include "json/json_text.h"
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "base/memory.h"
-#include "io/gltf/json_edit.h"
-#include "io/gltf/json_span.h"
+#include "json/json_edit.h"
+#include "json/json_span.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

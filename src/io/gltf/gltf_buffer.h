@@ -3,7 +3,7 @@
 #define FFD_IO_GLTF_GLTF_BUFFER_H
 
 #include "base/file.h"
-#include "io/gltf/json_span.h"
+#include "json/json_span.h"
 
 typedef enum gltf_buffer_kind {
     BUFFER_EMPTY, /* no bytes in this file: stands in for compressed data */

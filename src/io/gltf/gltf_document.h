@@ -5,8 +5,8 @@
 #include "io/gltf/glb.h"
 #include "io/gltf/gltf_buffer.h"
 #include "io/gltf/gltf_model.h"
-#include "io/gltf/json_span.h"
 #include "mesh/mesh.h"
+#include "json/json_span.h"
 
 #define GLTF_NONE SIZE_MAX
 

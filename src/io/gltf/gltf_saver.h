@@ -3,7 +3,7 @@
 #define FFD_IO_GLTF_GLTF_SAVER_H
 
 #include "io/gltf/gltf_plan.h"
-#include "io/gltf/json_edit.h"
+#include "json/json_edit.h"
 
 /* An accessor whose content changes where it stands. */
 typedef struct gltf_overwrite {

@@ -3,8 +3,8 @@
 #ifndef FFD_IO_GLTF_GLTF_SCHEMA_H
 #define FFD_IO_GLTF_GLTF_SCHEMA_H
 
-#include "io/gltf/json_edit.h"
-#include "io/gltf/json_span.h"
+#include "json/json_edit.h"
+#include "json/json_span.h"
 
 /* Checks them. An integer that is not written as plain digits ("12.0" is allowed) is added to plain,
    rewritten. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version of glTF). */

@@ -3,9 +3,9 @@
 #ifndef FFD_IO_WRITE_GLB_WRITER_H
 #define FFD_IO_WRITE_GLB_WRITER_H
 
-#include "base/json_text.h"
 #include "io/write/glb_plan.h"
 #include "io/write/sink.h"
+#include "json/json_text.h"
 
 /* Bytes of base64 made at once: a multiple of 3, so that pieces join. */
 #define GLB_BLOCK 3072

@@ -1,7 +1,7 @@
 /* json_text.h - writes JSON for people and programs: two spaces of indent, inline arrays, shortest numbers.
    (jansson reads JSON for us; its writer prints 0.1 as 0.10000000000000001.) */
-#ifndef FFD_BASE_JSON_TEXT_H
-#define FFD_BASE_JSON_TEXT_H
+#ifndef FFD_JSON_JSON_TEXT_H
+#define FFD_JSON_JSON_TEXT_H
 
 #include "base/buffer.h"
 #include <stdbool.h>

@@ -1,4 +1,4 @@
-#include "io/gltf/json_edit.h"
+#include "json/json_edit.h"
 #include "base/memory.h"
 #include <stdarg.h>
 #include <stdio.h>

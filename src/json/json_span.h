@@ -1,8 +1,8 @@
 /* json_span.h - where every value of a JSON text stands, so that single values can be replaced and all other
    bytes kept. Strict RFC 8259; a byte order mark before the text is skipped; a key twice in one object is an
    error. */
-#ifndef FFD_IO_GLTF_JSON_SPAN_H
-#define FFD_IO_GLTF_JSON_SPAN_H
+#ifndef FFD_JSON_JSON_SPAN_H
+#define FFD_JSON_JSON_SPAN_H
 
 #include "base/fail.h"
 #include <stdbool.h>

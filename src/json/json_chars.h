@@ -1,6 +1,6 @@
 /* json_chars.h - the characters inside a JSON string. */
-#ifndef FFD_IO_GLTF_JSON_CHARS_H
-#define FFD_IO_GLTF_JSON_CHARS_H
+#ifndef FFD_JSON_JSON_CHARS_H
+#define FFD_JSON_JSON_CHARS_H
 
 #include <stddef.h>
 #include <stdint.h>

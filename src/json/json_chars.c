@@ -1,4 +1,4 @@
-#include "io/gltf/json_chars.h"
+#include "json/json_chars.h"
 #include "base/bytes.h"
 
 static int hex_value(char c)

@@ -1,9 +1,9 @@
 /* json_edit.h - replacements of spans of a JSON text; everything between them stays as it is. */
-#ifndef FFD_IO_GLTF_JSON_EDIT_H
-#define FFD_IO_GLTF_JSON_EDIT_H
+#ifndef FFD_JSON_JSON_EDIT_H
+#define FFD_JSON_JSON_EDIT_H
 
 #include "base/buffer.h"
-#include "io/gltf/json_span.h"
+#include "json/json_span.h"
 #include <stdint.h>
 
 #define EDIT_NO_BUFFER (-1)

@@ -1,6 +1,6 @@
-/* spec_json.h - reading parsed JSON with errors that say where (a JSON pointer) and what (the value). */
-#ifndef FFD_LATTICE_SPEC_JSON_H
-#define FFD_LATTICE_SPEC_JSON_H
+/* json_reader.h - reading parsed JSON with errors that say where (a JSON pointer) and what (the value). */
+#ifndef FFD_JSON_JSON_READER_H
+#define FFD_JSON_JSON_READER_H
 
 #include "base/fail.h"
 #include <jansson.h>

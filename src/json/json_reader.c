@@ -1,4 +1,4 @@
-#include "lattice/spec_json.h"
+#include "json/json_reader.h"
 #include "base/number.h"
 #include "base/words.h"
 #include <math.h>

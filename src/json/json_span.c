@@ -1,7 +1,7 @@
-#include "io/gltf/json_span.h"
+#include "json/json_span.h"
 #include "base/memory.h"
 #include "base/number.h"
-#include "io/gltf/json_chars.h"
+#include "json/json_chars.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

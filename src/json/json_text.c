@@ -1,4 +1,4 @@
-#include "base/json_text.h"
+#include "json/json_text.h"
 #include <assert.h>
 #include <inttypes.h>
 #include <math.h>
