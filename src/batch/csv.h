@@ -2,7 +2,7 @@
 #ifndef FFD_BATCH_CSV_H
 #define FFD_BATCH_CSV_H
 
-#include "base/buffer.h"
+#include "base/text/buffer.h"
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -1,7 +1,7 @@
 #include "batch/fingerprint.h"
-#include "base/file.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/file.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 #include "job/source.h"
 #include <ffd/version.h>

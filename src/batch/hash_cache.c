@@ -1,6 +1,6 @@
 #include "batch/hash_cache.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 #include "job/source.h"
 

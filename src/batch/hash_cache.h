@@ -3,9 +3,9 @@
 #ifndef FFD_BATCH_HASH_CACHE_H
 #define FFD_BATCH_HASH_CACHE_H
 
-#include "base/file.h"
-#include "base/hash.h"
-#include "base/path_list.h"
+#include "base/file/file.h"
+#include "base/file/path_list.h"
+#include "base/memory/hash.h"
 #include <ffd/job.h>
 
 /* Files that are remembered: those looked at last. */

@@ -1,8 +1,8 @@
 #include "batch/job_source.h"
-#include "base/glob.h"
-#include "base/interrupt.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/glob.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/system/interrupt.h"
 #include "batch/csv.h"
 #include "batch/lines.h"
 #include <string.h>

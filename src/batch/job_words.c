@@ -1,8 +1,8 @@
 #include "batch/job_words.h"
-#include "base/memory.h"
-#include "base/number.h"
-#include "base/path.h"
-#include "base/words.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
+#include "base/text/words.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #ifndef FFD_BATCH_JOB_WORDS_H
 #define FFD_BATCH_JOB_WORDS_H
 
-#include "base/buffer.h"
 #include "base/fail.h"
+#include "base/text/buffer.h"
 #include <jansson.h>
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 #include "batch/journal.h"
-#include "base/file.h"
+#include "base/file/file.h"
+#include "base/file/path.h"
 #include "base/little_endian.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/memory/memory.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <limits.h>

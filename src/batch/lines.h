@@ -2,8 +2,8 @@
 #ifndef FFD_BATCH_LINES_H
 #define FFD_BATCH_LINES_H
 
-#include "base/buffer.h"
-#include "base/stream.h"
+#include "base/file/stream.h"
+#include "base/text/buffer.h"
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -1,8 +1,8 @@
 #include "batch/pool.h"
-#include "base/clock.h"
-#include "base/memory.h"
-#include "base/temporary.h"
-#include "base/thread.h"
+#include "base/file/temporary.h"
+#include "base/memory/memory.h"
+#include "base/system/clock.h"
+#include "base/system/thread.h"
 #include <stdio.h>
 #include <string.h>
 

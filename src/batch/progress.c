@@ -1,6 +1,6 @@
 #include "batch/progress.h"
-#include "base/clock.h"
-#include "base/terminal.h"
+#include "base/system/clock.h"
+#include "base/system/terminal.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 #ifndef FFD_BATCH_WIRE_H
 #define FFD_BATCH_WIRE_H
 
-#include "base/hash.h"
-#include "base/process.h"
+#include "base/memory/hash.h"
+#include "base/system/process.h"
 #include <stdint.h>
 
 /* By this name a worker knows that it is one. */

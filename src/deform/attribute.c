@@ -1,6 +1,6 @@
 /* attribute.c - normals and tangents under the deformation gradient F = I + gradient (maths.md 8). */
 #include "deform/attribute.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <float.h>
 #include <string.h>
 

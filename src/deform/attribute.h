@@ -3,7 +3,7 @@
 #ifndef FFD_DEFORM_ATTRIBUTE_H
 #define FFD_DEFORM_ATTRIBUTE_H
 
-#include "base/isa.h"
+#include "base/vector/isa.h"
 #include "deform/attribute_kernel.h"
 #include <ffd/deform.h>
 

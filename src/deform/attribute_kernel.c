@@ -2,7 +2,7 @@
    FFD_TANGENT_KERNEL are the functions' names, FFD_LANES the number of directions in hand at a time.
    Operation by operation it is attribute.c. */
 #include "deform/attribute_kernel.h"
-#include "base/lanes.h"
+#include "base/vector/lanes.h"
 #include <float.h>
 
 /* F of the directions' points, and which of these do not move at all. */

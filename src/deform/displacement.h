@@ -3,7 +3,7 @@
 #ifndef FFD_DEFORM_DISPLACEMENT_H
 #define FFD_DEFORM_DISPLACEMENT_H
 
-#include "base/isa.h"
+#include "base/vector/isa.h"
 #include "deform/displacement_cell.h"
 #include "lattice/lattice.h"
 #include <ffd/deform.h>

@@ -1,5 +1,5 @@
 #include "deform/displacement_cell.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <string.h>
 
 bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3])

@@ -1,5 +1,5 @@
 #include "deform/extension.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "deform/displacement.h"
 #include <string.h>
 

@@ -16,7 +16,7 @@
 #include <stdbool.h>
 typedef double lanes;
 #else
-#include "base/lanes.h"
+#include "base/vector/lanes.h"
 #endif
 
 /* The d+1 functions of a span and their derivatives by the knots' parameter; in u's span, in place of these,

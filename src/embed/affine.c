@@ -1,5 +1,5 @@
 /* affine.c - lattices whose rest map is affine: u,v,w by a 3x3 matrix. */
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/face.h"
 #include "embed/locator.h"
 #include <math.h>

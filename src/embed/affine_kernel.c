@@ -1,7 +1,7 @@
 /* affine_kernel.c - compiled once for each instruction set with lanes: FFD_AFFINE_KERNEL is the function's
    name, FFD_LANES the number of points in hand at a time. Operation by operation it is affine.c. */
 #include "embed/affine_kernel.h"
-#include "base/lanes.h"
+#include "base/vector/lanes.h"
 
 /* Points and what is found of them, a lane each. */
 typedef struct affine_lanes {

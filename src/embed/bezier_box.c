@@ -1,5 +1,5 @@
 #include "embed/bezier_box.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <float.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 #include "embed/boundary.h"
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "embed/boundary_faces.h"
 #include <float.h>
 #include <string.h>

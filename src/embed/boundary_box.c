@@ -1,5 +1,5 @@
 /* boundary_box.c - the border of a box whose map is affine: its coordinates, clipped. */
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/boundary_faces.h"
 #include "embed/face.h"
 #include <float.h>

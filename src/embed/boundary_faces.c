@@ -1,7 +1,7 @@
 /* boundary_faces.c - the faces of the domain, cut into patches, and a tree over them that halves the
    rectangle of a face's cells: neighbours on the surface stay together, and nothing is sorted. */
 #include "embed/boundary_faces.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "spline/basis.h"
 #include <float.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 
    Distances are compared as |C - x| - |x|, which keeps its digits where x is far: it is
    (C.C - 2 C.x) / (|C - x| + |x|). */
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "embed/boundary_faces.h"
 #include <float.h>
 #include <math.h>

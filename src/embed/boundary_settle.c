@@ -1,6 +1,6 @@
 /* boundary_settle.c - the end of a search: stationary to rounding, also across the lines where patches meet,
    and how the point found follows x. */
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/boundary_faces.h"
 #include <float.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 #include "embed/box_tree.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

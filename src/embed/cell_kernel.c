@@ -1,6 +1,6 @@
 /* cell_kernel.c - compiled once for each instruction set: FFD_CELL_KERNEL is the function's name. */
 #include "embed/cell_kernel.h"
-#include "base/quad.h"
+#include "base/vector/quad.h"
 
 enum { N = BEZIER_COMPONENTS };
 

@@ -1,4 +1,4 @@
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/cells.h"
 
 /* Flat cells */

@@ -1,5 +1,5 @@
 #include "embed/cells.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "lattice/border.h"
 #include "spline/basis.h"
 #include <string.h>

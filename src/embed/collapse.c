@@ -1,5 +1,5 @@
 #include "embed/collapse.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "embed/cells.h"
 #include "lattice/border.h"
 #include "spline/basis.h"

@@ -1,8 +1,8 @@
 /* contraction_kernel.c - compiled once for each instruction set: FFD_CONTRACTION_KERNEL is the name of its
    table. How far Y J_F is from I over a box, and where to cut the box to bring it nearer. */
 #include "embed/contraction_kernel.h"
-#include "base/quad.h"
-#include "base/vec.h"
+#include "base/vector/quad.h"
+#include "base/vector/vec.h"
 #include <float.h>
 
 enum { N = BEZIER_COMPONENTS };

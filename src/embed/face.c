@@ -1,5 +1,5 @@
 #include "embed/face.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <string.h>
 
 /* Coordinates this near an end may rest there. */

@@ -1,7 +1,7 @@
 /* hard.c - leaves without a contraction bound, near folds and collapses: halved for one point (maths.md 6.5).
  */
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "embed/face.h"
 #include "embed/search.h"
 #include <string.h>

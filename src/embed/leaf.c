@@ -1,5 +1,5 @@
 /* leaf.c - the one root of a region, by its contraction (maths.md 6.4). */
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/face.h"
 #include "embed/search.h"
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "embed/locator.h"
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "embed/affine_kernel.h"
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #define FFD_EMBED_LOCATOR_H
 
 #include "base/fail.h"
-#include "base/isa.h"
+#include "base/vector/isa.h"
 #include "embed/box_tree.h"
 #include "lattice/lattice.h"
 #include <ffd/embedding.h>

@@ -1,5 +1,5 @@
 #include "embed/patch.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "embed/bezier_box.h"
 #include <string.h>
 

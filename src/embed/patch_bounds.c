@@ -1,5 +1,5 @@
 /* patch_bounds.c - an oriented box round a patch, and bounds of its derivatives along the box's axes. */
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/patch.h"
 #include <float.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* patch_project.c - a local minimum of the distance from x within a patch: Newton's method on |S - x|^2 / 2
    in the square [0,1]^2. */
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/patch.h"
 #include <float.h>
 #include <string.h>

@@ -3,7 +3,7 @@
    included: a lane that is done keeps its numbers while the others go on. Loops are unrolled as in
    deform/kernel.c. */
 #include "embed/region_kernel.h"
-#include "base/lanes.h"
+#include "base/vector/lanes.h"
 #include <float.h>
 
 /* As in leaf.c. */

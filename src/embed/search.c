@@ -1,7 +1,7 @@
 /* search.c - every u,v,w with C(u,v,w) = p: bricks, leaves, verdict (maths.md 6.4 to 6.7). */
 #include "embed/search.h"
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "embed/face.h"
 #include <string.h>
 

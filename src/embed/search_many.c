@@ -2,8 +2,8 @@
    there; their steps are then taken together, each in its own leaf. One that has several leaves waits in
    each, and is judged when all of them are through. Whatever is not settled so is searched for alone
    (search.c), and what is settled has the bits that it would get there. */
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "embed/packet.h"
 #include "embed/region_kernel.h"
 #include "spline/basis.h"

@@ -1,7 +1,7 @@
 #include <ffd/fold.h>
 
-#include "base/memory.h"
-#include "base/thread.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "fold/cell.h"
 #include <string.h>
 

@@ -1,5 +1,5 @@
 #include "fold/plan.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "spline/basis.h"
 
 ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_error *error)

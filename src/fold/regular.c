@@ -1,5 +1,5 @@
 #include "fold/regular.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "fold/bernstein.h"
 
 #define UNIT (0.5 * DBL_EPSILON)

@@ -1,5 +1,5 @@
 #include "fold/scratch.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "fold/bernstein.h"
 #include "fold/determinant.h"
 #include "fold/zeros.h"

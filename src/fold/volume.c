@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "embed/bezier_box.h"
 #include "fold/bernstein.h"
 #include "fold/determinant.h"

@@ -1,5 +1,5 @@
 #include "io/difference.h"
-#include "base/number.h"
+#include "base/text/number.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #include "io/formats.h"
-#include "base/path.h"
+#include "base/file/path.h"
 
 const mesh_format *ffd_format_table(ffd_format format)
 {

@@ -2,9 +2,9 @@
 #ifndef FFD_IO_SPLICE_H
 #define FFD_IO_SPLICE_H
 
-#include "base/buffer.h"
-#include "base/decimal.h"
-#include "base/file.h"
+#include "base/file/file.h"
+#include "base/text/buffer.h"
+#include "base/text/decimal.h"
 #include "io/text_scan.h"
 #include "mesh/mesh.h"
 

@@ -1,5 +1,5 @@
 #include "io/text_scan.h"
-#include "base/number.h"
+#include "base/text/number.h"
 #include <string.h>
 
 #define SHOWN_MAX 40

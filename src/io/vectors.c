@@ -1,5 +1,5 @@
 #include "io/vectors.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <string.h>
 
 void ffd_vectors_read(const double *vectors, size_t first, size_t count, double *xyz)

@@ -3,8 +3,8 @@
 #define FFD_JOB_CHAIN_H
 
 #include "base/fail.h"
-#include "base/file.h"
-#include "base/hash.h"
+#include "base/file/file.h"
+#include "base/memory/hash.h"
 #include "deform/displacement.h"
 #include "embed/boundary.h"
 #include "embed/box_tree.h"

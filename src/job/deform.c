@@ -1,5 +1,5 @@
-#include "base/clock.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/system/clock.h"
 #include "io/formats.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"

@@ -1,5 +1,5 @@
 #include "job/depfile.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "job/replace.h"
 #include <string.h>
 

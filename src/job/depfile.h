@@ -2,8 +2,8 @@
 #ifndef FFD_JOB_DEPFILE_H
 #define FFD_JOB_DEPFILE_H
 
-#include "base/buffer.h"
-#include "base/path_list.h"
+#include "base/file/path_list.h"
+#include "base/text/buffer.h"
 #include <ffd/job.h>
 
 /* Appends the rule "OUT: INPUT INPUT ..." to rules. Errors: FFD_E_IO, for a name with a line break, which

@@ -1,5 +1,5 @@
 #include "job/edge_list.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <string.h>
 
 #define DIGITS 8 /* bytes of a key */

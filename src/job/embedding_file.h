@@ -24,7 +24,7 @@
 #ifndef FFD_JOB_EMBEDDING_FILE_H
 #define FFD_JOB_EMBEDDING_FILE_H
 
-#include "base/hash.h"
+#include "base/memory/hash.h"
 #include "mesh/mesh.h"
 #include <ffd/embedding.h>
 

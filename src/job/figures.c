@@ -1,5 +1,5 @@
 #include "job/figures.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/openmesh/half_edges.h"
 #include "job/edge_list.h"
 #include "job/normal_groups.h"

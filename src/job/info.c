@@ -1,6 +1,6 @@
 #include "job/info.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "job/source.h"
 #include <math.h>
 

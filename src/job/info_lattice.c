@@ -1,4 +1,4 @@
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "job/info.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"

@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "job/pass.h"
 #include "job/source.h"
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "job/normal_groups.h"
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "io/openmesh/normals.h"
 #include "job/vertex_place.h"
 #include <string.h>

@@ -1,7 +1,7 @@
-#include "base/array_kernel.h"
-#include "base/memory.h"
-#include "base/thread.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
+#include "base/vector/array_kernel.h"
+#include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/pass_totals.h"
 #include <ffd/deform.h>

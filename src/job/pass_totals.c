@@ -1,6 +1,6 @@
 #include "job/pass_totals.h"
-#include "base/array_kernel.h"
-#include "base/vec.h"
+#include "base/vector/array_kernel.h"
+#include "base/vector/vec.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 #include "job/quality.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "mesh/polygon.h"
 
 static bool is_flipped(const uint32_t *corners, size_t count, const double *rest, const double *deformed,

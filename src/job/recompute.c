@@ -1,6 +1,6 @@
 #include "job/recompute.h"
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "deform/attribute.h"
 #include "job/normal_groups.h"
 #include "job/vertex_place.h"

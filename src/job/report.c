@@ -1,6 +1,6 @@
 #include "job/report.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "job/replace.h"
 #include "job/written.h"
 #include "mesh/mesh.h"

@@ -1,6 +1,6 @@
 /* report_merge.c - several reports to one, for jobs that ran in several places. */
-#include "base/file.h"
-#include "base/memory.h"
+#include "base/file/file.h"
+#include "base/memory/memory.h"
 #include "job/report_reader.h"
 #include <ffd/job.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 #include "job/selection.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 
 ffd_status ffd_selector_check(const char *text, ffd_error *error)
 {

@@ -1,6 +1,6 @@
 #include "job/share.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "embed/locator.h"
 #include "job/pass.h"
 #include "job/source.h"

@@ -3,7 +3,7 @@
 #ifndef FFD_JOB_SHARE_H
 #define FFD_JOB_SHARE_H
 
-#include "base/hash.h"
+#include "base/memory/hash.h"
 #include "job/chain.h"
 #include "mesh/mesh.h"
 

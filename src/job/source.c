@@ -1,6 +1,6 @@
 #include "job/source.h"
-#include "base/path.h"
-#include "base/vec.h"
+#include "base/file/path.h"
+#include "base/vector/vec.h"
 #include "io/formats.h"
 #include "job/info.h"
 #include <stdarg.h>

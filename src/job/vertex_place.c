@@ -1,5 +1,5 @@
 #include "job/vertex_place.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <string.h>
 
 void ffd_vertex_places_read(const mesh_document *document, size_t part, size_t first, size_t count,

@@ -2,7 +2,7 @@
 #ifndef FFD_JOB_VERTEX_PLACE_H
 #define FFD_JOB_VERTEX_PLACE_H
 
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "mesh/mesh.h"
 
 /* So many vertices at once. */

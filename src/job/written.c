@@ -1,5 +1,5 @@
 #include "job/written.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 
 ffd_status ffd_written_create(ffd_written **written, ffd_error *error)
 {

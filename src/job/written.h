@@ -2,7 +2,7 @@
 #ifndef FFD_JOB_WRITTEN_H
 #define FFD_JOB_WRITTEN_H
 
-#include "base/written_files.h"
+#include "base/file/written_files.h"
 #include <ffd/job.h>
 
 struct ffd_written {

@@ -1,5 +1,5 @@
 #include "json/json_edit.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>

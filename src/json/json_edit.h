@@ -2,7 +2,7 @@
 #ifndef FFD_JSON_JSON_EDIT_H
 #define FFD_JSON_JSON_EDIT_H
 
-#include "base/buffer.h"
+#include "base/text/buffer.h"
 #include "json/json_span.h"
 #include <stdint.h>
 

@@ -1,6 +1,6 @@
 #include "json/json_reader.h"
-#include "base/number.h"
-#include "base/words.h"
+#include "base/text/number.h"
+#include "base/text/words.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "json/json_span.h"
-#include "base/memory.h"
-#include "base/number.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "json/json_chars.h"
 #include <stdarg.h>
 #include <stdio.h>

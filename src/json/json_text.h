@@ -3,7 +3,7 @@
 #ifndef FFD_JSON_JSON_TEXT_H
 #define FFD_JSON_JSON_TEXT_H
 
-#include "base/buffer.h"
+#include "base/text/buffer.h"
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -1,5 +1,5 @@
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <stdio.h>

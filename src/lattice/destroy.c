@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 

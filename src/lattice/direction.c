@@ -1,5 +1,5 @@
 #include "lattice/direction.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <float.h>
 
 /* Below this sine of the angle two directions count as parallel: what is left after the subtraction would be

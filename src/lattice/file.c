@@ -1,5 +1,5 @@
-#include "base/file.h"
-#include "base/memory.h"
+#include "base/file/file.h"
+#include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 

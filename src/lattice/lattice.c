@@ -1,7 +1,7 @@
 #include "lattice/lattice.h"
-#include "base/memory.h"
-#include "base/number.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
+#include "base/vector/vec.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>

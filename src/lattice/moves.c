@@ -1,6 +1,6 @@
-#include "base/memory.h"
-#include "base/trig.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/trig.h"
+#include "base/vector/vec.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <float.h>

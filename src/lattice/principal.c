@@ -1,5 +1,5 @@
 #include "lattice/principal.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "lattice/direction.h"
 
 /* More than enough: Jacobi's sweeps converge quadratically. */

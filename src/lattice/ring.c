@@ -1,6 +1,6 @@
 #include "lattice/ring.h"
-#include "base/number.h"
-#include "base/trig.h"
+#include "base/text/number.h"
+#include "base/vector/trig.h"
 #include "lattice/spec.h"
 #include "spline/basis.h"
 #include <math.h>

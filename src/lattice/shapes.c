@@ -1,6 +1,6 @@
-#include "base/memory.h"
-#include "base/number.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
+#include "base/vector/vec.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 

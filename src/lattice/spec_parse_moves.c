@@ -1,5 +1,5 @@
-#include "base/memory.h"
-#include "base/number.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "lattice/direction.h"
 #include "lattice/spec_parse.h"
 #include <stdio.h>

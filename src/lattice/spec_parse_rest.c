@@ -1,5 +1,5 @@
-#include "base/number.h"
-#include "base/vec.h"
+#include "base/text/number.h"
+#include "base/vector/vec.h"
 #include "lattice/direction.h"
 #include "lattice/spec_parse.h"
 

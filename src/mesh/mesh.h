@@ -6,10 +6,10 @@
 #ifndef FFD_MESH_MESH_H
 #define FFD_MESH_MESH_H
 
-#include "base/buffer.h"
-#include "base/file.h"
-#include "base/path_list.h"
-#include "base/vec.h"
+#include "base/file/file.h"
+#include "base/file/path_list.h"
+#include "base/text/buffer.h"
+#include "base/vector/vec.h"
 #include "mesh/model.h"
 #include "mesh/room.h"
 #include "mesh/selector.h"

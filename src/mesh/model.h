@@ -9,7 +9,7 @@
 #define FFD_MESH_MODEL_H
 
 #include "base/fail.h"
-#include "base/intern.h"
+#include "base/memory/intern.h"
 #include "mesh/room.h"
 #include <stdbool.h>
 #include <stddef.h>

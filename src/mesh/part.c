@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "mesh/mesh.h"
 
 #define BLOCK ((size_t)64)

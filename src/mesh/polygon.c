@@ -1,6 +1,6 @@
 #include "mesh/polygon.h"
-#include "base/trig.h"
-#include "base/vec.h"
+#include "base/vector/trig.h"
+#include "base/vector/vec.h"
 #include <float.h>
 
 bool ffd_polygon_normal(const double *xyz, const uint32_t *corners, size_t count, double normal[3],

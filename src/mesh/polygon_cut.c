@@ -1,5 +1,5 @@
 #include "mesh/polygon_cut.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <math.h>
 #include <stdbool.h>
 

@@ -1,5 +1,5 @@
 #include "mesh/selector.h"
-#include "base/words.h"
+#include "base/text/words.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "spline/basis.h"
 #include "spline/triangle.h"
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "spline/knots.h"
-#include "base/memory.h"
-#include "base/number.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "spline/basis.h"
 #include <limits.h>
 #include <math.h>

@@ -13,8 +13,8 @@
 #include "deform/displacement.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
-#include "base/array_kernel.h"
-#include "base/clock.h"
+#include "base/system/clock.h"
+#include "base/vector/array_kernel.h"
 #include <assert.h>
 #include <math.h>
 

@@ -11,7 +11,7 @@
    far     evaluations a point ten lattices away */
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
-#include "base/clock.h"
+#include "base/system/clock.h"
 #include "embed/cells.h"
 #include <ffd/embedding.h>
 

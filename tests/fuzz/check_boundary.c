@@ -1,5 +1,5 @@
 #include "check_boundary.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/boundary.h"
 #include "promise.h"
 #include <float.h>

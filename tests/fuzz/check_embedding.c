@@ -1,5 +1,5 @@
 #include "check_embedding.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "promise.h"
 #include <ffd/deform.h>
 #include <ffd/embedding.h>

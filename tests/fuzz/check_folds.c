@@ -1,5 +1,5 @@
 #include "check_folds.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "promise.h"
 #include <ffd/fold.h>
 #include <float.h>

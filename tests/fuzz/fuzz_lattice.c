@@ -1,6 +1,6 @@
 /* fuzz_lattice.c - a lattice file's text, a 0 byte, raw float64 points: everything that is done with them
    must keep what the headers promise. Without points, the lattice's own are taken (probe.h). */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "check_boundary.h"
 #include "check_embedding.h"
 #include "check_folds.h"

@@ -1,6 +1,6 @@
 #include "fuzz_mesh.h"
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "io/formats.h"
 #include "io/gltf/gltf_document.h"
 #include "job/deform_job.h"

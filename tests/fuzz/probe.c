@@ -1,5 +1,5 @@
 #include "probe.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

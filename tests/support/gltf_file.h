@@ -2,8 +2,8 @@
 #ifndef TESTS_GLTF_FILE_H
 #define TESTS_GLTF_FILE_H
 
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef FFD_TESTS_LATTICE_BY_HAND_H
 #define FFD_TESTS_LATTICE_BY_HAND_H
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef FFD_TESTS_MESH_BYTES_H
 #define FFD_TESTS_MESH_BYTES_H
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "draw.h"
 #include "mesh_file.h"
 #include <float.h>

@@ -3,8 +3,8 @@
 #ifndef FFD_TESTS_MESH_FILE_H
 #define FFD_TESTS_MESH_FILE_H
 
-#include "base/file.h"
-#include "base/memory.h"
+#include "base/file/file.h"
+#include "base/memory/memory.h"
 #include "io/difference.h"
 #include "mesh/mesh.h"
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #ifndef FFD_TESTS_OBJ_CHECK_H
 #define FFD_TESTS_OBJ_CHECK_H
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "draw.h"
 #include "io/formats.h"
 #include "io/obj/obj_document.h"

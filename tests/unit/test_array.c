@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "base/array_kernel.h"
+#include "base/vector/array_kernel.h"
 #include <math.h>
 #include <string.h>
 

@@ -5,13 +5,13 @@
 
 #include <cmocka.h>
 
-#include "base/buffer.h"
 #include "base/fail.h"
-#include "base/memory.h"
-#include "base/path.h"
-#include "base/slots.h"
-#include "base/thread.h"
-#include "base/words.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/memory/slots.h"
+#include "base/system/thread.h"
+#include "base/text/buffer.h"
+#include "base/text/words.h"
 #include "json/json_text.h"
 #include <stdint.h>
 #include <stdlib.h>

@@ -7,8 +7,8 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "base/cleanup.h"
-#include "base/file.h"
+#include "base/file/cleanup.h"
+#include "base/file/file.h"
 #include <dirent.h>
 #include <ffd/job.h>
 #include <pthread.h>

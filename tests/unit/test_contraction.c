@@ -7,8 +7,8 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "base/isa.h"
-#include "base/vec.h"
+#include "base/vector/isa.h"
+#include "base/vector/vec.h"
 #include "embed/contraction_kernel.h"
 #include <string.h>
 

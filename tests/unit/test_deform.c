@@ -7,7 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include <ffd/deform.h>
 #include <float.h>
 

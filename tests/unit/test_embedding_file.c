@@ -9,7 +9,7 @@
 
 #include "../support/test_folder.h"
 #include "base/little_endian.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "job/embedding_file.h"
 #include "job/source.h"
 #include <math.h>

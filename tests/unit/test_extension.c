@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "deform/displacement.h"
 #include "deform/extension.h"
 #include <ffd/embedding.h>

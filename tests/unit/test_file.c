@@ -7,7 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/test_folder.h"
-#include "base/written_files.h"
+#include "base/file/written_files.h"
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>

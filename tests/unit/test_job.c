@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <ffd/job.h>
 #include <math.h>
 #include <stdio.h>

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "batch/journal.h"
 #include <time.h>
 

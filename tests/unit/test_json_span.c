@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "json/json_edit.h"
 #include "json/json_span.h"
 #include <setjmp.h>

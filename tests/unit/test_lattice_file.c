@@ -1,5 +1,5 @@
 /* The lattice file: what it says, what is refused and how, and that it is written as it is read. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <math.h>

@@ -7,7 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "embed/cells.h"
 #include <ffd/embedding.h>
 #include <float.h>

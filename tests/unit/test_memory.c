@@ -12,8 +12,8 @@
 
 #include "../support/failing_new.h"
 #include "../support/test_folder.h"
-#include "base/file.h"
-#include "base/memory.h"
+#include "base/file/file.h"
+#include "base/memory/memory.h"
 #include <dirent.h>
 #include <ffd/job.h>
 #include <jansson.h>

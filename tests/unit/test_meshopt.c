@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/meshopt_view.h"
 #include <math.h>
 #include <meshoptimizer.h>

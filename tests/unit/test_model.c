@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 #include "job/conversion.h"
 #include <stdio.h>

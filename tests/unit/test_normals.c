@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "io/openmesh/normals.h"
 #include "mesh/polygon.h"
 #include <math.h>

@@ -6,8 +6,8 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "base/decimal.h"
-#include "base/number.h"
+#include "base/text/decimal.h"
+#include "base/text/number.h"
 #include <float.h>
 #include <locale.h>
 #include <math.h>

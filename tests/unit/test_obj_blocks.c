@@ -1,7 +1,7 @@
 /* OBJ in blocks: wherever a file is cut, its blocks have the statements that it has in one piece; and
    arguments read straight from the text are those that words give. */
 #include "../support/draw.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/obj/obj_blocks.h"
 #include "io/obj/obj_corner.h"
 #include "io/obj/obj_number.h"

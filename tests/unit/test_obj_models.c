@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/obj_check.h"
-#include "base/path.h"
+#include "base/file/path.h"
 #include <ftw.h>
 
 /* Written to see what readers do with indices that name nothing. */

@@ -9,8 +9,8 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "base/buffer.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include "io/obj/obj_users.h"
 #include <string.h>
 

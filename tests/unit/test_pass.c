@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "job/embedding_file.h"
 #include "job/pass.h"
 #include "job/vertex_place.h"

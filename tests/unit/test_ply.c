@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/mesh_bytes.h"
-#include "base/buffer.h"
+#include "base/text/buffer.h"
 #include "io/formats.h"
 #include "io/ply/ply_document.h"
 #include <float.h>

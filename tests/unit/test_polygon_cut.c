@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "mesh/polygon_cut.h"
 #include <math.h>
 #include <stdbool.h>

@@ -6,8 +6,8 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "job/edge_list.h"
 #include "job/quality.h"
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* Where the control points of boxes and cylinders stand, and what their volumes cover. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include <math.h>

@@ -1,6 +1,6 @@
 /* test_spill.c - arrays that move into a file when they grow large. */
-#include "base/memory.h"
-#include "base/spill.h"
+#include "base/file/spill.h"
+#include "base/memory/memory.h"
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>

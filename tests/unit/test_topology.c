@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/openmesh/topology.h"
 #include <inttypes.h>
 #include <math.h>

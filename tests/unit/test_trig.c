@@ -1,4 +1,4 @@
-#include "base/trig.h"
+#include "base/vector/trig.h"
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* gltf_as_morph.c - the deformation as a further morph target. The file with a target of zeros is opened as a
    document of its own; what this one has as results become the results of that target, and it is saved. */
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 #include "io/gltf/gltf_morph.h"
 #include <string.h>

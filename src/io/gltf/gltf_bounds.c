@@ -1,4 +1,4 @@
-#include "base/number.h"
+#include "base/text/number.h"
 #include "io/gltf/gltf_encode.h"
 #include "io/gltf/gltf_saver.h"
 #include <float.h>

@@ -1,6 +1,6 @@
 #include "io/gltf/gltf_buffer.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/gltf/base64.h"
 #include "io/gltf/uri.h"
 #include <string.h>

@@ -1,5 +1,5 @@
 #include "io/gltf/gltf_compare.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

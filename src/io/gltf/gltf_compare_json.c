@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_compare.h"
 #include <stdio.h>
 #include <string.h>

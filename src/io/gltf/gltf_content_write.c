@@ -1,7 +1,7 @@
 /* gltf_content_write.c - writes the new content of a buffer: threads make its pieces ready, in order they are
    written. */
-#include "base/memory.h"
-#include "base/thread.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "io/gltf/base64.h"
 #include "io/gltf/gltf_saver.h"
 #include <stdatomic.h>

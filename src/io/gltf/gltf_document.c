@@ -1,7 +1,7 @@
 #include "io/gltf/gltf_document.h"
-#include "base/memory.h"
-#include "base/path.h"
-#include "base/thread.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "io/formats.h"
 #include "io/gltf/gltf_schema.h"
 #include <float.h>

@@ -1,5 +1,5 @@
 /* gltf_extensions.c - the extensions that the output no longer needs. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_saver.h"
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_document.h"
 
 #define MOST_TRIANGLES INT32_MAX

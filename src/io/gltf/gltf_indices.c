@@ -1,6 +1,6 @@
 #include "base/little_endian.h"
-#include "base/memory.h"
-#include "base/thread.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "io/gltf/gltf_document.h"
 
 /* Elements that are read at a time. */

@@ -1,7 +1,7 @@
 /* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh in many places, which cannot get results
    of their own. Their vertices stay, and boxes tell where these stand. */
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "io/gltf/gltf_document.h"
 #include <math.h>
 #include <string.h>

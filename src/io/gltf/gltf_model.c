@@ -1,5 +1,5 @@
 #include "io/gltf/gltf_model.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 
 static void free_mesh(gltf_mesh *mesh)
 {

@@ -1,5 +1,5 @@
 #include "base/little_endian.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/base64.h"
 #include "io/gltf/gltf_morph.h"
 #include <string.h>

@@ -1,6 +1,6 @@
-#include "base/memory.h"
-#include "base/slots.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/memory/slots.h"
+#include "base/vector/vec.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 

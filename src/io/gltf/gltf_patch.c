@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_saver.h"
 
 static const json_value *value_of(const gltf_saver *saver, uint32_t value)

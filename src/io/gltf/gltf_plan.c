@@ -1,5 +1,5 @@
 #include "io/gltf/gltf_plan.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_encode.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-#include "base/array_kernel.h"
 #include "base/little_endian.h"
+#include "base/vector/array_kernel.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 

@@ -1,6 +1,6 @@
-#include "base/clock.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/system/clock.h"
 #include "io/gltf/gltf_saver.h"
 #include "io/gltf/uri.h"
 #include <string.h>

@@ -1,5 +1,5 @@
-#include "base/array_kernel.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
+#include "base/vector/array_kernel.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/gltf_encode.h"
 #include <string.h>

@@ -1,5 +1,5 @@
 #include "io/gltf/gltf_schema.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <math.h>
 #include <string.h>
 

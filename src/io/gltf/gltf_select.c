@@ -1,5 +1,5 @@
 /* gltf_select.c - which primitives under which nodes `--only` leaves, and which vertices these draw. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives name it. */
-#include "base/memory.h"
-#include "base/slots.h"
+#include "base/memory/memory.h"
+#include "base/memory/slots.h"
 #include "io/gltf/gltf_document.h"
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* gltf_skin.c - skins in their default pose: the matrix of every vertex (glTF 2.0, 3.7.3). */
-#include "base/memory.h"
-#include "base/vec.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
 #include "io/gltf/gltf_document.h"
 #include <stdio.h>
 #include <string.h>

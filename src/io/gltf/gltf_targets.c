@@ -1,5 +1,5 @@
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_saver.h"
 #include "io/gltf/uri.h"
 #include <string.h>

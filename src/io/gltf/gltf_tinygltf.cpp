@@ -1,5 +1,5 @@
 /* The only place that sees tinygltf. It is compiled here with our own macros: no image codec, no files. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_model.h"
 #include <cstring>
 #include <new>

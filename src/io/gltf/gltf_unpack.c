@@ -1,5 +1,5 @@
 /* gltf_unpack.c - which compressed data the output holds decoded: where something in it changed. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_saver.h"
 
 #define DRACO "KHR_draco_mesh_compression"

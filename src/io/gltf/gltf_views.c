@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/gltf/gltf_document.h"
 #include "io/gltf/meshopt_view.h"
 #include <string.h>

@@ -4,7 +4,7 @@
 #ifndef FFD_IO_GLTF_JSON_RESERVE_H
 #define FFD_IO_GLTF_JSON_RESERVE_H
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <cstddef>
 #include <cstdint>
 #include <functional>

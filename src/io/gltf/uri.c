@@ -1,6 +1,6 @@
 #include "io/gltf/uri.h"
-#include "base/buffer.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include <string.h>
 
 static bool is_letter(char c)

@@ -1,5 +1,5 @@
 #include "io/obj/obj_blocks.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/obj/obj_scan.h"
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #ifndef FFD_IO_OBJ_OBJ_DOCUMENT_H
 #define FFD_IO_OBJ_OBJ_DOCUMENT_H
 
-#include "base/spill.h"
+#include "base/file/spill.h"
 #include "io/obj/obj_blocks.h"
 #include "io/obj/obj_walk.h"
 #include "mesh/mesh.h"

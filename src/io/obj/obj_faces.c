@@ -1,5 +1,5 @@
-#include "base/memory.h"
-#include "base/thread.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "io/obj/obj_users.h"
 #include <inttypes.h>
 #include <stdlib.h>

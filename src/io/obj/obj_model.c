@@ -1,5 +1,5 @@
-#include "base/buffer.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_number.h"
 #include "io/vectors.h"

@@ -1,5 +1,5 @@
 #include "io/obj/obj_names.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 #include "io/obj/obj_number.h"
 #include "base/bytes.h"
-#include "base/decimal.h"
+#include "base/text/decimal.h"
 
 static bool is_digit(char c)
 {

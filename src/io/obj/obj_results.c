@@ -1,5 +1,5 @@
-#include "base/memory.h"
-#include "base/thread.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "io/obj/obj_document.h"
 #include "io/vectors.h"
 #include <string.h>

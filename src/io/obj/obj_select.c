@@ -1,7 +1,7 @@
 /* obj_select.c - which faces, lines and points `--only` leaves, and so which vertices and normals. A `g` puts
    what follows into each group that it names, one without names, and the file's beginning, into "default"; an
    `o` or `usemtl` has one name, which may hold blanks. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_names.h"
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "io/obj/obj_split.h"
-#include "base/memory.h"
-#include "base/slots.h"
+#include "base/memory/memory.h"
+#include "base/memory/slots.h"
 #include <string.h>
 
 static bool same_vector(const double *a, const double *b)

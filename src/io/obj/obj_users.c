@@ -1,6 +1,6 @@
 #include "io/obj/obj_users.h"
-#include "base/memory.h"
-#include "base/thread.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 
 /* A block as it is being read, and what its statements may name. */
 typedef struct block_reader {

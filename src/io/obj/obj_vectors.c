@@ -1,6 +1,6 @@
 /* obj_vectors.c - the blocks of a file with their positions and normals. */
-#include "base/memory.h"
-#include "base/thread.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
 #include "io/obj/obj_number.h"
 #include "io/obj/obj_users.h"
 #include <inttypes.h>

@@ -1,6 +1,6 @@
 #include "io/off/off_document.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 
 static ffd_status read_body(off_document *d, ffd_error *error)

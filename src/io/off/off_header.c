@@ -1,5 +1,5 @@
 #include "io/off/off_header.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include <inttypes.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/off/off_document.h"
 #include "io/vectors.h"
 

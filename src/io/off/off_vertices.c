@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/off/off_document.h"
 
 static ffd_status refuse_number(const off_document *d, size_t line, const char *what, text_word word,

@@ -1,5 +1,5 @@
 #include "io/openmesh/normals.h"
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "io/openmesh/surface.h"
 #include "mesh/polygon.h"
 #include <cfloat>

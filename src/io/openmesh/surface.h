@@ -2,7 +2,7 @@
 #ifndef FFD_IO_OPENMESH_SURFACE_H
 #define FFD_IO_OPENMESH_SURFACE_H
 
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "mesh/mesh.h"
 /* OpenMesh's vectors begin unset, and gcc sees them copied into new vertices before they get their value. */
 #if defined(__GNUC__) && !defined(__clang__)

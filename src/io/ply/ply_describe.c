@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/face_sizes.h"
 #include "io/ply/ply_document.h"
 

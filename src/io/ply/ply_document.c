@@ -1,6 +1,6 @@
 #include "io/ply/ply_document.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 #include <float.h>
 #include <inttypes.h>

@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include "io/vectors.h"
 

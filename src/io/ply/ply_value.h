@@ -3,7 +3,7 @@
 #ifndef FFD_IO_PLY_PLY_VALUE_H
 #define FFD_IO_PLY_PLY_VALUE_H
 
-#include "base/number.h"
+#include "base/text/number.h"
 #include "io/text_scan.h"
 #include <stdbool.h>
 #include <stddef.h>

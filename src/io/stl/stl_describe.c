@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 
 /* Text of the file may have zeros in it, which become '?'. False when memory ran out. */

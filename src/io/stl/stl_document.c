@@ -1,7 +1,7 @@
 #include "io/stl/stl_document.h"
+#include "base/file/path.h"
 #include "base/little_endian.h"
-#include "base/memory.h"
-#include "base/path.h"
+#include "base/memory/memory.h"
 #include "io/formats.h"
 #include <float.h>
 #include <inttypes.h>

@@ -1,6 +1,6 @@
 /* Corners at the same position are one vertex of the topology, which is else only a heap of triangles: the
    first of them stands for all. */
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 #include <stdlib.h>
 #include <string.h>

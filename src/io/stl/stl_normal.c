@@ -1,4 +1,4 @@
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "io/stl/stl_document.h"
 #include <float.h>
 

@@ -1,4 +1,4 @@
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "io/splice.h"
 #include "io/stl/stl_document.h"
 #include "io/vectors.h"

@@ -1,5 +1,5 @@
 #include "io/stl/stl_text.h"
-#include "base/number.h"
+#include "base/text/number.h"
 #include <math.h>
 
 typedef struct text_reader {

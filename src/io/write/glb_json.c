@@ -1,4 +1,4 @@
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/write/glb_writer.h"
 #include <ffd/version.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 #include "io/write/glb_plan.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 #include "io/write/triangles.h"
 #include <float.h>
 #include <stdlib.h>

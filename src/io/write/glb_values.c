@@ -1,4 +1,4 @@
-#include "base/vec.h"
+#include "base/vector/vec.h"
 #include "io/write/glb_plan.h"
 #include <float.h>
 #include <math.h>

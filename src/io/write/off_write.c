@@ -1,4 +1,4 @@
-#include "base/number.h"
+#include "base/text/number.h"
 #include "io/write/sink.h"
 #include "io/write/vertex_values.h"
 #include "io/write/write.h"

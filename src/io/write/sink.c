@@ -1,6 +1,6 @@
 #include "io/write/sink.h"
 #include "base/little_endian.h"
-#include "base/number.h"
+#include "base/text/number.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>

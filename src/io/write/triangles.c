@@ -1,5 +1,5 @@
 #include "io/write/triangles.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 
 ffd_status ffd_face_triangles(face_triangles *scratch, const mesh_model *model, size_t face, size_t *count,
                               ffd_error *error)

@@ -1,5 +1,5 @@
 #include "io/write/vertex_values.h"
-#include "base/memory.h"
+#include "base/memory/memory.h"
 
 ffd_status ffd_vertex_values_find(const mesh_model *model, vertex_values *values, ffd_error *error)
 {

@@ -1,0 +1,149 @@
+#define _DEFAULT_SOURCE /* SA_RESETHAND */
+#include "base/file/cleanup.h"
+#include "base/file/file.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include <ffd/job.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+struct cleanup_entry {
+    cleanup_entry *older, *newer;
+    char *path;
+    size_t made; /* of a folder; 0: a file */
+    pid_t owner;
+};
+
+/* Those that end a program which does nothing about them, and come from outside or from a pipe. */
+static const int signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM};
+enum { SIGNALS = sizeof signals / sizeof *signals };
+
+static atomic_flag held = ATOMIC_FLAG_INIT;
+static atomic_bool is_over;     /* a handler waits for the lock, or has it: nobody else is to get it */
+static cleanup_entry *newest;   /* while held */
+static sigset_t mask_of_holder; /* before it held; while held */
+
+static bool try_lock(void)
+{
+    return !atomic_flag_test_and_set_explicit(&held, memory_order_acquire);
+}
+
+/* A millisecond, by what POSIX allows in handlers too. */
+static void wait_a_little(void)
+{
+    poll(NULL, 0, 1);
+}
+
+void ffd_cleanup_hold(void)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    while (atomic_load(&is_over) || !try_lock())
+        wait_a_little();
+    mask_of_holder = before;
+}
+
+void ffd_cleanup_release(void)
+{
+    const sigset_t before = mask_of_holder;
+    atomic_flag_clear_explicit(&held, memory_order_release);
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+}
+
+cleanup_entry *ffd_cleanup_note_folder(const char *path, size_t made)
+{
+    cleanup_entry *entry = ffd_alloc(1, sizeof *entry);
+    char *copy = entry ? ffd_text_copy(path) : NULL;
+    if (!copy) {
+        ffd_free(entry);
+        return NULL;
+    }
+    *entry = (cleanup_entry){.older = newest, .path = copy, .made = made, .owner = getpid()};
+    if (newest)
+        newest->newer = entry;
+    newest = entry;
+    return entry;
+}
+
+cleanup_entry *ffd_cleanup_note(const char *path)
+{
+    return ffd_cleanup_note_folder(path, 0);
+}
+
+void ffd_cleanup_strike(cleanup_entry **entry)
+{
+    cleanup_entry *gone = *entry;
+    if (!gone)
+        return;
+    if (gone->older)
+        gone->older->newer = gone->newer;
+    if (gone->newer)
+        gone->newer->older = gone->older;
+    else
+        newest = gone->older;
+    ffd_free(gone->path);
+    ffd_free(gone);
+    *entry = NULL;
+}
+
+/* The newest first: files before their folders. */
+static void remove_all(void)
+{
+    for (const cleanup_entry *entry = newest; entry; entry = entry->older) {
+        if (entry->owner != getpid())
+            continue;
+        if (entry->made)
+            ffd_folder_unmake(entry->path, entry->made);
+        else
+            unlink(entry->path);
+    }
+}
+
+/* The lock is kept: nothing is begun or renamed any more. The signal, whose own effect is in force again,
+   waits until the handler is left, and then ends the program as if there had been none. */
+static void clean_up(int signal)
+{
+    atomic_store(&is_over, true);
+    while (!try_lock())
+        wait_a_little();
+    remove_all();
+    raise(signal);
+}
+
+/* The lock may be held by the thread that has crashed: then nothing is known of the list. */
+static void clean_up_crash(int signal)
+{
+    int tries = 1000;
+    atomic_store(&is_over, true);
+    for (; tries > 0 && !try_lock(); tries--)
+        wait_a_little();
+    if (tries > 0)
+        remove_all();
+    raise(signal);
+}
+
+/* Where nothing is done about them yet. */
+static void install(void (*handler)(int signal), const int *numbers, int count)
+{
+    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND}, old;
+    sigfillset(&action.sa_mask);
+    for (int i = 0; i < count; i++)
+        if (sigaction(numbers[i], NULL, &old) == 0 && old.sa_handler == SIG_DFL)
+            sigaction(numbers[i], &action, NULL);
+}
+
+void ffd_cleanup_on_signals(void)
+{
+    install(clean_up, signals, SIGNALS);
+}
+
+void ffd_cleanup_on_crashes(void)
+{
+    static const int stop = SIGALRM, crashes[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV};
+    install(clean_up, &stop, 1);
+    install(clean_up_crash, crashes, sizeof crashes / sizeof *crashes);
+}

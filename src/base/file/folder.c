@@ -1,0 +1,56 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+#include "base/file/file.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* The end of the next folder's name in a path, at or behind place; 0: there is none. */
+static size_t next_folder(const char *path, size_t place)
+{
+    for (size_t i = place; path[i]; i++)
+        if (path[i + 1] == '/' || path[i + 1] == 0)
+            return i + 1;
+    return 0;
+}
+
+ffd_status ffd_folder_make(const char *path, size_t *made, ffd_error *error)
+{
+    char *partial = ffd_text_copy(path);
+    *made = 0;
+    if (!partial)
+        return ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
+    for (size_t end = next_folder(path, 0); end && !status; end = next_folder(path, end)) {
+        partial[end] = 0;
+        if (mkdir(partial, 0777) == 0)
+            *made = *made ? *made : end;
+        else if (errno != EEXIST && !ffd_file_exists(partial))
+            status =
+                ffd_fail_file(error, FFD_E_IO, partial, "the folder cannot be made: %s", strerror(errno));
+        partial[end] = path[end];
+    }
+    ffd_free(partial);
+    return status;
+}
+
+void ffd_folder_unmake(char *path, size_t made)
+{
+    for (size_t end = strlen(path); made && end >= made; end--) {
+        if (path[end] != '/' && path[end] != 0)
+            continue;
+        path[end] = 0;
+        rmdir(path);
+    }
+}
+
+char *ffd_path_resolve(const char *path)
+{
+    char *resolved = realpath(path, NULL);
+    char *copy = resolved ? ffd_text_copy(resolved) : NULL;
+    free(resolved);
+    return copy;
+}

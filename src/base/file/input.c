@@ -1,0 +1,297 @@
+#define _XOPEN_SOURCE 700 /* realpath, pread */
+#define _DEFAULT_SOURCE   /* madvise */
+#include "base/file/file.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* What a stream without end is cut off at. */
+#define LONGEST_STREAM ((size_t)1 << 32)
+/* Bytes of two files that are in memory while they are compared: a multiple of any page. */
+#define COMPARED ((size_t)1 << 22)
+
+/* Files of fewer bytes are read: to map them would take longer. A mapped page costs a fault, and to give it
+   back stops every processor that the program runs on; under some hypervisors each takes as long as reading a
+   hundred kilobytes. */
+#define SMALL ((size_t)1 << 18)
+
+/* Fewer bytes are not brought in. */
+#define FEW ((size_t)1 << 16)
+
+/* Bytes that are given back at a time where a file is gone through: a multiple of any page. */
+#define FORGOTTEN ((size_t)1 << 23)
+
+static const unsigned char nothing[1] = {0};
+
+/* Where a descriptor stands, in place of a place in its file. */
+#define FROM_HERE ((off_t)-1)
+
+/* As many bytes as come at once. *got: 0 at the end. */
+static ffd_status read_piece(int fd, const char *name, off_t place, void *to, size_t room, size_t *got,
+                             ffd_error *error)
+{
+    ssize_t count;
+    do
+        count = place == FROM_HERE ? read(fd, to, room) : pread(fd, to, room, place);
+    while (count < 0 && errno == EINTR);
+    if (count < 0)
+        return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
+    *got = (size_t)count;
+    return FFD_OK;
+}
+
+/* Reads what has no size to be mapped: pipes, terminals, /dev/stdin, files of /proc. */
+static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_error *error)
+{
+    unsigned char *block = NULL;
+    size_t capacity = 0, size = 0, got = 0;
+    ffd_status status;
+    do {
+        size += got;
+        if (size >= LONGEST_STREAM)
+            status = ffd_fail_file(error, FFD_E_LIMIT, name, "goes on after %zu bytes", size);
+        else if (!ffd_grow((void **)&block, &capacity, size + 65536, 1))
+            status = ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
+        else
+            status = read_piece(fd, name, FROM_HERE, block + size, capacity - size, &got, error);
+    } while (!status && got > 0);
+    if (status)
+        ffd_free(block);
+    else
+        *input = (file_input){.data = block, .size = size, .block = block};
+    return status;
+}
+
+static ffd_status fail_room(const char *name, size_t size, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size);
+}
+
+/* As a mapping has it: all of the file, wherever the descriptor stands, without what is added meanwhile. */
+static ffd_status read_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
+{
+    unsigned char *const block = ffd_alloc(size, 1);
+    if (!block)
+        return fail_room(name, size, error);
+    size_t done = 0, got = 0;
+    ffd_status status;
+    do {
+        status = read_piece(fd, name, (off_t)done, block + done, size - done, &got, error);
+        done += got;
+    } while (!status && got > 0 && done < size);
+    if (status)
+        ffd_free(block);
+    else
+        *input = (file_input){.data = block, .size = done, .block = block};
+    return status;
+}
+
+static ffd_status map_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
+{
+    void *block = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
+    if (block == MAP_FAILED)
+        return errno == ENOMEM ? fail_room(name, size, error) : read_stream(fd, name, input, error);
+    *input = (file_input){.data = block, .size = size, .block = block, .mapped = true};
+    return FFD_OK;
+}
+
+bool ffd_file_stamp(const char *path, file_stamp *stamp)
+{
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return false;
+    *stamp = (file_stamp){
+        .device = (uint64_t)info.st_dev,
+        .number = (uint64_t)info.st_ino,
+        .size = (uint64_t)info.st_size,
+        .written = {(int64_t)info.st_mtim.tv_sec, (int64_t)info.st_mtim.tv_nsec},
+        .changed = {(int64_t)info.st_ctim.tv_sec, (int64_t)info.st_ctim.tv_nsec},
+    };
+    return true;
+}
+
+bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
+{
+    return memcmp(a, b, sizeof *a) == 0; /* there is nothing between the members */
+}
+
+bool ffd_file_is_stream(const char *path)
+{
+    static const char *const names[] = {"/dev/stdin", "/dev/fd/", "/proc/self/fd/", "/dev/null"};
+    if (strcmp(path, "-") == 0)
+        return true;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (strncmp(path, names[i], strlen(names[i])) == 0)
+            return true;
+    return false;
+}
+
+/* A pipe or device that lies among files may never give anything, or never end. */
+static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
+{
+    struct stat info;
+    if (ffd_file_is_stream(path) || fstat(fd, &info) != 0 || S_ISREG(info.st_mode) || S_ISDIR(info.st_mode))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_IO, path, "is a %s, not a file (- reads standard input)",
+                         S_ISFIFO(info.st_mode) ? "pipe" : "device");
+}
+
+static ffd_status load_descriptor(int fd, const char *name, size_t least_mapped, file_input *input,
+                                  ffd_error *error)
+{
+    struct stat info;
+    if (fstat(fd, &info) != 0)
+        return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
+    if (S_ISDIR(info.st_mode))
+        return ffd_fail_file(error, FFD_E_IO, name, "is a folder");
+    if (!S_ISREG(info.st_mode) || info.st_size <= 0)
+        return read_stream(fd, name, input, error);
+    if ((unsigned long long)info.st_size > (size_t)-1)
+        return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
+    const size_t size = (size_t)info.st_size;
+    const ffd_status status = size < least_mapped ? read_file(fd, name, size, input, error)
+                                                  : map_file(fd, name, size, input, error);
+    input->identity[0] = (uint64_t)info.st_dev;
+    input->identity[1] = (uint64_t)info.st_ino;
+    return status;
+}
+
+static ffd_status load(const char *path, size_t least_mapped, file_input *input, ffd_error *error)
+{
+    *input = (file_input){.data = nothing};
+    if (strcmp(path, "-") == 0)
+        return load_descriptor(STDIN_FILENO, "standard input", least_mapped, input, error);
+    /* A pipe is not waited for: it is refused. The flags of descriptors are left alone. */
+    const int fd = open(path, O_RDONLY | O_CLOEXEC | (ffd_file_is_stream(path) ? 0 : O_NONBLOCK | O_NOCTTY));
+    if (fd < 0)
+        return ffd_fail_file(error, FFD_E_IO, path, "cannot be opened: %s", strerror(errno));
+    ffd_status status = refuse_special(fd, path, error);
+    if (!status)
+        status = load_descriptor(fd, path, least_mapped, input, error);
+    close(fd);
+    return status;
+}
+
+ffd_status ffd_file_load(const char *path, file_input *input, ffd_error *error)
+{
+    return load(path, SMALL, input, error);
+}
+
+ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error)
+{
+    return load(path, 1, input, error);
+}
+
+static bool is_inside(const char *folder, const char *path)
+{
+    const size_t length = strlen(folder);
+    if (strcmp(folder, "/") == 0)
+        return true;
+    return strncmp(folder, path, length) == 0 && path[length] == '/';
+}
+
+ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
+                                file_input *input, ffd_error *error)
+{
+    *input = (file_input){.data = nothing};
+    char *joined = ffd_path_join(folder, relative);
+    char *root = realpath(folder, NULL), *path = joined ? realpath(joined, NULL) : NULL;
+    const int reason = errno;
+    ffd_status status;
+    struct stat info;
+    if (!joined)
+        status = ffd_fail_memory(error);
+    else if (relative[0] == '/')
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
+                               relative);
+    else if (!root || !path)
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" cannot be opened: %s", relative,
+                               strerror(reason));
+    else if (!is_inside(root, path))
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "the file \"%s\" is outside the model's folder",
+                               relative);
+    else if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
+        status = ffd_fail_file(error, FFD_E_IO, named_by, "\"%s\" is not a file", relative);
+    else
+        status = ffd_file_map(path, input, error);
+    free(root);
+    free(path);
+    ffd_free(joined);
+    return status;
+}
+
+void ffd_file_unload(file_input *input)
+{
+    if (input->mapped)
+        munmap(input->block, input->size);
+    else
+        ffd_free(input->block);
+    *input = (file_input){.data = nothing};
+}
+
+void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
+{
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE);
+    const size_t begin = (size_t)((const unsigned char *)bytes - input->data);
+    const size_t first = (begin + page - 1) / page * page;
+    const size_t last = begin + size == input->size ? input->size : (begin + size) / page * page;
+    if (input->mapped && first < last) /* a mapping begins at a page */
+        madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
+}
+
+void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten)
+{
+    const size_t until = (size_t)((const unsigned char *)place - input->data) / FORGOTTEN * FORGOTTEN;
+    if (until <= *forgotten)
+        return;
+    ffd_file_forget(input, input->data + *forgotten, until - *forgotten);
+    *forgotten = until;
+}
+
+void ffd_file_bring_in(const void *bytes, size_t size)
+{
+#ifdef MADV_POPULATE_READ
+    const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = (uintptr_t)bytes / page * page;
+    if (size >= FEW)
+        madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* advice only */
+#else
+    (void)bytes;
+    (void)size;
+#endif
+}
+
+ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *same, ffd_error *error)
+{
+    file_input there;
+    const ffd_status status = ffd_file_load(path, &there, error);
+    if (status)
+        return status;
+    *same = there.size == bytes->size;
+    for (size_t at = 0, piece; at < bytes->size && *same; at += piece) {
+        piece = bytes->size - at < COMPARED ? bytes->size - at : COMPARED;
+        *same = memcmp(there.data + at, bytes->data + at, piece) == 0;
+        ffd_file_forget(&there, there.data + at, piece);
+        ffd_file_forget(bytes, bytes->data + at, piece);
+    }
+    ffd_file_unload(&there);
+    return FFD_OK;
+}
+
+bool ffd_file_exists(const char *path)
+{
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
+bool ffd_file_same(const char *a, const char *b)
+{
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}

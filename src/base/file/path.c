@@ -1,0 +1,114 @@
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include <string.h>
+
+static bool is_separator(char c)
+{
+#ifdef _WIN32
+    return c == '/' || c == '\\';
+#else
+    return c == '/';
+#endif
+}
+
+static char lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+
+const char *ffd_path_name(const char *path)
+{
+    const char *name = path;
+    for (const char *c = path; *c; c++)
+        if (is_separator(*c))
+            name = c + 1;
+    return name;
+}
+
+bool ffd_path_is_absolute(const char *path)
+{
+#ifdef _WIN32
+    if (path[0] && path[1] == ':')
+        return true;
+#endif
+    return is_separator(path[0]);
+}
+
+const char *ffd_path_shown(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+const char *ffd_path_ending(const char *path)
+{
+    const char *name = ffd_path_name(path);
+    const char *dot = strrchr(name, '.');
+    return dot && dot != name ? dot : path + strlen(path);
+}
+
+bool ffd_path_has_ending(const char *path, const char *ending)
+{
+    const char *own = ffd_path_ending(path);
+    while (*own && lower(*own) == lower(*ending)) {
+        own++;
+        ending++;
+    }
+    return *own == 0 && *ending == 0;
+}
+
+static char *copy_range(const char *first, size_t length)
+{
+    char *text = ffd_alloc(length + 1, 1);
+    if (!text)
+        return NULL;
+    memcpy(text, first, length);
+    text[length] = 0;
+    return text;
+}
+
+char *ffd_path_folder(const char *path)
+{
+    const char *name = ffd_path_name(path);
+    if (name == path)
+        return copy_range(".", 1);
+    size_t length = (size_t)(name - path);
+    while (length > 1 && is_separator(path[length - 1]))
+        length--;
+    return copy_range(path, length);
+}
+
+char *ffd_path_stem(const char *path)
+{
+    const char *name = ffd_path_name(path), *ending = ffd_path_ending(path);
+    return copy_range(name, (size_t)(ending - name));
+}
+
+char *ffd_path_join(const char *folder, const char *name)
+{
+    const size_t a = strlen(folder), b = strlen(name);
+    const bool separator = a > 0 && !is_separator(folder[a - 1]);
+    char *text = ffd_alloc(a + separator + b + 1, 1);
+    if (!text)
+        return NULL;
+    memcpy(text, folder, a);
+    if (separator)
+        text[a] = '/';
+    memcpy(text + a + separator, name, b + 1);
+    return text;
+}
+
+char *ffd_path_beside(const char *path, const char *name)
+{
+    const size_t folder = (size_t)(ffd_path_name(path) - path), length = strlen(name);
+    char *text = ffd_alloc(folder + length + 1, 1);
+    if (!text)
+        return NULL;
+    memcpy(text, path, folder);
+    memcpy(text + folder, name, length + 1);
+    return text;
+}
+
+char *ffd_text_copy(const char *text)
+{
+    return copy_range(text, strlen(text));
+}

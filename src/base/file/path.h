@@ -1,0 +1,20 @@
+/* path.h - parts of file names. Both '/' and, on Windows, '\\' separate. */
+#ifndef FFD_BASE_FILE_PATH_H
+#define FFD_BASE_FILE_PATH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+const char *ffd_path_name(const char *path);                    /* "a/b.obj" -> "b.obj" (inside path) */
+const char *ffd_path_ending(const char *path);                  /* "a/b.obj" -> ".obj", or "" (inside path) */
+bool ffd_path_has_ending(const char *path, const char *ending); /* letters in any case */
+bool ffd_path_is_absolute(const char *path);
+const char *ffd_path_shown(const char *path); /* for messages: "-" -> "standard input"; others as they are */
+/* New strings (free with ffd_free), NULL when there is no memory. */
+char *ffd_path_folder(const char *path); /* "a/b.obj" -> "a"; "b.obj" -> "." */
+char *ffd_path_stem(const char *path);   /* "a/b.x.obj" -> "b.x" */
+char *ffd_path_join(const char *folder, const char *name);
+char *ffd_path_beside(const char *path, const char *name); /* "a/b.obj", "c" -> "a/c" */
+char *ffd_text_copy(const char *text);
+
+#endif

@@ -1,0 +1,28 @@
+/* spill.h - arrays that may be larger than memory: beyond a size they stand in a temporary file without a
+   name, in the folder TMPDIR or /var/tmp, whose pages can leave memory (but where that is a file system in
+   memory). Where there is no such place, or no more of it, they are in memory. */
+#ifndef FFD_BASE_FILE_SPILL_H
+#define FFD_BASE_FILE_SPILL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Bytes that are not worth a file. */
+#define SPILL_FROM ((size_t)128 << 20)
+
+typedef struct spill_array {
+    void *data;  /* NULL: nothing yet */
+    size_t size; /* bytes that there is room for */
+    int file;    /* where is_mapped */
+    bool is_mapped;
+} spill_array;
+
+/* Makes room for at least `needed` bytes, growing by half at least; what is there stays, perhaps elsewhere.
+   An array of zeros is empty. False when there is no memory; nothing is changed then. */
+bool ffd_spill_grow(spill_array *array, size_t needed);
+/* For bytes that are not needed for a while: gives back the memory that they take, where they stand in a
+   file. Any thread. */
+void ffd_spill_forget(const spill_array *array, size_t offset, size_t size);
+void ffd_spill_free(spill_array *array);
+
+#endif

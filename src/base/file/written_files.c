@@ -1,0 +1,54 @@
+#include "base/file/written_files.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+
+/* What a stamp says of which file it is. */
+typedef struct file_key {
+    uint64_t device, number;
+} file_key;
+
+static file_key key_of(const file_stamp *stamp)
+{
+    return (file_key){stamp->device, stamp->number};
+}
+
+bool ffd_written_holds(const written_files *written, const char *path)
+{
+    file_stamp stamp;
+    uint32_t number;
+    if (written->count == 0 || !ffd_file_stamp(path, &stamp))
+        return false;
+    const file_key key = key_of(&stamp);
+    /* Its number on the device may be that of a file which somebody has removed since. */
+    return ffd_intern_find(&written->known, &key, sizeof key, &number) &&
+           ffd_file_same(written->paths[number], path);
+}
+
+ffd_status ffd_written_add(written_files *written, const file_stamp *stamp, const char *path,
+                           ffd_error *error)
+{
+    const file_key key = key_of(stamp);
+    char *const copy = ffd_text_copy(path);
+    uint32_t number;
+    if (!copy ||
+        !ffd_grow((void **)&written->paths, &written->capacity, written->count + 1, sizeof *written->paths) ||
+        !ffd_intern(&written->known, &key, sizeof key, &number)) {
+        ffd_free(copy);
+        return ffd_fail_memory(error);
+    }
+    if (number < written->count)
+        ffd_free(written->paths[number]);
+    else
+        written->count++;
+    written->paths[number] = copy;
+    return FFD_OK;
+}
+
+void ffd_written_free(written_files *written)
+{
+    for (size_t i = 0; i < written->count; i++)
+        ffd_free(written->paths[i]);
+    ffd_free(written->paths);
+    ffd_intern_free(&written->known);
+    *written = (written_files){0};
+}

@@ -1,0 +1,22 @@
+/* written_files.h - the files that a run has written so far. Two names can lead to one file (links, "./"),
+   and names are derived from others (a .gltf's buffers): only the files themselves tell. Looking a file up
+   does not take longer where many were written. */
+#ifndef FFD_BASE_FILE_WRITTEN_FILES_H
+#define FFD_BASE_FILE_WRITTEN_FILES_H
+
+#include "base/file/file.h"
+#include "base/memory/intern.h"
+
+/* Zeroed: none. */
+struct written_files {
+    intern_table known; /* which file each is, on which device */
+    char **paths;       /* by its number there */
+    size_t count, capacity;
+};
+
+/* Adds the file with this stamp, which stands at path or is about to. Errors: FFD_E_MEMORY. */
+ffd_status ffd_written_add(written_files *written, const file_stamp *stamp, const char *path,
+                           ffd_error *error);
+void ffd_written_free(written_files *written);
+
+#endif

@@ -1,0 +1,107 @@
+#define _DEFAULT_SOURCE /* madvise */
+#include "base/memory/memory.h"
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+
+/* Blocks from this size on get large pages. */
+#define LARGE_BLOCK ((size_t)4 << 20)
+#define LARGE_PAGE ((size_t)2 << 20)
+
+/* For tests only; negative: allocations never fail on purpose. */
+static atomic_long remaining_successes = -1;
+
+static bool fails_on_purpose(void)
+{
+    const long left = atomic_load(&remaining_successes);
+    if (left < 0)
+        return false;
+    if (left == 0)
+        return true;
+    atomic_store(&remaining_successes, left - 1);
+    return false;
+}
+
+void ffd_alloc_fail_after(long successes)
+{
+    atomic_store(&remaining_successes, successes);
+}
+
+bool ffd_add_size(size_t a, size_t b, size_t *result)
+{
+    if (a > SIZE_MAX - b)
+        return false;
+    *result = a + b;
+    return true;
+}
+
+bool ffd_multiply_size(size_t a, size_t b, size_t *result)
+{
+    if (b && a > SIZE_MAX / b)
+        return false;
+    *result = a * b;
+    return true;
+}
+
+void *ffd_alloc(size_t count, size_t size)
+{
+    size_t bytes;
+    if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
+        return NULL;
+    return malloc(bytes ? bytes : 1);
+}
+
+void *ffd_alloc_whole(size_t count, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+    size_t bytes;
+    if (ffd_multiply_size(count, size, &bytes) && bytes >= LARGE_BLOCK && bytes <= SIZE_MAX - LARGE_PAGE) {
+        /* From page to page, for the system has large ones for no others. */
+        const size_t whole = (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
+        void *block = fails_on_purpose() ? NULL : aligned_alloc(LARGE_PAGE, whole);
+        if (block)
+            madvise(block, whole, MADV_HUGEPAGE); /* advice only */
+        return block;
+    }
+#endif
+    return ffd_alloc(count, size);
+}
+
+void *ffd_alloc_zero(size_t count, size_t size)
+{
+    size_t bytes;
+    if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
+        return NULL;
+    return calloc(bytes ? bytes : 1, 1);
+}
+
+void *ffd_realloc(void *block, size_t count, size_t size)
+{
+    size_t bytes;
+    if (!ffd_multiply_size(count, size, &bytes) || fails_on_purpose())
+        return NULL;
+    return realloc(block, bytes ? bytes : 1);
+}
+
+void ffd_free(void *block)
+{
+    free(block);
+}
+
+bool ffd_grow(void **block, size_t *capacity, size_t needed, size_t size)
+{
+    if (needed <= *capacity)
+        return true;
+    size_t larger = *capacity + *capacity / 2;
+    if (larger < needed)
+        larger = needed;
+    if (larger < 16)
+        larger = 16;
+    void *grown = ffd_realloc(*block, larger, size);
+    if (!grown)
+        return false;
+    *block = grown;
+    *capacity = larger;
+    return true;
+}

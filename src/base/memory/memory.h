@@ -1,0 +1,40 @@
+/* memory.h - allocation with counts checked for overflow; one place where tests can make it fail. */
+#ifndef FFD_BASE_MEMORY_MEMORY_H
+#define FFD_BASE_MEMORY_MEMORY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* count * size bytes, not cleared / cleared; NULL when there is no memory or the product overflows. A count
+   of 0 gives a pointer that can be freed. Free with ffd_free. */
+void *ffd_alloc(size_t count, size_t size);
+void *ffd_alloc_zero(size_t count, size_t size);
+/* Changes the size of a block (or NULL) of ffd_alloc. On failure the old block stays. */
+void *ffd_realloc(void *block, size_t count, size_t size);
+void ffd_free(void *block);
+
+/* As ffd_alloc, for a block that will be used from end to end: if it is large it has large pages, where the
+   system knows them, for a page's first touch costs more than filling it. Not for memory of which little may
+   be touched. */
+void *ffd_alloc_whole(size_t count, size_t size);
+
+/* Makes room for at least `needed` elements of `size` bytes in *block, whose capacity is *capacity elements,
+   growing by half at least. False when there is no memory; nothing is changed then. */
+bool ffd_grow(void **block, size_t *capacity, size_t needed, size_t size);
+
+/* Tests: after `successes` further allocations every one fails; a negative number turns this off. */
+void ffd_alloc_fail_after(long successes);
+
+/* a + b, a * b in *result; false when they overflow. */
+bool ffd_add_size(size_t a, size_t b, size_t *result);
+bool ffd_multiply_size(size_t a, size_t b, size_t *result);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

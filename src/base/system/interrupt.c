@@ -1,0 +1,58 @@
+#include "base/system/interrupt.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+
+static volatile sig_atomic_t wished = INTERRUPT_NONE;
+static int stream[2] = {-1, -1};
+
+static void notice(int number)
+{
+    const int before = errno;
+    wished = number == SIGINT && wished == INTERRUPT_NONE ? INTERRUPT_FINISH : INTERRUPT_STOP;
+    /* It stays readable from the first wish on; a pipe that is full says as much. */
+    const ssize_t written = write(stream[1], "", 1);
+    (void)written;
+    errno = before;
+}
+
+static void keep_to_itself(int fd)
+{
+    fcntl(fd, F_SETFD, FD_CLOEXEC);
+    fcntl(fd, F_SETFL, O_NONBLOCK);
+}
+
+void ffd_interrupt_watch(void)
+{
+    struct sigaction action = {.sa_handler = notice, .sa_flags = SA_RESTART}, before;
+    sigemptyset(&action.sa_mask);
+    if (stream[0] < 0 && pipe(stream) == 0)
+        for (int i = 0; i < 2; i++)
+            keep_to_itself(stream[i]);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        /* What is ignored from the start (nohup) stays so. */
+        if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(numbers[i], &action, NULL);
+}
+
+interrupt_wish ffd_interrupt_wished(void)
+{
+    return (interrupt_wish)wished;
+}
+
+int ffd_interrupt_stream(void)
+{
+    return wished == INTERRUPT_NONE ? stream[0] : -1;
+}
+
+void ffd_interrupt_ignore(void)
+{
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        signal(numbers[i], SIG_IGN);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+}

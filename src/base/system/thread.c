@@ -1,0 +1,205 @@
+#include "base/system/thread.h"
+#include "base/memory/memory.h"
+#include <pthread.h>
+#include <stdatomic.h>
+#include <unistd.h>
+
+typedef struct worker_thread {
+    void (*run)(void *work, int number);
+    void *work;
+    int number;
+    pthread_t thread;
+} worker_thread;
+
+static void *start(void *argument)
+{
+    const worker_thread *self = argument;
+    self->run(self->work, self->number);
+    return NULL;
+}
+
+/* Runs in so many threads. Worker 0 is this one; it alone suffices where the others cannot be had. */
+static void run_all(void (*run)(void *work, int number), void *work, int threads)
+{
+    worker_thread *others = threads > 1 ? ffd_alloc_zero((size_t)threads - 1, sizeof *others) : NULL;
+    int started = 0;
+    while (others && started < threads - 1) {
+        worker_thread *next = &others[started];
+        *next = (worker_thread){.run = run, .work = work, .number = started + 1};
+        if (pthread_create(&next->thread, NULL, start, next) != 0)
+            break;
+        started++;
+    }
+    run(work, 0);
+    for (int i = 0; i < started; i++)
+        pthread_join(others[i].thread, NULL);
+    ffd_free(others);
+}
+
+/* Tiles that a thread takes at a time, if there are many: neighbours often need the same things. */
+#define SHARE 8
+#define SHARES_A_THREAD 32
+
+typedef struct tiling {
+    void *context;
+    size_t count, tile_size, tiles;
+} tiling;
+
+typedef struct tile_work {
+    tiling tiling;
+    tile_function function;
+    size_t share;
+    atomic_size_t next;
+} tile_work;
+
+static size_t share_of(size_t tiles, int threads)
+{
+    const size_t share = threads > 1 ? tiles / SHARES_A_THREAD / (size_t)threads : SHARE;
+    return share < 1 ? 1 : share < SHARE ? share : SHARE;
+}
+
+static tiling tile(size_t count, size_t tile_size, void *context)
+{
+    return (tiling){context, count, tile_size, count / tile_size + (count % tile_size != 0)};
+}
+
+static int workers_for(size_t tiles, int threads)
+{
+    return threads > 1 && (size_t)threads > tiles ? (int)tiles : threads;
+}
+
+static void call(tile_function function, const tiling *of, size_t number, int worker)
+{
+    const size_t begin = number * of->tile_size, rest = of->count - begin;
+    function(of->context, number, begin, begin + (rest < of->tile_size ? rest : of->tile_size), worker);
+}
+
+static void run_tiles(void *context, int worker)
+{
+    tile_work *work = context;
+    const size_t tiles = work->tiling.tiles;
+    for (;;) {
+        const size_t first = atomic_fetch_add(&work->next, work->share);
+        if (first >= tiles)
+            return;
+        const size_t last = tiles - first < work->share ? tiles : first + work->share;
+        for (size_t number = first; number < last; number++)
+            call(work->function, &work->tiling, number, worker);
+    }
+}
+
+void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_function function, void *context)
+{
+    tile_work work = {.tiling = tile(count, tile_size, context), .function = function};
+    work.share = share_of(work.tiling.tiles, threads);
+    atomic_init(&work.next, 0);
+    run_all(run_tiles, &work, workers_for(work.tiling.tiles, threads));
+}
+
+/* A tile on its way. */
+typedef struct tile_slot {
+    bool taken, made; /* made: it waits for its turn */
+    size_t tile;
+} tile_slot;
+
+typedef struct ordered_work {
+    tiling tiling;
+    tile_function function, finish;
+    int slot_count;
+    /* Under the lock: */
+    tile_slot *slots;
+    size_t next, turn; /* the tiles to be taken and to be finished next */
+    bool finishing;
+    pthread_mutex_t lock;
+    pthread_cond_t freed;
+} ordered_work;
+
+/* Tiles that may wait for their turn while threads go on. */
+#define MOST_WAITING 8
+
+int ffd_ordered_slots(int threads)
+{
+    if (threads <= 1)
+        return 1;
+    return threads + MOST_WAITING;
+}
+
+/* The slot that has the tile, if it is made; -1: none. */
+static int find_made(const ordered_work *work, size_t tile)
+{
+    for (int i = 0; i < work->slot_count; i++)
+        if (work->slots[i].made && work->slots[i].tile == tile)
+            return i;
+    return -1;
+}
+
+/* Takes the next tile into a free slot; waits for one. -1: no tile is left. Under the lock. */
+static int take_tile(ordered_work *work)
+{
+    for (; work->next < work->tiling.tiles; pthread_cond_wait(&work->freed, &work->lock))
+        for (int i = 0; i < work->slot_count; i++)
+            if (!work->slots[i].taken) {
+                work->slots[i] = (tile_slot){.taken = true, .tile = work->next++};
+                return i;
+            }
+    return -1;
+}
+
+/* Finishes the tiles whose turn it is, one after the other, unless another thread is at it. Under the lock.
+ */
+static void finish_made(ordered_work *work)
+{
+    if (work->finishing)
+        return;
+    work->finishing = true;
+    for (int slot; (slot = find_made(work, work->turn)) >= 0;) {
+        pthread_mutex_unlock(&work->lock);
+        call(work->finish, &work->tiling, work->turn, slot);
+        pthread_mutex_lock(&work->lock);
+        work->slots[slot].taken = work->slots[slot].made = false;
+        work->turn++;
+        pthread_cond_broadcast(&work->freed);
+    }
+    work->finishing = false;
+}
+
+static void run_ordered(void *context, int worker)
+{
+    ordered_work *work = context;
+    (void)worker; /* slots are numbered, not threads */
+    pthread_mutex_lock(&work->lock);
+    for (int slot; (slot = take_tile(work)) >= 0;) {
+        const size_t number = work->slots[slot].tile;
+        pthread_mutex_unlock(&work->lock);
+        call(work->function, &work->tiling, number, slot);
+        pthread_mutex_lock(&work->lock);
+        work->slots[slot].made = true;
+        finish_made(work);
+    }
+    pthread_mutex_unlock(&work->lock);
+}
+
+bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_function function,
+                           tile_function finish, void *context)
+{
+    ordered_work work = {.tiling = tile(count, tile_size, context),
+                         .function = function,
+                         .finish = finish,
+                         .slot_count = ffd_ordered_slots(threads),
+                         .lock = PTHREAD_MUTEX_INITIALIZER,
+                         .freed = PTHREAD_COND_INITIALIZER};
+    work.slots = ffd_alloc_zero((size_t)work.slot_count, sizeof *work.slots);
+    if (!work.slots)
+        return false;
+    run_all(run_ordered, &work, workers_for(work.tiling.tiles, threads));
+    pthread_cond_destroy(&work.freed);
+    pthread_mutex_destroy(&work.lock);
+    ffd_free(work.slots);
+    return true;
+}
+
+int ffd_processor_count(void)
+{
+    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
+}

@@ -1,0 +1,27 @@
+/* buffer.h - bytes that grow. A failed allocation is remembered, so that only the end needs a check. */
+#ifndef FFD_BASE_TEXT_BUFFER_H
+#define FFD_BASE_TEXT_BUFFER_H
+
+#include "base/fail.h"
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct byte_buffer {
+    char *data; /* size bytes in use; not ended by 0 unless ffd_buffer_finish was called */
+    size_t size, capacity;
+    bool failed; /* memory ran out: everything appended since is lost */
+} byte_buffer;
+
+/* Where size more bytes can be written by the caller, who adds what he did write to the buffer's size; NULL
+   when memory ran out. */
+char *ffd_buffer_room(byte_buffer *buffer, size_t size);
+void ffd_buffer_append(byte_buffer *buffer, const void *bytes, size_t size);
+void ffd_buffer_text(byte_buffer *buffer, const char *text);
+void ffd_buffer_format(byte_buffer *buffer, const char *format, ...) FFD_PRINTF(2, 3);
+void ffd_buffer_number(byte_buffer *buffer, double value); /* shortest text, number.h */
+/* Appends a final 0 (not counted in size) and hands the block over (free with ffd_free); NULL when memory ran
+   out. The buffer is empty afterwards. */
+char *ffd_buffer_finish(byte_buffer *buffer);
+void ffd_buffer_free(byte_buffer *buffer);
+
+#endif

@@ -1,0 +1,273 @@
+#include "base/text/decimal.h"
+#include "base/little_endian.h"
+#include "base/text/decimal_kernel.h"
+#include "base/vector/isa.h"
+#include <math.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#ifdef __SIZEOF_INT128__
+
+__extension__ typedef unsigned __int128 uint128;
+
+const uint64_t ffd_powers_of_five[POWERS_OF_FIVE] = {
+    UINT64_C(1),
+    UINT64_C(5),
+    UINT64_C(25),
+    UINT64_C(125),
+    UINT64_C(625),
+    UINT64_C(3125),
+    UINT64_C(15625),
+    UINT64_C(78125),
+    UINT64_C(390625),
+    UINT64_C(1953125),
+    UINT64_C(9765625),
+    UINT64_C(48828125),
+    UINT64_C(244140625),
+    UINT64_C(1220703125),
+    UINT64_C(6103515625),
+    UINT64_C(30517578125),
+    UINT64_C(152587890625),
+    UINT64_C(762939453125),
+    UINT64_C(3814697265625),
+    UINT64_C(19073486328125),
+    UINT64_C(95367431640625),
+    UINT64_C(476837158203125),
+    UINT64_C(2384185791015625),
+    UINT64_C(11920928955078125),
+    UINT64_C(59604644775390625),
+    UINT64_C(298023223876953125),
+    UINT64_C(1490116119384765625),
+};
+
+/* 10^point, which lifts the interval of a number with this exponent to a width of 1 to 10. */
+static int point_of(int exponent)
+{
+    return (-exponent * 315653 + (1 << 20) - 1) >> 20; /* ceil(-exponent log10(2)) */
+}
+
+/* mantissa 2^exponent 10^point, as the whole number of 16 or 17 digits that has the fewest digits other than
+   final zeros of those between the neighbours' halfway points, and of these is the nearest.
+
+   The interval is 1 to 10 wide: it holds a whole number, and one multiple of 10 at most, which is shorter
+   than all others; else the nearest whole number has as many digits as any (Giulietti, The Schubfach way to
+   render doubles, 2020, 8). All of it is in whole numbers, in units of 2^-shift: nothing is rounded. (Of a
+   power of two the halfway point below is nearer.) Which way it goes cannot be predicted: no branches. */
+static uint64_t shortest(uint64_t mantissa, int exponent, int point)
+{
+    const int shift = 2 - exponent - point; /* 2 to 60: ten units fit in 64 bits */
+    const uint64_t five = ffd_powers_of_five[point];
+    const uint128 scaled = (uint128)(4 * mantissa) * five;
+    const uint64_t low = (uint64_t)scaled, unit = (uint64_t)1 << shift;
+    const uint64_t whole = (uint64_t)(scaled >> 64) << (64 - shift) | low >> shift;
+    const uint64_t part = low & (unit - 1);
+    const uint64_t reach = 2 * five - (mantissa & 1); /* ties go to the even mantissa */
+    const uint64_t last_digit = whole % 10, above_ten = (last_digit << shift) + part;
+    const uint64_t down = above_ten <= reach, up = 10 * unit - above_ten <= reach;
+    const uint64_t nearest = whole + (part + (whole & 1) > unit / 2);
+    const uint64_t tens = whole - last_digit + 10 * up;
+    return nearest + ((tens - nearest) & (0 - (down | up)));
+}
+
+#define DIGITS 17
+#define EIGHT UINT32_C(100000000)
+
+/* Up to 24 characters, the first lowest. Registers: what was just written as bytes is slow to read as words.
+ */
+typedef struct characters {
+    uint64_t words[3];
+} characters;
+
+static void put(const characters *from, char *to)
+{
+    for (int i = 0; i < 3; i++)
+        store_u64((unsigned char *)to + 8 * i, from->words[i]);
+}
+
+/* The digits of a number below 10^8, one a byte. */
+static uint64_t eight_digits(uint32_t value)
+{
+    const uint32_t high = value / 10000;
+    const uint64_t fours = high | (uint64_t)(value - high * 10000) << 32;
+    const uint64_t hundreds = (fours * 10486 >> 20) & UINT64_C(0x0000007f0000007f);
+    const uint64_t pairs = hundreds | (fours - 100 * hundreds) << 16;
+    const uint64_t tens = (pairs * 103 >> 10) & UINT64_C(0x000f000f000f000f);
+    return tens | (pairs - 10 * tens) << 8;
+}
+
+/* The shortest digits of a number, 0 to 9, one a byte, the foremost lowest: one (0 where there are 16), eight
+   and eight. */
+typedef struct number_digits {
+    uint64_t first, middle, low;
+} number_digits;
+
+static number_digits digits_of(uint64_t number)
+{
+    const uint32_t upper = (uint32_t)(number / EIGHT), first = upper / EIGHT;
+    return (number_digits){first, eight_digits(upper - first * EIGHT),
+                           eight_digits((uint32_t)(number - (uint64_t)upper * EIGHT))};
+}
+
+/* How many zeros they end with. */
+static int final_zeros(const number_digits *digits)
+{
+    return digits->low      ? __builtin_clzll(digits->low) / 8
+           : digits->middle ? 8 + __builtin_clzll(digits->middle) / 8
+                            : 16;
+}
+
+static characters characters_of(const number_digits *digits)
+{
+    const uint64_t text = UINT64_C(0x3030303030303030);
+    const int shift = digits->first ? 8 : 0; /* where there is one digit more */
+    return (characters){{(digits->middle << shift | digits->first) + text,
+                         (digits->low << shift | digits->middle >> 1 >> (63 - shift)) + text,
+                         (digits->low >> 1 >> (63 - shift)) + text}};
+}
+
+/* With a point behind the first 1 to 7. */
+static characters with_point(const characters *digits, int before_point)
+{
+    const int at = 8 * before_point;
+    const uint64_t *const from = digits->words, before = ((uint64_t)1 << at) - 1;
+    return (characters){{(from[0] & before) | (uint64_t)'.' << at | (from[0] & ~before) << 8,
+                         from[1] << 8 | from[0] >> 56, from[2] << 8 | from[1] >> 56}};
+}
+
+static char *put_fixed(char *to, const characters *digits, int count, int before_point)
+{
+    if (before_point <= 0) {
+        memcpy(to, "0.0000", 6);
+        put(digits, to + 2 - before_point);
+        return to + 2 - before_point + count;
+    }
+    put(digits, to);
+    if (before_point >= count)
+        return to + before_point; /* the zeros are there */
+    memmove(to + before_point + 1, to + before_point, (size_t)(count - before_point));
+    to[before_point] = '.';
+    return to + count + 1;
+}
+
+static char *put_scientific(char *to, const characters *digits, int count, int exponent)
+{
+    const int size = exponent < 0 ? -exponent : exponent;
+    const characters pointed = with_point(digits, 1);
+    put(&pointed, to);
+    to += count > 1 ? count + 1 : 1;
+    *to++ = 'e';
+    *to++ = exponent < 0 ? '-' : '+';
+    *to++ = (char)('0' + size / 10);
+    *to++ = (char)('0' + size % 10);
+    return to;
+}
+
+/* In the shorter of both forms. */
+static char *put_number(char *to, const characters *digits, int count, int before_point)
+{
+    if (before_point > 0 && before_point < 8 && before_point < count) {
+        const characters pointed = with_point(digits, before_point);
+        put(&pointed, to);
+        return to + count + 1;
+    }
+    const int fixed = before_point <= 0      ? 2 - before_point + count
+                      : before_point < count ? count + 1
+                                             : before_point;
+    const int scientific = count + (count > 1) + 4;
+    return fixed <= scientific ? put_fixed(to, digits, count, before_point)
+                               : put_scientific(to, digits, count, before_point - 1);
+}
+
+static size_t put_digits(double value, const number_digits *digits, int point, char *text)
+{
+    const characters text_of = characters_of(digits);
+    const int length = digits->first ? DIGITS : DIGITS - 1;
+    *text = '-';
+    char *const first = text + (signbit(value) ? 1 : 0);
+    return (size_t)(put_number(first, &text_of, length - final_zeros(digits), length - point) - text);
+}
+
+size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    const uint64_t hidden = (uint64_t)1 << MANTISSA_BITS, fraction = bits & (hidden - 1);
+    const int exponent = (int)(bits >> MANTISSA_BITS & 0x7ff) - 1075;
+    if (fraction == 0 || exponent < LEAST_EXPONENT || exponent >= 0)
+        return 0;
+    const int point = point_of(exponent);
+    const number_digits digits = digits_of(shortest(fraction | hidden, exponent, point));
+    return put_digits(value, &digits, point, text);
+}
+
+/* Numbers of a run that are that far from each other are near. */
+#define NEAR 8
+
+/* NULL where one number after the other is no slower. */
+static decimal_kernel *find_kernel(void)
+{
+#ifdef FFD_X86
+    if (ffd_isa_available(FFD_ISA_AVX512))
+        return ffd_decimal_kernel_avx512;
+#endif
+    return NULL;
+}
+
+/* Whether the run has the text of a number now. It makes texts where the numbers before were near: of
+   an array that is gone through otherwise it would make many in vain. */
+static bool reach(decimal_run *run, const double *value)
+{
+    const double *const before = run->before;
+    run->before = value;
+    if (run->first && value >= run->first && value < run->first + DECIMAL_BATCH)
+        return true;
+    if (!run->kernel || !before || value < before || value - before > NEAR ||
+        run->end - value < (ptrdiff_t)DECIMAL_BATCH)
+        return false;
+    run->first = value;
+    run->kernel(value, &run->batch);
+    return true;
+}
+
+void ffd_decimal_run_begin(decimal_run *run, const double *end)
+{
+    run->first = run->before = NULL;
+    run->end = end;
+    run->kernel = find_kernel();
+}
+
+size_t ffd_decimal_run_format(decimal_run *run, const double *value, char text[FFD_NUMBER_CAPACITY])
+{
+    if (!reach(run, value))
+        return ffd_number_format(*value, text);
+    const size_t i = (size_t)(value - run->first);
+    const decimal_batch *const batch = &run->batch;
+    if (batch->size[i] == 0)
+        return ffd_number_format(*value, text);
+    put(&(characters){{batch->words[0][i], batch->words[1][i], batch->words[2][i]}}, text);
+    return (size_t)batch->size[i];
+}
+
+#else
+
+void ffd_decimal_run_begin(decimal_run *run, const double *end)
+{
+    (void)run;
+    (void)end;
+}
+
+size_t ffd_decimal_run_format(decimal_run *run, const double *value, char text[FFD_NUMBER_CAPACITY])
+{
+    (void)run;
+    return ffd_number_format(*value, text);
+}
+
+size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
+{
+    (void)value;
+    (void)text;
+    return 0;
+}
+
+#endif

@@ -1,0 +1,60 @@
+/* decimal.h - fast ways for the numbers that meshes hold, with the results of <charconv>, whose ways they are
+   used beside (number.cpp). */
+#ifndef FFD_BASE_TEXT_DECIMAL_H
+#define FFD_BASE_TEXT_DECIMAL_H
+
+#include "base/text/decimal_kernel.h"
+#include "base/text/number.h"
+#include <float.h>
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Powers of ten that are doubles, and those below 0. */
+#define POWERS_OF_TEN 20
+extern const double ffd_powers_of_ten[2][POWERS_OF_TEN];
+
+/* A number, not negative and below 2^62, by a power of ten, or below 0 that much. False where the quotient
+   may not be the nearest double. A whole number up to 2^53, or one with enough factors 2, and a power of ten
+   up to 10^22 are doubles, so that their quotient is rounded once (Clinger, How to Read Floating Point
+   Numbers Accurately, 1990), unless it were longer than a double first. */
+static inline bool ffd_decimal_quotient(int64_t number, int power, bool negative, double *value)
+{
+    const double whole = (double)number;
+    if ((FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 1) || (int64_t)whole != number)
+        return false;
+    *value = whole / ffd_powers_of_ten[negative][power];
+    return true;
+}
+
+/* Reads digits with a point in them or not, of a value that one division by a power of ten gives exactly
+   rounded. Returns the place behind it; NULL where something else stands there. */
+const char *ffd_decimal_parse(const char *first, const char *last, double *value);
+
+/* Writes the shortest text as std::to_chars does. Returns its length, 24 at most (what stands behind it in
+   text is undefined); 0 where the number is none of those that this way is for: 2^-32 to 2^52 in size, and no
+   power of two. */
+size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY]);
+
+/* Numbers of an array whose texts are wanted nearly one after the other: those of many are made at once. The
+ * numbers must not change meanwhile. */
+typedef struct decimal_run {
+    decimal_kernel *kernel;
+    const double *first;  /* the texts of this number and of those behind it are there; NULL: of none */
+    const double *before; /* the number that was wanted last; NULL: none */
+    const double *end;    /* of the array */
+    decimal_batch batch;
+} decimal_run;
+
+void ffd_decimal_run_begin(decimal_run *run, const double *end);
+
+/* ffd_number_format for a number of the run's array. */
+size_t ffd_decimal_run_format(decimal_run *run, const double *value, char text[FFD_NUMBER_CAPACITY]);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,43 @@
+#include "base/text/words.h"
+#include <string.h>
+
+/* Longer words are compared by their first letters only: names are short. */
+#define LONGEST 40
+
+static size_t least(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+/* Optimal string alignment distance. */
+size_t ffd_word_distance(const char *a, const char *b)
+{
+    const size_t m = least(strlen(a), LONGEST), n = least(strlen(b), LONGEST);
+    size_t d[LONGEST + 1][LONGEST + 1];
+    for (size_t i = 0; i <= m; i++)
+        d[i][0] = i;
+    for (size_t j = 0; j <= n; j++)
+        d[0][j] = j;
+    for (size_t i = 1; i <= m; i++)
+        for (size_t j = 1; j <= n; j++) {
+            const size_t replace = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
+            d[i][j] = least(replace, least(d[i - 1][j], d[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+        }
+    return d[m][n];
+}
+
+const char *ffd_nearest_word(const char *word, const char *const *known, size_t count)
+{
+    const char *nearest = NULL;
+    size_t smallest = (size_t)-1;
+    for (size_t i = 0; i < count; i++) {
+        const size_t d = ffd_word_distance(word, known[i]);
+        if (d < smallest) {
+            smallest = d;
+            nearest = known[i];
+        }
+    }
+    return nearest;
+}

@@ -1,0 +1,114 @@
+/* array_kernel.c - compiled once for each instruction set: FFD_ARRAY_KERNEL is the name of its table. */
+#include "base/vector/array_kernel.h"
+#include "base/little_endian.h"
+#include "base/vector/vec.h"
+#include <string.h>
+
+/* Points at a time whose numbers fill whole registers of every instruction set. */
+#define GROUP ((size_t)8)
+#define NUMBERS (3 * GROUP)
+
+static void read_floats(const unsigned char *restrict from, size_t count, double *restrict to)
+{
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t bits = load_u32(from + 4 * i);
+        float value;
+        memcpy(&value, &bits, sizeof value);
+        to[i] = value;
+    }
+}
+
+static void round_to_floats(const double *restrict from, size_t count, float *restrict to)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] = (float)from[i];
+}
+
+static void add(const double *restrict terms, size_t count, double *restrict to)
+{
+    for (size_t i = 0; i < count; i++) {
+        const double sum = to[i] + terms[i];
+        to[i] = terms[i] != 0 ? sum : to[i];
+    }
+}
+
+/* What is found of groups of points, number by number. */
+typedef struct group_range {
+    double min[NUMBERS], max[NUMBERS];
+    double zero[NUMBERS]; /* no longer 0 where a number was not finite */
+} group_range;
+
+static void widen_group(const double *restrict numbers, group_range *restrict range)
+{
+    for (size_t k = 0; k < NUMBERS; k++) {
+        const double value = numbers[k];
+        range->min[k] = value < range->min[k] ? value : range->min[k];
+        range->max[k] = value > range->max[k] ? value : range->max[k];
+        range->zero[k] += 0 * value;
+    }
+}
+
+static bool widen(const double *points, size_t count, double min[3], double max[3])
+{
+    group_range range = {{0}, {0}, {0}};
+    double last[NUMBERS];
+    size_t first = 0;
+    if (count == 0)
+        return true;
+    for (size_t k = 0; k < NUMBERS; k++)
+        range.min[k] = range.max[k] = points[k % 3];
+    for (; first + GROUP <= count; first += GROUP)
+        widen_group(points + 3 * first, &range);
+    for (size_t k = 0; k < NUMBERS; k++) /* the rest, and the last point again */
+        last[k] = points[3 * (first + k / 3 < count ? first + k / 3 : count - 1) + k % 3];
+    widen_group(last, &range);
+    for (size_t k = 0; k < NUMBERS; k++)
+        if (!(range.zero[k] == 0))
+            return false;
+    for (size_t k = 0; k < NUMBERS; k++) {
+        min[k % 3] = lesser_of(min[k % 3], range.min[k]);
+        max[k % 3] = larger_of(max[k % 3], range.max[k]);
+    }
+    return true;
+}
+
+/* What becomes of a number. */
+enum { OTHER = 1, UNFIT = 2 };
+
+/* first: the number of the group's first point. */
+static void displace_group(const double *restrict vectors, double largest, size_t first,
+                           double *restrict numbers, uint8_t *restrict changed, size_t *unfit)
+{
+    int64_t fates[NUMBERS], all = 0;
+    for (size_t k = 0; k < NUMBERS; k++) {
+        const double sum = numbers[k] + vectors[k], moved = vectors[k] != 0 ? sum : numbers[k];
+        const int64_t is_other = (vectors[k] != 0) & (moved != numbers[k]);
+        const int64_t is_unfit = is_other & !(fabs(moved) <= largest);
+        fates[k] = is_other * OTHER | is_unfit * UNFIT;
+        all |= fates[k];
+        numbers[k] = moved;
+    }
+    for (size_t i = 0; i < GROUP; i++)
+        changed[i] = (uint8_t)((fates[3 * i] | fates[3 * i + 1] | fates[3 * i + 2]) & OTHER);
+    for (size_t k = NUMBERS; k-- > 0 && (all & UNFIT);)
+        if ((fates[k] & UNFIT) && first + k / 3 < *unfit)
+            *unfit = first + k / 3;
+}
+
+static size_t displace(const double *vectors, size_t count, double largest, double *points, uint8_t *changed)
+{
+    double last_vectors[NUMBERS] = {0}, last[NUMBERS] = {0};
+    uint8_t last_changed[GROUP];
+    size_t first = 0, unfit = count;
+    for (; first + GROUP <= count; first += GROUP)
+        displace_group(vectors + 3 * first, largest, first, points + 3 * first, changed + first, &unfit);
+    const size_t left = count - first;
+    memcpy(last_vectors, vectors + 3 * first, 3 * left * sizeof *last);
+    memcpy(last, points + 3 * first, 3 * left * sizeof *last);
+    displace_group(last_vectors, largest, first, last, last_changed, &unfit);
+    memcpy(points + 3 * first, last, 3 * left * sizeof *last);
+    memcpy(changed + first, last_changed, left);
+    return unfit;
+}
+
+const array_kernel FFD_ARRAY_KERNEL = {read_floats, round_to_floats, add, widen, displace};

@@ -1,0 +1,105 @@
+/* quad.h - four doubles side by side, such as the components of a point, for kernels that are compiled once
+   for each instruction set: in registers of FFD_LANES doubles, or in one. */
+#ifndef FFD_BASE_VECTOR_QUAD_H
+#define FFD_BASE_VECTOR_QUAD_H
+
+#include "base/inline.h"
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#if FFD_LANES > 1
+#include <immintrin.h>
+#endif
+
+#if FFD_LANES == 1
+typedef double quad_part;
+#else
+typedef double quad_part __attribute__((vector_size(8 * (FFD_LANES < 4 ? FFD_LANES : 4))));
+typedef int64_t quad_mask __attribute__((vector_size(8 * (FFD_LANES < 4 ? FFD_LANES : 4))));
+#endif
+
+enum { QUAD_PARTS = 4 * sizeof(double) / sizeof(quad_part) };
+
+typedef struct quad {
+    quad_part part[QUAD_PARTS];
+} quad;
+
+static ALWAYS_INLINE quad quad_load(const double *numbers)
+{
+    quad loaded;
+    memcpy(&loaded, numbers, sizeof loaded);
+    return loaded;
+}
+
+static ALWAYS_INLINE void quad_store(const quad *a, double *numbers)
+{
+    memcpy(numbers, a, sizeof *a);
+}
+
+static ALWAYS_INLINE quad quad_times(double factor, const quad *a)
+{
+    quad product;
+    for (int p = 0; p < QUAD_PARTS; p++)
+        product.part[p] = factor * a->part[p];
+    return product;
+}
+
+/* *sum += factor term */
+static ALWAYS_INLINE void quad_add(quad *sum, double factor, const quad *term)
+{
+    for (int p = 0; p < QUAD_PARTS; p++)
+        sum->part[p] += factor * term->part[p];
+}
+
+static ALWAYS_INLINE quad quad_difference(const quad *a, const quad *b)
+{
+    quad difference;
+    for (int p = 0; p < QUAD_PARTS; p++)
+        difference.part[p] = a->part[p] - b->part[p];
+    return difference;
+}
+
+static ALWAYS_INLINE quad quad_magnitude(const quad *a)
+{
+    quad magnitude;
+    for (int p = 0; p < QUAD_PARTS; p++)
+#if FFD_LANES == 1
+        magnitude.part[p] = fabs(a->part[p]);
+#else
+        magnitude.part[p] = (quad_part)((quad_mask)a->part[p] & INT64_MAX);
+#endif
+    return magnitude;
+}
+
+/* a > b ? a : b, a < b ? a : b. The processor has a step for just that, which compilers do not find: it gives
+   b where neither is larger, so that 0 and -0, and what is no number, are told apart by their order. */
+#if FFD_LANES == 1
+#define QUAD_LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define QUAD_LESSER(a, b) ((a) < (b) ? (a) : (b))
+#elif FFD_LANES == 2
+#define QUAD_LARGER(a, b) _mm_max_pd(a, b)
+#define QUAD_LESSER(a, b) _mm_min_pd(a, b)
+#else
+#define QUAD_LARGER(a, b) _mm256_max_pd(a, b)
+#define QUAD_LESSER(a, b) _mm256_min_pd(a, b)
+#endif
+
+/* a > b ? a : b, one by one. */
+static ALWAYS_INLINE quad quad_larger(const quad *a, const quad *b)
+{
+    quad larger;
+    for (int p = 0; p < QUAD_PARTS; p++)
+        larger.part[p] = QUAD_LARGER(a->part[p], b->part[p]);
+    return larger;
+}
+
+/* a < b ? a : b */
+static ALWAYS_INLINE quad quad_lesser(const quad *a, const quad *b)
+{
+    quad lesser;
+    for (int p = 0; p < QUAD_PARTS; p++)
+        lesser.part[p] = QUAD_LESSER(a->part[p], b->part[p]);
+    return lesser;
+}
+
+#endif

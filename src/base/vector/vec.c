@@ -1,0 +1,52 @@
+#include "base/vector/vec.h"
+
+/* The power of two that brings the largest of three numbers into [0.5, 1); 0 where all are 0 or one is not
+   finite. */
+static int exponent_of(double a, double b, double c, bool *usable)
+{
+    const double largest = fmax(fabs(a), fmax(fabs(b), fabs(c)));
+    int exponent = 0;
+    *usable = *usable && largest > 0 && isfinite(a) && isfinite(b) && isfinite(c);
+    frexp(largest, &exponent);
+    return exponent;
+}
+
+double ffd_vec_length_scaled(const double a[3])
+{
+    bool usable = true;
+    const int exponent = exponent_of(a[0], a[1], a[2], &usable);
+    if (!usable)
+        return fabs(a[0]) + fabs(a[1]) + fabs(a[2]); /* 0, infinite, or not a number */
+    const double scaled[3] = {ldexp(a[0], -exponent), ldexp(a[1], -exponent), ldexp(a[2], -exponent)};
+    return ldexp(sqrt(vec_dot(scaled, scaled)), exponent);
+}
+
+bool ffd_mat_invert_scaled(const double m[9], double out[9])
+{
+    double scaled[9], cofactor[9], result[9];
+    int column[3], row[3];
+    bool usable = true;
+    for (int c = 0; c < 3; c++) {
+        column[c] = exponent_of(m[c], m[3 + c], m[6 + c], &usable);
+        for (int r = 0; r < 3; r++)
+            scaled[3 * r + c] = ldexp(m[3 * r + c], -column[c]);
+    }
+    for (int r = 0; r < 3; r++) {
+        row[r] = exponent_of(scaled[3 * r], scaled[3 * r + 1], scaled[3 * r + 2], &usable);
+        for (int c = 0; c < 3; c++)
+            scaled[3 * r + c] = ldexp(scaled[3 * r + c], -row[r]);
+    }
+    mat_cofactor(scaled, cofactor);
+    const double det = vec_dot(scaled, cofactor);
+    if (!usable || !(det < 0 || det > 0))
+        return false;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            result[3 * r + c] = ldexp(cofactor[3 * c + r] / det, -column[r] - row[c]);
+            if (!isfinite(result[3 * r + c]))
+                return false;
+        }
+    for (int i = 0; i < 9; i++)
+        out[i] = result[i];
+    return true;
+}

@@ -1,0 +1,110 @@
+/* vec.h - small vectors and matrices: double[3], and double[9] row by row. Fixed order of operations. */
+#ifndef FFD_BASE_VECTOR_VEC_H
+#define FFD_BASE_VECTOR_VEC_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* fmin and fmax are calls. Where b is no number, it is a. */
+static inline double lesser_of(double a, double b)
+{
+    return b < a ? b : a;
+}
+
+static inline double larger_of(double a, double b)
+{
+    return b > a ? b : a;
+}
+
+static inline double vec_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* vec_length for vectors whose squares leave the range of doubles, or may have lost bits at its lower end. */
+double ffd_vec_length_scaled(const double a[3]);
+
+static inline double vec_length(const double a[3])
+{
+    const double square = vec_dot(a, a);
+    return square > 1e-280 && square < 1e300 ? sqrt(square) : ffd_vec_length_scaled(a);
+}
+
+/* out must be neither a nor b. */
+static inline void vec_cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static inline bool vec_is_finite(const double a[3])
+{
+    return 0 * a[0] + 0 * a[1] + 0 * a[2] == 0; /* of the others 0 times is no number */
+}
+
+/* out may be v. */
+static inline void mat_apply(const double m[9], const double v[3], double out[3])
+{
+    const double x = v[0], y = v[1], z = v[2];
+    out[0] = m[0] * x + m[1] * y + m[2] * z;
+    out[1] = m[3] * x + m[4] * y + m[5] * z;
+    out[2] = m[6] * x + m[7] * y + m[8] * z;
+}
+
+/* out = a b; must be neither. */
+static inline void mat_multiply(const double a[9], const double b[9], double out[9])
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            out[3 * r + c] = a[3 * r] * b[c] + a[3 * r + 1] * b[3 + c] + a[3 * r + 2] * b[6 + c];
+}
+
+/* cof(m): rows (or columns) are the cross products of m's other rows (columns); cof(m) = det(m) m^-T.
+   out must not be m. */
+static inline void mat_cofactor(const double m[9], double out[9])
+{
+    vec_cross(m + 3, m + 6, out);
+    vec_cross(m + 6, m, out + 3);
+    vec_cross(m, m + 3, out + 6);
+}
+
+static inline double mat_determinant(const double m[9])
+{
+    double c[3];
+    vec_cross(m + 3, m + 6, c);
+    return vec_dot(m, c);
+}
+
+/* mat_invert for matrices whose products of three entries leave the range of doubles: rows and columns are
+   brought to size 1 by powers of two first. */
+bool ffd_mat_invert_scaled(const double m[9], double out[9]);
+
+/* out = m^-1; false (out is not written) when the determinant is 0 or the result is not finite. */
+static inline bool mat_invert(const double m[9], double out[9])
+{
+    double c[9], result[9];
+    mat_cofactor(m, c);
+    const double det = vec_dot(m, c);
+    if (!(fabs(det) > 1e-250 && fabs(det) < 1e250)) /* 0, not a number, or not to be trusted */
+        return ffd_mat_invert_scaled(m, out);
+    for (int r = 0; r < 3; r++)
+        for (int k = 0; k < 3; k++) {
+            result[3 * r + k] = c[3 * k + r] / det;
+            if (!isfinite(result[3 * r + k]))
+                return false;
+        }
+    for (int i = 0; i < 9; i++)
+        out[i] = result[i];
+    return true;
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
