@@ -2,7 +2,7 @@
 #ifndef FFD_DEFORM_EXTENSION_H
 #define FFD_DEFORM_EXTENSION_H
 
-#include "embed/boundary.h"
+#include "embed/boundary/boundary.h"
 
 /* How much of the displacement is left at a distance (>= 0) from the border: w(s) = 1 - 10 s^3 + 15 s^4 - 6
    s^5 with s = distance/falloff, 0 from s = 1 on. 1 and 0 are reached with first and second derivative 0. A

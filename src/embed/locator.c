@@ -1,7 +1,7 @@
 #include "embed/locator.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "embed/affine_kernel.h"
+#include "embed/direct/affine_kernel.h"
 #include <math.h>
 
 /* The middle of the control points' bounds, and how far they reach from it. */

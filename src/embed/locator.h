@@ -4,7 +4,7 @@
 
 #include "base/fail.h"
 #include "base/vector/isa.h"
-#include "embed/box_tree.h"
+#include "embed/frame/box_tree.h"
 #include "lattice/lattice.h"
 #include <ffd/embedding.h>
 #include <float.h>

@@ -1,5 +1,5 @@
 #include "fold/zeros.h"
-#include "embed/bezier_box.h"
+#include "embed/frame/bezier_box.h"
 #include "fold/bernstein.h"
 #include "fold/determinant.h"
 #include <string.h>

@@ -6,8 +6,8 @@
 #include "base/file/file.h"
 #include "base/memory/hash.h"
 #include "deform/displacement.h"
-#include "embed/boundary.h"
-#include "embed/box_tree.h"
+#include "embed/boundary/boundary.h"
+#include "embed/frame/box_tree.h"
 #include <ffd/embedding.h>
 #include <ffd/fold.h>
 #include <ffd/job.h>

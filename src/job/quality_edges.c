@@ -1,7 +1,7 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"
-#include "embed/box_tree.h"
+#include "embed/frame/box_tree.h"
 #include "job/edge_list.h"
 #include "job/pass.h"
 #include "job/quality.h"

@@ -1,6 +1,6 @@
 #include "check_boundary.h"
 #include "base/vector/vec.h"
-#include "embed/boundary.h"
+#include "embed/boundary/boundary.h"
 #include "promise.h"
 #include <float.h>
 #include <math.h>

@@ -27,17 +27,21 @@ LAYERS = {
     "io/stl": {"base", "base/file", "base/memory", "base/text", "base/vector", "io", "mesh"},
     "io/write": {"base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf", "io/stl", "json", "mesh"},
     "spline": {"base", "base/memory", "base/text"},
+    "embed/frame": {"base/memory", "base/vector", "spline"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "spline"},
-    "embed": {"base", "base/memory", "base/vector", "lattice", "spline"},
-    "deform": {"base", "base/vector", "embed", "lattice"},
-    "fold": {"base/memory", "base/system", "base/vector", "embed", "lattice", "spline"},
-    "job": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed",
-        "io", "io/npy", "io/openmesh", "io/write", "json", "lattice", "mesh",
-    },
+    "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
+    "deform": {"base", "base/vector", "embed/boundary", "lattice"},
+    "fold": {"base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
     "batch": {"base", "base/file", "base/memory", "base/system", "base/text", "io", "job"},
     "cli": {"batch"},
     "cli/pages": {"cli"},
+    "embed": {"base", "base/memory", "base/vector", "embed/direct", "embed/frame", "lattice"},
+    "embed/cells": {"base/memory", "base/vector", "embed", "embed/frame", "lattice", "spline"},
+    "embed/direct": {"base/memory", "base/vector", "embed", "embed/frame", "spline"},
+    "job": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed",
+        "embed/boundary", "embed/frame", "io", "io/npy", "io/openmesh", "io/write", "json", "lattice", "mesh",
+    },
 }
 
 # <header> pattern -> folders that may include it.

@@ -8,7 +8,7 @@
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "base/vector/vec.h"
-#include "embed/boundary.h"
+#include "embed/boundary/boundary.h"
 #include <float.h>
 #include <stdint.h>
 

@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "embed/box_tree.h"
+#include "embed/frame/box_tree.h"
 #include <math.h>
 
 enum { MOST = 300 };

@@ -9,7 +9,7 @@
 #include "../support/draw.h"
 #include "base/vector/isa.h"
 #include "base/vector/vec.h"
-#include "embed/contraction_kernel.h"
+#include "embed/cells/contraction_kernel.h"
 #include <string.h>
 
 #define MOST (4 * MAX_ORDER * MAX_ORDER * MAX_ORDER)

@@ -8,7 +8,7 @@
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "base/vector/vec.h"
-#include "embed/cells.h"
+#include "embed/cells/cells.h"
 #include <ffd/embedding.h>
 #include <float.h>
 

@@ -7,7 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "embed/cells.h"
+#include "embed/cells/cells.h"
 #include "job/deform_job.h"
 #include "job/figures.h"
 #include "job/share.h"

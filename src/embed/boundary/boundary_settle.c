@@ -1,0 +1,190 @@
+/* boundary_settle.c - the end of a search: stationary to rounding, also across the lines where patches meet,
+   and how the point found follows x. */
+#include "base/vector/vec.h"
+#include "embed/boundary/boundary_faces.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* Crossings of lines between patches: a point that settles is a rounding away from where it belongs. */
+#define CROSSINGS 6
+/* u,v,w that are this near in each coordinate, relative to the domain, are equal. */
+#define EQUAL_UVW 1e-9
+/* A slope of the distance that is no more than this many roundings of |S_f| |x - S| is none. */
+#define SLOPE_ROUNDINGS 64
+/* A second derivative matrix is singular where its determinant is this small. */
+#define LEAST_DETERMINANT 1e-12
+
+typedef struct settling {
+    const boundary *border;
+    const double *x;
+    boundary_place place;
+    face_patch *patch; /* of the place's cell */
+    patch_sample sample;
+} settling;
+
+void ffd_boundary_uvw(const boundary *border, const boundary_place *place, double uvw[3])
+{
+    const boundary_face *face = &border->faces[place->face];
+    const knot_vector *across = &border->lattice->knots[face->direction];
+    uvw[face->direction] = face->end ? ffd_knots_last(across) : ffd_knots_first(across);
+    for (int f = 0; f < 2; f++) {
+        const knot_vector *knots = boundary_knots(border, place->face, f);
+        const double *knot = knots->t + knots->spans[place->cell[f]], t = place->t[f];
+        const double u = t == 0 ? knot[0] : t == 1 ? knot[1] : knot[0] + t * (knot[1] - knot[0]);
+        uvw[face->along[f]] = ffd_knots_wrap(knots, u > knot[1] ? knot[1] : u);
+    }
+}
+
+bool ffd_boundary_before(const boundary *border, const double a[3], const double b[3])
+{
+    for (int d = 0; d < 3; d++) {
+        const knot_vector *knots = &border->lattice->knots[d];
+        const double side = ffd_knots_last(knots) - ffd_knots_first(knots);
+        if (fabs(a[d] - b[d]) > EQUAL_UVW * side)
+            return a[d] < b[d];
+    }
+    return false;
+}
+
+static void project(settling *at)
+{
+    ffd_boundary_patch(at->border, at->place.face, at->place.cell, at->patch);
+    ffd_patch_project(at->patch, at->x, at->place.t, &at->sample);
+}
+
+/* Whether the coordinate f stands at an end of the patch beyond which the distance falls. */
+static bool leads_out(const settling *at, int f)
+{
+    double gradient[2], hessian[3];
+    const double t = at->place.t[f];
+    if (t != 0 && t != 1)
+        return false;
+    ffd_patch_gradient(&at->sample, gradient, hessian);
+    const double noise = SLOPE_ROUNDINGS * DBL_EPSILON * vec_length(at->sample.first[f]) *
+                         (vec_length(at->sample.residual) + 1);
+    return t == 0 ? gradient[f] > noise : gradient[f] < -noise;
+}
+
+/* Whether the patch's end at which the coordinate f stands is an edge of the face. */
+static bool is_edge(const boundary *border, const boundary_place *place, int f)
+{
+    const size_t cells = border->faces[place->face].cells[f];
+    return !ffd_knots_closed(boundary_knots(border, place->face, f)) &&
+           place->cell[f] == (place->t[f] == 0 ? 0 : cells - 1);
+}
+
+/* The same point as one of the next patch beyond coordinate f: of the same face, or beyond an edge of the
+   face that meets it there. The coordinate that may then move is *moving. */
+static void neighbour(const boundary *border, const boundary_place *from, int f, boundary_place *to,
+                      int *moving)
+{
+    const boundary_face *face = &border->faces[from->face];
+    const bool low = from->t[f] == 0;
+    *to = *from;
+    *moving = f;
+    if (!is_edge(border, from, f)) {
+        const size_t cells = face->cells[f];
+        to->cell[f] = low ? (from->cell[f] + cells - 1) % cells : (from->cell[f] + 1) % cells;
+        to->t[f] = low ? 1 : 0;
+        return;
+    }
+    for (int i = 0; i < border->face_count; i++)
+        if (border->faces[i].direction == face->along[f] && border->faces[i].end == !low)
+            to->face = i;
+    const boundary_face *other = &border->faces[to->face];
+    for (int g = 0; g < 2; g++)
+        if (other->along[g] == face->direction) {
+            to->cell[g] = face->end ? other->cells[g] - 1 : 0;
+            to->t[g] = face->end;
+            *moving = g;
+        } else {
+            to->cell[g] = from->cell[1 - f];
+            to->t[g] = from->t[1 - f];
+        }
+}
+
+/* Goes over to a neighbour in which the distance falls further; false where none is such. */
+static bool cross(settling *at)
+{
+    for (int f = 0; f < 2; f++) {
+        if (!leads_out(at, f))
+            continue;
+        settling next = *at;
+        int moving;
+        neighbour(at->border, &at->place, f, &next.place, &moving);
+        const double start = next.place.t[moving];
+        project(&next);
+        if (next.place.t[moving] != start) {
+            *at = next;
+            return true;
+        }
+    }
+    return false;
+}
+
+/* The coordinates of the place that rest neither on an edge of the face, nor on a line where the surface has
+   a ridge, nor where the face collapses them. */
+static int free_coordinates(const settling *at, int free[2])
+{
+    int count = 0;
+    for (int f = 0; f < 2; f++) {
+        const double t = at->place.t[f];
+        const bool at_end = t == 0 || t == 1;
+        if (at_end && (is_edge(at->border, &at->place, f) || leads_out(at, f)))
+            continue;
+        if (vec_length(at->sample.first[f]) > SLOPE_ROUNDINGS * DBL_EPSILON)
+            free[count++] = f;
+    }
+    return count;
+}
+
+/* H dt = S_f . dx with H_fg = S_f . S_g + (S - x) . S_fg: the gradient stays 0. */
+static void follow(const settling *at, boundary_foot *foot)
+{
+    double gradient[2], h[3], rows[2][3];
+    int free[2];
+    const patch_sample *sample = &at->sample;
+    const int count = free_coordinates(at, free);
+    ffd_patch_gradient(sample, gradient, h);
+    for (int i = 0; i < count; i++) {
+        const double *slope = sample->first[free[i]];
+        if (!(h[2 * free[i]] > LEAST_DETERMINANT * vec_dot(slope, slope)))
+            return;
+    }
+    if (count == 2) {
+        const double det = h[0] * h[2] - h[1] * h[1];
+        if (!(det > LEAST_DETERMINANT * (h[0] * h[2])))
+            return;
+        for (int c = 0; c < 3; c++) {
+            const double s = sample->first[0][c], t = sample->first[1][c];
+            rows[0][c] = (h[2] * s - h[1] * t) / det;
+            rows[1][c] = (h[0] * t - h[1] * s) / det;
+        }
+    } else if (count == 1) {
+        for (int c = 0; c < 3; c++)
+            rows[0][c] = sample->first[free[0]][c] / h[2 * free[0]];
+    }
+    for (int i = 0; i < count; i++) {
+        const knot_vector *knots = boundary_knots(at->border, at->place.face, free[i]);
+        const double *knot = knots->t + knots->spans[at->place.cell[free[i]]];
+        foot->free[i] = at->border->faces[at->place.face].along[free[i]];
+        for (int c = 0; c < 3; c++)
+            foot->by_x[i][c] = rows[i][c] * (knot[1] - knot[0]);
+    }
+    foot->free_count = count;
+}
+
+void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_place *place,
+                         face_patch *scratch, boundary_foot *foot)
+{
+    settling at = {.border = border, .x = x, .place = *place, .patch = scratch};
+    project(&at);
+    for (int i = 0; i < CROSSINGS && cross(&at); i++)
+        continue;
+    memset(foot, 0, sizeof *foot);
+    ffd_boundary_uvw(border, &at.place, foot->uvw);
+    for (int c = 0; c < 3; c++)
+        foot->residual[c] = -at.sample.residual[c];
+    follow(&at, foot);
+}

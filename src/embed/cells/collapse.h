@@ -1,0 +1,33 @@
+/* collapse.h - faces and edges of the domain that the lattice collapses: a cylinder's axis, a pole. Their
+   points have whole lines of u,v,w; they are found once and answered directly (maths.md 6.5). */
+#ifndef FFD_EMBED_CELLS_COLLAPSE_H
+#define FFD_EMBED_CELLS_COLLAPSE_H
+
+#include "embed/frame/box_tree.h"
+#include "embed/locator.h"
+
+/* 6 faces and 12 edges. */
+#define MOST_COLLAPSES 18
+
+/* The image of a collapsed face or edge: a point, or a curve along one direction. */
+typedef struct collapse {
+    double uvw[3];  /* the least of its points (of a curve: with the curve's start), in the locator's knots */
+    int along;      /* the curve's direction; -1: a point */
+    double *points; /* the curve's control points h x, h, one a basis function; or the one point */
+    bounds box;
+} collapse;
+
+typedef struct collapse_list {
+    collapse sets[MOST_COLLAPSES];
+    int count;
+} collapse_list;
+
+/* Looks at the borders of the locator's lattice; its cells' points, scale and extent must be there. */
+ffd_status ffd_collapses_find(const ffd_locator *locator, collapse_list *list, ffd_error *error);
+void ffd_collapses_free(collapse_list *list);
+
+/* Whether x (in the search's units) lies on the set within the tolerance: then the least u,v,w there. */
+bool ffd_collapse_holds(const ffd_locator *locator, const collapse *set, const double x[3],
+                        const double tolerance[3], double uvw[3]);
+
+#endif

@@ -1,0 +1,31 @@
+/* contraction_kernel.h - the contraction bound of a box (bezier_box.h), which makes a search in it certain.
+ */
+#ifndef FFD_EMBED_CELLS_CONTRACTION_KERNEL_H
+#define FFD_EMBED_CELLS_CONTRACTION_KERNEL_H
+
+#include "embed/frame/bezier_box.h"
+
+typedef struct contraction_bound {
+    bool regular;      /* J_F(centre) has an inverse; else inverse and bound are not set */
+    double inverse[9]; /* Y = J_F(centre)^{-1}, in box coordinates t in [0,1]^3 */
+    double bound;      /* L: the greatest row sum of |I - Y J_F| over the box and all p in middle +- reach;
+                          HUGE_VAL where that cannot be told */
+} contraction_bound;
+
+/* One table for each instruction set, all of the same source and with the same bits: the components of a
+   point are lanes. */
+typedef struct contraction_kernel {
+    /* columns: 3 * ffd_bezier_size doubles, which become the coefficients of Y J_F. */
+    void (*find_bound)(const bezier_box *box, const double middle[3], const double reach[3], double *columns,
+                       contraction_bound *result);
+    /* The direction whose halving lowers that bound most. found, columns: as find_bound left them. */
+    int (*find_halving)(const bezier_box *box, const contraction_bound *found, double *columns);
+} contraction_kernel;
+
+extern const contraction_kernel ffd_contraction_kernel_scalar;
+#ifdef FFD_X86
+extern const contraction_kernel ffd_contraction_kernel_sse2, ffd_contraction_kernel_avx2,
+    ffd_contraction_kernel_avx512;
+#endif
+
+#endif

@@ -1,0 +1,228 @@
+/* leaf_subdivision.c - leaves without a contraction bound, near folds and collapses: halved for one point
+ * (maths.md 6.5).
+ */
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "embed/cells/search.h"
+#include "embed/frame/face.h"
+#include <string.h>
+
+/* A box is halved this often in each direction, unless the tolerance blurs its parts before: next to a
+   collapsed face one direction is to be cut as finely as doubles allow. */
+#define HARD_HALVINGS 48
+#define HARD_LEVELS (3 * HARD_HALVINGS + 2)
+/* Y of a larger box can be large by chance: where its centre lies on a fold. */
+#define BLURRED_SIDE 0x1p-22
+#define HARD_BUDGET 4096 /* boxes in one leaf */
+#define HARD_BOUND 0.75
+#define POLISH_ROUNDS 12
+/* Singular boxes that are polished in one hard leaf before the rest of it is left. */
+#define HARD_SINGULAR 8
+
+static bool make_memory(point_search *search)
+{
+    const int *order = search->locator->cells->order;
+    search_scratch *scratch = search->scratch;
+    if (!scratch->slots)
+        scratch->slots = ffd_alloc(HARD_LEVELS + 1, ffd_bezier_size(order) * sizeof(double));
+    if (!scratch->columns)
+        scratch->columns = ffd_alloc(3 * ffd_bezier_size(order), sizeof(double));
+    if (scratch->slots && scratch->columns)
+        return true;
+    search->status = ffd_fail_memory(search->error);
+    return false;
+}
+
+/* Levenberg's damped step: the direction that J cannot see rests, the others go to the solution. */
+static bool damped_step(const double jacobian[9], const double equation[3], double step[3])
+{
+    double normal[9], gradient[3], inverse[9], trace = 0;
+    const double *j = jacobian;
+    for (int r = 0; r < 3; r++) {
+        gradient[r] = -(j[r] * equation[0] + j[3 + r] * equation[1] + j[6 + r] * equation[2]);
+        for (int c = 0; c < 3; c++)
+            normal[3 * r + c] = j[r] * j[c] + j[3 + r] * j[3 + c] + j[6 + r] * j[6 + c];
+        trace += normal[4 * r];
+    }
+    for (int r = 0; r < 3; r++)
+        normal[4 * r] += 1e-9 * trace;
+    if (!mat_invert(normal, inverse))
+        return false;
+    mat_apply(inverse, gradient, step);
+    return true;
+}
+
+static bool full_step(const double jacobian[9], const double equation[3], double step[3])
+{
+    double inverse[9];
+    if (!mat_invert(jacobian, inverse))
+        return false;
+    mat_apply(inverse, equation, step);
+    for (int a = 0; a < 3; a++)
+        step[a] = -step[a];
+    return true;
+}
+
+/* A box too small to halve further, where J is singular or nearly so: Newton's steps while they can be made,
+   then damped ones. */
+static bool polish(point_search *search, const cell_region *region)
+{
+    double t[3] = {0.5, 0.5, 0.5};
+    sample at;
+    ffd_search_evaluate_in(search, region, t, &at);
+    for (int round = 0; round < POLISH_ROUNDS; round++) {
+        double jacobian[9], equation[3], step[3];
+        if (ffd_search_accepts(search, &at, region->weight_ratio)) {
+            ffd_search_record(search, region, t, &at, true);
+            return true;
+        }
+        if (!ffd_weigh_rows(at.jacobian, at.equation, search->tolerance, jacobian, equation))
+            return false;
+        const bool full = round < POLISH_ROUNDS / 2 && full_step(jacobian, equation, step);
+        if (!full && !damped_step(jacobian, equation, step))
+            return false;
+        for (int a = 0; a < 3; a++)
+            t[a] = clip_to_unit(t[a] + step[a]);
+        ffd_search_evaluate_in(search, region, t, &at);
+    }
+    return false;
+}
+
+typedef struct hard_search {
+    point_search *search;
+    int span[3];
+    int budget, singular;
+} hard_search;
+
+static const contraction_kernel *kernel_of(const hard_search *hard)
+{
+    return hard->search->locator->cells->contraction;
+}
+
+static bool holds_zero(const bounds *box, const double slack[3])
+{
+    static const double zero[3] = {0, 0, 0};
+    return bounds_hold(box, zero, slack);
+}
+
+/* The direction to halve: that of the contraction bound, or the longest where that one is short enough; -1:
+   all are. */
+static int direction_to_halve(const bezier_box *box, int wanted)
+{
+    const double end = ldexp(1, -HARD_HALVINGS);
+    int across = wanted;
+    if (box->hi[across] - box->lo[across] <= end)
+        for (int a = 0; a < 3; a++)
+            if (box->hi[a] - box->lo[a] > box->hi[across] - box->lo[across])
+                across = a;
+    return box->hi[across] - box->lo[across] <= end ? -1 : across;
+}
+
+static double shortest_side(const bezier_box *box)
+{
+    double shortest = 1;
+    for (int a = 0; a < 3; a++)
+        shortest = fmin(shortest, box->hi[a] - box->lo[a]);
+    return shortest;
+}
+
+/* Whether the box is done with: it holds no root, or its one root was looked for. *blurred: else, its parts
+   could not be told apart, since the tolerance alone reaches across half of it. */
+static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bound *found,
+                       cell_region *region, bool *blurred)
+{
+    static const double no_reach[3] = {0, 0, 0};
+    point_search *search = hard->search;
+    double least, most, slack[3];
+    ffd_bezier_weights(box, &least, &most);
+    for (int a = 0; a < 3; a++)
+        slack[a] = search->slack[a] * most;
+    *blurred = false;
+    bounds hull = ffd_bezier_equation_hull(box, search->x);
+    if (!holds_zero(&hull, slack))
+        return true;
+    kernel_of(hard)->find_bound(box, search->x, no_reach, search->scratch->columns, found);
+    ffd_cell_region(search->locator, hard->span, box, found, region);
+    if (!found->regular)
+        return false;
+    const double noise = ffd_image_of_tolerance(found->inverse, slack, 1);
+    const double image_slack[3] = {noise, noise, noise};
+    hull = ffd_bezier_image(box, found->inverse, search->x);
+    if (!holds_zero(&hull, image_slack))
+        return true;
+    if (found->bound > HARD_BOUND) {
+        *blurred = noise >= 0.5 && shortest_side(box) <= BLURRED_SIDE;
+        return false;
+    }
+    ffd_cells_centre(search->locator, region);
+    search->evaluations++;
+    ffd_search_region(search, region);
+    return true;
+}
+
+static void halve_for_point(hard_search *hard, bezier_box *box, int level)
+{
+    point_search *search = hard->search;
+    contraction_bound found;
+    cell_region region;
+    bool blurred;
+    if (hard->singular >= HARD_SINGULAR || hard->budget-- <= 0 || search->hard_boxes-- <= 0) {
+        search->unresolved = true;
+        return;
+    }
+    if (settle_box(hard, box, &found, &region, &blurred))
+        return;
+    const int across =
+        blurred
+            ? -1
+            : direction_to_halve(box, kernel_of(hard)->find_halving(box, &found, search->scratch->columns));
+    if (across < 0) {
+        if (polish(search, &region))
+            hard->singular++;
+        else
+            search->unresolved = true;
+        return;
+    }
+    bezier_box lower = {.coefficients =
+                            search->scratch->slots + (size_t)(level + 1) * ffd_bezier_size(box->order)};
+    bezier_box upper = {.coefficients = box->coefficients};
+    ffd_bezier_halve(box, across, &lower, &upper);
+    halve_for_point(hard, &lower, level + 1);
+    halve_for_point(hard, &upper, level + 1);
+}
+
+/* Cuts box down to the part [lo, hi] of its cell, both reached by halving. */
+static void restrict_to_part(bezier_box *box, const double lo[3], const double hi[3], double *spare)
+{
+    for (int a = 0; a < 3; a++)
+        while (box->lo[a] < lo[a] || box->hi[a] > hi[a]) {
+            bezier_box lower = {.coefficients = spare}, upper = {.coefficients = box->coefficients};
+            ffd_bezier_halve(box, a, &lower, &upper);
+            if (lo[a] < lower.hi[a]) {
+                memcpy(upper.coefficients, lower.coefficients, ffd_bezier_size(box->order) * sizeof(double));
+                lower.coefficients = upper.coefficients;
+                *box = lower;
+            } else {
+                *box = upper;
+            }
+        }
+}
+
+void ffd_search_hard_leaf(point_search *search, const cell_leaf *leaf)
+{
+    const ffd_lattice *lattice = search->locator->lattice;
+    if (!make_memory(search))
+        return;
+    hard_search hard = {.search = search, .budget = HARD_BUDGET};
+    bezier_box box = {.coefficients = search->scratch->slots};
+    size_t cell[3];
+    for (int a = 0; a < 3; a++) {
+        hard.span[a] = leaf->region.span[a];
+        cell[a] = 0;
+        while (lattice->knots[a].spans[cell[a]] != hard.span[a])
+            cell[a]++;
+    }
+    ffd_cell_bezier(search->locator, cell, &box);
+    restrict_to_part(&box, leaf->part.lo, leaf->part.hi, search->scratch->slots + ffd_bezier_size(box.order));
+    halve_for_point(&hard, &box, 0);
+}

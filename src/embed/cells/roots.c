@@ -1,0 +1,106 @@
+#include "embed/cells/roots.h"
+
+#define SAME 1e-9 /* of the domain: coordinates this near are equal (maths.md 6.7) */
+
+static double side_of(const ffd_locator *locator, int direction)
+{
+    const knot_vector *knots = &locator->knots[direction];
+    return ffd_knots_last(knots) - ffd_knots_first(knots);
+}
+
+static double tolerance_of(const ffd_locator *locator, const root *a, const root *b, int direction)
+{
+    return fmax(SAME * side_of(locator, direction), fmax(a->spread[direction], b->spread[direction]));
+}
+
+/* Whether the shorter way from a to b along this direction leads over the domain's ends, which are one. */
+static bool is_across_seam(const ffd_locator *locator, const root *a, const root *b, int direction)
+{
+    return (ffd_knots_closed(&locator->knots[direction]) || locator->cells->is_seam[direction]) &&
+           fabs(a->uvw[direction] - b->uvw[direction]) > 0.5 * side_of(locator, direction);
+}
+
+static bool are_one(const ffd_locator *locator, const root *a, const root *b)
+{
+    for (int d = 0; d < 3; d++) {
+        double apart = fabs(a->uvw[d] - b->uvw[d]);
+        if (is_across_seam(locator, a, b, d))
+            apart = side_of(locator, d) - apart;
+        if (!(apart <= tolerance_of(locator, a, b, d)))
+            return false;
+    }
+    return true;
+}
+
+/* -1, 0, 1 as a comes before, with or after b by (u,v,w), coordinates being equal within the tolerance. */
+static int compare_places(const ffd_locator *locator, const root *a, const root *b)
+{
+    for (int d = 0; d < 3; d++)
+        if (fabs(a->uvw[d] - b->uvw[d]) > tolerance_of(locator, a, b, d))
+            return a->uvw[d] < b->uvw[d] ? -1 : 1;
+    return 0;
+}
+
+static int compare_exactly(const root *a, const root *b)
+{
+    for (int d = 0; d < 3; d++)
+        if (a->uvw[d] != b->uvw[d])
+            return a->uvw[d] < b->uvw[d] ? -1 : 1;
+    return 0;
+}
+
+static bool is_preferred(const ffd_locator *locator, const root *a, const root *b)
+{
+    const double sign = locator->cells->volume_sign;
+    const bool a_agrees = a->determinant * sign > 0, b_agrees = b->determinant * sign > 0;
+    if (a_agrees != b_agrees)
+        return a_agrees;
+    return compare_places(locator, a, b) < 0;
+}
+
+/* Of two finds of one root: across a seam the one at the start; else the one that meets the point better. */
+static bool is_better_find(const ffd_locator *locator, const root *a, const root *b)
+{
+    for (int d = 0; d < 3; d++)
+        if (is_across_seam(locator, a, b, d))
+            return a->uvw[d] < b->uvw[d];
+    if (a->residual != b->residual)
+        return a->residual < b->residual;
+    return compare_exactly(a, b) < 0;
+}
+
+static void join(const ffd_locator *locator, root *kept, const root *found)
+{
+    const bool singular = kept->singular || found->singular; /* what is singular stays so */
+    if (is_better_find(locator, found, kept))
+        *kept = *found;
+    kept->singular = singular;
+}
+
+void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *found)
+{
+    for (int i = 0; i < list->count; i++)
+        if (are_one(locator, &list->roots[i], found)) {
+            join(locator, &list->roots[i], found);
+            return;
+        }
+    if (list->count < MOST_ROOTS) {
+        list->roots[list->count++] = *found;
+        return;
+    }
+    int last = 0;
+    for (int i = 1; i < MOST_ROOTS; i++)
+        if (is_preferred(locator, &list->roots[last], &list->roots[i]))
+            last = i;
+    if (is_preferred(locator, found, &list->roots[last]))
+        list->roots[last] = *found;
+}
+
+const root *ffd_roots_best(const ffd_locator *locator, const root_list *list)
+{
+    const root *best = &list->roots[0];
+    for (int i = 1; i < list->count; i++)
+        if (is_preferred(locator, &list->roots[i], best))
+            best = &list->roots[i];
+    return best;
+}

@@ -1,0 +1,179 @@
+/* affine.c - lattices whose rest map is affine: u,v,w by a 3x3 matrix. */
+#include "base/vector/vec.h"
+#include "embed/frame/face.h"
+#include "embed/locator.h"
+#include <math.h>
+#include <string.h>
+
+#define REFINEMENTS 8
+
+static double domain_side(const ffd_lattice *lattice, int a)
+{
+    return ffd_knots_last(&lattice->knots[a]) - ffd_knots_first(&lattice->knots[a]);
+}
+
+/* Greville abscissa of point i, as a fraction of the domain: t there. */
+static double greville_fraction(const ffd_lattice *lattice, int a, size_t i)
+{
+    const knot_vector *knots = &lattice->knots[a];
+    return (ffd_knots_greville(knots, i) - ffd_knots_first(knots)) / domain_side(lattice, a);
+}
+
+static bool weights_are_equal(const ffd_lattice *lattice)
+{
+    for (size_t i = 1; lattice->rest_weights && i < lattice->count; i++)
+        if (lattice->rest_weights[i] != lattice->rest_weights[0])
+            return false;
+    return true;
+}
+
+/* The affine map that the corner and its last neighbours along each direction define: column a is by t_a. */
+static void map_of_corners(const ffd_locator *locator, double frame[9], double start[3])
+{
+    const ffd_lattice *lattice = locator->lattice;
+    const size_t step[3] = {1, lattice->size[0], lattice->size[0] * lattice->size[1]};
+    double base[3], first[3];
+    for (int r = 0; r < 3; r++)
+        base[r] = start[r] = lattice->rest[r] - locator->origin[r];
+    for (int a = 0; a < 3; a++) {
+        const size_t last = lattice->size[a] - 1;
+        const double *far = lattice->rest + 3 * last * step[a];
+        first[a] = greville_fraction(lattice, a, 0);
+        const double length = greville_fraction(lattice, a, last) - first[a];
+        for (int r = 0; r < 3; r++)
+            frame[3 * r + a] = (far[r] - locator->origin[r] - base[r]) / length;
+    }
+    for (int a = 0; a < 3; a++)
+        for (int r = 0; r < 3; r++)
+            start[r] -= frame[3 * r + a] * first[a];
+}
+
+/* Whether every control point is where the map takes its Greville abscissae, to 4 eps of the shifted size. */
+static bool map_fits(const ffd_locator *locator, const double frame[9], const double start[3])
+{
+    const ffd_lattice *lattice = locator->lattice;
+    const double *point = lattice->rest;
+    for (size_t k = 0; k < lattice->size[2]; k++)
+        for (size_t j = 0; j < lattice->size[1]; j++)
+            for (size_t i = 0; i < lattice->size[0]; i++, point += 3) {
+                const double t[3] = {greville_fraction(lattice, 0, i), greville_fraction(lattice, 1, j),
+                                     greville_fraction(lattice, 2, k)};
+                double expected[3];
+                mat_apply(frame, t, expected);
+                for (int r = 0; r < 3; r++) {
+                    const double off = point[r] - locator->origin[r] - (start[r] + expected[r]);
+                    if (!(fabs(off) <= 4 * DBL_EPSILON * locator->extent[r]))
+                        return false;
+                }
+            }
+    return true;
+}
+
+/* Whether the determinant is more than the rounding of its own terms, with columns brought to length 1. */
+static bool has_volume(const double frame[9])
+{
+    double unit[9];
+    for (int a = 0; a < 3; a++) {
+        const double column[3] = {frame[a], frame[3 + a], frame[6 + a]}, length = vec_length(column);
+        for (int r = 0; r < 3; r++)
+            unit[3 * r + a] = column[r] / length;
+    }
+    return fabs(mat_determinant(unit)) > 16 * DBL_EPSILON;
+}
+
+bool ffd_affine_detect(ffd_locator *locator)
+{
+    const ffd_lattice *lattice = locator->lattice;
+    affine_map *map = &locator->affine;
+    double start[3] = {0, 0, 0};
+    for (int a = 0; a < 3; a++)
+        if (ffd_knots_closed(&lattice->knots[a]))
+            return false;
+    if (!weights_are_equal(lattice))
+        return false;
+    if (lattice->form == REST_BOX_AFFINE) {
+        /* The box of the file is exact; control points far from the origin are rounded to their own size. */
+        for (int r = 0; r < 3; r++)
+            locator->origin[r] = lattice->origin[r];
+        for (int i = 0; i < 9; i++)
+            map->frame[i] = lattice->frame[i];
+        for (int r = 0; r < 3; r++)
+            locator->extent[r] =
+                fabs(map->frame[3 * r]) + fabs(map->frame[3 * r + 1]) + fabs(map->frame[3 * r + 2]);
+    } else {
+        map_of_corners(locator, map->frame, start);
+        if (!map_fits(locator, map->frame, start))
+            return false;
+        for (int r = 0; r < 3; r++)
+            locator->origin[r] += start[r];
+    }
+    return has_volume(map->frame) && mat_invert(map->frame, map->inverse);
+}
+
+/* frame t - p */
+static void affine_equation(const affine_map *map, const double p[3], const double t[3], double equation[3])
+{
+    mat_apply(map->frame, t, equation);
+    for (int r = 0; r < 3; r++)
+        equation[r] -= p[r];
+}
+
+/* A strongly sheared frame loses digits in its inverse: iterative refinement wins them back. */
+static void refine(const affine_map *map, const double p[3], const double tolerance[3], double t[3])
+{
+    for (int step = 0; step < REFINEMENTS; step++) {
+        double equation[3], correction[3];
+        affine_equation(map, p, t, equation);
+        if (ffd_within_tolerance(equation, tolerance))
+            return;
+        mat_apply(map->inverse, equation, correction);
+        for (int a = 0; a < 3; a++)
+            t[a] -= correction[a];
+    }
+}
+
+typedef struct affine_point {
+    const affine_map *map;
+    const double *p, *tolerance;
+} affine_point;
+
+static bool evaluate_on_face(void *context, const double t[3], double jacobian[9], double equation[3])
+{
+    const affine_point *point = context;
+    memcpy(jacobian, point->map->frame, sizeof point->map->frame);
+    affine_equation(point->map, point->p, t, equation);
+    return ffd_within_tolerance(equation, point->tolerance);
+}
+
+void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location *location)
+{
+    const affine_map *map = &locator->affine;
+    double t[3], residual[3], tolerance[3];
+    bool clipped = false;
+    ffd_locator_tolerance(locator, p, tolerance);
+    mat_apply(map->inverse, p, t);
+    refine(map, p, tolerance, t);
+    for (int a = 0; a < 3; a++) {
+        const double inner = clip_to_unit(t[a]), *row = map->inverse + 3 * a;
+        /* What a point within the tolerance can be off by, roundings included. */
+        const double reach =
+            fabs(row[0]) * tolerance[0] + fabs(row[1]) * tolerance[1] + fabs(row[2]) * tolerance[2];
+        if (fabs(t[a] - inner) > 4 * reach)
+            return;
+        clipped = clipped || inner != t[a];
+        t[a] = inner;
+    }
+    affine_equation(map, p, t, residual);
+    affine_point point = {map, p, tolerance};
+    if (!ffd_within_tolerance(residual, tolerance) &&
+        !(clipped && ffd_face_settle(tolerance, evaluate_on_face, &point, t)))
+        return;
+    affine_equation(map, p, t, residual);
+    location->status = FFD_INSIDE;
+    location->residual = vec_length(residual);
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *knots = &locator->lattice->knots[a];
+        const double lo = ffd_knots_first(knots), hi = ffd_knots_last(knots), u = lo + t[a] * (hi - lo);
+        location->uvw[a] = u > hi ? hi : u;
+    }
+}

@@ -1,0 +1,57 @@
+/* affine_kernel.c - compiled once for each instruction set with lanes: FFD_AFFINE_KERNEL is the function's
+   name, FFD_LANES the number of points in hand at a time. Operation by operation it is affine.c. */
+#include "embed/direct/affine_kernel.h"
+#include "base/vector/lanes.h"
+
+/* Points and what is found of them, a lane each. */
+typedef struct affine_lanes {
+    lanes uvw[3], residual;
+    mask found;
+} affine_lanes;
+
+static ALWAYS_INLINE void find(const ffd_locator *locator, const double *xyz, affine_lanes *at)
+{
+    const affine_map *const map = &locator->affine;
+    lanes p[3], t[3], residual[3];
+    lanes_load_triples(xyz, p);
+    for (int a = 0; a < 3; a++)
+        p[a] -= locator->origin[a];
+    lanes_apply(map->inverse, p, t);
+    lanes_apply(map->frame, t, residual);
+    at->found = ~(mask){0};
+    for (int a = 0; a < 3; a++) {
+        const lanes tolerance = 16 * DBL_EPSILON * (locator->extent[a] + lanes_magnitude(p[a]));
+        residual[a] -= p[a];
+        at->found &= (residual[a] <= tolerance) & (residual[a] >= -tolerance) & (t[a] >= 0.0) & (t[a] <= 1.0);
+    }
+    /* Others than these vec_length leaves to a function. */
+    const lanes square = lanes_dot(residual, residual);
+    at->found &= ((square > 1e-280) & (square < 1e300)) |
+                 ((residual[0] == 0.0) & (residual[1] == 0.0) & (residual[2] == 0.0));
+    at->residual = lanes_root(square);
+    for (int a = 0; a < 3; a++) {
+        const double lo = ffd_knots_first(&locator->lattice->knots[a]),
+                     hi = ffd_knots_last(&locator->lattice->knots[a]);
+        const lanes u = lo + t[a] * (hi - lo);
+        at->uvw[a] = lanes_choose(u > hi, lanes_all(hi), u);
+    }
+}
+
+void FFD_AFFINE_KERNEL(const ffd_locator *locator, const double *xyz, size_t count, ffd_location *locations,
+                       uint8_t *found)
+{
+    size_t first = 0;
+    for (; first + FFD_LANES <= count; first += FFD_LANES) {
+        affine_lanes at;
+        double uvw[3 * FFD_LANES];
+        find(locator, xyz + 3 * first, &at);
+        lanes_store_triples(at.uvw, uvw);
+        for (size_t l = 0; l < FFD_LANES; l++) {
+            locations[first + l] = (ffd_location){.uvw = {uvw[3 * l], uvw[3 * l + 1], uvw[3 * l + 2]},
+                                                  .residual = at.residual[l],
+                                                  .status = FFD_INSIDE};
+            found[first + l] = (uint8_t)(at.found[l] & 1);
+        }
+    }
+    memset(found + first, 0, count - first);
+}

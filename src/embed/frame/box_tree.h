@@ -1,0 +1,57 @@
+/* box_tree.h - a tree over axis-aligned boxes that answers: which of them hold this point? */
+#ifndef FFD_EMBED_FRAME_BOX_TREE_H
+#define FFD_EMBED_FRAME_BOX_TREE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct bounds {
+    double lo[3], hi[3];
+} bounds;
+
+typedef struct box_tree {
+    struct box_tree_node *nodes; /* node 0 is the root */
+    uint32_t *items;             /* the boxes' numbers, leaf by leaf */
+    size_t node_count;
+} box_tree;
+
+/* Builds the tree over count boxes (fewer than 2^31). False when there is no memory. */
+bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree);
+void ffd_box_tree_free(box_tree *tree);
+
+/* Calls visit for every box whose node's box, grown by slack in each coordinate, holds p; the caller tests
+   the box itself. The order depends on the boxes only. Stops and returns false when visit does. */
+typedef bool (*box_tree_visitor)(void *context, uint32_t item);
+bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double slack[3],
+                        box_tree_visitor visit, void *context);
+
+/* The same for every box that may hold a point of a box of places: one walk for points that are neighbours.
+   What it visits for a point alone, it visits for the box too, if slack is no less. */
+bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *places, const double slack[3],
+                            box_tree_visitor visit, void *context);
+
+static inline bool bounds_meet(const bounds *box, const bounds *places, const double slack[3])
+{
+    return places->hi[0] >= box->lo[0] - slack[0] && places->lo[0] <= box->hi[0] + slack[0] &&
+           places->hi[1] >= box->lo[1] - slack[1] && places->lo[1] <= box->hi[1] + slack[1] &&
+           places->hi[2] >= box->lo[2] - slack[2] && places->lo[2] <= box->hi[2] + slack[2];
+}
+
+static inline bool bounds_hold(const bounds *box, const double p[3], const double slack[3])
+{
+    return p[0] >= box->lo[0] - slack[0] && p[0] <= box->hi[0] + slack[0] && p[1] >= box->lo[1] - slack[1] &&
+           p[1] <= box->hi[1] + slack[1] && p[2] >= box->lo[2] - slack[2] && p[2] <= box->hi[2] + slack[2];
+}
+
+static inline void bounds_add(bounds *box, const double p[3])
+{
+    for (int a = 0; a < 3; a++) {
+        if (p[a] < box->lo[a])
+            box->lo[a] = p[a];
+        if (p[a] > box->hi[a])
+            box->hi[a] = p[a];
+    }
+}
+
+#endif
