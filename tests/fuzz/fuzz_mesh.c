@@ -2,7 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/formats.h"
-#include "io/gltf/gltf_document.h"
+#include "io/gltf/document/gltf_document.h"
 #include "job/deform_job.h"
 #include "job/info.h"
 #include "job/placement.h"

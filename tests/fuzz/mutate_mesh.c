@@ -2,7 +2,7 @@
    lengths are mostly set right again, so that what its JSON says is looked at. */
 #include "base/little_endian.h"
 #include "fuzz_target.h"
-#include "io/gltf/glb.h"
+#include "io/gltf/file/glb.h"
 #include "mutate_text.h"
 #include <stdbool.h>
 #include <string.h>

@@ -9,8 +9,8 @@
 #include "../support/draco_sample.h"
 #include "../support/draw.h"
 #include "../support/sheet.h"
-#include "io/gltf/draco.h"
-#include "io/gltf/gltf_model.h"
+#include "io/gltf/decode/draco.h"
+#include "io/gltf/model/gltf_model.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -6,9 +6,9 @@
 #include <cmocka.h>
 
 #include "../support/gltf_file.h"
-#include "io/gltf/base64.h"
-#include "io/gltf/glb.h"
-#include "io/gltf/uri.h"
+#include "io/gltf/file/base64.h"
+#include "io/gltf/file/glb.h"
+#include "io/gltf/file/uri.h"
 
 #define ASSET "\"asset\":{\"version\":\"2.0\"}"
 /* 36 bytes: the triangle (0,0,0) (1,0,0) (0,1,0). */

@@ -10,7 +10,7 @@
 #include "../support/draw.h"
 #include "../support/gltf_file.h"
 #include "io/difference.h"
-#include "io/gltf/gltf_document.h"
+#include "io/gltf/document/gltf_document.h"
 #include <ftw.h>
 #include <math.h>
 #include <sys/stat.h>

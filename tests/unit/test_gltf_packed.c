@@ -11,8 +11,8 @@
 #include "../support/gltf_file.h"
 #include "../support/sheet.h"
 #include "io/difference.h"
-#include "io/gltf/base64.h"
-#include "io/gltf/gltf_document.h"
+#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/file/base64.h"
 #include <meshoptimizer.h>
 #include <unistd.h>
 

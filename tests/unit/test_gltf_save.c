@@ -10,7 +10,7 @@
 #include "../support/test_folder.h"
 #include "base/little_endian.h"
 #include "io/difference.h"
-#include "io/gltf/glb.h"
+#include "io/gltf/file/glb.h"
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -8,8 +8,8 @@
 #include <cmocka.h>
 
 #include "../support/gltf_file.h"
-#include "io/gltf/gltf_document.h"
-#include "io/gltf/gltf_encode.h"
+#include "io/gltf/decode/gltf_encode.h"
+#include "io/gltf/document/gltf_document.h"
 #include <math.h>
 #include <unistd.h>
 

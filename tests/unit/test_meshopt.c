@@ -7,7 +7,7 @@
 
 #include "../support/draw.h"
 #include "base/memory/memory.h"
-#include "io/gltf/meshopt_view.h"
+#include "io/gltf/decode/meshopt_view.h"
 #include <math.h>
 #include <meshoptimizer.h>
 #include <stdlib.h>

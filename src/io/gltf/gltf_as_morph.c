@@ -3,7 +3,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/formats.h"
-#include "io/gltf/gltf_morph.h"
+#include "io/gltf/save/gltf_morph.h"
 #include <string.h>
 
 ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_error *error)

@@ -3,7 +3,7 @@
 #define FFD_IO_GLTF_GLTF_COMPARE_H
 
 #include "io/difference.h"
-#include "io/gltf/gltf_document.h"
+#include "io/gltf/document/gltf_document.h"
 
 /* Of an accessor that has other "min" or "max" in the second file: the first such number in either. */
 typedef struct gltf_bound {

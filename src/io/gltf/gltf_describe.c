@@ -1,5 +1,5 @@
 #include "base/memory/memory.h"
-#include "io/gltf/gltf_document.h"
+#include "io/gltf/document/gltf_document.h"
 #include <string.h>
 
 static void describe_text(const gltf_document *d, uint32_t value, const char *key, json_text *json,

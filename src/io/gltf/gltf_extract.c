@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "io/gltf/gltf_document.h"
+#include "io/gltf/document/gltf_document.h"
 #include <string.h>
 
 typedef struct extractor {

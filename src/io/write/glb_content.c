@@ -1,6 +1,6 @@
 #include "base/little_endian.h"
-#include "io/gltf/base64.h"
-#include "io/gltf/glb.h"
+#include "io/gltf/file/base64.h"
+#include "io/gltf/file/glb.h"
 #include "io/write/glb_writer.h"
 #include <float.h>
 #include <math.h>

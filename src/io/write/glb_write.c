@@ -1,7 +1,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "io/gltf/glb.h"
-#include "io/gltf/uri.h"
+#include "io/gltf/file/glb.h"
+#include "io/gltf/file/uri.h"
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
 #include <float.h>

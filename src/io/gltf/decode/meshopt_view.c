@@ -1,0 +1,121 @@
+#include "io/gltf/decode/meshopt_view.h"
+#include <meshoptimizer.h>
+#include <stdbool.h>
+
+/* The first byte of a stream: its kind, and in the low half the version of its kind. */
+#define KIND_MASK 0xf0u
+#define VERSION_MASK 0x0fu
+
+/* A stream of attributes has, for each byte of an element and each 64 elements, at least one byte; behind
+   them one element, or this many bytes. */
+#define ELEMENTS_PER_BYTE 64
+#define ATTRIBUTES_TAIL 32
+#define LARGEST_STRIDE 256
+#define TRIANGLES_TAIL 16
+#define INDICES_TAIL 4
+
+typedef struct mode_facts {
+    const char *name;
+    unsigned char kind, newest; /* the newest version that the library reads */
+} mode_facts;
+
+static const mode_facts facts[] = {{"ATTRIBUTES", 0xa0, 0}, {"TRIANGLES", 0xe0, 1}, {"INDICES", 0xd0, 1}};
+
+static bool is_stride(const meshopt_view *view)
+{
+    if (view->mode == MESHOPT_ATTRIBUTES)
+        return view->stride > 0 && view->stride <= LARGEST_STRIDE && view->stride % 4 == 0;
+    return view->stride == 2 || view->stride == 4;
+}
+
+static bool is_filter(const meshopt_view *view)
+{
+    switch (view->filter) {
+    case MESHOPT_NONE:
+        return true;
+    case MESHOPT_OCTAHEDRAL:
+        return view->mode == MESHOPT_ATTRIBUTES && (view->stride == 4 || view->stride == 8);
+    case MESHOPT_QUATERNION:
+        return view->mode == MESHOPT_ATTRIBUTES && view->stride == 8;
+    default:
+        return view->mode == MESHOPT_ATTRIBUTES; /* its stride is a multiple of 4 */
+    }
+}
+
+/* The least number of bytes that hold so many elements. */
+static uint64_t least_size(const meshopt_view *view)
+{
+    switch (view->mode) {
+    case MESHOPT_ATTRIBUTES:
+        return 1 + view->count / ELEMENTS_PER_BYTE * view->stride +
+               (view->stride < ATTRIBUTES_TAIL ? ATTRIBUTES_TAIL : view->stride);
+    case MESHOPT_TRIANGLES:
+        return 1 + view->count / 3 + TRIANGLES_TAIL;
+    default:
+        return 1 + view->count + INDICES_TAIL;
+    }
+}
+
+ffd_status ffd_meshopt_check(const meshopt_view *view, ffd_error *error)
+{
+    const mode_facts *mode = &facts[view->mode];
+    if (!is_stride(view))
+        return ffd_fail(error, FFD_E_INVALID, "byteStride %llu is not one of mode %s",
+                        (unsigned long long)view->stride, mode->name);
+    if (!is_filter(view))
+        return ffd_fail(error, FFD_E_INVALID, "the filter does not go with mode %s and byteStride %llu",
+                        mode->name, (unsigned long long)view->stride);
+    if (view->mode == MESHOPT_TRIANGLES && view->count % 3)
+        return ffd_fail(error, FFD_E_INVALID, "count %llu is not a multiple of 3",
+                        (unsigned long long)view->count);
+    if (view->size == 0 || (view->bytes[0] & KIND_MASK) != mode->kind)
+        return ffd_fail(error, FFD_E_INVALID, "the compressed data is not of mode %s", mode->name);
+    if ((view->bytes[0] & VERSION_MASK) > mode->newest)
+        return ffd_fail(error, FFD_E_UNSUPPORTED,
+                        "version %u of the meshopt codec for %s is not known, only up to %u",
+                        view->bytes[0] & VERSION_MASK, mode->name, mode->newest);
+    if (least_size(view) > view->size)
+        return ffd_fail(error, FFD_E_INVALID, "%zu bytes cannot hold %llu elements of mode %s", view->size,
+                        (unsigned long long)view->count, mode->name);
+    return FFD_OK;
+}
+
+static int decode(const meshopt_view *view, size_t count, size_t stride, unsigned char *bytes)
+{
+    switch (view->mode) {
+    case MESHOPT_ATTRIBUTES:
+        return meshopt_decodeVertexBuffer(bytes, count, stride, view->bytes, view->size);
+    case MESHOPT_TRIANGLES:
+        return meshopt_decodeIndexBuffer(bytes, count, stride, view->bytes, view->size);
+    default:
+        return meshopt_decodeIndexSequence(bytes, count, stride, view->bytes, view->size);
+    }
+}
+
+static void apply_filter(const meshopt_view *view, size_t count, size_t stride, unsigned char *bytes)
+{
+    switch (view->filter) {
+    case MESHOPT_OCTAHEDRAL:
+        meshopt_decodeFilterOct(bytes, count, stride);
+        break;
+    case MESHOPT_QUATERNION:
+        meshopt_decodeFilterQuat(bytes, count, stride);
+        break;
+    case MESHOPT_EXPONENTIAL:
+        meshopt_decodeFilterExp(bytes, count, stride);
+        break;
+    default:
+        break;
+    }
+}
+
+ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
+{
+    const size_t count = (size_t)view->count, stride = (size_t)view->stride;
+    const int result = decode(view, count, stride, bytes);
+    if (result != 0)
+        return ffd_fail(error, FFD_E_INVALID, "the compressed data of mode %s is broken (%d)",
+                        facts[view->mode].name, result);
+    apply_filter(view, count, stride, bytes);
+    return FFD_OK;
+}

@@ -1,0 +1,35 @@
+/* meshopt_view.h - decodes a bufferView of EXT_meshopt_compression, by the meshoptimizer library. */
+#ifndef FFD_IO_GLTF_DECODE_MESHOPT_VIEW_H
+#define FFD_IO_GLTF_DECODE_MESHOPT_VIEW_H
+
+#include "base/fail.h"
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum meshopt_mode { MESHOPT_ATTRIBUTES, MESHOPT_TRIANGLES, MESHOPT_INDICES } meshopt_mode;
+
+typedef enum meshopt_filter {
+    MESHOPT_NONE,
+    MESHOPT_OCTAHEDRAL,
+    MESHOPT_QUATERNION,
+    MESHOPT_EXPONENTIAL
+} meshopt_filter;
+
+typedef struct meshopt_view {
+    meshopt_mode mode;
+    meshopt_filter filter;
+    uint64_t count, stride;     /* elements, bytes of each; below 2^54 each */
+    const unsigned char *bytes; /* lent */
+    size_t size;
+} meshopt_view;
+
+/* Says what the data cannot be, from its first byte and the numbers alone; after it count * stride is no more
+   than 64 times the size. Errors, without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version).
+ */
+ffd_status ffd_meshopt_check(const meshopt_view *view, ffd_error *error);
+
+/* Decodes a view that was checked into count * stride bytes, aligned as of ffd_alloc. Errors:
+   FFD_E_INVALID; the bytes are then of no use. */
+ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error);
+
+#endif

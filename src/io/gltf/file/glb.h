@@ -1,0 +1,31 @@
+/* glb.h - the container of a .glb file (glTF 2.0, 4.4). */
+#ifndef FFD_IO_GLTF_FILE_GLB_H
+#define FFD_IO_GLTF_FILE_GLB_H
+
+#include "base/fail.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define GLB_HEADER_SIZE 12
+#define GLB_CHUNK_HEADER_SIZE 8
+#define GLB_MAGIC 0x46546c67u
+#define GLB_VERSION 2
+#define GLB_CHUNK_JSON 0x4e4f534au
+#define GLB_CHUNK_BIN 0x004e4942u
+
+/* Where the chunks stand; sizes are without headers, as the headers state them. */
+typedef struct glb_layout {
+    size_t json_begin, json_size;
+    bool has_bin; /* the second chunk is BIN */
+    size_t bin_begin, bin_size;
+    size_t rest_begin, end; /* further chunks, up to the length that the file states */
+} glb_layout;
+
+bool ffd_glb_is(const unsigned char *data, size_t size);
+
+/* Reads header and chunk headers. Bytes behind the stated length are tolerated. Errors: FFD_E_INVALID. */
+ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *name, glb_layout *layout,
+                         ffd_error *error);
+
+#endif

@@ -1,0 +1,37 @@
+/* gltf_buffer.h - the buffers of a glTF file: the GLB's own, data URIs, files beside the model. */
+#ifndef FFD_IO_GLTF_FILE_GLTF_BUFFER_H
+#define FFD_IO_GLTF_FILE_GLTF_BUFFER_H
+
+#include "base/file/file.h"
+#include "json/json_span.h"
+
+typedef enum gltf_buffer_kind {
+    BUFFER_EMPTY, /* no bytes in this file: stands in for compressed data */
+    BUFFER_BIN,   /* the BIN chunk */
+    BUFFER_DATA,  /* a data URI */
+    BUFFER_FILE
+} gltf_buffer_kind;
+
+typedef struct gltf_buffer {
+    gltf_buffer_kind kind;
+    const unsigned char *data; /* NULL where empty */
+    size_t length;             /* byteLength */
+    size_t size;               /* bytes there are, length or more */
+    unsigned char *decoded;    /* owned, of a data URI */
+    file_input file;           /* owned, of a file */
+    char *path;                /* owned, of a file: relative to the model's folder, decoded */
+} gltf_buffer;
+
+/* Reads buffer `value` of the JSON. bin is the BIN chunk for the first buffer of a GLB, NULL else. model is
+   the path of the model, "-" for standard input, which has no folder; name stands in messages. On failure
+   *buffer is empty. Errors: FFD_E_INVALID, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const unsigned char *bin,
+                                size_t bin_size, const char *model, const char *name, gltf_buffer *buffer,
+                                ffd_error *error);
+void ffd_gltf_free_buffer(gltf_buffer *buffer);
+
+/* The place in a data URI's text (of size characters) behind its comma, SIZE_MAX where there is none; base64
+   tells whether the data is coded so. */
+size_t ffd_data_uri_payload(const char *uri, size_t size, bool *base64);
+
+#endif

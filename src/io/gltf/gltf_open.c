@@ -1,0 +1,468 @@
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
+#include "io/formats.h"
+#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/model/gltf_schema.h"
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* What the JSON library and tinygltf need at most for one object of a list; the model keeps less of it. */
+#define OBJECT_BYTES 1024
+#define KEPT_OBJECT_BYTES 256
+
+/* Of a file's byte: itself. */
+#define KEPT_PER_BYTE 1
+
+const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};
+
+uint32_t ffd_gltf_primitive_value(const gltf_document *d, size_t mesh, size_t primitive)
+{
+    return d->primitive_values.values[d->first_primitive[mesh] + primitive];
+}
+
+uint32_t ffd_gltf_extension(const gltf_document *d, uint32_t value, const char *extension)
+{
+    return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "extensions"), extension);
+}
+
+bool ffd_gltf_has_extension(const gltf_document *d, uint32_t value, const char *extension)
+{
+    return ffd_gltf_extension(d, value, extension) != JSON_NONE;
+}
+
+static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
+{
+    const char *text = (const char *)d->input.data;
+    size_t size = d->input.size;
+    const bool is_glb = ffd_glb_is(d->input.data, d->input.size);
+    if (format == FFD_FORMAT_GLB || (format == FFD_FORMAT_AUTO && is_glb)) {
+        const ffd_status status = ffd_glb_parse(d->input.data, d->input.size, d->name, &d->glb, error);
+        if (status)
+            return status;
+        d->binary = true;
+        text += d->glb.json_begin;
+        size = d->glb.json_size;
+    } else if (is_glb) {
+        return ffd_fail_file(error, FFD_E_INVALID, d->name, "is a GLB file: its name must end in .glb");
+    }
+    const ffd_status status = ffd_json_span_parse(text, size, d->name, &d->tree, error);
+    return status ? status : ffd_room_take(&d->base.room, d->tree.count, sizeof *d->tree.values, error);
+}
+
+static ffd_status list_values(const gltf_document *d, const char *key, gltf_values *list, ffd_error *error)
+{
+    const uint32_t array = ffd_json_span_member(&d->tree, 0, key);
+    const size_t count = array == JSON_NONE ? 0 : d->tree.values[array].count;
+    list->values = ffd_alloc(count, sizeof *list->values);
+    if (!list->values)
+        return ffd_fail_memory(error);
+    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v))
+        list->values[list->count++] = v;
+    return FFD_OK;
+}
+
+static ffd_status list_all_values(gltf_document *d, ffd_error *error)
+{
+    const struct {
+        const char *key;
+        gltf_values *list;
+    } lists[] = {{"buffers", &d->buffer_values},     {"bufferViews", &d->view_values},
+                 {"accessors", &d->accessor_values}, {"meshes", &d->mesh_values},
+                 {"nodes", &d->node_values},         {"skins", &d->skin_values},
+                 {"materials", &d->material_values}, {"images", &d->image_values}};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < sizeof lists / sizeof *lists && status == FFD_OK; i++)
+        status = list_values(d, lists[i].key, lists[i].list, error);
+    return status;
+}
+
+static int compare_files(const void *a, const void *b)
+{
+    const file_input *const *x = a, *const *y = b;
+    return memcmp((*x)->identity, (*y)->identity, sizeof(*x)->identity);
+}
+
+/* Allows memory for the files of buffers, however many buffers name one of them. */
+static ffd_status count_files(gltf_document *d, ffd_error *error)
+{
+    size_t count = 0;
+    const file_input **files = ffd_alloc(d->buffer_values.count, sizeof *files);
+    if (!files)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < d->buffer_values.count; i++)
+        if (d->buffers[i].kind == BUFFER_FILE)
+            files[count++] = &d->buffers[i].file;
+    if (count > 0)
+        qsort(files, count, sizeof *files, compare_files);
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 || compare_files(&files[i - 1], &files[i]) != 0)
+            ffd_room_add_file(&d->base.room, files[i]->size, KEPT_PER_BYTE);
+    ffd_free(files);
+    return FFD_OK;
+}
+
+static ffd_status load_buffers(gltf_document *d, ffd_error *error)
+{
+    d->buffers = ffd_alloc_zero(d->buffer_values.count, sizeof *d->buffers);
+    if (!d->buffers)
+        return ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
+        const bool bin = i == 0 && d->binary && d->glb.has_bin;
+        status = ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
+                                      bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size, d->path,
+                                      d->name, &d->buffers[i], error);
+        if (d->buffers[i].kind == BUFFER_DATA && status == FFD_OK)
+            status = ffd_room_take(&d->base.room, d->buffers[i].size, 1, error);
+    }
+    return status == FFD_OK ? count_files(d, error) : status;
+}
+
+static ffd_status list_primitives(gltf_document *d, ffd_error *error)
+{
+    size_t total = 0;
+    for (size_t m = 0; m < d->mesh_values.count; m++)
+        total += d->tree.values[ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives")].count;
+    gltf_values *list = &d->primitive_values;
+    list->values = ffd_alloc(total, sizeof *list->values);
+    d->first_primitive = ffd_alloc(d->mesh_values.count, sizeof *d->first_primitive);
+    if (!list->values || !d->first_primitive)
+        return ffd_fail_memory(error);
+    for (size_t m = 0; m < d->mesh_values.count; m++) {
+        const uint32_t array = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
+        d->first_primitive[m] = list->count;
+        for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
+             v = ffd_json_span_after(&d->tree, v))
+            list->values[list->count++] = v;
+    }
+    return FFD_OK;
+}
+
+/* A file needs 3 bytes to state an object. */
+static ffd_status limit_objects(gltf_document *d, ffd_error *error)
+{
+    const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
+    const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
+                           d->accessor_values.count + d->mesh_values.count + d->primitive_values.count +
+                           d->node_values.count + (scenes == JSON_NONE ? 0 : d->tree.values[scenes].count);
+    const ffd_status status = ffd_room_check(&d->base.room, count, OBJECT_BYTES, error);
+    return status ? status : ffd_room_take(&d->base.room, count, KEPT_OBJECT_BYTES, error);
+}
+
+/* tinygltf refuses indices without a bufferView, which compressed and sparse ones have: it is not shown them.
+ */
+static void hide_indices(const gltf_document *d, json_edits *edits)
+{
+    for (size_t i = 0; i < d->primitive_values.count; i++) {
+        const uint32_t indices = ffd_json_span_member(&d->tree, d->primitive_values.values[i], "indices");
+        if (indices != JSON_NONE)
+            ffd_edits_format(edits, d->tree.values[indices].key_begin, d->tree.values[indices].key_end,
+                             "\"\"");
+    }
+}
+
+static void set_indices(gltf_document *d)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
+            const uint32_t value = ffd_gltf_primitive_value(d, m, p);
+            double number;
+            if (ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, value, "indices"), &number))
+                d->model.meshes[m].primitives[p].indices = (int)number;
+        }
+}
+
+/* The JSON for tinygltf: only what is geometry, so that it neither takes time nor refuses a file for the
+   rest; buffers are stubs, so that it sees neither files nor large data; integers are plain digits. */
+static void write_model_text(const gltf_document *d, const json_edits *plain, byte_buffer *out)
+{
+    static const char *const used[] = {"asset", "bufferViews", "accessors", "meshes",
+                                       "nodes", "scenes",      "scene"};
+    ffd_buffer_text(out, "{\"buffers\":[");
+    for (size_t i = 0; i < d->buffer_values.count; i++)
+        ffd_buffer_format(out, "%s{\"byteLength\":1,\"uri\":\"data:application/octet-stream;base64,AA==\"}",
+                          i ? "," : "");
+    ffd_buffer_text(out, "]");
+    for (size_t i = 0; i < sizeof used / sizeof *used; i++) {
+        const uint32_t member = ffd_json_span_member(&d->tree, 0, used[i]);
+        if (member == JSON_NONE)
+            continue;
+        ffd_buffer_format(out, ",\"%s\":", used[i]);
+        ffd_edits_apply(plain, d->tree.text, d->tree.values[member].begin, d->tree.values[member].end, out);
+    }
+    ffd_buffer_text(out, "}");
+}
+
+/* What tinygltf read must be what the JSON says: both are used side by side. */
+static ffd_status check_counts(const gltf_document *d, ffd_error *error)
+{
+    const gltf_model *model = &d->model;
+    bool same = model->view_count == d->view_values.count &&
+                model->accessor_count == d->accessor_values.count &&
+                model->mesh_count == d->mesh_values.count && model->node_count == d->node_values.count;
+    for (size_t m = 0; m < model->mesh_count && same; m++) {
+        const uint32_t primitives = ffd_json_span_member(&d->tree, d->mesh_values.values[m], "primitives");
+        same = model->meshes[m].primitive_count == d->tree.values[primitives].count;
+    }
+    return same ? FFD_OK
+                : ffd_fail_file(error, FFD_E_INVALID, d->name, "is not valid glTF: tinygltf left out a part");
+}
+
+static ffd_status parse_model(gltf_document *d, ffd_error *error)
+{
+    json_edits plain = {0};
+    byte_buffer text = {0};
+    ffd_status status = ffd_gltf_check_schema(&d->tree, d->name, &plain, error);
+    if (status == FFD_OK)
+        status = list_all_values(d, error);
+    if (status == FFD_OK)
+        status = list_primitives(d, error);
+    if (status == FFD_OK)
+        status = limit_objects(d, error);
+    if (status == FFD_OK) {
+        hide_indices(d, &plain);
+        ffd_edits_sort(&plain);
+        write_model_text(d, &plain, &text);
+        if (ffd_edits_failed(&plain) || text.failed)
+            status = ffd_fail_memory(error);
+        else
+            status = ffd_gltf_parse_model(text.data, text.size, d->name, &d->model, error);
+    }
+    ffd_edits_free(&plain);
+    ffd_buffer_free(&text);
+    if (status == FFD_OK)
+        status = check_counts(d, error);
+    if (status == FFD_OK)
+        set_indices(d);
+    return status;
+}
+
+static void free_decoded(gltf_document *d)
+{
+    for (size_t i = 0; d->decoded_views && i < d->model.view_count; i++)
+        ffd_free(d->decoded_views[i]);
+    for (size_t i = 0; d->unpacked && i < d->model.accessor_count; i++)
+        ffd_free(d->unpacked[i].bytes);
+    for (size_t i = 0; d->draco_problems && i < d->primitive_values.count; i++)
+        ffd_free(d->draco_problems[i]);
+    ffd_free(d->decoded_views);
+    ffd_free(d->unpacked);
+    ffd_free(d->draco_problems);
+}
+
+static void free_document(gltf_document *d)
+{
+    gltf_values *const lists[] = {&d->buffer_values,   &d->view_values,  &d->accessor_values,
+                                  &d->mesh_values,     &d->node_values,  &d->skin_values,
+                                  &d->material_values, &d->image_values, &d->primitive_values};
+    for (size_t i = 0; d->parts && i < ffd_gltf_part_count(d); i++) {
+        for (int s = 0; s < GLTF_DEFORMED; s++)
+            ffd_gltf_free_result(&d->parts[i].streams[s]);
+        ffd_free(d->parts[i].selected);
+    }
+    for (size_t i = 0; d->buffers && i < d->buffer_values.count; i++)
+        ffd_gltf_free_buffer(&d->buffers[i]);
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
+        ffd_free(lists[i]->values);
+    ffd_gltf_free_skins(d);
+    free_decoded(d);
+    ffd_gltf_free_model(&d->model);
+    ffd_json_span_free(&d->tree);
+    ffd_free(d->first_primitive);
+    ffd_free(d->buffers);
+    ffd_free(d->layouts);
+    ffd_free(d->world);
+    ffd_free(d->is_shown);
+    ffd_free(d->shown_nodes);
+    ffd_free(d->showings);
+    ffd_free(d->instances);
+    ffd_free(d->parts);
+    ffd_free(d->mesh_parts);
+    ffd_free(d->shapes);
+    ffd_free(d->targets);
+    ffd_free(d->crowds);
+    ffd_free(d->morph_name);
+    ffd_free(d->path);
+    ffd_free(d);
+}
+
+void ffd_gltf_forget(const gltf_document *d)
+{
+    ffd_file_forget(&d->input, d->input.data, d->input.size);
+    for (size_t i = 0; i < d->buffer_values.count; i++)
+        if (d->buffers[i].kind == BUFFER_FILE)
+            ffd_file_forget(&d->buffers[i].file, d->buffers[i].file.data, d->buffers[i].file.size);
+}
+
+void ffd_gltf_forget_bytes(const gltf_document *d, const gltf_buffer *buffer, size_t offset, size_t size)
+{
+    const file_input *input = buffer->kind == BUFFER_FILE ? &buffer->file : &d->input;
+    const bool in_file = buffer->kind == BUFFER_FILE || buffer->kind == BUFFER_BIN;
+    if (in_file && offset < buffer->size)
+        ffd_file_forget(input, buffer->data + offset,
+                        size < buffer->size - offset ? size : buffer->size - offset);
+}
+
+static ffd_status list_files(const mesh_document *document, path_list *files, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < d->buffer_values.count && status == FFD_OK; i++) {
+        if (d->buffers[i].kind != BUFFER_FILE)
+            continue;
+        char *path = ffd_path_beside(d->path, d->buffers[i].path);
+        status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
+        ffd_free(path);
+    }
+    return status;
+}
+
+static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_error *error)
+{
+    d->path = ffd_text_copy(source->path);
+    if (!d->path)
+        return ffd_fail_memory(error);
+    d->name = ffd_path_shown(d->path);
+    ffd_status status = find_json(d, source->format, error);
+    if (status == FFD_OK)
+        status = parse_model(d, error);
+    if (status == FFD_OK)
+        status = load_buffers(d, error);
+    if (status)
+        return status;
+    d->layouts = ffd_alloc_zero(d->model.accessor_count, sizeof *d->layouts);
+    if (!d->layouts)
+        return ffd_fail_memory(error);
+    status = ffd_gltf_check(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_check_indices(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_list_skins(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_make_scene(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_make_parts(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_make_shapes(d, error);
+    if (status == FFD_OK)
+        d->crowds_status = ffd_gltf_make_crowds(d, &d->crowds_error);
+    if (status == FFD_OK)
+        d->skins_status = ffd_gltf_place_skins(d, &d->skins_error);
+    ffd_gltf_forget(d);
+    if (status == FFD_OK && d->skins_status == FFD_E_LIMIT)
+        return ffd_fail(error, FFD_E_LIMIT, "%s", d->skins_error.message);
+    const bool no_memory = d->skins_status == FFD_E_MEMORY || d->crowds_status == FFD_E_MEMORY;
+    return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
+}
+
+ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const mesh_room *room,
+                                mesh_document **document, ffd_error *error)
+{
+    *document = NULL;
+    gltf_document *d = ffd_alloc_zero(1, sizeof *d);
+    if (!d)
+        return ffd_fail_memory(error);
+    d->base.format = &ffd_gltf_format;
+    d->base.room = *room;
+    d->space = source->space;
+    d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
+    d->input = *input; /* borrowed until all is well */
+    const ffd_status status = read_document(d, source, error);
+    if (status) {
+        if (error)
+            ffd_fail_name_file(error, d->name ? d->name : source->path);
+        free_document(d);
+        return status;
+    }
+    *input = (file_input){0};
+    *document = &d->base;
+    return FFD_OK;
+}
+
+static ffd_status open_document(file_input *input, const ffd_source *source, mesh_document **document,
+                                ffd_error *error)
+{
+    mesh_room room = ffd_room_make(source->memory);
+    ffd_room_add_file(&room, input->size, KEPT_PER_BYTE);
+    return ffd_gltf_open_within(input, source, &room, document, error);
+}
+
+static void close_document(mesh_document *document)
+{
+    if (!document)
+        return;
+    gltf_document *d = (gltf_document *)document;
+    ffd_file_unload(&d->input);
+    free_document(d);
+}
+
+static ffd_status check(const mesh_document *document, ffd_error *error)
+{
+    return ffd_gltf_refuse_read(ffd_gltf_of(document), error);
+}
+
+static void read_stream(const mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
+                        size_t count, size_t components, double *values)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    ffd_gltf_read(d, d->parts[part].streams[semantic].accessor, first, count, components, values);
+}
+
+static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                           double *xyz)
+{
+    read_stream(document, part, GLTF_POSITION, first, count, 3, xyz);
+}
+
+static void read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
+{
+    read_stream(document, part, GLTF_NORMAL, first, count, 3, xyz);
+}
+
+static void read_tangents(const mesh_document *document, size_t part, size_t first, size_t count,
+                          double *xyzw)
+{
+    read_stream(document, part, GLTF_TANGENT, first, count, 4, xyzw);
+}
+
+static void read_offsets(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                         size_t first, size_t count, double *xyz)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const size_t target = d->base.part_count + d->parts[part].first_shape + shape;
+    ffd_gltf_read(d, d->parts[target].streams[stream].accessor, first, count, 3, xyz);
+}
+
+const mesh_format ffd_gltf_format = {
+    .format = FFD_FORMAT_GLTF,
+    .name = "glTF",
+    .open = open_document,
+    .close = close_document,
+    .list_files = list_files,
+    .list_images = ffd_gltf_list_images,
+    .check = check,
+    .check_reach = ffd_gltf_check_reach,
+    .keep_base = ffd_gltf_keep_base,
+    .largest_coordinate = FLT_MAX,
+    .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
+    .select = ffd_gltf_select,
+    .read_positions = read_positions,
+    .read_normals = read_normals,
+    .read_tangents = read_tangents,
+    .read_transforms = ffd_gltf_read_transforms,
+    .read_offsets = read_offsets,
+    .begin_results = ffd_gltf_begin_results,
+    .write_positions = ffd_gltf_write_positions,
+    .write_normals = ffd_gltf_write_normals,
+    .write_tangents = ffd_gltf_write_tangents,
+    .write_offsets = ffd_gltf_write_offsets,
+    .save = ffd_gltf_save,
+    .faces = ffd_gltf_faces,
+    .corner_normals = ffd_gltf_corner_normals,
+    .model = ffd_gltf_extract,
+    .describe = ffd_gltf_describe,
+    .compare = ffd_gltf_compare,
+};

@@ -1,0 +1,132 @@
+/* gltf_model.h - what we use of a glTF file, in plain C. Filled by gltf_tinygltf.cpp; indices are -1 where
+ * absent. */
+#ifndef FFD_IO_GLTF_MODEL_GLTF_MODEL_H
+#define FFD_IO_GLTF_MODEL_GLTF_MODEL_H
+
+#include "base/fail.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum gltf_component {
+    GLTF_I8 = 5120,
+    GLTF_U8 = 5121,
+    GLTF_I16 = 5122,
+    GLTF_U16 = 5123,
+    GLTF_U32 = 5125,
+    GLTF_FLOAT = 5126
+} gltf_component;
+
+/* The attributes that a deformation changes; all others are equal to us. */
+typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER } gltf_semantic;
+#define GLTF_DEFORMED 3 /* of them */
+
+/* What a primitive draws. */
+enum { MODE_POINTS, MODE_LINES, MODE_LINE_LOOP, MODE_LINE_STRIP, MODE_TRIANGLES, MODE_STRIP, MODE_FAN };
+
+typedef struct gltf_view {
+    int buffer;
+    uint64_t offset, length;
+    uint64_t stride; /* 0: not stated */
+} gltf_view;
+
+typedef struct gltf_sparse {
+    bool present;
+    uint64_t count;
+    int indices_view, values_view;
+    uint64_t indices_offset, values_offset;
+    int indices_type;
+} gltf_sparse;
+
+typedef struct gltf_accessor {
+    int view;
+    uint64_t offset, count;
+    int component;     /* gltf_component */
+    int columns, rows; /* VEC3: 1 column of 3 rows; MAT4: 4 of 4 */
+    bool normalized;
+    gltf_sparse sparse;
+} gltf_accessor;
+
+typedef struct gltf_attribute {
+    gltf_semantic semantic;
+    int accessor;
+} gltf_attribute;
+
+/* Accessors of JOINTS_n and WEIGHTS_n of one n; -1 where only the other is there. */
+typedef struct gltf_influence {
+    int joints, weights;
+} gltf_influence;
+
+typedef struct gltf_primitive {
+    int accessor[GLTF_DEFORMED]; /* of POSITION, NORMAL, TANGENT */
+    gltf_attribute *attributes;  /* all */
+    size_t attribute_count;
+    gltf_attribute *targets; /* the attributes of all morph targets */
+    size_t target_attribute_count, target_count;
+    int *target_accessors;      /* GLTF_DEFORMED a target */
+    gltf_influence *influences; /* n from 0 until neither is there */
+    size_t influence_count;
+    int indices, mode;
+} gltf_primitive;
+
+/* The deformed attributes of a primitive are numbered: slot s is its own one of semantic s, slot
+   GLTF_DEFORMED * (t + 1) + s that of its morph target t. */
+static inline size_t gltf_slot_count(const gltf_primitive *primitive)
+{
+    return GLTF_DEFORMED * (1 + primitive->target_count);
+}
+
+static inline int gltf_slot_accessor(const gltf_primitive *primitive, size_t slot)
+{
+    return slot < GLTF_DEFORMED ? primitive->accessor[slot]
+                                : primitive->target_accessors[slot - GLTF_DEFORMED];
+}
+
+typedef struct gltf_mesh {
+    gltf_primitive *primitives;
+    size_t primitive_count;
+} gltf_mesh;
+
+typedef struct gltf_node {
+    int mesh, skin;
+    int *children;
+    size_t child_count;
+    bool has_matrix;
+    double matrix[16]; /* column by column, as in the file */
+    double translation[3], rotation[4], scale[3];
+} gltf_node;
+
+typedef struct gltf_scene {
+    int *nodes;
+    size_t node_count;
+} gltf_scene;
+
+typedef struct gltf_model {
+    gltf_view *views;
+    size_t view_count;
+    gltf_accessor *accessors;
+    size_t accessor_count;
+    gltf_mesh *meshes;
+    size_t mesh_count;
+    gltf_node *nodes;
+    size_t node_count;
+    gltf_scene *scenes;
+    size_t scene_count;
+    int scene; /* the default one */
+} gltf_model;
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Reads JSON text (with stubs for buffers, without images) by tinygltf, which touches no file. On failure
+ *model is empty. Errors: FFD_E_INVALID in tinygltf's words, FFD_E_MEMORY. No exception leaves. */
+ffd_status ffd_gltf_parse_model(const char *text, size_t size, const char *name, gltf_model *model,
+                                ffd_error *error);
+void ffd_gltf_free_model(gltf_model *model);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,146 @@
+#include "base/text/number.h"
+#include "io/gltf/decode/gltf_encode.h"
+#include "io/gltf/save/gltf_saver.h"
+#include <float.h>
+#include <math.h>
+
+/* Bounds are numbers as they are stored: of normalized integers too, the integers (glTF 2.0, 3.6.2.5). */
+typedef struct stored_bounds {
+    double least[4], largest[4];
+} stored_bounds;
+
+static void widen(stored_bounds *bounds, double least, double largest, size_t c)
+{
+    if (least < bounds->least[c])
+        bounds->least[c] = least;
+    if (largest > bounds->largest[c])
+        bounds->largest[c] = largest;
+}
+
+/* So many vectors at a time, of which compilers make vectors of their own. */
+#define GROUP 4
+
+gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count)
+{
+    float least[3 * GROUP], largest[3 * GROUP];
+    size_t first = 0;
+    for (size_t k = 0; k < 3 * GROUP; k++) {
+        least[k] = HUGE_VALF;
+        largest[k] = -HUGE_VALF;
+    }
+    for (; count - first >= GROUP; first += GROUP)
+        for (size_t k = 0; k < 3 * GROUP; k++) {
+            const float value = xyz[3 * first + k];
+            least[k] = value < least[k] ? value : least[k];
+            largest[k] = value > largest[k] ? value : largest[k];
+        }
+    for (size_t k = 3 * first; k < 3 * count; k++) {
+        least[k % 3] = xyz[k] < least[k % 3] ? xyz[k] : least[k % 3];
+        largest[k % 3] = xyz[k] > largest[k % 3] ? xyz[k] : largest[k % 3];
+    }
+    for (size_t k = 3; k < 3 * GROUP; k++) {
+        least[k % 3] = least[k] < least[k % 3] ? least[k] : least[k % 3];
+        largest[k % 3] = largest[k] > largest[k % 3] ? largest[k] : largest[k % 3];
+    }
+    return (gltf_tile_bounds){{least[0], least[1], least[2]}, {largest[0], largest[1], largest[2]}};
+}
+
+/* Floats go to the file as they are. tiles: theirs, found before, or NULL. */
+static stored_bounds find_float_bounds(const float *xyz, size_t count, const gltf_tile_bounds *tiles)
+{
+    stored_bounds bounds = {{0}, {0}};
+    for (size_t c = 0; c < 3 && count > 0; c++)
+        bounds.least[c] = bounds.largest[c] = xyz[c];
+    for (size_t first = 0; first < count; first += MESH_RANGE_STEP) {
+        const size_t rest = count - first, size = rest < MESH_RANGE_STEP ? rest : MESH_RANGE_STEP;
+        const gltf_tile_bounds tile =
+            tiles ? tiles[first / MESH_RANGE_STEP] : ffd_gltf_find_bounds(xyz + 3 * first, size);
+        for (size_t c = 0; c < 3; c++)
+            widen(&bounds, tile.least[c], tile.largest[c], c);
+    }
+    return bounds;
+}
+
+/* Those of the tiles of a version's values, where they are known. */
+static const gltf_tile_bounds *tiles_of(const gltf_document *d, const gltf_version *version)
+{
+    return d->parts[version->order / GLTF_DEFORMED].streams[version->order % GLTF_DEFORMED].bounds;
+}
+
+/* version NULL: those of the original content. */
+static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    const int component = version ? version->component : accessor->component;
+    const size_t size = ffd_gltf_component_size(component);
+    stored_bounds bounds = {{0}, {0}};
+    if (version && component == GLTF_FLOAT && accessor->rows == 3)
+        return find_float_bounds(version->values, (size_t)accessor->count, tiles_of(d, version));
+    for (size_t i = 0; i < accessor->count; i++) {
+        unsigned char encoded[GLTF_LARGEST_VECTOR];
+        const unsigned char *element = ffd_gltf_element(d, a, i);
+        if (version) {
+            ffd_gltf_encode(accessor, component, element, version->values + 3 * i, encoded);
+            element = encoded;
+        }
+        for (size_t c = 0; c < (size_t)accessor->rows; c++) {
+            const double value = ffd_gltf_read_number(element + c * size, component, false);
+            if (i == 0 || value < bounds.least[c])
+                bounds.least[c] = value;
+            if (i == 0 || value > bounds.largest[c])
+                bounds.largest[c] = value;
+        }
+    }
+    return bounds;
+}
+
+/* Whether the file's number, read in the accessor's type, is the wanted one, or the wanted one is none that
+   JSON can hold (a normal or tangent of an input that is not valid). */
+static bool says(double number, double wanted, int component)
+{
+    if (!isfinite(wanted))
+        return true;
+    const double read = component == GLTF_FLOAT && fabs(number) <= FLT_MAX ? (float)number : number;
+    return !(read < wanted) && !(read > wanted);
+}
+
+/* Writes the least or largest stored values into a "min" or "max", where they are not what it says. */
+static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[4], int component,
+                       json_edits *edits)
+{
+    const json_span *tree = &saver->document->tree;
+    size_t c = 0;
+    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && c < 4;
+         v = ffd_json_span_after(tree, v), c++) {
+        double old;
+        if (ffd_json_span_number(tree, v, &old) && says(old, bound[c], component))
+            continue;
+        char text[FFD_NUMBER_CAPACITY];
+        const size_t size = ffd_number_format(bound[c], text);
+        ffd_edits_replace(edits, tree->values[v].begin, tree->values[v].end, text, size);
+    }
+}
+
+static void edit_bounds(const gltf_saver *saver, size_t a, const gltf_version *version, json_edits *edits)
+{
+    const gltf_document *d = saver->document;
+    const uint32_t accessor = d->accessor_values.values[a];
+    const int component = version ? version->component : d->model.accessors[a].component;
+    const uint32_t min = ffd_json_span_member(&d->tree, accessor, "min");
+    const uint32_t max = ffd_json_span_member(&d->tree, accessor, "max");
+    if (min == JSON_NONE && max == JSON_NONE)
+        return;
+    const stored_bounds bounds = find_bounds(d, a, version);
+    edit_bound(saver, min, bounds.least, component, edits);
+    edit_bound(saver, max, bounds.largest, component, edits);
+}
+
+void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits)
+{
+    edit_bounds(saver, version->accessor, version, edits);
+}
+
+void ffd_gltf_edit_original_bounds(const gltf_saver *saver, size_t accessor, json_edits *edits)
+{
+    edit_bounds(saver, accessor, NULL, edits);
+}

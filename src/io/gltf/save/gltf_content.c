@@ -1,0 +1,366 @@
+#include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include "io/gltf/decode/gltf_encode.h"
+#include "io/gltf/save/gltf_saver.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define LARGEST_BUFFER ((size_t)1 << 53)
+
+static size_t buffer_of(const gltf_document *d, size_t accessor)
+{
+    return (size_t)d->model.views[d->model.accessors[accessor].view].buffer;
+}
+
+size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
+{
+    if (d->model.accessors[accessor].view >= 0 && d->buffers[buffer_of(d, accessor)].kind != BUFFER_EMPTY)
+        return buffer_of(d, accessor);
+    size_t b = 0;
+    while (b < d->buffer_values.count && d->buffers[b].kind == BUFFER_EMPTY)
+        b++;
+    return b;
+}
+
+/* Where the elements of an accessor stand that changes in its place. */
+typedef struct new_place {
+    size_t buffer, begin;
+} new_place;
+
+static new_place place_of(const gltf_saver *saver, size_t a)
+{
+    const gltf_document *d = saver->document;
+    const gltf_layout *layout = &d->layouts[a];
+    const int view = d->model.accessors[a].view;
+    const gltf_unpacking *u;
+    switch (layout->packing) {
+    case GLTF_MESHOPT:
+        u = &saver->unpackings[saver->view_unpackings[view]];
+        return (new_place){u->buffer, u->offset + (layout->begin - (size_t)d->model.views[view].offset)};
+    case GLTF_DRACO:
+        u = &saver->unpackings[saver->accessor_unpackings[a]];
+        return (new_place){u->buffer, u->offset};
+    default:
+        return (new_place){buffer_of(d, a), layout->begin};
+    }
+}
+
+static bool needs_buffer(const gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    for (size_t i = 0; i < saver->plan.appended_count; i++)
+        if (ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor) ==
+            d->buffer_values.count)
+            return true;
+    return false;
+}
+
+/* A GLB's first buffer may be its BIN chunk; every other one has a URI. */
+static gltf_buffer_kind kind_of_added(const gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    return saver->binary && d->buffer_values.count == 0 && !d->glb.has_bin ? BUFFER_BIN : BUFFER_DATA;
+}
+
+static ffd_status make_room(gltf_saver *saver, ffd_error *error)
+{
+    static const gltf_buffer nothing = {.kind = BUFFER_EMPTY};
+    const gltf_document *d = saver->document;
+    saver->buffer_count = d->buffer_values.count + needs_buffer(saver);
+    saver->buffers = ffd_alloc_zero(saver->buffer_count, sizeof *saver->buffers);
+    if (!saver->buffers)
+        return ffd_fail_memory(error);
+    for (size_t b = 0; b < saver->buffer_count; b++)
+        saver->buffers[b].old = b < d->buffer_values.count ? &d->buffers[b] : &nothing;
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        if (saver->plan.in_place[a] != GLTF_NONE)
+            saver->buffers[place_of(saver, a).buffer].overwrite_count++;
+    for (size_t i = 0; i < saver->plan.appended_count; i++)
+        saver->buffers[ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor)]
+            .append_count++;
+    for (size_t i = 0; i < saver->unpacking_count; i++)
+        saver->buffers[saver->unpackings[i].buffer].append_count++;
+    for (size_t b = 0; b < saver->buffer_count; b++) {
+        gltf_new_buffer *buffer = &saver->buffers[b];
+        buffer->length = buffer->old->length;
+        buffer->changed = buffer->overwrite_count + buffer->append_count > 0;
+        buffer->kind = b < d->buffer_values.count ? buffer->old->kind : kind_of_added(saver);
+        buffer->overwrites = ffd_alloc(buffer->overwrite_count, sizeof *buffer->overwrites);
+        buffer->appends = ffd_alloc(buffer->append_count, sizeof *buffer->appends);
+        if (!buffer->overwrites || !buffer->appends)
+            return ffd_fail_memory(error);
+        buffer->overwrite_count = buffer->append_count = 0;
+    }
+    return FFD_OK;
+}
+
+static int compare_overwrites(const void *a, const void *b)
+{
+    const gltf_overwrite *x = a, *y = b;
+    return (x->begin > y->begin) - (x->begin < y->begin);
+}
+
+static void list_overwrites(gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    for (size_t a = 0; a < d->model.accessor_count; a++) {
+        const size_t version = saver->plan.in_place[a];
+        if (version == GLTF_NONE)
+            continue;
+        const gltf_layout *layout = &d->layouts[a];
+        const size_t count = (size_t)d->model.accessors[a].count;
+        const new_place place = place_of(saver, a);
+        gltf_new_buffer *buffer = &saver->buffers[place.buffer];
+        buffer->overwrites[buffer->overwrite_count++] =
+            (gltf_overwrite){.accessor = a,
+                             .begin = place.begin,
+                             .end = place.begin + (count - 1) * layout->stride + layout->element_size,
+                             .stride = layout->stride,
+                             .values = saver->plan.versions[version].values};
+    }
+    for (size_t b = 0; b < saver->buffer_count; b++) {
+        gltf_new_buffer *buffer = &saver->buffers[b];
+        if (buffer->overwrite_count > 0)
+            qsort(buffer->overwrites, buffer->overwrite_count, sizeof *buffer->overwrites,
+                  compare_overwrites);
+        size_t end = 0;
+        for (size_t i = 0; i < buffer->overwrite_count; i++) {
+            end = buffer->overwrites[i].end > end ? buffer->overwrites[i].end : end;
+            buffer->overwrites[i].end_so_far = end;
+        }
+    }
+}
+
+static size_t padded(size_t size)
+{
+    return (size + 3) / 4 * 4;
+}
+
+static size_t element_size(const gltf_document *d, const gltf_version *version)
+{
+    return (size_t)d->model.accessors[version->accessor].rows * ffd_gltf_component_size(version->component);
+}
+
+static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append append, ffd_error *error)
+{
+    gltf_new_buffer *buffer = &saver->buffers[b];
+    append.offset = padded(buffer->length);
+    if (append.size > LARGEST_BUFFER || append.offset > LARGEST_BUFFER - append.size)
+        return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
+                             "a buffer would have more than 2^53 bytes");
+    buffer->appends[buffer->append_count++] = append;
+    buffer->length = append.offset + append.size;
+    return FFD_OK;
+}
+
+static ffd_status list_unpacked(gltf_saver *saver, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < saver->unpacking_count && status == FFD_OK; i++) {
+        gltf_unpacking *u = &saver->unpackings[i];
+        const gltf_append append = {.size = u->size, .version = GLTF_NONE, .unpacking = i};
+        status = add_append(saver, u->buffer, append, error);
+        if (status == FFD_OK)
+            u->offset = saver->buffers[u->buffer].length - u->size;
+    }
+    return status;
+}
+
+static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < saver->plan.appended_count && status == FFD_OK; i++) {
+        const size_t number = saver->plan.appended[i];
+        const gltf_version *version = &saver->plan.versions[number];
+        const size_t stride = padded(element_size(d, version));
+        const size_t size = (size_t)d->model.accessors[version->accessor].count * stride;
+        const gltf_append append = {.size = size, .stride = stride, .version = number};
+        status = add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error);
+    }
+    return status;
+}
+
+ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
+{
+    ffd_status status = ffd_gltf_list_unpackings(saver, error);
+    if (status == FFD_OK)
+        status = make_room(saver, error);
+    if (status == FFD_OK)
+        status = list_appends(saver, error);
+    if (status == FFD_OK)
+        status = list_unpacked(saver, error);
+    if (status == FFD_OK)
+        list_overwrites(saver);
+    return status;
+}
+
+void ffd_gltf_free_content(gltf_saver *saver)
+{
+    for (size_t b = 0; saver->buffers && b < saver->buffer_count; b++) {
+        ffd_free(saver->buffers[b].overwrites);
+        ffd_free(saver->buffers[b].appends);
+        ffd_free(saver->buffers[b].target);
+    }
+    ffd_free(saver->buffers);
+}
+
+size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer)
+{
+    const gltf_new_buffer *made = &saver->buffers[buffer];
+    return made->append_count > 0 || made->kind != made->old->kind ? made->length : made->old->size;
+}
+
+/* Copies what `size` bytes at `at` and the range [offset, offset + length) have in common. */
+static void copy_common(const unsigned char *from, size_t at, size_t size, size_t offset, size_t length,
+                        unsigned char *bytes)
+{
+    const size_t begin = at > offset ? at : offset;
+    const size_t end = at + size < offset + length ? at + size : offset + length;
+    if (begin < end)
+        memcpy(bytes + (begin - offset), from + (begin - at), end - begin);
+}
+
+static void put_vectors(const float *xyz, size_t count, unsigned char *bytes)
+{
+    for (size_t c = 0; c < 3 * count; c++) {
+        uint32_t bits;
+        memcpy(&bits, xyz + c, sizeof bits);
+        store_u32(bytes + 4 * c, bits);
+    }
+}
+
+static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwrite, size_t offset,
+                            size_t size, unsigned char *bytes)
+{
+    const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];
+    const size_t element = d->layouts[overwrite->accessor].element_size;
+    const bool is_vector = accessor->component == GLTF_FLOAT && accessor->rows == 3;
+    size_t i =
+        offset > overwrite->begin + element ? (offset - overwrite->begin - element) / overwrite->stride : 0;
+    for (size_t at = overwrite->begin + i * overwrite->stride; at < offset + size && at < overwrite->end;
+         i++, at += overwrite->stride) {
+        unsigned char encoded[GLTF_LARGEST_VECTOR];
+        if (is_vector && at >= offset && at + element <= offset + size) {
+            /* Those that stand one behind the other at once. */
+            const size_t end = overwrite->end < offset + size ? overwrite->end : offset + size;
+            const size_t count = overwrite->stride == element ? (end - at) / element : 1;
+            put_vectors(overwrite->values + 3 * i, count, bytes + (at - offset));
+            i += count - 1;
+            at += (count - 1) * element;
+            continue;
+        }
+        ffd_gltf_encode(accessor, accessor->component, ffd_gltf_element(d, overwrite->accessor, i),
+                        overwrite->values + 3 * i, encoded);
+        copy_common(encoded, at, element, offset, size, bytes);
+    }
+}
+
+/* The first overwrite from which on some end behind offset. */
+static size_t find_overwrite(const gltf_new_buffer *buffer, size_t offset)
+{
+    size_t low = 0, high = buffer->overwrite_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (buffer->overwrites[middle].end_so_far <= offset)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void apply_overwrites(const gltf_document *d, const gltf_new_buffer *buffer, size_t offset,
+                             size_t size, unsigned char *bytes)
+{
+    for (size_t i = find_overwrite(buffer, offset);
+         i < buffer->overwrite_count && buffer->overwrites[i].begin < offset + size; i++)
+        if (buffer->overwrites[i].end > offset)
+            apply_overwrite(d, &buffer->overwrites[i], offset, size, bytes);
+}
+
+static void apply_append(const gltf_saver *saver, const gltf_append *append, size_t offset, size_t size,
+                         unsigned char *bytes)
+{
+    if (append->version == GLTF_NONE) {
+        copy_common(saver->unpackings[append->unpacking].bytes, append->offset, append->size, offset, size,
+                    bytes);
+        return;
+    }
+    const gltf_version *version = &saver->plan.versions[append->version];
+    const gltf_accessor *accessor = &saver->document->model.accessors[version->accessor];
+    const size_t element = element_size(saver->document, version), stride = append->stride;
+    size_t i = offset > append->offset ? (offset - append->offset) / stride : 0;
+    for (; i * stride < append->size && append->offset + i * stride < offset + size; i++) {
+        unsigned char encoded[GLTF_LARGEST_VECTOR];
+        ffd_gltf_encode(accessor, version->component, ffd_gltf_element(saver->document, version->accessor, i),
+                        version->values + 3 * i, encoded);
+        copy_common(encoded, append->offset + i * stride, element, offset, size, bytes);
+    }
+}
+
+static void apply_appends(const gltf_saver *saver, const gltf_new_buffer *buffer, size_t offset, size_t size,
+                          unsigned char *bytes)
+{
+    size_t low = 0, high = buffer->append_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (buffer->appends[middle].offset + buffer->appends[middle].size <= offset)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    for (size_t i = low; i < buffer->append_count && buffer->appends[i].offset < offset + size; i++)
+        apply_append(saver, &buffer->appends[i], offset, size, bytes);
+}
+
+/* Bytes behind the old byteLength are no content: a buffer that grows does so from there. */
+static size_t size_of_old(const gltf_new_buffer *made)
+{
+    return made->append_count > 0 ? made->old->length : made->old->size;
+}
+
+void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, size_t size,
+                           unsigned char *bytes)
+{
+    const gltf_new_buffer *made = &saver->buffers[b];
+    const size_t kept = size_of_old(made);
+    const size_t held = kept <= offset ? 0 : kept - offset < size ? kept - offset : size;
+    copy_common(made->old->data, 0, kept, offset, size, bytes);
+    memset(bytes + held, 0, size - held);
+    apply_appends(saver, made, offset, size, bytes);
+    /* Last: what was compressed is appended as it was and changed there. */
+    apply_overwrites(saver->document, made, offset, size, bytes);
+}
+
+/* Where the values of an overwrite stand as the file is to have them. */
+static const unsigned char *values_in_place(const gltf_document *d, const gltf_overwrite *overwrite)
+{
+    const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];
+    const bool is_float = accessor->component == GLTF_FLOAT && accessor->rows == 3;
+    return LITTLE_ENDIAN_MACHINE && is_float && overwrite->stride == 3 * sizeof(float)
+               ? (const unsigned char *)overwrite->values
+               : NULL;
+}
+
+size_t ffd_gltf_content_at(const gltf_saver *saver, size_t b, size_t offset, const unsigned char **bytes)
+{
+    const gltf_new_buffer *made = &saver->buffers[b];
+    const size_t next = find_overwrite(made, offset), size = ffd_gltf_content_size(saver, b);
+    size_t end = size_of_old(made) < size ? size_of_old(made) : size, following = next;
+    const unsigned char *values = NULL;
+    if (next < made->overwrite_count && made->overwrites[next].begin <= offset) {
+        const gltf_overwrite *here = &made->overwrites[following++];
+        values = values_in_place(saver->document, here);
+        if (!values)
+            return 0;
+        values += offset - here->begin;
+        end = here->end < size ? here->end : size;
+    }
+    if (following < made->overwrite_count && made->overwrites[following].begin < end)
+        end = made->overwrites[following].begin;
+    if (end <= offset)
+        return 0;
+    *bytes = values ? values : made->old->data + offset;
+    return end - offset;
+}

@@ -1,0 +1,331 @@
+#include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include "io/gltf/file/base64.h"
+#include "io/gltf/save/gltf_morph.h"
+#include <string.h>
+
+/* A saver that only edits the JSON. */
+typedef struct morph_writer {
+    gltf_saver saver;
+    const bool *meshes;
+    size_t *zeros[2]; /* of an accessor: the new one of zeros of as many elements; 1: with bounds */
+    morph_data data;
+} morph_writer;
+
+size_t ffd_gltf_target_count(const gltf_document *d, size_t mesh)
+{
+    size_t count = 0;
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        if (d->model.meshes[mesh].primitives[p].target_count > count)
+            count = d->model.meshes[mesh].primitives[p].target_count;
+    return count;
+}
+
+void ffd_gltf_insert_last(gltf_saver *saver, uint32_t container, const byte_buffer *text)
+{
+    const json_span *tree = &saver->document->tree;
+    uint32_t last = JSON_NONE;
+    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+        last = v;
+    const uint32_t at = last == JSON_NONE ? tree->values[container].begin + 1 : tree->values[last].end;
+    saver->edits.failed = saver->edits.failed || text->failed;
+    if (text->failed)
+        return;
+    if (last != JSON_NONE)
+        ffd_edits_format(&saver->edits, at, at, ",");
+    ffd_edits_replace(&saver->edits, at, at, text->data, text->size);
+}
+
+static bool is_array(const gltf_saver *saver, uint32_t value)
+{
+    return value != JSON_NONE && saver->document->tree.values[value].kind == JSON_ARRAY;
+}
+
+/* The new accessor of zeros for offsets to an accessor. */
+static size_t zeros_for(morph_writer *w, size_t accessor, bool bounds)
+{
+    const gltf_document *d = w->saver.document;
+    size_t *number = &w->zeros[bounds][accessor];
+    if (*number != GLTF_NONE)
+        return *number;
+    ffd_buffer_format(&w->data.accessors, "%s{\"componentType\":5126,\"count\":%llu,\"type\":\"VEC3\"%s}",
+                      w->data.accessor_count > 0 ? "," : "",
+                      (unsigned long long)d->model.accessors[accessor].count,
+                      bounds ? ",\"min\":[0,0,0],\"max\":[0,0,0]" : "");
+    *number = d->model.accessor_count + w->data.accessor_count++;
+    return *number;
+}
+
+/* Offsets to normals and tangents where these are deformed. */
+static void write_target(morph_writer *w, const gltf_primitive *primitive, byte_buffer *text)
+{
+    const gltf_document *d = w->saver.document;
+    const bool wanted[GLTF_DEFORMED] = {true, d->morph_normals,
+                                        d->morph_normals && primitive->accessor[GLTF_NORMAL] >= 0};
+    bool first = true;
+    ffd_buffer_text(text, "{");
+    for (size_t s = 0; s < GLTF_DEFORMED; s++)
+        if (wanted[s] && primitive->accessor[s] >= 0) {
+            ffd_buffer_format(text, "%s\"%s\":%zu", first ? "" : ",", ffd_gltf_semantic_names[s],
+                              zeros_for(w, (size_t)primitive->accessor[s], s == GLTF_POSITION));
+            first = false;
+        }
+    ffd_buffer_text(text, "}");
+}
+
+static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
+{
+    const gltf_document *d = w->saver.document;
+    const uint32_t value = ffd_gltf_primitive_value(d, mesh, p);
+    const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
+    byte_buffer text = {0};
+    if (targets == JSON_NONE)
+        ffd_buffer_text(&text, "\"targets\":[");
+    write_target(w, &d->model.meshes[mesh].primitives[p], &text);
+    if (targets == JSON_NONE)
+        ffd_buffer_text(&text, "]");
+    ffd_gltf_insert_last(&w->saver, targets == JSON_NONE ? value : targets, &text);
+    ffd_buffer_free(&text);
+}
+
+/* A name as JSON has it. */
+static void write_name(const char *name, byte_buffer *text)
+{
+    json_text json;
+    ffd_json_begin(&json, text);
+    ffd_json_string(&json, NULL, name);
+}
+
+/* Names for the targets from `first` on, made up but for the last, the new one. */
+static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte_buffer *text)
+{
+    const size_t count = ffd_gltf_target_count(saver->document, mesh);
+    for (size_t t = first; t < count; t++)
+        ffd_buffer_format(text, "\"target_%zu\",", t);
+    write_name(saver->document->morph_name, text);
+    if (first < count)
+        ffd_gltf_log(saver, FFD_LOG_INFO,
+                     "the targets of mesh %zu without a name are called target_%zu to "
+                     "target_%zu",
+                     mesh, first, count - 1);
+}
+
+/* A list that names more than there are has a place for the new one. */
+static void edit_names(gltf_saver *saver, size_t mesh, uint32_t names)
+{
+    const json_span *tree = &saver->document->tree;
+    const size_t count = ffd_gltf_target_count(saver->document, mesh), named = tree->values[names].count;
+    byte_buffer text = {0};
+    for (uint32_t v = ffd_json_span_first(tree, names); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+        if (ffd_json_span_string_is(tree, v, saver->document->morph_name))
+            ffd_gltf_log(saver, FFD_LOG_WARNING, "mesh %zu has a morph target of that name already", mesh);
+    write_names(saver, mesh, named < count ? named : count, &text);
+    if (named <= count) {
+        ffd_gltf_insert_last(saver, names, &text);
+    } else if (!text.failed) {
+        const json_value *value = &tree->values[ffd_json_span_element(tree, names, count)];
+        ffd_edits_replace(&saver->edits, value->begin, value->end, text.data, text.size);
+    }
+    saver->edits.failed = saver->edits.failed || text.failed;
+    ffd_buffer_free(&text);
+}
+
+static void add_names(gltf_saver *saver, size_t mesh)
+{
+    const json_span *tree = &saver->document->tree;
+    const uint32_t value = saver->document->mesh_values.values[mesh];
+    const uint32_t extras = ffd_json_span_member(tree, value, "extras");
+    const uint32_t names = ffd_json_span_member(tree, extras, "targetNames");
+    byte_buffer text = {0};
+    if ((extras != JSON_NONE && tree->values[extras].kind != JSON_OBJECT) ||
+        (names != JSON_NONE && !is_array(saver, names))) {
+        ffd_gltf_log(saver, FFD_LOG_WARNING,
+                     "mesh %zu: its extras have no place for the name of the morph target", mesh);
+        return;
+    }
+    if (names != JSON_NONE) {
+        edit_names(saver, mesh, names);
+        return;
+    }
+    ffd_buffer_text(&text, extras == JSON_NONE ? "\"extras\":{\"targetNames\":[" : "\"targetNames\":[");
+    write_names(saver, mesh, 0, &text);
+    ffd_buffer_text(&text, extras == JSON_NONE ? "]}" : "]");
+    ffd_gltf_insert_last(saver, extras == JSON_NONE ? value : extras, &text);
+    ffd_buffer_free(&text);
+}
+
+/* A mesh without weights gets them; a node only where it has some of its own. */
+static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool make)
+{
+    const uint32_t weights = ffd_json_span_member(&saver->document->tree, value, "weights");
+    byte_buffer text = {0};
+    if (is_array(saver, weights)) {
+        ffd_buffer_text(&text, "0");
+        ffd_gltf_insert_last(saver, weights, &text);
+    } else if (weights == JSON_NONE && make) {
+        ffd_buffer_text(&text, "\"weights\":[");
+        for (size_t t = 0; t < targets; t++)
+            ffd_buffer_text(&text, "0,");
+        ffd_buffer_text(&text, "0]");
+        ffd_gltf_insert_last(saver, value, &text);
+    }
+    ffd_buffer_free(&text);
+}
+
+static void add_to_meshes(morph_writer *w)
+{
+    const gltf_document *d = w->saver.document;
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        if (!w->meshes[m])
+            continue;
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            add_to_primitive(w, m, p);
+        add_weights(&w->saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
+        add_names(&w->saver, m);
+    }
+    for (size_t n = 0; n < d->model.node_count; n++)
+        if (d->model.nodes[n].mesh >= 0 && w->meshes[d->model.nodes[n].mesh])
+            add_weights(&w->saver, d->node_values.values[n], 0, false);
+}
+
+static bool extends_bin(const gltf_document *d)
+{
+    return d->buffer_values.count > 0 && d->buffers[0].kind == BUFFER_BIN;
+}
+
+/* Where the BIN chunk's own bytes end and new ones begin. */
+static size_t bin_end(const gltf_document *d)
+{
+    return (d->buffers[0].length + 3) / 4 * 4;
+}
+
+static void write_buffer(morph_writer *w, byte_buffer *text)
+{
+    const size_t size = w->data.bytes.size, length = ffd_base64_length(size);
+    ffd_buffer_format(text, "{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,", size);
+    char *encoded = ffd_alloc(length, 1);
+    if (!encoded) {
+        text->failed = true;
+        return;
+    }
+    ffd_base64_encode((const unsigned char *)w->data.bytes.data, size, encoded);
+    ffd_buffer_append(text, encoded, length);
+    ffd_buffer_text(text, "\"}");
+    ffd_free(encoded);
+}
+
+/* The bufferView of the new bytes, in the BIN chunk where that is, else in a buffer of their own. */
+static void add_bytes(morph_writer *w)
+{
+    gltf_saver *saver = &w->saver;
+    const gltf_document *d = saver->document;
+    const bool bin = extends_bin(d);
+    byte_buffer view = {0}, buffer = {0};
+    if (w->data.bytes.size == 0)
+        return;
+    ffd_buffer_format(&view, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu}",
+                      bin ? 0 : d->buffer_values.count, bin ? bin_end(d) : 0, w->data.bytes.size);
+    ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &view);
+    if (bin) {
+        const json_value *length =
+            &d->tree.values[ffd_json_span_member(&d->tree, d->buffer_values.values[0], "byteLength")];
+        ffd_edits_format(&saver->edits, length->begin, length->end, "%zu", bin_end(d) + w->data.bytes.size);
+    } else {
+        write_buffer(w, &buffer);
+        ffd_gltf_add_elements(saver, &d->buffer_values, "buffers", &buffer);
+    }
+    ffd_buffer_free(&view);
+    ffd_buffer_free(&buffer);
+}
+
+static void put_u32(byte_buffer *out, size_t number)
+{
+    unsigned char bytes[4];
+    store_u32(bytes, (uint32_t)number);
+    ffd_buffer_append(out, bytes, sizeof bytes);
+}
+
+static void pad(byte_buffer *out, const char *with)
+{
+    while (out->size % 4 && !out->failed)
+        ffd_buffer_append(out, with, 1);
+}
+
+/* The container round a new JSON text. */
+static void write_glb(const morph_writer *w, byte_buffer *json, byte_buffer *out)
+{
+    const gltf_document *d = w->saver.document;
+    const bool grows = extends_bin(d) && w->data.bytes.size > 0;
+    pad(json, " ");
+    put_u32(out, GLB_MAGIC);
+    put_u32(out, GLB_VERSION);
+    put_u32(out, 0);
+    put_u32(out, json->size);
+    put_u32(out, GLB_CHUNK_JSON);
+    ffd_buffer_append(out, json->data, json->size);
+    if (d->glb.has_bin) {
+        const size_t kept = grows ? d->buffers[0].length : d->glb.bin_size;
+        put_u32(out, grows ? (bin_end(d) + w->data.bytes.size + 3) / 4 * 4 : kept);
+        put_u32(out, GLB_CHUNK_BIN);
+        ffd_buffer_append(out, d->input.data + d->glb.bin_begin, kept);
+        if (grows) {
+            pad(out, "");
+            ffd_buffer_append(out, w->data.bytes.data, w->data.bytes.size);
+            pad(out, "");
+        }
+    }
+    ffd_buffer_append(out, d->input.data + d->glb.rest_begin, d->glb.end - d->glb.rest_begin);
+    if (!out->failed)
+        store_u32((unsigned char *)out->data + 8, (uint32_t)out->size);
+}
+
+static ffd_status write_file(morph_writer *w, file_input *made, ffd_error *error)
+{
+    const gltf_document *d = w->saver.document;
+    byte_buffer text = {0}, glb = {0}, *const file = d->binary ? &glb : &text;
+    ffd_status status = FFD_OK;
+    ffd_edits_sort(&w->saver.edits);
+    ffd_edits_apply(&w->saver.edits, d->tree.text, 0, (uint32_t)d->tree.size, &text);
+    if (d->binary && !text.failed)
+        write_glb(w, &text, &glb);
+    if (text.failed || glb.failed || w->data.bytes.failed)
+        status = ffd_fail_memory(error);
+    else if (file->size > UINT32_MAX)
+        status = ffd_fail_file(error, FFD_E_LIMIT, d->name, "would have more than 4294967295 bytes");
+    if (status == FFD_OK) {
+        *made =
+            (file_input){.data = (const unsigned char *)file->data, .size = file->size, .block = file->data};
+        *file = (byte_buffer){0};
+    }
+    ffd_buffer_free(&text);
+    ffd_buffer_free(&glb);
+    return status;
+}
+
+ffd_status ffd_gltf_add_target(const gltf_document *d, const bool *meshes, const mesh_log *log,
+                               file_input *made, ffd_error *error)
+{
+    const size_t count = d->model.accessor_count;
+    morph_writer w = {.saver = {.document = d, .log = log}, .meshes = meshes};
+    ffd_status status = FFD_OK;
+    for (int i = 0; i < 2; i++) {
+        w.zeros[i] = ffd_alloc(count, sizeof *w.zeros[i]);
+        for (size_t a = 0; w.zeros[i] && a < count; a++)
+            w.zeros[i][a] = GLTF_NONE;
+    }
+    if (w.zeros[0] && w.zeros[1]) {
+        add_to_meshes(&w);
+        ffd_gltf_extend_weights(&w.saver, meshes, &w.data);
+        ffd_gltf_add_elements(&w.saver, &d->accessor_values, "accessors", &w.data.accessors);
+        add_bytes(&w);
+        status = write_file(&w, made, error);
+    } else {
+        status = ffd_fail_memory(error);
+    }
+    ffd_free(w.zeros[0]);
+    ffd_free(w.zeros[1]);
+    ffd_buffer_free(&w.data.accessors);
+    ffd_buffer_free(&w.data.bytes);
+    ffd_edits_free(&w.saver.edits);
+    return status;
+}

@@ -1,0 +1,143 @@
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "io/gltf/file/uri.h"
+#include "io/gltf/save/gltf_saver.h"
+#include <string.h>
+
+/* "OUT-stem.bin" for the first external buffer, "OUT-stem-1.bin" for the next. */
+static char *make_name(const char *path, size_t number)
+{
+    char *stem = ffd_path_stem(path);
+    byte_buffer name = {0};
+    if (stem)
+        ffd_buffer_text(&name, stem);
+    if (number > 0)
+        ffd_buffer_format(&name, "-%zu", number);
+    ffd_buffer_text(&name, ".bin");
+    name.failed = name.failed || !stem;
+    ffd_free(stem);
+    return ffd_buffer_finish(&name);
+}
+
+/* The output must not take the place of a file that the input consists of. */
+static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    if (!ffd_file_is_stream(d->path) && strcmp(target, saver->options->path) != 0 &&
+        ffd_file_same(d->path, target))
+        return ffd_fail_file(error, FFD_E_EXISTS, target, "is the input and is not overwritten by a buffer");
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
+        if (d->buffers[i].kind != BUFFER_FILE)
+            continue;
+        char *own = ffd_path_beside(d->path, d->buffers[i].path);
+        const bool same = own && ffd_file_same(own, target), failed = !own;
+        ffd_free(own);
+        if (failed)
+            return ffd_fail_memory(error);
+        if (same)
+            return ffd_fail_file(error, FFD_E_EXISTS, target,
+                                 "is a buffer of the input %s and is not overwritten", d->name);
+    }
+    return FFD_OK;
+}
+
+static ffd_status set_uri(gltf_saver *saver, size_t b, const char *name, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    const uint32_t uri = ffd_json_span_member(&d->tree, d->buffer_values.values[b], "uri");
+    if (d->buffers[b].path && strcmp(d->buffers[b].path, name) == 0)
+        return FFD_OK;
+    char *encoded = ffd_uri_encode(name);
+    if (!encoded)
+        return ffd_fail_memory(error);
+    if (uri == JSON_NONE)
+        ffd_gltf_add_uri(saver, b, encoded);
+    else
+        ffd_edits_replace(&saver->edits, d->tree.values[uri].begin + 1, d->tree.values[uri].end - 1, encoded,
+                          strlen(encoded));
+    ffd_free(encoded);
+    return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
+}
+
+static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_error *error)
+{
+    char *name = make_name(saver->options->path, number);
+    char *target = name ? ffd_path_beside(saver->options->path, name) : NULL;
+    saver->buffers[b].target = target;
+    ffd_status status = target ? refuse_own_file(saver, target, error) : ffd_fail_memory(error);
+    if (status == FFD_OK)
+        status = ffd_output_check(target, saver->options->force, error);
+    if (status == FFD_OK) {
+        saver->replaces = saver->replaces || ffd_file_exists(target);
+        status = set_uri(saver, b, name, error);
+    }
+    ffd_free(name);
+    return status;
+}
+
+/* Whether a file is that of buffer b, and of no other buffer of the model. */
+static ffd_status is_own_file(const gltf_document *d, size_t b, const char *target, bool *own,
+                              ffd_error *error)
+{
+    *own = false;
+    for (size_t i = 0; i < d->buffer_values.count; i++) {
+        if (d->buffers[i].kind != BUFFER_FILE)
+            continue;
+        char *file = ffd_path_beside(d->path, d->buffers[i].path);
+        const bool same = file && ffd_file_same(file, target), failed = !file;
+        ffd_free(file);
+        if (failed)
+            return ffd_fail_memory(error);
+        if (same && i != b) {
+            *own = false;
+            return FFD_OK;
+        }
+        *own = *own || same;
+    }
+    return FFD_OK;
+}
+
+/* In place a buffer whose bytes stay keeps its file. A changed one is named after the output like any other,
+   so that a file which other models may use is not touched; of existing files only its own is replaced. */
+static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    ffd_status status = FFD_OK;
+    while (saver->buffers[b].changed && !saver->buffers[b].target && status == FFD_OK) {
+        bool own = false;
+        char *name = make_name(d->path, (*number)++), *target = name ? ffd_path_beside(d->path, name) : NULL;
+        const bool exists = target && ffd_file_exists(target);
+        status = !target ? ffd_fail_memory(error) : exists ? is_own_file(d, b, target, &own, error) : FFD_OK;
+        if (status == FFD_OK && (own || !exists)) {
+            saver->buffers[b].target = target;
+            saver->replaces = saver->replaces || own;
+            target = NULL;
+            status = set_uri(saver, b, name, error);
+        }
+        ffd_free(name);
+        ffd_free(target);
+    }
+    return status;
+}
+
+ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    const bool stream = ffd_output_is_stream(saver->options->path);
+    size_t number = 0;
+    ffd_status status = FFD_OK;
+    if (!stream && !saver->in_place)
+        status = refuse_own_file(saver, saver->options->path, error);
+    for (size_t b = 0; b < d->buffer_values.count && status == FFD_OK; b++) {
+        if (saver->buffers[b].kind != BUFFER_FILE)
+            continue;
+        if (stream)
+            return ffd_json_span_fail(
+                &d->tree, d->buffer_values.values[b], d->name, FFD_E_ARGUMENT, error,
+                "the buffer is a file of its own, which standard output cannot hold: give a file "
+                "name as output");
+        status = saver->in_place ? give_name_in_place(saver, b, &number, error)
+                                 : give_name(saver, b, number++, error);
+    }
+    return status;
+}

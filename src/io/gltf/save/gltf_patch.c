@@ -1,0 +1,234 @@
+#include "base/memory/memory.h"
+#include "io/gltf/save/gltf_saver.h"
+
+static const json_value *value_of(const gltf_saver *saver, uint32_t value)
+{
+    return &saver->document->tree.values[value];
+}
+
+/* Lets the members of an object, "attributes" or a morph target, name the accessors of the slots from `first`
+   on that hold what the primitive shows at a place. */
+static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t object, size_t first,
+                       size_t place, json_edits *edits)
+{
+    const gltf_document *d = saver->document;
+    for (size_t s = 0; s < GLTF_DEFORMED; s++) {
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, first + s, place);
+        if (version == GLTF_NONE ||
+            saver->plan.versions[version].output == saver->plan.versions[version].accessor)
+            continue;
+        const json_value *value =
+            value_of(saver, ffd_json_span_member(&d->tree, object, ffd_gltf_semantic_names[s]));
+        ffd_edits_format(edits, value->begin, value->end, "%zu", saver->plan.versions[version].output);
+    }
+}
+
+/* Lets a mesh name the accessors that hold what it shows at a place. */
+static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t place, json_edits *edits)
+{
+    const gltf_document *d = saver->document;
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
+        const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
+        const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
+        size_t first = 0;
+        edit_slots(saver, mesh, p, ffd_json_span_member(&d->tree, primitive, "attributes"), first, place,
+                   edits);
+        for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
+             t = ffd_json_span_after(&d->tree, t)) {
+            first += GLTF_DEFORMED;
+            edit_slots(saver, mesh, p, t, first, place, edits);
+        }
+    }
+}
+
+static void replace_number(const gltf_saver *saver, uint32_t object, const char *key, size_t number,
+                           json_edits *edits)
+{
+    const uint32_t member = ffd_json_span_member(&saver->document->tree, object, key);
+    if (member != JSON_NONE)
+        ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", number);
+}
+
+/* Adds a copy of an element to its list, changed by edits of its own. */
+static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key, size_t i, json_edits *edits)
+{
+    const json_value *value = value_of(saver, list->values[i]);
+    byte_buffer text = {0};
+    ffd_edits_sort(edits);
+    ffd_edits_apply(edits, saver->document->tree.text, value->begin, value->end, &text);
+    ffd_gltf_add_elements(saver, list, key, &text);
+    saver->edits.failed = saver->edits.failed || ffd_edits_failed(edits);
+    ffd_buffer_free(&text);
+    ffd_edits_free(edits);
+}
+
+/* What the bufferView of the accessor says of its use; one that had none held an attribute all the same. */
+static void write_target(const gltf_saver *saver, size_t accessor, byte_buffer *text)
+{
+    const gltf_document *d = saver->document;
+    const int view = d->model.accessors[accessor].view;
+    if (view < 0) {
+        ffd_buffer_text(text, ",\"target\":34962");
+        return;
+    }
+    const uint32_t target = ffd_json_span_member(&d->tree, d->view_values.values[view], "target");
+    if (target != JSON_NONE)
+        ffd_buffer_format(text, ",\"target\":%.*s",
+                          (int)(value_of(saver, target)->end - value_of(saver, target)->begin),
+                          d->tree.text + value_of(saver, target)->begin);
+}
+
+static void write_view(const gltf_saver *saver, const gltf_append *append, size_t buffer, byte_buffer *text)
+{
+    const gltf_version *version = &saver->plan.versions[append->version];
+    const size_t element = (size_t)saver->document->model.accessors[version->accessor].rows *
+                           ffd_gltf_component_size(version->component);
+    ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
+                      text->size > 0 ? "," : "", buffer, append->offset, append->size);
+    if (append->stride > element)
+        ffd_buffer_format(text, ",\"byteStride\":%zu", append->stride);
+    write_target(saver, version->accessor, text);
+    ffd_buffer_text(text, "}");
+}
+
+static void add_views(gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    byte_buffer text = {0};
+    size_t *next = ffd_alloc_zero(saver->buffer_count, sizeof *next);
+    if (!next) {
+        saver->edits.failed = true;
+        return;
+    }
+    for (size_t i = 0; i < saver->plan.appended_count; i++) {
+        const size_t accessor = saver->plan.versions[saver->plan.appended[i]].accessor;
+        const size_t buffer = ffd_gltf_append_buffer(d, accessor);
+        write_view(saver, &saver->buffers[buffer].appends[next[buffer]++], buffer, &text);
+    }
+    ffd_gltf_write_unpacked_views(saver, &text);
+    ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &text);
+    ffd_buffer_free(&text);
+    ffd_free(next);
+}
+
+/* Lets an accessor's copy name its own bufferView, which holds all elements, and their type. */
+static void edit_storage(const gltf_saver *saver, const gltf_version *version, size_t view, json_edits *edits)
+{
+    const gltf_document *d = saver->document;
+    const json_span *tree = &d->tree;
+    const uint32_t accessor = d->accessor_values.values[version->accessor];
+    const uint32_t sparse = ffd_json_span_member(tree, accessor, "sparse");
+    const uint32_t normalized = ffd_json_span_member(tree, accessor, "normalized");
+    const uint32_t inside = value_of(saver, accessor)->begin + 1;
+    uint32_t gone[2];
+    size_t gone_count = 0;
+    if (ffd_json_span_member(tree, accessor, "bufferView") == JSON_NONE)
+        ffd_edits_format(edits, inside, inside, "\"bufferView\":%zu,", view);
+    replace_number(saver, accessor, "bufferView", view, edits);
+    replace_number(saver, accessor, "byteOffset", 0, edits);
+    if (sparse != JSON_NONE)
+        gone[gone_count++] = sparse;
+    if (version->component != d->model.accessors[version->accessor].component) {
+        replace_number(saver, accessor, "componentType", (size_t)version->component, edits);
+        if (normalized != JSON_NONE)
+            gone[gone_count++] = normalized;
+    }
+    ffd_edits_remove(edits, tree, accessor, gone, gone_count);
+}
+
+static void announce_floats(const gltf_saver *saver, const gltf_version *version)
+{
+    const int component = saver->document->model.accessors[version->accessor].component;
+    if (version->component != component)
+        ffd_gltf_log(saver, FFD_LOG_INFO,
+                     "accessor %zu: its component type %d does not hold what is deformed, which goes into "
+                     "accessor %zu as floats",
+                     version->accessor, component, version->output);
+}
+
+static void add_accessors(gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    for (size_t i = 0; i < saver->plan.appended_count; i++) {
+        const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
+        json_edits edits = {0}, *own = version->rebinds ? &saver->edits : &edits;
+        edit_storage(saver, version, d->view_values.count + i, own);
+        ffd_gltf_edit_bounds(saver, version, own);
+        if (version->rebinds)
+            continue;
+        add_copy(saver, &d->accessor_values, "accessors", version->accessor, &edits);
+        announce_floats(saver, version);
+    }
+}
+
+static void add_meshes(gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    for (size_t i = 0; i < saver->plan.copy_count; i++) {
+        const gltf_mesh_copy *copy = &saver->plan.copies[i];
+        json_edits edits = {0};
+        edit_attributes(saver, copy->mesh, copy->place, &edits);
+        ffd_gltf_edit_compression(saver, copy->mesh, copy->place, &edits);
+        add_copy(saver, &d->mesh_values, "meshes", copy->mesh, &edits);
+    }
+    for (size_t i = 0; i < saver->plan.change_count; i++) {
+        const gltf_node_change *change = &saver->plan.changes[i];
+        const size_t mesh = d->mesh_values.count + change->copy;
+        replace_number(saver, d->node_values.values[change->node], "mesh", mesh, &saver->edits);
+        ffd_gltf_log(saver, FFD_LOG_INFO,
+                     "node %zu gets a copy of mesh %d (mesh %zu): it is deformed otherwise than under "
+                     "other nodes",
+                     change->node, d->model.nodes[change->node].mesh, mesh);
+    }
+}
+
+/* A data URI keeps its head; one that is not plain base64 becomes so. */
+static void edit_data_uri(gltf_saver *saver, size_t buffer)
+{
+    const gltf_document *d = saver->document;
+    const json_value *uri =
+        value_of(saver, ffd_json_span_member(&d->tree, d->buffer_values.values[buffer], "uri"));
+    const uint32_t first = uri->begin + 1, last = uri->end - 1;
+    bool base64 = false;
+    const size_t head = ffd_data_uri_payload(d->tree.text + first, last - first, &base64);
+    if (head != SIZE_MAX && base64) {
+        ffd_edits_buffer(&saver->edits, first + (uint32_t)head, last, (int)buffer);
+        return;
+    }
+    ffd_edits_format(&saver->edits, first, last, "data:application/octet-stream;base64,");
+    ffd_edits_buffer(&saver->edits, last, last, (int)buffer);
+}
+
+static void edit_buffers(gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    for (size_t b = 0; b < d->buffer_values.count; b++) {
+        if (saver->buffers[b].length != d->buffers[b].length)
+            replace_number(saver, d->buffer_values.values[b], "byteLength", saver->buffers[b].length,
+                           &saver->edits);
+        if (saver->buffers[b].changed && d->buffers[b].kind == BUFFER_DATA &&
+            saver->buffers[b].kind == BUFFER_DATA)
+            edit_data_uri(saver, b);
+    }
+}
+
+ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        if (saver->plan.in_place[a] != GLTF_NONE)
+            ffd_gltf_edit_bounds(saver, &saver->plan.versions[saver->plan.in_place[a]], &saver->edits);
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        edit_attributes(saver, m, saver->plan.base_places[m], &saver->edits);
+        ffd_gltf_edit_compression(saver, m, saver->plan.base_places[m], &saver->edits);
+    }
+    ffd_gltf_edit_unpackings(saver);
+    add_views(saver);
+    add_accessors(saver);
+    add_meshes(saver);
+    edit_buffers(saver);
+    ffd_gltf_move_buffers(saver);
+    ffd_gltf_add_buffer(saver);
+    ffd_gltf_drop_extensions(saver);
+    return ffd_edits_failed(&saver->edits) ? ffd_fail_memory(error) : FFD_OK;
+}

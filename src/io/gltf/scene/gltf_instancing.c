@@ -1,0 +1,266 @@
+/* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh in many places, which cannot get results
+   of their own. Their vertices stay, and boxes tell where these stand. */
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "io/gltf/document/gltf_document.h"
+#include <math.h>
+#include <string.h>
+
+#define EXTENSION "EXT_mesh_gpu_instancing"
+/* Of all nodes. Beyond it they are taken to be everywhere. */
+#define MOST_INSTANCES ((uint64_t)1 << 24)
+/* Of a box's sides: more than the rounding of its corners. */
+#define SLACK 1e-9
+
+/* What is known so far. */
+typedef struct survey {
+    gltf_document *document;
+    ffd_bounds *accessors; /* bounds of POSITION accessors, min > max: not looked at */
+    uint64_t instances;
+} survey;
+
+static const ffd_bounds nowhere = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+
+static void join(ffd_bounds *box, const ffd_bounds *other)
+{
+    for (int a = 0; a < 3; a++) {
+        box->min[a] = fmin(box->min[a], other->min[a]);
+        box->max[a] = fmax(box->max[a], other->max[a]);
+    }
+}
+
+static bool is_float(const gltf_accessor *accessor)
+{
+    return accessor->component == GLTF_FLOAT;
+}
+
+/* Rotations may be normalized signed integers (EXT_mesh_gpu_instancing). */
+static bool is_rotation(const gltf_accessor *accessor)
+{
+    return is_float(accessor) ||
+           (accessor->normalized && (accessor->component == GLTF_I8 || accessor->component == GLTF_I16));
+}
+
+static ffd_status find_attribute(const gltf_document *d, uint32_t attributes, const char *key, int rows,
+                                 bool (*allowed)(const gltf_accessor *), size_t *found, uint64_t *count,
+                                 ffd_error *error)
+{
+    const uint32_t value = ffd_json_span_member(&d->tree, attributes, key);
+    double number;
+    *found = GLTF_NONE;
+    if (value == JSON_NONE)
+        return FFD_OK;
+    if (!ffd_json_span_number(&d->tree, value, &number) ||
+        !(number >= 0 && number < (double)d->model.accessor_count && floor(number) >= number))
+        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+                                  "is not the number of one of the %zu accessors", d->model.accessor_count);
+    const gltf_accessor *accessor = &d->model.accessors[(size_t)number];
+    if (accessor->columns != 1 || accessor->rows != rows || !allowed(accessor))
+        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+                                  "accessor %.0f is no VEC%d of an allowed component type", number, rows);
+    if (*count != UINT64_MAX && accessor->count != *count)
+        return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
+                                  "accessor %.0f has %llu elements, another attribute has %llu", number,
+                                  (unsigned long long)accessor->count, (unsigned long long)*count);
+    *found = (size_t)number;
+    *count = accessor->count;
+    return FFD_OK;
+}
+
+static ffd_status find_instances(const gltf_document *d, size_t node, gltf_crowd *found, ffd_error *error)
+{
+    const uint32_t extension = ffd_gltf_extension(d, d->node_values.values[node], EXTENSION);
+    const uint32_t attributes = ffd_json_span_member(&d->tree, extension, "attributes");
+    found->count = UINT64_MAX;
+    ffd_status status =
+        find_attribute(d, attributes, "TRANSLATION", 3, is_float, &found->translation, &found->count, error);
+    if (status == FFD_OK)
+        status =
+            find_attribute(d, attributes, "ROTATION", 4, is_rotation, &found->rotation, &found->count, error);
+    if (status == FFD_OK)
+        status = find_attribute(d, attributes, "SCALE", 3, is_float, &found->scale, &found->count, error);
+    /* Other attributes do not move anything; without these the mesh is shown once. */
+    if (found->count == UINT64_MAX)
+        found->count = 1;
+    return status;
+}
+
+static const ffd_bounds *accessor_bounds(survey *s, size_t accessor)
+{
+    ffd_bounds *box = &s->accessors[accessor];
+    if (box->min[0] <= box->max[0])
+        return box;
+    for (size_t i = 0; i < s->document->model.accessors[accessor].count; i++) {
+        ffd_bounds point;
+        ffd_gltf_read(s->document, accessor, i, 1, 3, point.min);
+        memcpy(point.max, point.min, sizeof point.max);
+        join(box, &point);
+    }
+    return box;
+}
+
+static bool is_finite(const ffd_bounds *box)
+{
+    return vec_is_finite(box->min) && vec_is_finite(box->max);
+}
+
+/* The bounds of a mesh in its own space; false where it cannot be read. */
+static bool find_mesh_bounds(survey *s, size_t mesh, ffd_bounds *box)
+{
+    *box = nowhere;
+    for (size_t p = 0; p < s->document->model.meshes[mesh].primitive_count; p++) {
+        const int accessor = s->document->model.meshes[mesh].primitives[p].accessor[GLTF_POSITION];
+        if (accessor < 0)
+            continue;
+        if (!s->document->layouts[accessor].readable)
+            return false;
+        join(box, accessor_bounds(s, (size_t)accessor));
+    }
+    return box->min[0] > box->max[0] || is_finite(box);
+}
+
+static bool can_read(const gltf_document *d, size_t accessor)
+{
+    return accessor == GLTF_NONE || d->layouts[accessor].readable;
+}
+
+static ffd_status describe_crowd(survey *s, size_t node, gltf_crowd *crowd, ffd_error *error)
+{
+    const gltf_document *d = s->document;
+    *crowd = (gltf_crowd){.node = node};
+    const ffd_status status = find_instances(d, node, crowd, error);
+    if (status)
+        return status;
+    s->instances += crowd->count;
+    crowd->everywhere = !find_mesh_bounds(s, (size_t)d->model.nodes[node].mesh, &crowd->mesh) ||
+                        d->model.nodes[node].skin >= 0 || s->instances > MOST_INSTANCES ||
+                        !can_read(d, crowd->translation) || !can_read(d, crowd->rotation) ||
+                        !can_read(d, crowd->scale);
+    return FFD_OK;
+}
+
+/* The node's vertices stay, whatever is asked for. */
+static void skip_node(gltf_document *d, size_t node)
+{
+    gltf_showing *showing = &d->showings[d->model.nodes[node].mesh];
+    size_t low = 0, high = showing->node_count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        *(showing->nodes[middle] <= node ? &low : &high) = middle;
+    }
+    showing->hidden_too = true; /* so that the node keeps its mesh */
+    for (size_t p = 0; p < d->model.meshes[d->model.nodes[node].mesh].primitive_count; p++)
+        d->instances[showing->first_instance + p * showing->node_count + low].selected = false;
+}
+
+static bool is_instanced(const gltf_document *d, size_t node)
+{
+    return d->space == FFD_SPACE_SCENE && d->is_shown[node] && d->model.nodes[node].mesh >= 0 &&
+           ffd_gltf_has_extension(d, d->node_values.values[node], EXTENSION);
+}
+
+static ffd_status describe_crowds(survey *s, ffd_error *error)
+{
+    gltf_document *d = s->document;
+    ffd_status status = FFD_OK;
+    for (size_t n = 0; n < d->model.node_count && status == FFD_OK; n++)
+        if (is_instanced(d, n)) {
+            skip_node(d, n);
+            status = describe_crowd(s, n, &d->crowds[d->crowd_count++], error);
+        }
+    for (size_t i = 0; i < d->base.part_count; i++)
+        d->mesh_parts[i].skipped = ffd_gltf_crowd_of(d, d->parts[i].node) != NULL;
+    return status;
+}
+
+ffd_status ffd_gltf_make_crowds(gltf_document *d, ffd_error *error)
+{
+    survey s = {.document = d};
+    size_t count = 0;
+    for (size_t n = 0; n < d->model.node_count; n++)
+        count += is_instanced(d, n);
+    if (count == 0)
+        return FFD_OK;
+    s.accessors = ffd_alloc(d->model.accessor_count, sizeof *s.accessors);
+    d->crowds = ffd_alloc(count, sizeof *d->crowds);
+    for (size_t a = 0; s.accessors && a < d->model.accessor_count; a++)
+        s.accessors[a] = nowhere;
+    const ffd_status status = s.accessors && d->crowds ? describe_crowds(&s, error) : ffd_fail_memory(error);
+    ffd_free(s.accessors);
+    return status;
+}
+
+gltf_crowd *ffd_gltf_crowd_of(const gltf_document *d, size_t node)
+{
+    size_t low = 0, high = d->crowd_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (d->crowds[middle].node == node)
+            return &d->crowds[middle];
+        if (d->crowds[middle].node < node)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return NULL;
+}
+
+/* Whether the box that holds linear box + offset meets the reach, or may do so by rounding. */
+static bool meets(const ffd_bounds *box, const double world[12], const ffd_bounds *reach)
+{
+    double middle[3], half[3];
+    for (int a = 0; a < 3; a++) {
+        middle[a] = (box->min[a] + box->max[a]) / 2;
+        half[a] = (box->max[a] - box->min[a]) / 2;
+    }
+    mat_apply(world, middle, middle);
+    for (int r = 0; r < 3; r++) {
+        const double *row = world + 3 * r, offset = world[9 + r];
+        const double side = fabs(row[0]) * half[0] + fabs(row[1]) * half[1] + fabs(row[2]) * half[2];
+        const double wide = side + SLACK * (side + fabs(middle[r]) + fabs(offset));
+        const double least = middle[r] + offset - wide, largest = middle[r] + offset + wide;
+        if (least > reach->max[r] || largest < reach->min[r])
+            return false;
+    }
+    return true; /* also what is not a number */
+}
+
+static void place_instance(const gltf_document *d, const gltf_crowd *crowd, size_t i, double world[12])
+{
+    gltf_node instance = {.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+    double linear[9], offset[3];
+    if (crowd->translation != GLTF_NONE)
+        ffd_gltf_read(d, crowd->translation, i, 1, 3, instance.translation);
+    if (crowd->rotation != GLTF_NONE)
+        ffd_gltf_read(d, crowd->rotation, i, 1, 4, instance.rotation);
+    if (crowd->scale != GLTF_NONE)
+        ffd_gltf_read(d, crowd->scale, i, 1, 3, instance.scale);
+    ffd_gltf_local_matrix(&instance, linear, offset);
+    ffd_gltf_join_matrix(d->world + 12 * crowd->node, linear, offset, world);
+}
+
+static bool is_reached(const gltf_document *d, const gltf_crowd *crowd, const ffd_bounds *reach)
+{
+    if (crowd->idle || crowd->everywhere)
+        return !crowd->idle;
+    bool met = false;
+    for (size_t i = 0; i < crowd->count && crowd->mesh.min[0] <= crowd->mesh.max[0] && !met; i++) {
+        double world[12];
+        place_instance(d, crowd, i, world);
+        met = meets(&crowd->mesh, world, reach);
+    }
+    return met;
+}
+
+ffd_status ffd_gltf_check_reach(const mesh_document *document, const ffd_bounds *reach, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    for (size_t i = 0; i < d->crowd_count; i++)
+        if (is_reached(d, &d->crowds[i], reach))
+            return ffd_json_span_fail(
+                &d->tree, ffd_gltf_extension(d, d->node_values.values[d->crowds[i].node], EXTENSION), d->name,
+                FFD_E_UNSUPPORTED, error,
+                EXTENSION " is not supported where the lattice reaches the instances (--space mesh deforms "
+                          "the mesh itself)");
+    return FFD_OK;
+}

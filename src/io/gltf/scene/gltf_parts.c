@@ -1,0 +1,195 @@
+#include "base/memory/memory.h"
+#include "base/memory/slots.h"
+#include "base/vector/vec.h"
+#include "io/gltf/document/gltf_document.h"
+#include <string.h>
+
+#define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
+
+/* What is kept of a primitive under a node, and made for it while the parts are made and the file is saved.
+ */
+#define INSTANCE_BYTES                                                                                       \
+    (sizeof(gltf_instance) + sizeof(gltf_part) + sizeof(mesh_part) + 4 * sizeof(size_t) + SAVED_BYTES)
+#define SAVED_BYTES 400
+
+/* Finds the parts of one POSITION accessor under one node and, with a skin, of the same influences. */
+typedef struct part_table {
+    size_t *heads; /* first part of a slot's key, GLTF_NONE: free */
+    size_t mask;
+    size_t *next; /* the part's next one with the same positions */
+} part_table;
+
+static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    *total = 0;
+    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
+        const uint64_t shown =
+            (uint64_t)d->model.meshes[m].primitive_count * d->showings[m].node_count; /* below 2^31 each */
+        d->showings[m].first_instance = *total;
+        status = ffd_room_take(&d->base.room, shown, INSTANCE_BYTES, error);
+        *total += (size_t)shown;
+    }
+    return status;
+}
+
+/* Whether two parts of one node are moved by the same joints. */
+static bool same_influences(const gltf_part *a, const gltf_part *b)
+{
+    if (a->influence_count != b->influence_count)
+        return false;
+    for (size_t i = 0; i < a->influence_count; i++)
+        if (a->influences[i].joints != b->influences[i].joints ||
+            a->influences[i].weights != b->influences[i].weights)
+            return false;
+    return true;
+}
+
+static size_t *find_slot(const gltf_document *d, const part_table *table, const gltf_part *wanted)
+{
+    const size_t accessor = wanted->streams[GLTF_POSITION].accessor;
+    size_t slot = accessor * 0x9e3779b1u + wanted->node * 0x85ebca6bu;
+    for (size_t i = 0; i < wanted->influence_count; i++)
+        slot = slot * 31 + (size_t)wanted->influences[i].joints + 7 * (size_t)wanted->influences[i].weights;
+    slot &= table->mask;
+    while (table->heads[slot] != GLTF_NONE) {
+        const gltf_part *part = &d->parts[table->heads[slot]];
+        if (part->streams[GLTF_POSITION].accessor == accessor && part->node == wanted->node &&
+            same_influences(part, wanted))
+            break;
+        slot = (slot + 1) & table->mask;
+    }
+    return &table->heads[slot];
+}
+
+static size_t readable_accessor(const gltf_document *d, const gltf_primitive *primitive,
+                                gltf_semantic semantic)
+{
+    const int accessor = primitive->accessor[semantic];
+    return accessor >= 0 && d->layouts[accessor].readable ? (size_t)accessor : GLTF_NONE;
+}
+
+/* Whether the part deforms what a primitive with these attributes shows. A tangent depends on its normal. */
+static bool serves(const gltf_part *part, size_t normal, size_t tangent)
+{
+    return (normal == GLTF_NONE || part->streams[GLTF_NORMAL].accessor == normal) &&
+           (tangent == GLTF_NONE || part->streams[GLTF_TANGENT].accessor == tangent);
+}
+
+static void place_part(const gltf_document *d, const gltf_part *from, mesh_part *part)
+{
+    static const double unit[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    const double *world = from->node == GLTF_NONE ? unit : d->world + 12 * from->node;
+    part->skinned = from->skin != NULL;
+    if (part->skinned)
+        return;
+    part->identity = true;
+    for (int i = 0; i < 12; i++)
+        part->identity = part->identity && !(world[i] < unit[i] || world[i] > unit[i]);
+    memcpy(part->linear, world, sizeof part->linear);
+    memcpy(part->offset, world + 9, sizeof part->offset);
+    part->singular = !mat_invert(part->linear, part->inverse);
+}
+
+static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
+{
+    const size_t index = d->base.part_count++;
+    mesh_part *shown = &d->mesh_parts[index];
+    d->parts[index] = *part;
+    shown->vertex_count = (size_t)d->model.accessors[part->streams[GLTF_POSITION].accessor].count;
+    shown->normal_count = part->streams[GLTF_NORMAL].accessor == GLTF_NONE ? 0 : shown->vertex_count;
+    shown->has_tangents = part->streams[GLTF_TANGENT].accessor != GLTF_NONE;
+    shown->repeats_positions = repeated != GLTF_NONE;
+    shown->repeats = repeated;
+    place_part(d, part, shown);
+    return index;
+}
+
+/* The part that a primitive under a node wants. */
+static gltf_part describe_part(const gltf_document *d, const gltf_primitive *primitive, size_t node)
+{
+    gltf_part part = {.node = node};
+    for (int s = 0; s < GLTF_DEFORMED; s++)
+        part.streams[s].accessor = readable_accessor(d, primitive, (gltf_semantic)s);
+    if (part.streams[GLTF_NORMAL].accessor == GLTF_NONE)
+        part.streams[GLTF_TANGENT].accessor = GLTF_NONE; /* to be ignored without (glTF 2.0, 3.7.2.1) */
+    if (node != GLTF_NONE && d->model.nodes[node].skin >= 0) {
+        part.skin = &d->skins[d->model.nodes[node].skin];
+        part.influences = primitive->influences;
+        part.influence_count = primitive->influence_count;
+    }
+    return part;
+}
+
+static void add_instance(gltf_document *d, const part_table *table, size_t mesh, size_t p, size_t node,
+                         gltf_instance *instance)
+{
+    const gltf_part wanted = describe_part(d, &d->model.meshes[mesh].primitives[p], node);
+    const size_t normal = wanted.streams[GLTF_NORMAL].accessor;
+    const size_t tangent = wanted.streams[GLTF_TANGENT].accessor;
+    for (int s = 0; s < GLTF_DEFORMED; s++)
+        instance->part[s] = GLTF_NONE;
+    instance->selected = true;
+    if (wanted.streams[GLTF_POSITION].accessor == GLTF_NONE)
+        return;
+    size_t *const head = find_slot(d, table, &wanted);
+    size_t part = *head, last = GLTF_NONE;
+    while (part != GLTF_NONE && !serves(&d->parts[part], normal, tangent)) {
+        last = part;
+        part = table->next[part];
+    }
+    if (part == GLTF_NONE) {
+        part = add_part(d, &wanted, *head);
+        table->next[part] = GLTF_NONE;
+        if (last == GLTF_NONE)
+            *head = part;
+        else
+            table->next[last] = part;
+    }
+    instance->part[GLTF_POSITION] = *head;
+    for (int s = GLTF_NORMAL; s < GLTF_DEFORMED; s++)
+        if (wanted.streams[s].accessor != GLTF_NONE)
+            instance->part[s] = part;
+}
+
+static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
+{
+    uint64_t vertices = 0;
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        vertices += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
+        if (vertices > MOST_VERTICES)
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %llu vertices",
+                                 (unsigned long long)MOST_VERTICES);
+    }
+    /* Whoever goes over all of them keeps this of each at the least. */
+    return ffd_room_check(&d->base.room, vertices, sizeof(float[3]), error);
+}
+
+ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
+{
+    size_t total;
+    ffd_status status = count_instances(d, &total, error);
+    if (status)
+        return status;
+    part_table table = {.next = ffd_alloc(total, sizeof *table.next)};
+    table.heads = ffd_slots_make(total, sizeof *table.heads, &table.mask);
+    d->instances = ffd_alloc(total, sizeof *d->instances);
+    d->parts = ffd_alloc_zero(total, sizeof *d->parts);
+    d->mesh_parts = ffd_alloc_zero(total, sizeof *d->mesh_parts);
+    if (!table.heads || !table.next || !d->instances || !d->parts || !d->mesh_parts) {
+        status = ffd_fail_memory(error);
+        goto done;
+    }
+    gltf_instance *instance = d->instances;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            for (size_t n = 0; n < d->showings[m].node_count; n++)
+                add_instance(d, &table, m, p, d->showings[m].nodes ? d->showings[m].nodes[n] : GLTF_NONE,
+                             instance++);
+    d->base.parts = d->mesh_parts;
+    status = limit_vertices(d, error);
+done:
+    ffd_free(table.heads);
+    ffd_free(table.next);
+    return status;
+}

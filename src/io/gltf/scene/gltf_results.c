@@ -1,0 +1,213 @@
+#include "base/memory/memory.h"
+#include "base/vector/array_kernel.h"
+#include "io/gltf/decode/gltf_encode.h"
+#include "io/gltf/document/gltf_document.h"
+#include <string.h>
+
+static size_t tiles_of(size_t count)
+{
+    return count / MESH_RANGE_STEP + (count % MESH_RANGE_STEP != 0);
+}
+
+static size_t tile_end(const gltf_document *d, size_t part, size_t tile)
+{
+    const size_t count = d->mesh_parts[part].vertex_count;
+    return count - tile * MESH_RANGE_STEP < MESH_RANGE_STEP ? count : (tile + 1) * MESH_RANGE_STEP;
+}
+
+/* The originals go to a tile where nothing stands yet. */
+static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
+{
+    const size_t first = tile * MESH_RANGE_STEP;
+    ffd_gltf_originals(d, stream->accessor, first, tile_end(d, part, tile) - first,
+                       stream->result + 3 * first);
+    stream->is_there[tile] = 1;
+}
+
+/* Before vectors [first, last) get their results. whole: each of them does. */
+static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *stream, size_t first,
+                        size_t last, bool whole)
+{
+    for (size_t t = first / MESH_RANGE_STEP; t <= (last - 1) / MESH_RANGE_STEP; t++)
+        if (whole && first <= t * MESH_RANGE_STEP && tile_end(d, part, t) <= last)
+            stream->is_there[t] = 1;
+        else if (!stream->is_there[t])
+            begin_tile(d, part, stream, t);
+}
+
+/* What a tile that is at hand has now. */
+static void note_bounds(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
+{
+    const size_t first = tile * MESH_RANGE_STEP;
+    if (stream->bounds)
+        stream->bounds[tile] =
+            ffd_gltf_find_bounds(stream->result + 3 * first, tile_end(d, part, tile) - first);
+}
+
+void ffd_gltf_complete_results(gltf_document *d)
+{
+    for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
+        for (int s = 0; s < GLTF_DEFORMED; s++) {
+            gltf_stream *stream = &d->parts[i].streams[s];
+            if (!stream->is_there)
+                continue;
+            for (size_t tile = 0; tile < tiles_of(d->mesh_parts[i].vertex_count); tile++)
+                if (!stream->is_there[tile]) {
+                    begin_tile(d, i, stream, tile);
+                    note_bounds(d, i, stream, tile);
+                }
+            ffd_free(stream->is_there);
+            stream->is_there = NULL;
+        }
+}
+
+void ffd_gltf_free_result(gltf_stream *stream)
+{
+    ffd_free(stream->result);
+    ffd_free(stream->is_there);
+    ffd_free(stream->bounds);
+    stream->result = NULL;
+    stream->is_there = NULL;
+    stream->bounds = NULL;
+}
+
+/* Of a deformation into a morph target, zeros; else what stands in the file, but that only when it is needed:
+   the pass hands nearly everything back, and what has just been read for it is then at hand. */
+static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic semantic, ffd_error *error)
+{
+    gltf_stream *stream = &d->parts[part].streams[semantic];
+    const size_t count = d->mesh_parts[part].vertex_count;
+    if (stream->accessor == GLTF_NONE)
+        return FFD_OK;
+    if (!stream->result) {
+        const ffd_status status = ffd_room_take(&d->base.room, count, 3 * sizeof *stream->result, error);
+        if (status)
+            return status;
+        stream->result = ffd_alloc_whole(count, 3 * sizeof *stream->result);
+        if (!stream->result)
+            return ffd_fail_memory(error);
+        if (d->morph_name)
+            memset(stream->result, 0, count * 3 * sizeof *stream->result);
+    }
+    ffd_free(stream->is_there); /* of an earlier deformation */
+    stream->is_there = NULL;
+    if (d->morph_name)
+        return FFD_OK;
+    stream->is_there = ffd_alloc_zero(tiles_of(count), 1);
+    if (semantic == GLTF_POSITION && !stream->bounds)
+        stream->bounds = ffd_alloc(tiles_of(count), sizeof *stream->bounds);
+    return stream->is_there && (stream->bounds || semantic != GLTF_POSITION) ? FFD_OK
+                                                                             : ffd_fail_memory(error);
+}
+
+/* Of an earlier deformation that wanted it. */
+static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
+{
+    gltf_stream *stream = &d->parts[part].streams[semantic];
+    if (stream->result)
+        ffd_room_return(&d->base.room, d->mesh_parts[part].vertex_count, 3 * sizeof *stream->result);
+    ffd_gltf_free_result(stream);
+}
+
+ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+{
+    gltf_document *d = (gltf_document *)document;
+    const bool wanted[GLTF_DEFORMED] = {true, normals, tangents};
+    ffd_status status = ffd_gltf_refuse_read(d, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_refuse_store(d, normals, tangents, error);
+    d->morph_normals = normals;
+    for (size_t i = 0; i < (d->morph_name ? d->base.part_count : ffd_gltf_part_count(d)); i++)
+        for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
+            if (!wanted[s])
+                drop_result(d, i, (gltf_semantic)s);
+            else if (!d->mesh_parts[i].skipped && !(s == GLTF_POSITION && d->mesh_parts[i].repeats_positions))
+                status = make_result(d, i, (gltf_semantic)s, error);
+    return status;
+}
+
+/* Whether results are rounded to the type's steps. Directions in integers that are not normalized or have no
+   sign are not valid, and a unit vector would not survive their steps: such become floats. */
+static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
+{
+    if (accessor->component == GLTF_FLOAT)
+        return false;
+    return semantic == GLTF_POSITION ||
+           (accessor->normalized && (accessor->component == GLTF_I8 || accessor->component == GLTF_I16));
+}
+
+/* Results that are offsets to what the file has. */
+static void write_offset(const gltf_document *d, const gltf_stream *stream, size_t i, const double *value)
+{
+    double original[3];
+    ffd_gltf_read(d, stream->accessor, i, 1, 3, original);
+    for (size_t c = 0; c < 3; c++)
+        stream->result[3 * i + c] = (float)(value[c] - original[c]);
+}
+
+/* Whether results go to the file as they are, but for being rounded to float. */
+static bool is_plain(const gltf_document *d, const gltf_stream *stream, gltf_semantic semantic)
+{
+    return !d->morph_name &&
+           (d->base.converted || !has_steps(&d->model.accessors[stream->accessor], semantic));
+}
+
+static void write_changed(const gltf_document *d, const gltf_stream *stream, bool plain, size_t first,
+                          size_t count, const double *values, size_t components, const uint8_t *changed)
+{
+    const gltf_accessor *accessor = &d->model.accessors[stream->accessor];
+    float *const result = stream->result + 3 * first;
+    for (size_t i = 0; i < count; i++) {
+        const double *const value = values + components * i;
+        if (!changed[i])
+            continue;
+        if (d->morph_name)
+            write_offset(d, stream, first + i, value);
+        for (size_t c = 0; c < 3 && !d->morph_name; c++)
+            result[3 * i + c] = plain ? (float)value[c] : ffd_gltf_round(accessor, value[c]);
+    }
+}
+
+static void write_result(mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
+                         size_t count, const double *values, size_t components, const uint8_t *changed)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const gltf_stream *stream = &d->parts[part].streams[semantic];
+    if (!stream->result || count == 0)
+        return;
+    const bool plain = is_plain(d, stream, semantic), whole = !memchr(changed, 0, count);
+    if (stream->is_there)
+        begin_tiles(d, part, stream, first, first + count, whole);
+    if (whole && plain && components == 3) /* nearly always */
+        ffd_array_kernel(FFD_ISA_AUTO)->round(values, 3 * count, stream->result + 3 * first);
+    else
+        write_changed(d, stream, plain, first, count, values, components, changed);
+    for (size_t t = first / MESH_RANGE_STEP; t <= (first + count - 1) / MESH_RANGE_STEP; t++)
+        note_bounds(d, part, stream, t);
+}
+
+void ffd_gltf_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                              const double *xyz, const uint8_t *changed)
+{
+    write_result(document, part, GLTF_POSITION, first, count, xyz, 3, changed);
+}
+
+void ffd_gltf_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
+                            const double *xyz, const uint8_t *changed)
+{
+    write_result(document, part, GLTF_NORMAL, first, count, xyz, 3, changed);
+}
+
+void ffd_gltf_write_tangents(mesh_document *document, size_t part, size_t first, size_t count,
+                             const double *xyzw, const uint8_t *changed)
+{
+    write_result(document, part, GLTF_TANGENT, first, count, xyzw, 4, changed);
+}
+
+void ffd_gltf_write_offsets(mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                            size_t first, size_t count, const double *xyz, const uint8_t *changed)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const size_t target = d->base.part_count + d->parts[part].first_shape + shape;
+    write_result(document, target, (gltf_semantic)stream, first, count, xyz, 3, changed);
+}

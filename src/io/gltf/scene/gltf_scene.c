@@ -1,0 +1,231 @@
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "io/gltf/document/gltf_document.h"
+#include <math.h>
+#include <string.h>
+
+/* The node's own matrix, linear row by row and offset; T R S with the quaternion x,y,z,w (glTF 2.0, 3.5.3).
+ */
+void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3])
+{
+    if (node->has_matrix) {
+        for (int r = 0; r < 3; r++) {
+            for (int c = 0; c < 3; c++)
+                linear[3 * r + c] = node->matrix[4 * c + r];
+            offset[r] = node->matrix[12 + r];
+        }
+        return;
+    }
+    const double x = node->rotation[0], y = node->rotation[1], z = node->rotation[2], w = node->rotation[3];
+    const double rotation[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - z * w),     2 * (x * z + y * w),
+                                2 * (x * y + z * w),     1 - 2 * (x * x + z * z), 2 * (y * z - x * w),
+                                2 * (x * z - y * w),     2 * (y * z + x * w),     1 - 2 * (x * x + y * y)};
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++)
+            linear[3 * r + c] = rotation[3 * r + c] * node->scale[c];
+        offset[r] = node->translation[r];
+    }
+}
+
+void ffd_gltf_join_matrix(const double parent[12], const double linear[9], const double offset[3],
+                          double joined[12])
+{
+    mat_multiply(parent, linear, joined);
+    mat_apply(parent, offset, joined + 9);
+    for (int i = 0; i < 3; i++)
+        joined[9 + i] += parent[9 + i];
+}
+
+static void place(gltf_document *d, size_t n, const double *parent)
+{
+    double *world = d->world + 12 * n;
+    double linear[9], offset[3];
+    ffd_gltf_local_matrix(&d->model.nodes[n], linear, offset);
+    if (parent) {
+        ffd_gltf_join_matrix(parent, linear, offset, world);
+        return;
+    }
+    memcpy(world, linear, sizeof linear);
+    memcpy(world + 9, offset, sizeof offset);
+}
+
+static void find_parents(gltf_document *d, size_t *parents)
+{
+    d->shared_child = GLTF_NONE;
+    for (size_t n = 0; n < d->model.node_count; n++)
+        parents[n] = GLTF_NONE;
+    for (size_t n = 0; n < d->model.node_count; n++)
+        for (size_t i = 0; i < d->model.nodes[n].child_count; i++) {
+            const size_t child = (size_t)d->model.nodes[n].children[i];
+            if (parents[child] == GLTF_NONE) {
+                parents[child] = n;
+            } else if (d->shared_child == GLTF_NONE) {
+                d->shared_child = child;
+                d->shared_by[0] = parents[child];
+                d->shared_by[1] = n;
+            }
+        }
+}
+
+/* With one parent each, a node is in a cycle or below one exactly if no root reaches it. order: all nodes,
+   parents first. */
+static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, size_t *order,
+                                ffd_error *error)
+{
+    size_t reached = 0, waiting = 0;
+    bool *seen = ffd_alloc_zero(d->model.node_count, sizeof *seen);
+    if (!seen)
+        return ffd_fail_memory(error);
+    for (size_t n = 0; n < d->model.node_count; n++)
+        if (parents[n] == GLTF_NONE) {
+            order[waiting++] = n;
+            seen[n] = true;
+        }
+    while (reached < waiting) {
+        const size_t n = order[reached++];
+        const gltf_node *node = &d->model.nodes[n];
+        for (size_t i = 0; i < node->child_count; i++) {
+            const size_t child = (size_t)node->children[i];
+            if (parents[child] == n && !seen[child])
+                order[waiting++] = child;
+            seen[child] = seen[child] || parents[child] == n;
+        }
+    }
+    ffd_status status = FFD_OK;
+    for (size_t n = 0; n < d->model.node_count && reached < d->model.node_count && status == FFD_OK; n++)
+        if (!seen[n])
+            status = ffd_json_span_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
+                                        "the node is its own ancestor, or below one that is");
+    ffd_free(seen);
+    return status;
+}
+
+/* Joints may stand outside the shown scene: all nodes get their place. */
+static void place_all(gltf_document *d, const size_t *parents, const size_t *order)
+{
+    for (size_t i = 0; i < d->model.node_count; i++) {
+        const size_t n = order[i], parent = parents[n];
+        place(d, n, parent == GLTF_NONE ? NULL : d->world + 12 * parent);
+    }
+}
+
+/* Shows a root and all nodes below it. */
+static void show(gltf_document *d, size_t root, const size_t *parents, size_t *pending)
+{
+    size_t waiting = 0;
+    pending[waiting++] = root;
+    d->is_shown[root] = true;
+    while (waiting > 0) {
+        const size_t n = pending[--waiting];
+        const gltf_node *node = &d->model.nodes[n];
+        for (size_t i = 0; i < node->child_count; i++) {
+            const size_t child = (size_t)node->children[i];
+            if (parents[child] != n || d->is_shown[child])
+                continue;
+            d->is_shown[child] = true;
+            pending[waiting++] = child;
+        }
+    }
+}
+
+static ffd_status show_scene(gltf_document *d, const size_t *parents, size_t *pending, ffd_error *error)
+{
+    const gltf_scene *scene = &d->model.scenes[d->model.scene >= 0 ? d->model.scene : 0];
+    for (size_t i = 0; i < scene->node_count; i++) {
+        const size_t root = (size_t)scene->nodes[i];
+        if (parents[root] != GLTF_NONE)
+            return ffd_json_span_fail(&d->tree, d->node_values.values[root], d->name, FFD_E_INVALID, error,
+                                      "a scene names the node as a root, but it is a child of node %zu",
+                                      parents[root]);
+        if (d->is_shown[root])
+            return ffd_json_span_fail(&d->tree, d->node_values.values[root], d->name, FFD_E_INVALID, error,
+                                      "the scene names the node twice");
+        show(d, root, parents, pending);
+    }
+    return FFD_OK;
+}
+
+static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
+{
+    for (size_t n = 0; n < d->model.node_count; n++)
+        for (int i = 0; d->is_shown[n] && i < 12; i++)
+            if (!isfinite(d->world[12 * n + i]))
+                return ffd_json_span_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
+                                          "the node's place in the scene is not finite");
+    return FFD_OK;
+}
+
+/* Lists the shown nodes of each mesh. */
+static ffd_status list_nodes(gltf_document *d, ffd_error *error)
+{
+    const gltf_model *model = &d->model;
+    size_t total = 0;
+    for (size_t n = 0; n < model->node_count; n++) {
+        if (model->nodes[n].mesh < 0)
+            continue;
+        gltf_showing *showing = &d->showings[model->nodes[n].mesh];
+        showing->is_used = true;
+        showing->node_count += d->is_shown[n];
+        showing->hidden_too = showing->hidden_too || !d->is_shown[n];
+        d->hidden_nodes += !d->is_shown[n];
+        total += d->is_shown[n];
+    }
+    d->shown_nodes = ffd_alloc(total, sizeof *d->shown_nodes);
+    if (!d->shown_nodes)
+        return ffd_fail_memory(error);
+    size_t *room = d->shown_nodes;
+    for (size_t m = 0; m < model->mesh_count; m++) {
+        d->showings[m].nodes = room;
+        room += d->showings[m].node_count;
+        d->showings[m].hidden_too = d->showings[m].hidden_too || d->showings[m].node_count == 0;
+        d->showings[m].node_count = 0;
+    }
+    for (size_t n = 0; n < model->node_count; n++)
+        if (model->nodes[n].mesh >= 0 && d->is_shown[n]) {
+            gltf_showing *showing = &d->showings[model->nodes[n].mesh];
+            showing->nodes[showing->node_count++] = n;
+        }
+    return FFD_OK;
+}
+
+static void show_meshes_alone(gltf_document *d)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        d->showings[m].node_count = 1;
+}
+
+ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
+{
+    const size_t count = d->model.node_count;
+    size_t *parents = ffd_alloc(count, sizeof *parents), *pending = ffd_alloc(count, sizeof *pending);
+    d->world = ffd_alloc_zero(count, 12 * sizeof *d->world);
+    d->is_shown = ffd_alloc_zero(count, sizeof *d->is_shown);
+    d->showings = ffd_alloc_zero(d->model.mesh_count, sizeof *d->showings);
+    ffd_status status =
+        parents && pending && d->world && d->is_shown && d->showings ? FFD_OK : ffd_fail_memory(error);
+    if (status)
+        goto done;
+    find_parents(d, parents);
+    status = refuse_cycles(d, parents, pending, error);
+    if (status)
+        goto done;
+    if (d->space == FFD_SPACE_MESH) {
+        show_meshes_alone(d);
+        goto done;
+    }
+    place_all(d, parents, pending);
+    if (d->model.scene_count > 0)
+        status = show_scene(d, parents, pending, error);
+    else
+        for (size_t n = 0; n < count; n++)
+            if (parents[n] == GLTF_NONE)
+                show(d, n, parents, pending);
+    if (status == FFD_OK)
+        status = refuse_infinite(d, error);
+    if (status == FFD_OK)
+        status = list_nodes(d, error);
+done:
+    ffd_free(parents);
+    ffd_free(pending);
+    return status;
+}

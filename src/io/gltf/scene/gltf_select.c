@@ -1,0 +1,204 @@
+/* gltf_select.c - which primitives under which nodes `--only` leaves, and which vertices these draw. */
+#include "base/memory/memory.h"
+#include "io/gltf/document/gltf_document.h"
+#include <string.h>
+
+typedef struct selecting {
+    gltf_document *document;
+    const mesh_selector *selectors;
+    size_t count;
+    bool *nodes, *meshes, *materials; /* is selected */
+    size_t *pending;                  /* room for all nodes */
+    size_t material_count;
+} selecting;
+
+static uint32_t array_of(const gltf_document *d, selector_kind kind)
+{
+    static const char *const keys[SELECTOR_KINDS] = {
+        [SELECT_NODE] = "nodes", [SELECT_MESH] = "meshes", [SELECT_MATERIAL] = "materials"};
+    return ffd_json_span_member(&d->tree, 0, keys[kind]);
+}
+
+static ffd_status refuse_unknown(const gltf_document *d, const mesh_selector *selector, ffd_error *error)
+{
+    selector_nearest nearest = {.selector = selector};
+    const uint32_t array = array_of(d, selector->kind);
+    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v)) {
+        const uint32_t member = ffd_json_span_member(&d->tree, v, "name");
+        if (member == JSON_NONE || d->tree.values[member].kind != JSON_STRING)
+            continue;
+        size_t size;
+        char *name = ffd_json_span_string(&d->tree, member, &size);
+        if (!name)
+            return ffd_fail_memory(error);
+        ffd_selector_offer(&nearest, name, size);
+        ffd_free(name);
+    }
+    return ffd_selector_unknown(&nearest, d->name, error);
+}
+
+/* Marks a node and all below it. */
+static void mark_nodes(const selecting *s, size_t root)
+{
+    size_t waiting = 0;
+    if (s->nodes[root])
+        return;
+    s->nodes[root] = true;
+    s->pending[waiting++] = root;
+    while (waiting > 0) {
+        const gltf_node *node = &s->document->model.nodes[s->pending[--waiting]];
+        for (size_t i = 0; i < node->child_count; i++) {
+            const size_t child = (size_t)node->children[i];
+            if (s->nodes[child])
+                continue;
+            s->nodes[child] = true;
+            s->pending[waiting++] = child;
+        }
+    }
+}
+
+static void mark(const selecting *s, selector_kind kind, size_t number)
+{
+    if (kind == SELECT_NODE)
+        mark_nodes(s, number);
+    else if (kind == SELECT_MESH)
+        s->meshes[number] = true;
+    else
+        s->materials[number] = true;
+}
+
+/* All that have the name. */
+static ffd_status mark_named(const selecting *s, const mesh_selector *selector, ffd_error *error)
+{
+    const gltf_document *d = s->document;
+    const uint32_t array = array_of(d, selector->kind);
+    size_t number = 0;
+    bool found = false;
+    for (uint32_t v = ffd_json_span_first(&d->tree, array); v != JSON_NONE;
+         v = ffd_json_span_after(&d->tree, v), number++) {
+        const uint32_t name = ffd_json_span_member(&d->tree, v, "name");
+        if (name == JSON_NONE || !ffd_json_span_string_is(&d->tree, name, selector->name))
+            continue;
+        found = true;
+        mark(s, selector->kind, number);
+    }
+    return found ? FFD_OK : refuse_unknown(d, selector, error);
+}
+
+/* In mesh space a node stands for the mesh that it shows. */
+static void mark_meshes_of_nodes(const selecting *s)
+{
+    const gltf_model *model = &s->document->model;
+    for (size_t n = 0; n < model->node_count && s->document->space == FFD_SPACE_MESH; n++)
+        if (s->nodes[n] && model->nodes[n].mesh >= 0)
+            s->meshes[model->nodes[n].mesh] = true;
+}
+
+static bool has_material(const selecting *s, size_t m, size_t p)
+{
+    const gltf_document *d = s->document;
+    double number;
+    return ffd_json_span_number(&d->tree,
+                                ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "material"),
+                                &number) &&
+           number >= 0 && number < (double)s->material_count && s->materials[(size_t)number];
+}
+
+/* A part's bytes, all 0 at first. */
+static ffd_status open_part(gltf_document *d, size_t part, ffd_error *error)
+{
+    if (d->parts[part].selected)
+        return FFD_OK;
+    d->parts[part].selected = ffd_alloc_zero(d->mesh_parts[part].vertex_count, 1);
+    if (!d->parts[part].selected)
+        return ffd_fail_memory(error);
+    d->mesh_parts[part].selected = d->parts[part].selected;
+    d->mesh_parts[part].skipped = false;
+    return FFD_OK;
+}
+
+/* Marks what a primitive draws in the parts of one instance. */
+static ffd_status mark_vertices(gltf_document *d, const gltf_instance *instance, const uint32_t *corners,
+                                size_t count, ffd_error *error)
+{
+    size_t before = GLTF_NONE;
+    for (int s = 0; s < GLTF_DEFORMED; s++) {
+        const size_t part = instance->part[s];
+        if (part == GLTF_NONE || part == before)
+            continue;
+        const ffd_status status = open_part(d, part, error);
+        if (status)
+            return status;
+        for (size_t i = 0; i < count; i++)
+            d->parts[part].selected[corners[i]] = 1;
+        before = part;
+    }
+    return FFD_OK;
+}
+
+static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_error *error)
+{
+    gltf_document *d = s->document;
+    const gltf_showing *showing = &d->showings[m];
+    gltf_instance *instances = d->instances + showing->first_instance + p * showing->node_count;
+    const bool everywhere = s->meshes[m] || has_material(s, m, p);
+    bool any = false;
+    for (size_t n = 0; n < showing->node_count; n++) {
+        const bool wanted = everywhere || (showing->nodes && s->nodes[showing->nodes[n]]);
+        gltf_crowd *crowd = showing->nodes ? ffd_gltf_crowd_of(d, showing->nodes[n]) : NULL;
+        instances[n].selected = wanted && !crowd;
+        if (wanted && crowd)
+            crowd->idle = false;
+        any = any || (instances[n].selected && instances[n].part[GLTF_POSITION] != GLTF_NONE);
+    }
+    if (!any)
+        return FFD_OK;
+    uint32_t *corners;
+    size_t count;
+    ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &count, error);
+    for (size_t n = 0; n < showing->node_count && status == FFD_OK; n++)
+        if (instances[n].selected)
+            status = mark_vertices(d, &instances[n], corners, count, error);
+    ffd_free(corners);
+    return status;
+}
+
+static ffd_status select_all(selecting *s, ffd_error *error)
+{
+    gltf_document *d = s->document;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < s->count && status == FFD_OK; i++)
+        status = mark_named(s, &s->selectors[i], error);
+    if (status)
+        return status;
+    mark_meshes_of_nodes(s);
+    for (size_t i = 0; i < d->base.part_count; i++)
+        d->mesh_parts[i].skipped = true;
+    for (size_t i = 0; i < d->crowd_count; i++)
+        d->crowds[i].idle = true;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
+            status = select_primitive(s, m, p, error);
+    return status;
+}
+
+ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selectors, size_t count,
+                           ffd_error *error)
+{
+    gltf_document *d = (gltf_document *)document;
+    selecting s = {.document = d, .selectors = selectors, .count = count};
+    const uint32_t materials = array_of(d, SELECT_MATERIAL);
+    s.material_count = materials == JSON_NONE ? 0 : d->tree.values[materials].count;
+    s.nodes = ffd_alloc_zero(d->model.node_count, sizeof *s.nodes);
+    s.pending = ffd_alloc(d->model.node_count, sizeof *s.pending);
+    s.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *s.meshes);
+    s.materials = ffd_alloc_zero(s.material_count, sizeof *s.materials);
+    const bool room = s.nodes && s.pending && s.meshes && s.materials;
+    const ffd_status status = room ? select_all(&s, error) : ffd_fail_memory(error);
+    ffd_free(s.nodes);
+    ffd_free(s.pending);
+    ffd_free(s.meshes);
+    ffd_free(s.materials);
+    return status;
+}

@@ -1,0 +1,173 @@
+/* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives name it. */
+#include "base/memory/memory.h"
+#include "base/memory/slots.h"
+#include "io/gltf/document/gltf_document.h"
+#include <string.h>
+
+/* A morph target of a part. */
+typedef struct target {
+    size_t part;
+    size_t accessors[GLTF_DEFORMED]; /* GLTF_NONE: absent */
+} target;
+
+/* What is kept of a target under a node, and made for it on the way (with a table half empty). */
+#define TARGET_BYTES                                                                                         \
+    (sizeof(gltf_part) + sizeof(mesh_part) + sizeof(mesh_shape) + sizeof(target) + 5 * sizeof(size_t))
+
+/* The targets found so far, by content. */
+typedef struct target_table {
+    size_t *slots; /* GLTF_NONE: free */
+    size_t mask;
+    target *targets;
+    size_t count;
+} target_table;
+
+static bool same_target(const target *a, const target *b)
+{
+    return a->part == b->part && memcmp(a->accessors, b->accessors, sizeof a->accessors) == 0;
+}
+
+static size_t find_target(target_table *table, const target *wanted)
+{
+    size_t slot = wanted->part * 0x9e3779b1u;
+    for (int s = 0; s < GLTF_DEFORMED; s++)
+        slot = slot * 31 + wanted->accessors[s];
+    slot &= table->mask;
+    while (table->slots[slot] != GLTF_NONE && !same_target(&table->targets[table->slots[slot]], wanted))
+        slot = (slot + 1) & table->mask;
+    if (table->slots[slot] == GLTF_NONE) {
+        table->slots[slot] = table->count;
+        table->targets[table->count++] = *wanted;
+    }
+    return table->slots[slot];
+}
+
+static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *error)
+{
+    gltf_instance *instance = d->instances;
+    *total = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            for (size_t n = 0; n < d->showings[m].node_count; n++) {
+                const size_t count = d->model.meshes[m].primitives[p].target_count;
+                (instance++)->first_target = *total;
+                const ffd_status status = ffd_room_take(&d->base.room, count, TARGET_BYTES, error);
+                if (status)
+                    return status;
+                *total += count;
+            }
+    return FFD_OK;
+}
+
+/* Offsets to what the primitive does not have mean nothing; GLTF_NONE if no others are left. */
+static size_t add_target(const gltf_document *d, target_table *table, const gltf_primitive *primitive,
+                         const gltf_instance *instance, const int *accessors)
+{
+    const size_t normal_part = instance->part[GLTF_NORMAL];
+    target wanted = {.part = normal_part != GLTF_NONE ? normal_part : instance->part[GLTF_POSITION]};
+    bool any = false;
+    for (int s = 0; s < GLTF_DEFORMED; s++) {
+        const bool has = accessors[s] >= 0 && primitive->accessor[s] >= 0 && instance->part[s] != GLTF_NONE &&
+                         d->layouts[accessors[s]].readable;
+        wanted.accessors[s] = has ? (size_t)accessors[s] : GLTF_NONE;
+        any = any || has;
+    }
+    return any && wanted.part != GLTF_NONE ? find_target(table, &wanted) : GLTF_NONE;
+}
+
+static void find_targets(gltf_document *d, target_table *table)
+{
+    const gltf_instance *instance = d->instances;
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
+            const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+            for (size_t n = 0; n < d->showings[m].node_count; n++, instance++)
+                for (size_t t = 0; t < primitive->target_count; t++)
+                    d->targets[instance->first_target + t] = add_target(
+                        d, table, primitive, instance, primitive->target_accessors + GLTF_DEFORMED * t);
+        }
+}
+
+/* Gives each part its targets one behind the other: places[i] is the new number of target i. */
+static void sort_targets(gltf_document *d, const target_table *table, size_t *places)
+{
+    for (size_t i = 0; i < table->count; i++)
+        d->mesh_parts[table->targets[i].part].shape_count++;
+    size_t next = 0;
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        d->parts[i].first_shape = next;
+        next += d->mesh_parts[i].shape_count;
+        d->mesh_parts[i].shapes = d->shapes + d->parts[i].first_shape;
+        d->mesh_parts[i].shape_count = 0;
+    }
+    for (size_t i = 0; i < table->count; i++) {
+        const size_t part = table->targets[i].part;
+        places[i] = d->parts[part].first_shape + d->mesh_parts[part].shape_count++;
+    }
+}
+
+static void fill_shape(gltf_document *d, const target *from, size_t place)
+{
+    const size_t index = d->base.part_count + place;
+    d->parts[index] = (gltf_part){.node = d->parts[from->part].node};
+    d->mesh_parts[index] = (mesh_part){.vertex_count = d->mesh_parts[from->part].vertex_count};
+    for (int s = 0; s < GLTF_DEFORMED; s++) {
+        d->parts[index].streams[s].accessor = from->accessors[s];
+        d->shapes[place].has[s] = from->accessors[s] != GLTF_NONE;
+    }
+}
+
+/* Room behind the parts for what holds the targets' results. */
+static bool grow_parts(gltf_document *d, size_t count)
+{
+    const size_t all = d->base.part_count + count;
+    gltf_part *parts = ffd_realloc(d->parts, all, sizeof *parts);
+    if (!parts)
+        return false;
+    d->parts = parts;
+    mesh_part *shown = ffd_realloc(d->mesh_parts, all, sizeof *shown);
+    if (!shown)
+        return false;
+    d->mesh_parts = shown;
+    d->base.parts = shown;
+    d->shapes = ffd_alloc_zero(count, sizeof *d->shapes);
+    return d->shapes;
+}
+
+static ffd_status place_targets(gltf_document *d, const target_table *table, size_t total, ffd_error *error)
+{
+    size_t *places = ffd_alloc(table->count, sizeof *places);
+    if (!places || !grow_parts(d, table->count)) {
+        ffd_free(places);
+        return ffd_fail_memory(error);
+    }
+    sort_targets(d, table, places);
+    for (size_t i = 0; i < table->count; i++)
+        fill_shape(d, &table->targets[i], places[i]);
+    d->shape_count = table->count;
+    for (size_t i = 0; i < total; i++)
+        if (d->targets[i] != GLTF_NONE)
+            d->targets[i] = d->base.part_count + places[d->targets[i]];
+    ffd_free(places);
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
+{
+    size_t total;
+    ffd_status status = count_targets(d, &total, error);
+    if (status || total == 0)
+        return status;
+    target_table table = {.targets = ffd_alloc(total, sizeof *table.targets)};
+    table.slots = ffd_slots_make(total, sizeof *table.slots, &table.mask);
+    d->targets = ffd_alloc(total, sizeof *d->targets);
+    if (table.slots && table.targets && d->targets) {
+        find_targets(d, &table);
+        status = place_targets(d, &table, total, error);
+    } else {
+        status = ffd_fail_memory(error);
+    }
+    ffd_free(table.slots);
+    ffd_free(table.targets);
+    return status;
+}
