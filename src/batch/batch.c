@@ -6,8 +6,8 @@
 #include "batch/journal.h"
 #include "batch/progress.h"
 #include "job/deform_job.h"
-#include "job/depfile.h"
-#include "job/report.h"
+#include "job/report/depfile.h"
+#include "job/report/report.h"
 #include <stdio.h>
 #include <string.h>
 

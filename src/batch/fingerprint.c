@@ -3,7 +3,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/formats.h"
-#include "job/source.h"
+#include "job/input/source.h"
 #include <ffd/version.h>
 
 /* The hashes that a fingerprint is the hash of. */

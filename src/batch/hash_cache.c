@@ -2,7 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/formats.h"
-#include "job/source.h"
+#include "job/input/source.h"
 
 static const cached_file *find(const hash_cache *cache, const char *path, const file_stamp *stamp)
 {

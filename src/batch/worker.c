@@ -6,8 +6,8 @@
 #include "batch/fingerprint.h"
 #include "batch/wire.h"
 #include "job/deform_job.h"
-#include "job/depfile.h"
-#include "job/report.h"
+#include "job/report/depfile.h"
+#include "job/report/report.h"
 #include <string.h>
 
 typedef struct batch_worker {

@@ -1,6 +1,6 @@
 #include "io/difference.h"
 #include "job/info.h"
-#include "job/source.h"
+#include "job/input/source.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

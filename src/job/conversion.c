@@ -1,7 +1,7 @@
 #include "job/conversion.h"
 #include "io/formats.h"
 #include "io/write/write.h"
-#include "job/source.h"
+#include "job/input/source.h"
 #include <math.h>
 
 bool ffd_conversion_needed(const mesh_document *document, ffd_format format)

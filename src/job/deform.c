@@ -3,9 +3,9 @@
 #include "io/formats.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"
-#include "job/depfile.h"
-#include "job/source.h"
-#include "job/written.h"
+#include "job/input/source.h"
+#include "job/report/depfile.h"
+#include "job/report/output_set.h"
 #include <string.h>
 
 void ffd_deform_desc_init(ffd_deform_desc *desc)

@@ -2,14 +2,14 @@
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "base/vector/isa.h"
-#include "job/figures.h"
-#include "job/gates.h"
-#include "job/placement.h"
-#include "job/recompute.h"
-#include "job/selection.h"
-#include "job/share.h"
-#include "job/source.h"
-#include "job/written.h"
+#include "job/chain/job_cache.h"
+#include "job/input/selection.h"
+#include "job/input/source.h"
+#include "job/judge/figures.h"
+#include "job/judge/gates.h"
+#include "job/pass/placement.h"
+#include "job/pass/recompute.h"
+#include "job/report/output_set.h"
 #include <math.h>
 #include <string.h>
 

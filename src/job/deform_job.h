@@ -2,8 +2,8 @@
 #ifndef FFD_JOB_DEFORM_JOB_H
 #define FFD_JOB_DEFORM_JOB_H
 
-#include "job/embedding_file.h"
-#include "job/pass.h"
+#include "job/input/embedding_file.h"
+#include "job/pass/pass.h"
 
 /* What a job holds while it runs. */
 typedef struct deform_job {

@@ -3,9 +3,9 @@
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "io/npy/npy.h"
-#include "job/embedding_file.h"
-#include "job/placement.h"
-#include "job/source.h"
+#include "job/input/embedding_file.h"
+#include "job/input/source.h"
+#include "job/pass/placement.h"
 #include <string.h>
 
 void ffd_embed_desc_init(ffd_embed_desc *desc)

@@ -1,7 +1,7 @@
 #include "job/info.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "job/source.h"
+#include "job/input/source.h"
 #include <math.h>
 
 ffd_bounds ffd_info_no_bounds(void)

@@ -1,7 +1,7 @@
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
 #include "job/info.h"
-#include "job/source.h"
+#include "job/input/source.h"
 
 typedef struct vertex_facts {
     size_t vertices, normals, tangents;

@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
-#include "job/pass.h"
-#include "job/source.h"
+#include "job/input/source.h"
+#include "job/pass/pass.h"
 #include <math.h>
 #include <string.h>
 

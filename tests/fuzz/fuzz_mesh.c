@@ -5,8 +5,8 @@
 #include "io/gltf/document/gltf_document.h"
 #include "job/deform_job.h"
 #include "job/info.h"
-#include "job/placement.h"
-#include "job/source.h"
+#include "job/input/source.h"
+#include "job/pass/placement.h"
 #include "promise.h"
 #include "work_folder.h"
 #include <math.h>

@@ -2,7 +2,7 @@
    what a report must; its entries are those that jansson finds. */
 #include "base/fail.h"
 #include "fuzz_target.h"
-#include "job/report_reader.h"
+#include "job/report/report_reader.h"
 #include "mutate_text.h"
 #include "promise.h"
 #include <jansson.h>

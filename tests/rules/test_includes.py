@@ -44,21 +44,39 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
         "mesh",
     },
+    "job/report": {"base", "base/file", "base/memory", "base/text", "json", "mesh"},
     "spline": {"base", "base/memory", "base/text"},
     "embed/frame": {"base/memory", "base/vector", "spline"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "deform": {"base", "base/vector", "embed/boundary", "lattice"},
     "fold": {"base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
-    "batch": {"base", "base/file", "base/memory", "base/system", "base/text", "io", "job"},
+    "batch": {"base", "base/file", "base/memory", "base/system", "base/text", "io", "job", "job/input", "job/report"},
     "cli": {"batch"},
     "cli/pages": {"cli"},
     "embed": {"base", "base/memory", "base/vector", "embed/direct", "embed/frame", "lattice"},
     "embed/cells": {"base/memory", "base/vector", "embed", "embed/frame", "lattice", "spline"},
     "embed/direct": {"base/memory", "base/vector", "embed", "embed/frame", "spline"},
     "job": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed",
-        "embed/boundary", "embed/frame", "io", "io/npy", "io/openmesh", "io/write", "json", "lattice", "mesh",
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
+        "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "json",
+        "lattice", "mesh",
+    },
+    "job/input": {
+        "base", "base/file", "base/memory", "base/system", "base/vector", "io", "io/npy", "job", "lattice",
+        "mesh",
+    },
+    "job/chain": {
+        "base", "base/file", "base/memory", "base/system", "base/vector", "deform", "embed", "embed/boundary",
+        "embed/frame", "job/input", "job/pass", "lattice", "mesh",
+    },
+    "job/pass": {
+        "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/input",
+        "lattice", "mesh",
+    },
+    "job/judge": {
+        "base", "base/memory", "base/system", "base/vector", "embed/frame", "io/openmesh", "job", "job/chain",
+        "job/input", "job/pass", "lattice", "mesh",
     },
 }
 

@@ -10,8 +10,8 @@
 #include "../support/test_folder.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "job/embedding_file.h"
-#include "job/source.h"
+#include "job/input/embedding_file.h"
+#include "job/input/source.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

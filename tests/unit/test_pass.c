@@ -8,9 +8,9 @@
 
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "job/embedding_file.h"
-#include "job/pass.h"
-#include "job/vertex_place.h"
+#include "job/input/embedding_file.h"
+#include "job/pass/pass.h"
+#include "job/pass/vertex_transform.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <stdio.h>

@@ -8,8 +8,8 @@
 #include "../support/draw.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "job/edge_list.h"
-#include "job/quality.h"
+#include "job/judge/edge_list.h"
+#include "job/judge/quality.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -8,10 +8,10 @@
 
 #include "../support/test_folder.h"
 #include "embed/cells/cells.h"
+#include "job/chain/job_cache.h"
 #include "job/deform_job.h"
-#include "job/figures.h"
-#include "job/share.h"
-#include "job/source.h"
+#include "job/input/source.h"
+#include "job/judge/figures.h"
 #include <time.h>
 
 static const char one[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",

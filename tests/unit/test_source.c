@@ -8,7 +8,7 @@
 
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
-#include "job/source.h"
+#include "job/input/source.h"
 #include <sys/stat.h>
 
 #define POINTS                                                                                               \

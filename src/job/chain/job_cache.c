@@ -1,0 +1,401 @@
+#include "job/chain/job_cache.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "embed/locator.h"
+#include "job/input/source.h"
+#include "job/pass/pass.h"
+#include <string.h>
+
+/* A lattice, owned: of a file, or because a locator looks at it. */
+typedef struct kept_lattice {
+    ffd_lattice *lattice;
+    char *path; /* NULL: not for whoever asks for a file */
+    file_stamp stamp;
+    hash128 rest;
+    bool has_folds;
+    ffd_folds folds;
+    bool used; /* by the job under way */
+} kept_lattice;
+
+/* What a rest volume is searched with. */
+typedef struct kept_rest {
+    hash128 hash;
+    ffd_isa isa;
+    const ffd_lattice *lattice; /* which both look at: one that is kept */
+    ffd_locator *locator;
+    boundary *border; /* NULL: no job has needed it so far */
+    bool used;
+} kept_rest;
+
+struct ffd_share {
+    bool only_lattices;
+    mesh_document *document; /* NULL: none, or in a job's hands */
+    bool is_noted;           /* what follows is known of it */
+    ffd_source source;       /* its path is owned */
+    bool only_positions;
+    char **only; /* only_count */
+    size_t only_count;
+    path_list files;
+    file_stamp *stamps; /* files.count */
+
+    kept_lattice *lattices;
+    kept_rest *rests;
+    size_t lattice_count, lattice_room, rest_count, rest_room;
+
+    ffd_location *locations; /* of the vertices of the mesh that is kept, or was last */
+    hash128 located;         /* in the rest volume with this hash */
+    bool is_located;
+};
+
+ffd_status ffd_share_create(ffd_share **share, ffd_error *error)
+{
+    *share = ffd_alloc_zero(1, sizeof **share);
+    return *share ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error)
+{
+    const ffd_status status = ffd_share_create(share, error);
+    if (!status)
+        (*share)->only_lattices = true;
+    return status;
+}
+
+bool ffd_share_keeps_meshes(const ffd_share *share)
+{
+    return share && !share->only_lattices;
+}
+
+static void forget_mesh(ffd_share *share)
+{
+    ffd_source_close(&share->document);
+    share->is_noted = false;
+    ffd_free((char *)(uintptr_t)share->source.path);
+    share->source.path = NULL;
+    for (size_t i = 0; i < share->only_count; i++)
+        ffd_free(share->only[i]);
+    ffd_free(share->only);
+    share->only = NULL;
+    share->only_count = 0;
+    ffd_paths_free(&share->files);
+    ffd_free(share->stamps);
+    share->stamps = NULL;
+}
+
+static void forget_locations(ffd_share *share)
+{
+    ffd_free(share->locations);
+    share->locations = NULL;
+    share->is_located = false;
+}
+
+static void free_rest(kept_rest *kept)
+{
+    ffd_locator_destroy(&kept->locator);
+    ffd_boundary_destroy(&kept->border);
+}
+
+static void free_lattice(kept_lattice *kept)
+{
+    ffd_lattice_destroy(&kept->lattice);
+    ffd_free(kept->path);
+}
+
+void ffd_share_destroy(ffd_share **share)
+{
+    if (!share || !*share)
+        return;
+    forget_mesh(*share);
+    forget_locations(*share);
+    for (size_t i = 0; i < (*share)->rest_count; i++)
+        free_rest(&(*share)->rests[i]);
+    for (size_t i = 0; i < (*share)->lattice_count; i++)
+        free_lattice(&(*share)->lattices[i]);
+    ffd_free((*share)->rests);
+    ffd_free((*share)->lattices);
+    ffd_free(*share);
+    *share = NULL;
+}
+
+/* The mesh */
+
+static bool same_source(const ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
+{
+    const ffd_source *const a = &share->source, *const b = &desc->input;
+    if (strcmp(a->path, b->path) != 0 || a->format != b->format || a->space != b->space ||
+        a->memory != b->memory || share->only_positions != only_positions ||
+        share->only_count != desc->only_count)
+        return false;
+    for (size_t i = 0; i < desc->only_count; i++)
+        if (strcmp(share->only[i], desc->only[i]) != 0)
+            return false;
+    return true;
+}
+
+static bool is_unchanged(const ffd_share *share)
+{
+    for (size_t i = 0; i < share->files.count; i++) {
+        file_stamp now;
+        if (!ffd_file_stamp(share->files.paths[i], &now) || !ffd_stamp_equal(&now, &share->stamps[i]))
+            return false;
+    }
+    return true;
+}
+
+/* What changes the document itself, or its file, leaves nothing for the next job. */
+static bool leaves_mesh(const ffd_deform_desc *desc)
+{
+    return !desc->as_morph && !desc->in_place && !ffd_file_is_stream(desc->input.path);
+}
+
+mesh_document *ffd_share_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
+{
+    if (!share)
+        return NULL;
+    if (share->document && leaves_mesh(desc) && same_source(share, desc, only_positions) &&
+        is_unchanged(share)) {
+        mesh_document *const document = share->document;
+        share->document = NULL;
+        return document;
+    }
+    forget_mesh(share);
+    forget_locations(share);
+    return NULL;
+}
+
+static bool note_source(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
+{
+    share->source = desc->input;
+    share->source.path = ffd_text_copy(desc->input.path);
+    share->only_positions = only_positions;
+    share->only = ffd_alloc_zero(desc->only_count, sizeof *share->only);
+    if (!share->source.path || !share->only)
+        return false;
+    for (; share->only_count < desc->only_count; share->only_count++) {
+        share->only[share->only_count] = ffd_text_copy(desc->only[share->only_count]);
+        if (!share->only[share->only_count])
+            return false;
+    }
+    return true;
+}
+
+/* Its own stamp is from before it was opened; those of the files that it refers to were taken right behind
+ * that.
+ */
+static bool note_files(ffd_share *share, const ffd_source *source, const file_stamp *stamp,
+                       const mesh_document *document)
+{
+    if (!stamp || ffd_source_files(source, document, &share->files, NULL))
+        return false;
+    share->stamps = ffd_alloc(share->files.count, sizeof *share->stamps);
+    for (size_t i = 1; share->stamps && i < share->files.count; i++)
+        if (!ffd_file_stamp(share->files.paths[i], &share->stamps[i]))
+            return false;
+    if (share->stamps && share->files.count > 0)
+        share->stamps[0] = *stamp;
+    return share->stamps;
+}
+
+void ffd_share_note_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
+                         const file_stamp *stamp, const mesh_document *document)
+{
+    if (!ffd_share_keeps_meshes(share))
+        return;
+    forget_mesh(share);
+    share->is_noted = leaves_mesh(desc) && note_source(share, desc, only_positions) &&
+                      note_files(share, &desc->input, stamp, document);
+}
+
+void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document)
+{
+    if (share && share->is_noted && leaves_mesh(desc))
+        share->document = document;
+    else
+        ffd_source_close(&document);
+}
+
+/* Lattices and their rest volumes */
+
+static kept_lattice *find_lattice(const ffd_share *share, const char *path, const file_stamp *stamp)
+{
+    for (size_t i = 0; share && i < share->lattice_count; i++) {
+        kept_lattice *const kept = &share->lattices[i];
+        if (kept->path && strcmp(kept->path, path) == 0 && ffd_stamp_equal(&kept->stamp, stamp))
+            return kept;
+    }
+    return NULL;
+}
+
+void ffd_share_lend_lattice(const ffd_share *share, chain_link *link)
+{
+    kept_lattice *const kept = find_lattice(share, link->path, &link->stamp);
+    if (!kept)
+        return;
+    kept->used = true;
+    link->lattice = kept->lattice;
+    link->lattice_is_lent = true;
+    link->rest = kept->rest;
+    link->has_folds = kept->has_folds;
+    link->folds = kept->folds;
+}
+
+static kept_rest *find_rest(const ffd_share *share, const hash128 *rest, ffd_isa isa)
+{
+    for (size_t i = 0; share && i < share->rest_count; i++)
+        if (share->rests[i].isa == isa && ffd_hash_equal(&share->rests[i].hash, rest))
+            return &share->rests[i];
+    return NULL;
+}
+
+void ffd_share_lend_rest(const ffd_share *share, const lattice_chain *chain, chain_link *link)
+{
+    kept_rest *const found = find_rest(share, &link->rest, chain->isa);
+    if (!found)
+        return;
+    found->used = true;
+    link->locator = found->locator;
+    link->locator_is_lent = true;
+    if (!chain->outside.extend || !found->border)
+        return;
+    link->border = found->border;
+    link->border_is_lent = true;
+}
+
+/* Takes the border, which looks at the lattice that the locator looks at. */
+static void keep_border(kept_rest *rest, chain_link *link)
+{
+    if (rest->border || link->border_is_lent)
+        return;
+    rest->border = link->border;
+    link->border = NULL;
+}
+
+/* Takes locator and border, if there are none yet for such a rest volume. Returns whether they look at the
+   link's own lattice. There is room for one more. */
+static bool keep_rest(ffd_share *share, chain_link *link, ffd_isa isa)
+{
+    if (link->locator_is_lent)
+        keep_border(find_rest(share, &link->rest, isa), link);
+    if (!link->locator || link->locator_is_lent || find_rest(share, &link->rest, isa))
+        return false;
+    kept_rest *const rest = &share->rests[share->rest_count++];
+    *rest = (kept_rest){link->rest, isa, link->lattice, link->locator, NULL, true};
+    link->locator = NULL;
+    keep_border(rest, link);
+    return true;
+}
+
+/* There is room for one more of each. */
+static void keep_link(ffd_share *share, chain_link *link, ffd_isa isa)
+{
+    const bool is_looked_at = keep_rest(share, link, isa);
+    const bool is_of_file = link->path && link->lattice && !ffd_lattice_needs_bounds(link->lattice);
+    if (link->lattice_is_lent) {
+        kept_lattice *const kept = find_lattice(share, link->path, &link->stamp);
+        kept->has_folds = link->has_folds;
+        kept->folds = link->folds;
+    }
+    if (link->lattice_is_lent || (!is_looked_at && !is_of_file))
+        return;
+    share->lattices[share->lattice_count++] =
+        (kept_lattice){.lattice = link->lattice,
+                       .path = is_of_file ? ffd_text_copy(link->path) : NULL,
+                       .stamp = link->stamp,
+                       .rest = link->rest,
+                       .has_folds = link->has_folds,
+                       .folds = link->folds,
+                       .used = true};
+    link->lattice = NULL;
+}
+
+static bool has_searcher(const ffd_share *share, const ffd_lattice *lattice)
+{
+    for (size_t i = 0; i < share->rest_count; i++)
+        if (share->rests[i].lattice == lattice)
+            return true;
+    return false;
+}
+
+void ffd_share_forget_lattices(ffd_share *share)
+{
+    size_t count = 0;
+    for (size_t i = 0; share && i < share->lattice_count; i++) {
+        if (share->lattices[i].used || has_searcher(share, share->lattices[i].lattice))
+            share->lattices[count++] = share->lattices[i];
+        else
+            free_lattice(&share->lattices[i]);
+    }
+    if (share)
+        share->lattice_count = count;
+}
+
+/* Those that the job did not use. Without meshes nobody runs a job again that has met a limit with what is
+   kept: what is nearer to it for the jobs before goes too. */
+static void forget_rests(ffd_share *share)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < share->rest_count; i++) {
+        if (share->rests[i].used &&
+            !(share->only_lattices && ffd_locator_is_strained(share->rests[i].locator)))
+            share->rests[count++] = share->rests[i];
+        else
+            free_rest(&share->rests[i]);
+    }
+    share->rest_count = count;
+}
+
+/* The job is over. */
+static void take_back(ffd_share *share)
+{
+    for (size_t i = 0; i < share->rest_count; i++)
+        share->rests[i].used = false;
+    for (size_t i = 0; i < share->lattice_count; i++)
+        share->lattices[i].used = false;
+}
+
+void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain)
+{
+    if (!share)
+        return;
+    if (ffd_grow((void **)&share->rests, &share->rest_room, share->rest_count + chain->count,
+                 sizeof *share->rests) &&
+        ffd_grow((void **)&share->lattices, &share->lattice_room, share->lattice_count + chain->count,
+                 sizeof *share->lattices))
+        for (size_t i = 0; i < chain->count; i++)
+            keep_link(share, &chain->links[i], chain->isa);
+    forget_rests(share);
+    ffd_share_forget_lattices(share);
+    take_back(share);
+}
+
+/* Locations */
+
+ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, bool taken, const hash128 *rest,
+                                  bool *filled)
+{
+    *filled = false;
+    if (!ffd_share_keeps_meshes(share))
+        return NULL;
+    if (taken && share->is_located && ffd_hash_equal(&share->located, rest)) {
+        *filled = true;
+        return share->locations;
+    }
+    const uint64_t count = ffd_pass_vertex_count(document);
+    share->is_located = false;
+    share->located = *rest;
+    if (taken && share->locations)
+        return share->locations; /* of the same vertices, in another volume */
+    forget_locations(share);
+    if (ffd_room_take(&document->room, count, sizeof *share->locations, NULL))
+        return NULL;
+    share->locations = ffd_alloc((size_t)count, sizeof *share->locations);
+    if (!share->locations)
+        ffd_room_return(&document->room, count, sizeof *share->locations);
+    return share->locations;
+}
+
+void ffd_share_located(ffd_share *share)
+{
+    if (share && share->locations)
+        share->is_located = true;
+}

@@ -1,0 +1,304 @@
+#include "job/input/embedding_file.h"
+#include "base/file/path.h"
+#include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
+#include "base/vector/vec.h"
+#include "io/npy/npy.h"
+#include "job/input/source.h"
+#include "lattice/border.h"
+#include <inttypes.h>
+
+#define TILE ((size_t)1024)
+#define FORMAT_VERSION 1
+
+/* The footer: where its members stand. */
+enum {
+    POSITIONS = 0,
+    LATTICE = 16,
+    CONTENT = 32,
+    COUNT = 48,
+    VERSION = 56,
+    RESERVED = 60,
+    MAGIC = 64,
+    FOOTER_SIZE = 72
+};
+
+static const unsigned char magic[8] = {'f', 'f', 'd', '-', 'e', 'm', 'b', 'd'};
+
+/* Hashes */
+
+typedef struct part_hashes {
+    const mesh_document *document;
+    size_t part;
+    hash128 *tiles;
+} part_hashes;
+
+static void hash_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const part_hashes *work = context;
+    double xyz[3 * TILE];
+    (void)worker;
+    ffd_source_positions(work->document, work->part, first, last - first, xyz);
+    work->tiles[tile] = ffd_hash_doubles(xyz, 3 * (last - first));
+}
+
+static size_t tiles_of(const mesh_part *part)
+{
+    return part->repeats_positions ? 0 : part->vertex_count / TILE + (part->vertex_count % TILE != 0);
+}
+
+ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
+                                        ffd_error *error)
+{
+    size_t tiles = 0, done = 0;
+    uint64_t vertices = 0;
+    for (size_t i = 0; i < document->part_count; i++)
+        tiles += tiles_of(&document->parts[i]);
+    hash128 *list = ffd_alloc(tiles, sizeof *list);
+    if (!list)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *part = &document->parts[i];
+        part_hashes work = {document, i, list + done};
+        if (part->repeats_positions)
+            continue;
+        ffd_parallel_tiles(part->vertex_count, TILE, threads, hash_tile, &work);
+        done += tiles_of(part);
+        vertices += part->vertex_count;
+    }
+    unsigned char count[8];
+    store_u64(count, vertices);
+    const hash_block blocks[] = {{list, tiles * sizeof *list}, {count, sizeof count}};
+    *hash = ffd_hash_blocks(blocks, 2);
+    ffd_free(list);
+    return FFD_OK;
+}
+
+/* A lattice whose weights are moved has rest weights of its own, all 1, where it would have none else. */
+static bool has_weights(const ffd_lattice *lattice)
+{
+    for (size_t i = 0; lattice->rest_weights && i < lattice->count; i++)
+        if (lattice->rest_weights[i] != 1)
+            return true;
+    return false;
+}
+
+hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice)
+{
+    unsigned char shape[3][5 * 8];
+    hash128 knots[3], points, weights;
+    hash_block blocks[8];
+    size_t count = 0;
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *k = &lattice->knots[a];
+        const size_t knot_count = k->functions + (size_t)k->degree + 1;
+        store_u64(shape[a], (uint64_t)k->degree);
+        store_u64(shape[a] + 8, k->points);
+        store_u64(shape[a] + 16, ffd_knots_closed(k));
+        store_u64(shape[a] + 24, ffd_lattice_is_seam(lattice, a));
+        store_u64(shape[a] + 32, knot_count);
+        knots[a] = ffd_hash_doubles(k->t, knot_count);
+        blocks[count++] = (hash_block){shape[a], sizeof shape[a]};
+        blocks[count++] = (hash_block){&knots[a], sizeof knots[a]};
+    }
+    points = ffd_hash_doubles(lattice->rest, 3 * lattice->count);
+    blocks[count++] = (hash_block){&points, sizeof points};
+    if (has_weights(lattice)) {
+        weights = ffd_hash_doubles(lattice->rest_weights, lattice->count);
+        blocks[count++] = (hash_block){&weights, sizeof weights};
+    }
+    return ffd_hash_blocks(blocks, count);
+}
+
+/* Writing */
+
+static bool is_little_endian(void)
+{
+    const uint16_t one = 1;
+    unsigned char first;
+    memcpy(&first, &one, 1);
+    return first == 1;
+}
+
+/* The number type of this machine, or of one with the other byte order. */
+static const char *descr_of(bool own)
+{
+    return own == is_little_endian() ? "<f8" : ">f8";
+}
+
+static void make_footer(size_t count, const hash128 *positions, const hash128 *lattice,
+                        const hash128 *content, unsigned char footer[FOOTER_SIZE])
+{
+    memcpy(footer + POSITIONS, positions, sizeof *positions);
+    memcpy(footer + LATTICE, lattice, sizeof *lattice);
+    memcpy(footer + CONTENT, content, sizeof *content);
+    store_u64(footer + COUNT, count);
+    store_u32(footer + VERSION, FORMAT_VERSION);
+    store_u32(footer + RESERVED, 0);
+    memcpy(footer + MAGIC, magic, sizeof magic);
+}
+
+ffd_status ffd_embedding_write(file_output *output, const double *uvw, const uint8_t *statuses, size_t count,
+                               const hash128 *positions, const hash128 *lattice, ffd_error *error)
+{
+    char header[NPY_HEADER_CAPACITY];
+    unsigned char footer[FOOTER_SIZE];
+    const size_t header_size = ffd_npy_header(descr_of(true), count, 3, header);
+    const hash_block blocks[] = {{header, header_size}, {uvw, 3 * count * sizeof *uvw}, {statuses, count}};
+    const hash128 content = ffd_hash_blocks(blocks, 3);
+    make_footer(count, positions, lattice, &content, footer);
+    ffd_status status = FFD_OK;
+    for (int i = 0; i < 3 && !status; i++)
+        status = ffd_output_write(output, blocks[i].bytes, blocks[i].size, error);
+    return status ? status : ffd_output_write(output, footer, FOOTER_SIZE, error);
+}
+
+/* Reading */
+
+/* What the file has before its footer. */
+typedef struct file_content {
+    const char *name; /* for messages */
+    const unsigned char *data, *footer;
+    size_t size;
+    uint64_t count;
+} file_content;
+
+static ffd_status fail_damaged(const file_content *content, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_INVALID, content->name,
+                         "is damaged: its content is not what ffd embed wrote");
+}
+
+static ffd_status find_footer(const file_input *input, file_content *content, ffd_error *error)
+{
+    if (input->size < FOOTER_SIZE ||
+        memcmp(input->data + input->size - sizeof magic, magic, sizeof magic) != 0)
+        return ffd_fail_file(error, FFD_E_INVALID, content->name,
+                             "is not an embedding written by ffd embed, or not a whole one");
+    content->data = input->data;
+    content->size = input->size - FOOTER_SIZE;
+    content->footer = input->data + content->size;
+    content->count = load_u64(content->footer + COUNT);
+    const uint32_t version = load_u32(content->footer + VERSION);
+    if (version != FORMAT_VERSION)
+        return ffd_fail_file(error, FFD_E_INVALID, content->name,
+                             "is an embedding of format version %" PRIu32 ", this program reads version %d",
+                             version, FORMAT_VERSION);
+    return load_u32(content->footer + RESERVED) == 0 ? FFD_OK : fail_damaged(content, error);
+}
+
+static ffd_status check_content(const file_content *content, ffd_error *error)
+{
+    const hash128 hash = ffd_hash(content->data, content->size);
+    return memcmp(&hash, content->footer + CONTENT, sizeof hash) == 0 ? FFD_OK : fail_damaged(content, error);
+}
+
+static ffd_status check_origin(const file_content *content, size_t count, const hash128 *positions,
+                               const hash128 *lattice, ffd_error *error)
+{
+    if (content->count != count)
+        return ffd_fail_file(error, FFD_E_INVALID, content->name,
+                             "was made for another mesh: it is of %" PRIu64 " vertices, not %zu",
+                             content->count, count);
+    if (memcmp(positions, content->footer + POSITIONS, sizeof *positions) != 0)
+        return ffd_fail_file(error, FFD_E_INVALID, content->name,
+                             "was made for another mesh: its positions differ");
+    if (memcmp(lattice, content->footer + LATTICE, sizeof *lattice) != 0)
+        return ffd_fail_file(error, FFD_E_INVALID, content->name, "was made for another rest lattice");
+    return FFD_OK;
+}
+
+/* Finds the array of file->count vertices; own: whether its byte order is this machine's. */
+static ffd_status find_arrays(const file_content *content, embedding_file *file, bool *own, ffd_error *error)
+{
+    size_t values = 0, size = 0;
+    *own = ffd_npy_starts(content->data, content->size, descr_of(true), file->count, 3, &values);
+    const bool known =
+        *own || ffd_npy_starts(content->data, content->size, descr_of(false), file->count, 3, &values);
+    if (!known || !ffd_multiply_size(file->count, 3 * sizeof(double) + 1, &size) ||
+        size != content->size - values)
+        return ffd_fail_file(error, FFD_E_INVALID, content->name,
+                             "does not hold float64 of the shape (%zu, 3) and as many statuses", file->count);
+    /* Aligned: the block is, and the header's length is a multiple of 64. */
+    file->uvw = (const double *)(const void *)(content->data + values);
+    file->statuses = content->data + values + 3 * sizeof(double) * file->count;
+    return FFD_OK;
+}
+
+static ffd_status turn_bytes(embedding_file *file, ffd_error *error)
+{
+    const unsigned char *bytes = (const unsigned char *)file->uvw;
+    file->turned = ffd_alloc(file->count, 3 * sizeof(double));
+    if (!file->turned)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < 3 * file->count; i++) {
+        unsigned char turned[sizeof(double)];
+        for (size_t b = 0; b < sizeof turned; b++)
+            turned[b] = bytes[sizeof turned * (i + 1) - 1 - b];
+        memcpy(file->turned + i, turned, sizeof turned);
+    }
+    file->uvw = file->turned;
+    return FFD_OK;
+}
+
+static ffd_status check_vertices(const embedding_file *file, const char *name, ffd_error *error)
+{
+    for (size_t i = 0; i < file->count; i++) {
+        const unsigned s = file->statuses[i];
+        if (s >= FFD_VERTEX_STATUS_COUNT)
+            return ffd_fail_file(error, FFD_E_INVALID, name, "the status of vertex %zu is %u, not 0 to %d", i,
+                                 s, FFD_VERTEX_STATUS_COUNT - 1);
+        if ((s == FFD_INSIDE || s == FFD_MULTIPLE) && !vec_is_finite(file->uvw + 3 * i))
+            return ffd_fail_file(error, FFD_E_INVALID, name,
+                                 "u,v,w of vertex %zu is not finite, although its status is %u", i, s);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *positions,
+                              const hash128 *lattice, embedding_file *file, ffd_error *error)
+{
+    file_content content = {.name = ffd_path_shown(path)};
+    bool own = true;
+    *file = (embedding_file){.count = count};
+    ffd_status status = ffd_file_load(path, &file->input, error);
+    if (!status)
+        status = find_footer(&file->input, &content, error);
+    if (!status)
+        status = check_content(&content, error);
+    if (!status)
+        status = check_origin(&content, count, positions, lattice, error);
+    if (!status)
+        status = find_arrays(&content, file, &own, error);
+    if (!status && !own)
+        status = turn_bytes(file, error);
+    if (!status)
+        status = check_vertices(file, content.name, error);
+    if (status)
+        ffd_embedding_close(file);
+    return status;
+}
+
+void ffd_embedding_locate(const embedding_file *file, size_t vertex, const ffd_lattice *lattice,
+                          const double p[3], ffd_location *location)
+{
+    const double *uvw = file->uvw + 3 * vertex;
+    double at[3];
+    *location = (ffd_location){.uvw = {NAN, NAN, NAN}, .status = file->statuses[vertex]};
+    if (location->status == FFD_OUTSIDE || location->status == FFD_POINT_INVALID || !vec_is_finite(uvw))
+        return;
+    for (int a = 0; a < 3; a++)
+        location->uvw[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);
+    ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, location->uvw, at, NULL);
+    for (int a = 0; a < 3; a++)
+        at[a] -= p[a];
+    location->residual = vec_length(at);
+}
+
+void ffd_embedding_close(embedding_file *file)
+{
+    ffd_file_unload(&file->input);
+    ffd_free(file->turned);
+    *file = (embedding_file){0};
+}

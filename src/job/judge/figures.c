@@ -1,0 +1,176 @@
+#include "job/judge/figures.h"
+#include "base/memory/memory.h"
+#include "io/openmesh/half_edges.h"
+#include "job/input/selection.h"
+#include "job/input/source.h"
+#include "job/judge/edge_list.h"
+#include "job/judge/quality.h"
+#include "job/pass/normal_groups.h"
+#include <inttypes.h>
+#include <stdio.h>
+
+/* Of a vertex, in the arrays. */
+#define ARRAY_BYTES (12 * sizeof(double))
+
+/* What normals from faces take while they are made. */
+static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, mesh_room room,
+                                ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < job->document->part_count && status == FFD_OK; i++)
+        status = ffd_room_take(&room, job->document->parts[i].normal_count, NORMAL_BYTES, error);
+    return status ? status : ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
+}
+
+/* Takes the memory that figures need, with the faces that are there, and looks whether that suffices for
+   normals before. */
+static ffd_status take_room(const deform_job *job, const mesh_faces *faces, mesh_room *room, ffd_error *error)
+{
+    const size_t corners = faces->start[faces->face_count];
+    ffd_status status = ffd_room_take(room, ffd_pass_vertex_count(job->document), ARRAY_BYTES, error);
+    if (status == FFD_OK)
+        status = ffd_mesh_faces_take(faces, corners, room, error);
+    if (status == FFD_OK && job->recomputes)
+        status = check_normals(job, faces, *room, error);
+    if (status == FFD_OK && job->check)
+        status = ffd_room_take(room, corners, EDGE_LIST_BYTES, error);
+    return status;
+}
+
+static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_error *error)
+{
+    ffd_error own;
+    char line[1024];
+    mesh_room room = arrays->room;
+    ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
+    if (status == FFD_OK)
+        status = take_room(job, &arrays->faces, &room, &own);
+    arrays->has_faces = status == FFD_OK;
+    if (!status) {
+        arrays->room = room;
+        return FFD_OK;
+    }
+    ffd_mesh_faces_free(&arrays->faces);
+    if (job->check || job->recomputes || status == FFD_E_MEMORY) {
+        if (error)
+            *error = own;
+        return status;
+    }
+    ffd_error_format(&own, line, sizeof line);
+    ffd_log_line(&job->log, FFD_LOG_WARNING, "no flipped faces are counted: %s", line);
+    return FFD_OK;
+}
+
+ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, ffd_error *error)
+{
+    const size_t count = (size_t)ffd_pass_vertex_count(job->document);
+    const ffd_status status = read_faces(job, arrays, error);
+    if (status || !arrays->has_faces)
+        return status;
+    arrays->deformed = ffd_alloc(count, 3 * sizeof *arrays->deformed);
+    arrays->gradients = ffd_alloc(count, 9 * sizeof *arrays->gradients);
+    return arrays->deformed && arrays->gradients ? FFD_OK : ffd_fail_memory(error);
+}
+
+void ffd_figures_free(figure_arrays *arrays)
+{
+    ffd_mesh_faces_free(&arrays->faces);
+    ffd_free(arrays->deformed);
+    ffd_free(arrays->gradients);
+    *arrays = (figure_arrays){0};
+}
+
+static int rank(ffd_fold_verdict verdict)
+{
+    return verdict == FFD_FOLDS_SOME ? 2 : verdict == FFD_FOLDS_UNKNOWN ? 1 : 0;
+}
+
+static void join_folds(ffd_folds *all, const ffd_folds *next)
+{
+    const ffd_folds before = *all;
+    if (!all->has_witness && next->has_witness)
+        *all = *next;
+    all->verdict = rank(next->verdict) > rank(before.verdict) ? next->verdict : before.verdict;
+    all->cells = before.cells + next->cells;
+    all->folded_cells = before.folded_cells + next->folded_cells;
+    all->unknown_cells = before.unknown_cells + next->unknown_cells;
+    all->min_det = before.min_det < next->min_det ? before.min_det : next->min_det;
+}
+
+ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *result, ffd_error *error)
+{
+    for (size_t l = 0; l < chain->count; l++) {
+        chain_link *const link = &chain->links[l];
+        if (!link->has_folds) {
+            const ffd_status status = ffd_folds_find(link->lattice, threads, &link->folds, error);
+            if (status)
+                return status;
+            link->has_folds = true;
+        }
+        if (link->folds.has_witness && !result->folds.has_witness)
+            result->folds_lattice = l;
+        if (l == 0)
+            result->folds = link->folds;
+        else
+            join_folds(&result->folds, &link->folds);
+    }
+    result->has_folds = true;
+    return FFD_OK;
+}
+
+ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
+                             ffd_error *error)
+{
+    edge_quality edges;
+    ffd_status status = FFD_OK;
+    result->det_min = job->totals.det_min;
+    result->det_max = job->totals.det_max;
+    if (!arrays->has_faces)
+        return FFD_OK;
+    if (!ffd_selection_is_all(job->document))
+        status = ffd_selection_reduce(job->document, &arrays->faces, error);
+    if (status)
+        return status;
+    result->has_flipped = true;
+    result->faces = arrays->faces.face_count;
+    result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
+    if (!job->check)
+        return FFD_OK;
+    status = ffd_quality_edges(&arrays->faces, arrays->deformed, &job->chain, job->threads, &edges, error);
+    if (status)
+        return status;
+    result->has_edges = true;
+    result->edges = edges.edges;
+    result->deviation_max = edges.deviation_max;
+    result->deviation_mean = edges.deviation_mean;
+    return FFD_OK;
+}
+
+void ffd_figures_describe_folds(const ffd_deform_desc *desc, const ffd_job_result *result, char *text,
+                                size_t capacity)
+{
+    const ffd_folds *folds = &result->folds;
+    const double *uvw = folds->witness_uvw, *xyz = folds->witness_xyz;
+    if (folds->verdict != FFD_FOLDS_SOME)
+        snprintf(text, capacity,
+                 "is not proven to be free of folds in %" PRIu64 " of %" PRIu64 " cells (least det J %g)",
+                 folds->unknown_cells, folds->cells, folds->min_det);
+    else if (!folds->has_witness)
+        snprintf(text, capacity, "folds in %" PRIu64 " of %" PRIu64 " cells", folds->folded_cells,
+                 folds->cells);
+    else
+        snprintf(text, capacity,
+                 "folds in %" PRIu64 " of %" PRIu64
+                 " cells, as at u,v,w = %g %g %g of %.100s, x,y,z = %g %g %g",
+                 folds->folded_cells, folds->cells, uvw[0], uvw[1], uvw[2],
+                 desc->lattices[result->folds_lattice], xyz[0], xyz[1], xyz[2]);
+}
+
+void ffd_figures_warn(const deform_job *job, const ffd_job_result *result)
+{
+    char text[400];
+    if (result->has_folds && result->folds.verdict != FFD_FOLDS_NONE) {
+        ffd_figures_describe_folds(job->desc, result, text, sizeof text);
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "the deformed volume %s", text);
+    }
+}

@@ -1,0 +1,489 @@
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
+#include "base/vector/vec.h"
+#include "embed/frame/box_tree.h"
+#include "job/judge/edge_list.h"
+#include "job/judge/quality.h"
+#include "job/pass/pass.h"
+#include "lattice/lattice.h"
+#include <float.h>
+#include <string.h>
+
+/* The points of an edge that may be looked at are the slots 0 .. PIECES of its window: the part that comes to
+   the lattices, or all of it. At level k its pieces are PIECES >> k slots wide. */
+#define PIECES 64
+#define SLOTS (PIECES + 1)
+#define FIRST_LEVEL 2 /* that every edge is sampled to */
+#define LAST_LEVEL 6
+
+#define TILE ((size_t)256)   /* edges */
+#define BATCH ((size_t)1024) /* points sent through the chain at once */
+
+/* The rule of quality.h. Extents are in span cells, or in parts of 1/4 of a diagonal. */
+#define LONG_QUARTER (1.0 / 16)
+#define WIDEST_PIECE (1.0 / 2)
+#define DIAGONAL_EXTENT 4.0
+#define OVERSHOOT (1 + 1.0 / 64)
+/* Deviations that are less than this part of the coordinates may be rounding: they are no ground to look
+   closer. */
+#define ROUNDING (256 * DBL_EPSILON)
+
+typedef struct sampled_edge {
+    double start[3], along[3];             /* at rest: start + t along */
+    double start_delta[3], along_delta[3]; /* of the straight deformed edge */
+    double chord[3], chord_square;         /* the straight deformed edge */
+    double first, share;                   /* the window: t from first to first + share */
+    double length;                         /* of the window at rest */
+    double rounding, largest;
+    uint64_t sampled; /* inner slots */
+    uint64_t open;    /* pieces of the level that is looked at */
+    bool is_long, left_out;
+} sampled_edge;
+
+typedef struct sample_request {
+    uint16_t edge; /* in the tile */
+    uint8_t slot;
+} sample_request;
+
+/* What one worker needs for a tile. */
+typedef struct edge_scratch {
+    sampled_edge edges[TILE];
+    double offset[TILE][SLOTS][3]; /* from the nearest point of the straight deformed edge */
+    double *cells; /* TILE x SLOTS x links x 3: u,v,w counted in span cells; NaN: none, or not asked for */
+    size_t requested;
+    sample_request requests[BATCH];
+    double x[3 * BATCH], delta[3 * BATCH]; /* delta: of all links */
+    double link_delta[3 * BATCH];
+    chain_note notes[BATCH];
+    chain_scratch chain;
+} edge_scratch;
+
+typedef struct edge_tile {
+    uint64_t edges;
+    double largest, sum;
+    uint64_t worst; /* key */
+    ffd_status status;
+} edge_tile;
+
+typedef struct edge_work {
+    const mesh_faces *faces;
+    const double *deformed;
+    const lattice_chain *chain;
+    bounds *reach; /* of each link: no point beyond moves */
+    edge_list list;
+    edge_scratch *scratch; /* one a worker */
+    edge_tile *tiles;
+} edge_work;
+
+static double *cells_of(const edge_work *work, edge_scratch *scratch, size_t edge, size_t slot)
+{
+    return scratch->cells + (edge * SLOTS + slot) * work->chain->count * 3;
+}
+
+/* u as the number of the non-empty span that holds it, and how far in it u is. */
+static double cell_coordinate(const knot_vector *knots, double u)
+{
+    size_t low = 0, high = knots->span_count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (knots->t[knots->spans[middle]] <= u)
+            low = middle;
+        else
+            high = middle;
+    }
+    const double from = knots->t[knots->spans[low]], to = knots->t[knots->spans[low] + 1];
+    return (double)low + (u - from) / (to - from);
+}
+
+/* How far apart two parameters are, in span cells: the short way round where the direction is closed. More
+   than any bound where only one is in the lattice: the displacement may jump between them. */
+static double cells_between(const knot_vector *knots, double a, double b)
+{
+    if (isnan(a) || isnan(b))
+        return isnan(a) && isnan(b) ? 0 : HUGE_VAL;
+    const double distance = fabs(a - b), round = (double)knots->span_count - distance;
+    return ffd_knots_closed(knots) && round < distance ? round : distance;
+}
+
+/* The extent of the edge from slot l to r in the lattice where it is the largest. */
+static double extent(const edge_work *work, edge_scratch *scratch, size_t edge, size_t l, size_t r)
+{
+    const double *left = cells_of(work, scratch, edge, l), *right = cells_of(work, scratch, edge, r);
+    const double length = scratch->edges[edge].length * ((double)(r - l) / PIECES);
+    double result = 0;
+    for (size_t k = 0; k < work->chain->count; k++) {
+        const ffd_lattice *lattice = work->chain->links[k].lattice;
+        result = fmax(result, DIAGONAL_EXTENT * length / lattice->diagonal);
+        for (size_t a = 0; a < 3; a++)
+            result = fmax(result, cells_between(&lattice->knots[a], left[3 * k + a], right[3 * k + a]));
+    }
+    return result;
+}
+
+/* Where the line start + t along is in the box: *from > *to if nowhere. */
+static void clip(const bounds *box, const double start[3], const double along[3], double *from, double *to)
+{
+    *from = 0;
+    *to = 1;
+    for (int a = 0; a < 3; a++) {
+        const double lo = (box->lo[a] - start[a]) / along[a], hi = (box->hi[a] - start[a]) / along[a];
+        if (along[a] != 0) {
+            *from = fmax(*from, fmin(lo, hi));
+            *to = fmin(*to, fmax(lo, hi));
+        } else if (start[a] < box->lo[a] || start[a] > box->hi[a]) {
+            *to = -1;
+        }
+    }
+}
+
+/* An edge that is long against the lattices is looked at only where it passes them: what is in none of them
+   before the first link stays for all links. */
+static void find_window(const edge_work *work, sampled_edge *edge)
+{
+    double first = 2, last = -1;
+    for (size_t k = 0; k < work->chain->count; k++) {
+        double from, to;
+        clip(&work->reach[k], edge->start, edge->along, &from, &to);
+        if (from <= to) {
+            first = fmin(first, from);
+            last = fmax(last, to);
+        }
+    }
+    const bool passes = first < last;
+    edge->first = passes ? first : 0;
+    edge->share = passes ? last - first : 1;
+}
+
+static double place_of(const sampled_edge *edge, size_t slot)
+{
+    return edge->first + (double)slot / PIECES * edge->share;
+}
+
+/* The edge's own ends lie on the straight deformed edge. */
+static bool is_end(const sampled_edge *edge, size_t slot)
+{
+    return (slot == 0 && edge->first == 0) || (slot == PIECES && edge->first + edge->share >= 1);
+}
+
+static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
+{
+    const size_t a = (size_t)(key >> 32), b = (size_t)(key & UINT32_MAX);
+    const double *rest[2] = {work->faces->positions + 3 * a, work->faces->positions + 3 * b};
+    const double *after[2] = {work->deformed + 3 * a, work->deformed + 3 * b};
+    double size = 0;
+    memset(edge, 0, sizeof *edge);
+    for (int c = 0; c < 3; c++) {
+        edge->start[c] = rest[0][c];
+        edge->along[c] = rest[1][c] - rest[0][c];
+        edge->start_delta[c] = after[0][c] - rest[0][c];
+        edge->along_delta[c] = after[1][c] - rest[1][c] - edge->start_delta[c];
+        edge->chord[c] = after[1][c] - after[0][c];
+        for (int i = 0; i < 2; i++)
+            size = fmax(size, fmax(fabs(rest[i][c]), fabs(after[i][c])));
+    }
+    edge->rounding = ROUNDING * size;
+    find_window(work, edge);
+    edge->length = vec_length(edge->along) * edge->share;
+    edge->chord_square = vec_dot(edge->chord, edge->chord);
+    edge->left_out = !isfinite(edge->length) || !isfinite(edge->chord_square) ||
+                     !vec_is_finite(edge->start_delta) || !vec_is_finite(edge->along_delta);
+}
+
+/* The way from the nearest point of the straight deformed edge to the deformed point at t. Both are taken
+   relative to start + t along, so that where nothing moves the way is 0 and not the coordinates' rounding. */
+static void find_offset(const sampled_edge *edge, double t, const double delta[3], double offset[3])
+{
+    double shift = 0;
+    for (int a = 0; a < 3; a++)
+        offset[a] = delta[a] - (edge->start_delta[a] + t * edge->along_delta[a]);
+    if (edge->chord_square > 0)
+        shift = fmin(fmax(vec_dot(offset, edge->chord) / edge->chord_square, -t), 1 - t);
+    for (int a = 0; a < 3; a++)
+        offset[a] -= shift * edge->chord[a];
+}
+
+static void keep_sample(const sample_request *request, const double delta[3], edge_scratch *scratch)
+{
+    sampled_edge *edge = &scratch->edges[request->edge];
+    double *offset = scratch->offset[request->edge][request->slot];
+    if (is_end(edge, request->slot)) /* only u,v,w are new */
+        return;
+    find_offset(edge, place_of(edge, request->slot), delta, offset);
+    const double deviation = vec_length(offset);
+    if (request->slot < PIECES)
+        edge->sampled |= (uint64_t)1 << request->slot;
+    edge->left_out = edge->left_out || !isfinite(deviation);
+    edge->largest = fmax(edge->largest, deviation);
+}
+
+static void keep_cells(const edge_work *work, edge_scratch *scratch, size_t link)
+{
+    const ffd_lattice *lattice = work->chain->links[link].lattice;
+    for (size_t i = 0; i < scratch->requested; i++) {
+        const sample_request *request = &scratch->requests[i];
+        const double *uvw = scratch->chain.locations[i].uvw;
+        double *cell = cells_of(work, scratch, request->edge, request->slot) + 3 * link;
+        for (int a = 0; a < 3; a++)
+            cell[a] = isfinite(uvw[a]) ? cell_coordinate(&lattice->knots[a], uvw[a]) : NAN;
+    }
+}
+
+/* Sends the requested points through the chain, link by link to see the u,v,w in each. */
+static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
+{
+    memset(scratch->delta, 0, 3 * scratch->requested * sizeof(double));
+    for (size_t k = 0; k < work->chain->count; k++) {
+        const lattice_chain link = {.links = &work->chain->links[k],
+                                    .count = 1,
+                                    .outside = work->chain->outside,
+                                    .isa = work->chain->isa};
+        chain_run run = {.x = scratch->x,
+                         .count = scratch->requested,
+                         .scratch = &scratch->chain,
+                         .delta = scratch->link_delta,
+                         .notes = scratch->notes};
+        const ffd_status status = ffd_chain_apply(&link, 1, &run, NULL);
+        if (status)
+            return status;
+        keep_cells(work, scratch, k);
+        for (size_t i = 0; i < 3 * scratch->requested; i++)
+            scratch->delta[i] += scratch->link_delta[i];
+    }
+    for (size_t i = 0; i < scratch->requested; i++)
+        keep_sample(&scratch->requests[i], scratch->delta + 3 * i, scratch);
+    scratch->requested = 0;
+    return FFD_OK;
+}
+
+static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, size_t number, size_t slot)
+{
+    const sampled_edge *edge = &scratch->edges[number];
+    const size_t place = scratch->requested++;
+    scratch->requests[place] = (sample_request){(uint16_t)number, (uint8_t)slot};
+    for (size_t a = 0; a < 3; a++)
+        scratch->x[3 * place + a] = edge->start[a] + place_of(edge, slot) * edge->along[a];
+    return scratch->requested == BATCH ? take_samples(work, scratch) : FFD_OK;
+}
+
+/* What the curve's middle adds to the straight line between slots l and r. */
+static void find_sagitta(double (*offset)[3], size_t l, size_t r, double sagitta[3])
+{
+    for (int a = 0; a < 3; a++)
+        sagitta[a] = offset[l + (r - l) / 2][a] - (offset[l][a] + offset[r][a]) / 2;
+}
+
+/* The sagitta that the piece from slot l, which has not been halved, may have. The piece is half of a piece
+   that is half of a whole, and both of these have been halved; so may have been the whole's other half. */
+static double expected_sagitta(const sampled_edge *edge, double (*offset)[3], size_t l, size_t width)
+{
+    const size_t parent = l & ~(2 * width - 1), whole = l & ~(4 * width - 1);
+    double own[3], of_whole[3], missed = 0;
+    find_sagitta(offset, parent, parent + 2 * width, own);
+    find_sagitta(offset, whole, whole + 4 * width, of_whole);
+    for (size_t half = whole; half < whole + 4 * width; half += 2 * width) {
+        double of_half[3];
+        if (!(edge->sampled >> (half + width) & 1))
+            continue;
+        find_sagitta(offset, half, half + 2 * width, of_half);
+        for (int a = 0; a < 3; a++)
+            of_half[a] -= of_whole[a] / 4;
+        missed = fmax(missed, vec_length(of_half));
+    }
+    return vec_length(own) / 4 + missed;
+}
+
+/* The greatest value of the parabola from `left` to `right` with this sagitta. */
+static double parabola_peak(double left, double right, double sagitta)
+{
+    const double rise = right - left;
+    if (4 * sagitta <= fabs(rise))
+        return fmax(left, right);
+    return (left + right) / 2 + sagitta + rise * rise / (16 * sagitta);
+}
+
+static bool must_halve(const edge_work *work, edge_scratch *scratch, size_t number, size_t l, size_t width)
+{
+    const sampled_edge *edge = &scratch->edges[number];
+    double(*offset)[3] = scratch->offset[number];
+    if (edge->is_long && (width > PIECES / 8 || extent(work, scratch, number, l, l + width) > WIDEST_PIECE))
+        return true;
+    const double peak = parabola_peak(vec_length(offset[l]), vec_length(offset[l + width]),
+                                      expected_sagitta(edge, offset, l, width));
+    return peak > OVERSHOOT * edge->largest + edge->rounding;
+}
+
+/* Halves those of the edge's open pieces that need it; their halves are open then. All is decided before the
+   first sample is asked for, so that it does not matter when a batch is full. */
+static ffd_status halve_pieces(const edge_work *work, edge_scratch *scratch, size_t number, int level)
+{
+    sampled_edge *edge = &scratch->edges[number];
+    const size_t width = PIECES >> level;
+    uint64_t halved = 0;
+    ffd_status status = FFD_OK;
+    for (size_t piece = 0; piece < PIECES / width && !edge->left_out; piece++)
+        if (edge->open >> piece & 1 && must_halve(work, scratch, number, piece * width, width))
+            halved |= (uint64_t)1 << piece;
+    edge->open = 0;
+    for (size_t piece = 0; piece < PIECES / width && !status; piece++)
+        if (halved >> piece & 1) {
+            edge->open |= (uint64_t)3 << 2 * piece;
+            status = request_sample(work, scratch, number, piece * width + width / 2);
+        }
+    return status;
+}
+
+/* The ends of a window that is not the whole edge: beyond them nothing moves. */
+static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, size_t number)
+{
+    static const double still[3] = {0, 0, 0};
+    ffd_status status = FFD_OK;
+    for (size_t slot = 0; slot <= PIECES && !status; slot += PIECES) {
+        sampled_edge *edge = &scratch->edges[number];
+        double offset[3];
+        if (is_end(edge, slot) || edge->left_out)
+            continue;
+        find_offset(edge, place_of(edge, slot), still, offset);
+        edge->largest = fmax(edge->largest, vec_length(offset));
+        status = request_sample(work, scratch, number, slot);
+    }
+    return status;
+}
+
+/* The first points of all edges of the tile, and which edges are long. */
+static ffd_status begin_samples(const edge_work *work, edge_scratch *scratch, size_t count)
+{
+    const size_t quarter = PIECES >> FIRST_LEVEL;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        sampled_edge *edge = &scratch->edges[i];
+        memset(scratch->offset[i][0], 0, sizeof scratch->offset[i][0]);
+        memset(scratch->offset[i][PIECES], 0, sizeof scratch->offset[i][PIECES]);
+        status = begin_window(work, scratch, i);
+        for (size_t slot = quarter; slot < PIECES && !edge->left_out && !status; slot += quarter)
+            status = request_sample(work, scratch, i, slot);
+    }
+    if (!status)
+        status = take_samples(work, scratch);
+    for (size_t i = 0; i < count && !status; i++) {
+        sampled_edge *edge = &scratch->edges[i];
+        if (edge->left_out)
+            continue;
+        edge->open = 15;
+        edge->is_long = extent(work, scratch, i, quarter, 2 * quarter) > LONG_QUARTER ||
+                        extent(work, scratch, i, 2 * quarter, 3 * quarter) > LONG_QUARTER;
+        if (edge->is_long)
+            status = request_sample(work, scratch, i, 0);
+        if (edge->is_long && !status)
+            status = request_sample(work, scratch, i, PIECES);
+    }
+    return status;
+}
+
+static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const edge_work *work = context;
+    edge_scratch *scratch = &work->scratch[worker];
+    edge_tile *result = &work->tiles[tile];
+    const size_t count = last - first;
+    scratch->requested = 0;
+    for (size_t i = 0; i < count; i++)
+        begin_edge(work, work->list.keys[first + i], &scratch->edges[i]);
+    ffd_status status = begin_samples(work, scratch, count);
+    for (int level = FIRST_LEVEL; level < LAST_LEVEL && !status; level++) {
+        for (size_t i = 0; i < count && !status; i++)
+            status = halve_pieces(work, scratch, i, level);
+        if (!status)
+            status = take_samples(work, scratch);
+    }
+    result->status = status;
+    for (size_t i = 0; i < count && !status; i++) {
+        const sampled_edge *edge = &scratch->edges[i];
+        if (edge->left_out)
+            continue;
+        if (result->edges++ == 0 || edge->largest > result->largest) {
+            result->largest = edge->largest;
+            result->worst = work->list.keys[first + i];
+        }
+        result->sum += edge->largest;
+    }
+}
+
+static ffd_status join_tiles(const edge_work *work, size_t tiles, edge_quality *result, ffd_error *error)
+{
+    double sum = 0;
+    for (size_t i = 0; i < tiles; i++) {
+        const edge_tile *tile = &work->tiles[i];
+        if (tile->status) /* memory is all that a search can want for */
+            return ffd_fail(error, tile->status, "out of memory while measuring edges");
+        if (tile->edges && (result->edges == 0 || tile->largest > result->deviation_max)) {
+            result->deviation_max = tile->largest;
+            result->worst[0] = (uint32_t)(tile->worst >> 32);
+            result->worst[1] = (uint32_t)(tile->worst & UINT32_MAX);
+        }
+        result->edges += tile->edges;
+        sum += tile->sum;
+    }
+    if (result->edges)
+        result->deviation_mean = sum / (double)result->edges;
+    return FFD_OK;
+}
+
+static bool find_reach(edge_work *work)
+{
+    work->reach = ffd_alloc(work->chain->count, sizeof *work->reach);
+    for (size_t k = 0; work->reach && k < work->chain->count; k++)
+        work->reach[k] = ffd_chain_reach(work->chain, k);
+    return work->reach;
+}
+
+static void free_scratch(edge_scratch *scratch, size_t workers)
+{
+    for (size_t i = 0; scratch && i < workers; i++)
+        ffd_free(scratch[i].cells);
+    ffd_free(scratch);
+}
+
+_Static_assert(sizeof(edge_scratch) - sizeof(kept_cells) < THREAD_BYTES &&
+                   TILE * SLOTS * 3 * sizeof(double) <= THREAD_LINK_BYTES,
+               "a thread takes more than is counted");
+
+static edge_scratch *make_scratch(size_t workers, size_t links)
+{
+    edge_scratch *scratch = ffd_alloc_zero(workers, sizeof *scratch);
+    for (size_t i = 0; scratch && i < workers; i++) {
+        scratch[i].chain.displacement.kept.threads = (int)workers;
+        scratch[i].cells = ffd_alloc(links, TILE * SLOTS * 3 * sizeof(double));
+        if (!scratch[i].cells) {
+            free_scratch(scratch, workers);
+            return NULL;
+        }
+    }
+    return scratch;
+}
+
+ffd_status ffd_quality_edges(const mesh_faces *faces, const double *deformed, const lattice_chain *chain,
+                             int threads, edge_quality *result, ffd_error *error)
+{
+    edge_work work = {.faces = faces, .deformed = deformed, .chain = chain};
+    size_t workers = (size_t)(threads > 0 ? threads : ffd_processor_count()), tiles = 0;
+    *result = (edge_quality){0};
+    ffd_status status = ffd_edges_collect(faces, &work.list, error);
+    if (status)
+        return status;
+    tiles = work.list.count / TILE + (work.list.count % TILE != 0);
+    workers = tiles && tiles < workers ? tiles : workers;
+    work.scratch = make_scratch(workers, chain->count);
+    work.tiles = ffd_alloc_zero(tiles, sizeof *work.tiles);
+    if (!work.scratch || !work.tiles || !find_reach(&work)) {
+        status = ffd_fail_memory(error);
+        goto done;
+    }
+    ffd_parallel_tiles(work.list.count, TILE, (int)workers, run_tile, &work);
+    status = join_tiles(&work, tiles, result, error);
+done:
+    ffd_free(work.tiles);
+    ffd_free(work.reach);
+    free_scratch(work.scratch, workers);
+    ffd_edges_free(&work.list);
+    return status;
+}

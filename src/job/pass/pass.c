@@ -1,0 +1,416 @@
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
+#include "base/vector/array_kernel.h"
+#include "base/vector/vec.h"
+#include "deform/attribute.h"
+#include "job/pass/pass_totals.h"
+#include <ffd/deform.h>
+#include <math.h>
+#include <string.h>
+
+/* Takes the points (positions as the file has them) of a tile to the lattice's space. */
+static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                         double *points)
+{
+    const mesh_document *document = work->pass->document;
+    ffd_vertex_places_read(document, work->part_number, first, count, &scratch->places);
+    if (work->part->skinned)
+        ffd_points_place(scratch->places.transforms, count, points);
+    else
+        ffd_part_place(document, work->part_number, first, count, points);
+}
+
+static void fill_nan(double *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i] = NAN;
+}
+
+static void note_determinant(const double gradient[9], pass_totals *totals)
+{
+    double f[9];
+    for (int i = 0; i < 9; i++)
+        f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
+    const double det = mat_determinant(f);
+    totals->det_min = fmin(totals->det_min, det);
+    totals->det_max = fmax(totals->det_max, det);
+}
+
+/* What the caller wants to have of the tile's vertices, which are spread. */
+static void fill_arrays(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
+                        pass_totals *totals)
+{
+    const mesh_pass *pass = work->pass;
+    if (!pass->statuses && !pass->deformed && !pass->gradients && !pass->determinants)
+        return;
+    for (size_t i = 0; i < count; i++) {
+        const size_t number = (size_t)work->first_vertex + first + i;
+        const bool singular = ffd_vertex_place_of(&scratch->places, i).singular;
+        const chain_note *note = &scratch->notes[i];
+        const double *gradient = scratch->gradient + 9 * i;
+        if (pass->statuses)
+            pass->statuses[number] = note->status;
+        if (pass->deformed) {
+            memcpy(pass->deformed + 3 * number, scratch->place + 3 * i, 3 * sizeof *scratch->place);
+            if (singular)
+                fill_nan(pass->deformed + 3 * number, 3);
+        }
+        if (pass->gradients) {
+            memcpy(pass->gradients + 9 * number, gradient, 9 * sizeof *gradient);
+            if (singular)
+                fill_nan(pass->gradients + 9 * number, 9);
+        }
+        if (pass->determinants && !singular && note->status != FFD_SINGULAR &&
+            (note->located || note->extended))
+            note_determinant(gradient, totals);
+    }
+}
+
+static double largest_coordinate(const mesh_document *document)
+{
+    const double own = document->largest_coordinate;
+    return own > 0 ? own : document->format->largest_coordinate;
+}
+
+bool ffd_tile_fits_file(const mesh_document *document, const double p[3])
+{
+    const double largest = largest_coordinate(document);
+    return fabs(p[0]) <= largest && fabs(p[1]) <= largest && fabs(p[2]) <= largest;
+}
+
+/* Only the displacement goes back to the file's space: p' = p + linear^{-1} delta. */
+static void bring_back(const part_work *work, tile_scratch *scratch, size_t count)
+{
+    for (size_t i = 0; i < count && !work->part->identity; i++) {
+        const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
+        ffd_displacement_bring_back(&place, scratch->delta + 3 * i);
+    }
+}
+
+/* Positions of a tile: handed back. */
+static void finish_positions(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                             pass_totals *totals)
+{
+    const mesh_pass *pass = work->pass;
+    const size_t unfit = ffd_array_kernel(pass->chain->isa)
+                             ->displace(scratch->delta, count, largest_coordinate(pass->document),
+                                        scratch->raw, scratch->changed);
+    for (size_t i = 0; i < count; i++)
+        totals->moved += scratch->changed[i];
+    if (unfit < count)
+        totals->first_overflow = work->first_vertex + first + unfit;
+    if (pass->write)
+        pass->document->format->write_positions(pass->document, work->part_number, first, count, scratch->raw,
+                                                scratch->changed);
+}
+
+/* Lists the points that normals [from, to) of a tile stand at; vertex is the place to go on from. */
+static void list_points(const part_work *work, tile_scratch *scratch, size_t first, size_t from, size_t to,
+                        size_t *vertex)
+{
+    for (size_t i = from; i < to; i++) {
+        while (work->part->normal_start[*vertex + 1] <= i)
+            (*vertex)++;
+        scratch->of_points[i - from] = (uint32_t)(*vertex - first);
+    }
+}
+
+/* Normals [from, to) of a tile: one a vertex, or those whose points are listed. */
+static void deform_normals(const part_work *work, tile_scratch *scratch, size_t from, size_t to,
+                           pass_totals *totals)
+{
+    const mesh_part *part = work->part;
+    mesh_document *document = work->pass->document;
+    const attribute_batch batch = {.gradients = scratch->gradient,
+                                   .points = part->normal_start ? scratch->of_points : NULL,
+                                   .count = to - from,
+                                   .directions = scratch->normals,
+                                   .step = 3,
+                                   .outcomes = scratch->outcomes};
+    document->format->read_normals(document, work->part_number, from, batch.count, scratch->normals);
+    ffd_deform_normals(work->pass->chain->isa, &batch);
+    if (work->pass->only_offsets)
+        return;
+    for (size_t i = 0; i < batch.count; i++) {
+        const bool selected = !part->selected_normals || part->selected_normals[from + i];
+        scratch->normals_changed[i] = selected && scratch->outcomes[i] == ATTRIBUTE_CARRIED;
+        totals->normals_collapsed += selected && scratch->outcomes[i] == ATTRIBUTE_COLLAPSED;
+    }
+    document->format->write_normals(document, work->part_number, from, batch.count, scratch->normals,
+                                    scratch->normals_changed);
+}
+
+/* Normals that do not stand one a vertex: as many at once as there is room for. */
+static void deform_listed_normals(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                                  pass_totals *totals)
+{
+    const uint32_t *const start = work->part->normal_start;
+    const size_t end = start[first + count];
+    size_t from = start[first], vertex = first;
+    for (size_t to; from < end; from = to) {
+        to = end - from > PASS_TILE ? from + PASS_TILE : end;
+        list_points(work, scratch, first, from, to, &vertex);
+        deform_normals(work, scratch, from, to, totals);
+    }
+}
+
+/* Tangents stand one a vertex, as the normals before them, which scratch still holds. */
+static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+{
+    mesh_document *document = work->pass->document;
+    const attribute_batch batch = {.gradients = scratch->gradient,
+                                   .count = count,
+                                   .directions = scratch->tangents,
+                                   .step = 4,
+                                   .normals = work->part->normal_count ? scratch->normals : NULL,
+                                   .outcomes = scratch->outcomes};
+    document->format->read_tangents(document, work->part_number, first, count, scratch->tangents);
+    ffd_deform_tangents(work->pass->chain->isa, &batch);
+    for (size_t i = 0; i < count; i++)
+        scratch->tangents_changed[i] = scratch->outcomes[i] == ATTRIBUTE_CARRIED;
+    if (work->pass->only_offsets)
+        return;
+    document->format->write_tangents(document, work->part_number, first, count, scratch->tangents,
+                                     scratch->tangents_changed);
+}
+
+static void finish_attributes(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                              pass_totals *totals)
+{
+    const mesh_part *part = work->part;
+    for (size_t i = 0; i < count && !part->identity; i++) {
+        const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
+        ffd_gradient_bring_back(&place, scratch->gradient + 9 * i);
+    }
+    if (part->normal_count && part->normal_start)
+        deform_listed_normals(work, scratch, first, count, totals);
+    else if (part->normal_count)
+        deform_normals(work, scratch, first, first + count, totals);
+    if (part->has_tangents)
+        deform_tangents(work, scratch, first, count);
+}
+
+/* Takes the first link's locations from the embedding, or from those that are there, in which repeated
+   positions do not stand again. Returns whether it did. */
+static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
+{
+    const mesh_pass *pass = work->pass;
+    if (work->part->repeats_positions || (!pass->embedding && !pass->is_located))
+        return false;
+    const size_t before = (size_t)work->first_vertex + first;
+    for (size_t i = 0; i < scratch->chosen_count; i++) {
+        const size_t vertex = before + ffd_tile_chosen(scratch, i);
+        if (pass->is_located)
+            scratch->chain.locations[i] = pass->locations[vertex];
+        else
+            ffd_embedding_locate(pass->embedding, vertex, pass->chain->links[0].lattice,
+                                 scratch->place + 3 * i, &scratch->chain.locations[i]);
+    }
+    return true;
+}
+
+/* Locations in the last link, and its u,v,w, to where the caller wants to have them. */
+static void keep_locations(const part_work *work, const tile_scratch *scratch, size_t first, size_t count)
+{
+    const mesh_pass *pass = work->pass;
+    const size_t before = (size_t)work->first_vertex + first;
+    if (work->part->repeats_positions)
+        return;
+    for (size_t i = 0; i < scratch->chosen_count && pass->locations && !pass->is_located; i++)
+        pass->locations[before + ffd_tile_chosen(scratch, i)] = scratch->chain.locations[i];
+    if (!pass->uvw)
+        return;
+    fill_nan(pass->uvw + 3 * before, 3 * count);
+    for (size_t i = 0; i < scratch->chosen_count; i++)
+        memcpy(pass->uvw + 3 * (before + ffd_tile_chosen(scratch, i)), scratch->chain.locations[i].uvw,
+               3 * sizeof *pass->uvw);
+}
+
+/* Puts the selected vertices' places at the front. */
+static void choose(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
+{
+    size_t chosen = 0;
+    scratch->all_chosen = !work->part->selected && !work->part->skipped;
+    scratch->chosen_count = count;
+    if (scratch->all_chosen)
+        return;
+    for (size_t i = 0; i < count; i++)
+        if (ffd_part_selects(work->part, first + i)) {
+            if (chosen < i)
+                memcpy(scratch->place + 3 * chosen, scratch->place + 3 * i, 3 * sizeof *scratch->place);
+            scratch->chosen[chosen++] = (uint32_t)i;
+        }
+    scratch->chosen_count = chosen;
+}
+
+/* Brings what has become of the selected vertices to where they stand in the tile; the others stay. */
+static void spread(tile_scratch *scratch, size_t count)
+{
+    size_t left = scratch->chosen_count;
+    for (size_t i = count; i-- > left;) {
+        double *const place = scratch->place + 3 * i, *const delta = scratch->delta + 3 * i,
+                      *const gradient = scratch->gradient + 9 * i;
+        if (left > 0 && scratch->chosen[left - 1] == i) {
+            left--;
+            memcpy(place, scratch->place + 3 * left, 3 * sizeof *place);
+            memcpy(delta, scratch->delta + 3 * left, 3 * sizeof *delta);
+            memcpy(gradient, scratch->gradient + 9 * left, 9 * sizeof *gradient);
+            scratch->notes[i] = scratch->notes[left];
+        } else {
+            const vertex_place own = ffd_vertex_place_of(&scratch->places, i);
+            memcpy(place, scratch->raw + 3 * i, 3 * sizeof *place);
+            ffd_vertex_place_point(&own, place);
+            memset(delta, 0, 3 * sizeof *delta);
+            memset(gradient, 0, 9 * sizeof *gradient);
+            scratch->notes[i] = (chain_note){.status = FFD_OUTSIDE};
+        }
+    }
+}
+
+static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    part_work *work = context;
+    const mesh_pass *pass = work->pass;
+    const mesh_part *part = work->part;
+    tile_scratch *scratch = &work->scratch[worker];
+    pass_totals *totals = &work->tiles[tile];
+    const size_t count = last - first;
+    const bool wanted = pass->attributes && (!pass->only_offsets || part->shape_count);
+    const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
+    const bool gradients =
+        attributes || ((pass->gradients || pass->determinants) && !part->repeats_positions);
+
+    ffd_totals_clear(totals);
+    if (atomic_load(&work->stopped))
+        return;
+    pass->document->format->read_positions(pass->document, work->part_number, first, count, scratch->raw);
+    memcpy(scratch->place, scratch->raw, 3 * count * sizeof(double));
+    place_points(work, scratch, first, count, scratch->place);
+    choose(work, scratch, first, count);
+    if (!part->repeats_positions)
+        ffd_totals_count_rest(work, scratch, first, totals);
+    chain_run run = {.x = scratch->place,
+                     .count = scratch->chosen_count,
+                     .located = recall(work, scratch, first),
+                     .scratch = &scratch->chain,
+                     .delta = scratch->delta,
+                     .gradient = gradients ? scratch->gradient : NULL,
+                     .notes = scratch->notes};
+    scratch->status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
+    totals->embed_seconds = run.embed_seconds;
+    totals->deform_seconds = run.deform_seconds;
+    if (scratch->status) {
+        atomic_store(&work->stopped, true);
+        return;
+    }
+    keep_locations(work, scratch, first, count);
+    if (!part->repeats_positions)
+        ffd_totals_count_deformed(work, scratch, first, totals);
+    spread(scratch, count);
+    bring_back(work, scratch, count);
+    if (!part->repeats_positions) {
+        fill_arrays(work, scratch, first, count, totals);
+        finish_positions(work, scratch, first, count, totals);
+    }
+    if (attributes)
+        finish_attributes(work, scratch, first, count, totals);
+    if (pass->write && part->shape_count > 0)
+        ffd_tile_shapes(work, scratch, first, count, totals);
+}
+
+/* So few tiles of the largest size would leave some of many threads without any: then they are smaller. */
+#define FEW_TILES ((size_t)16)
+
+/* By the count alone: the sums of tiles are joined, and must not depend on the number of threads. */
+static size_t tile_size(size_t count)
+{
+    return count < FEW_TILES * PASS_TILE ? MESH_RANGE_STEP : PASS_TILE;
+}
+
+static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
+{
+    const size_t count = work->part->vertex_count, size = tile_size(count);
+    const size_t tiles = count / size + (count % size != 0);
+    work->tiles = ffd_alloc_zero(tiles, sizeof *work->tiles);
+    if (!work->tiles)
+        return ffd_fail_memory(error);
+    ffd_parallel_tiles(count, size, work->pass->threads, run_tile, work);
+    for (size_t i = 0; i < tiles; i++)
+        ffd_totals_join(&work->tiles[i], totals);
+    ffd_free(work->tiles);
+    for (int i = 0; i < work->pass->threads; i++)
+        if (work->scratch[i].status) {
+            if (error)
+                *error = work->scratch[i].error;
+            return work->scratch[i].status;
+        }
+    return FFD_OK;
+}
+
+uint64_t ffd_pass_vertex_count(const mesh_document *document)
+{
+    uint64_t count = 0;
+    for (size_t i = 0; i < document->part_count; i++)
+        if (!document->parts[i].repeats_positions)
+            count += document->parts[i].vertex_count;
+    return count;
+}
+
+int ffd_pass_threads(const mesh_room *room, size_t edge_links, int threads)
+{
+    return ffd_room_threads(room, threads, THREAD_BYTES + edge_links * THREAD_LINK_BYTES);
+}
+
+_Static_assert(sizeof(tile_scratch) - sizeof(kept_cells) + sizeof(shape_scratch) < THREAD_BYTES,
+               "a thread takes more than is counted");
+
+static void free_scratch(tile_scratch *scratch, int workers)
+{
+    for (int i = 0; scratch && i < workers; i++)
+        ffd_free(scratch[i].shape);
+    ffd_free(scratch);
+}
+
+/* NULL when there is no memory. */
+static tile_scratch *make_scratch(const mesh_pass *pass)
+{
+    bool shapes = false;
+    for (size_t i = 0; i < pass->document->part_count; i++)
+        shapes = shapes || (pass->write && pass->document->parts[i].shape_count > 0);
+    /* Megabytes, of which a small mesh needs little: what need not be cleared is not. */
+    tile_scratch *scratch = ffd_alloc((size_t)pass->threads, sizeof *scratch);
+    for (int i = 0; scratch && i < pass->threads; i++) {
+        ffd_displacement_scratch_clear(&scratch[i].chain.displacement);
+        scratch[i].chain.displacement.kept.threads = pass->threads;
+        scratch[i].shape = NULL;
+        scratch[i].status = FFD_OK;
+    }
+    for (int i = 0; shapes && scratch && i < pass->threads; i++) {
+        scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
+        if (!scratch[i].shape) {
+            free_scratch(scratch, pass->threads);
+            return NULL;
+        }
+    }
+    return scratch;
+}
+
+ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *error)
+{
+    part_work work = {.pass = pass};
+    ffd_status status = FFD_OK;
+    ffd_totals_clear(totals);
+    atomic_init(&work.stopped, false);
+    work.scratch = make_scratch(pass);
+    if (!work.scratch)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < pass->document->part_count && !status; i++) {
+        work.part = &pass->document->parts[i];
+        work.part_number = i;
+        status = run_part(&work, totals, error);
+        if (!work.part->repeats_positions)
+            work.first_vertex += work.part->vertex_count;
+    }
+    free_scratch(work.scratch, pass->threads);
+    return status;
+}

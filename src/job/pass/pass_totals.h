@@ -1,0 +1,20 @@
+/* pass_totals.h - the figures of a pass (pass.h), tile by tile. */
+#ifndef FFD_JOB_PASS_PASS_TOTALS_H
+#define FFD_JOB_PASS_PASS_TOTALS_H
+
+#include "job/pass/tile.h"
+
+void ffd_totals_clear(pass_totals *totals);
+
+/* Adds those of a tile, which comes behind the ones that are there. */
+void ffd_totals_join(const pass_totals *tile, pass_totals *all);
+
+/* What there is to know of a tile's chosen vertices before they move: to be called when their places are
+   there. first: the tile's first vertex in the part. */
+void ffd_totals_count_rest(const part_work *work, const tile_scratch *scratch, size_t first,
+                           pass_totals *totals);
+/* And after it: when the chain has been through them. */
+void ffd_totals_count_deformed(const part_work *work, const tile_scratch *scratch, size_t first,
+                               pass_totals *totals);
+
+#endif

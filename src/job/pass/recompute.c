@@ -1,0 +1,159 @@
+#include "job/pass/recompute.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "deform/attribute.h"
+#include "job/pass/normal_groups.h"
+#include "job/pass/vertex_transform.h"
+#include <ffd/deform.h>
+#include <string.h>
+
+/* Vertices at once, and normals of one of them or more at once. */
+#define BLOCK VERTEX_PLACES
+
+typedef struct recomputing {
+    mesh_document *document;
+    const double *gradients;
+    const normal_groups *groups;
+    recompute_counts *counts;
+    size_t part;
+    size_t first_vertex, first_normal; /* of the part, in the document */
+    vertex_places places;
+    double normals[3 * BLOCK], tangents[4 * BLOCK];
+    uint8_t changed[BLOCK];
+} recomputing;
+
+/* The normal that shows as `direction` in the lattice's space: M^T of it (normal_groups.c: show). */
+static void bring_back(const vertex_place *place, const double direction[3], double n[3])
+{
+    memcpy(n, direction, 3 * sizeof *n);
+    if (place->identity)
+        return;
+    const double *m = place->linear;
+    const double transposed[9] = {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
+    mat_apply(transposed, n, n);
+    const double length = vec_length(n);
+    for (int a = 0; a < 3; a++)
+        n[a] /= length;
+}
+
+/* The gradient of a vertex, in the file's space. */
+static void read_gradient(const recomputing *r, const vertex_place *place, size_t vertex, double gradient[9])
+{
+    memcpy(gradient, r->gradients + 9 * (r->first_vertex + vertex), 9 * sizeof *gradient);
+    ffd_gradient_bring_back(place, gradient);
+}
+
+static bool carry(const recomputing *r, const vertex_place *place, size_t vertex, double n[3])
+{
+    double gradient[9];
+    int collapsed;
+    read_gradient(r, place, vertex, gradient);
+    const bool changed = ffd_deform_normal(gradient, n, n, &collapsed);
+    r->counts->carried += changed;
+    r->counts->collapsed += (uint64_t)collapsed;
+    return changed;
+}
+
+/* Normal number `normal` of the part, which stands in n, at a vertex. Returns whether it changed. */
+static bool recompute(const recomputing *r, const vertex_place *place, size_t vertex, size_t normal,
+                      double n[3])
+{
+    const mesh_part *part = &r->document->parts[r->part];
+    if (place->singular || !ffd_part_selects(part, vertex) ||
+        (part->selected_normals && !part->selected_normals[normal]))
+        return false;
+    const uint32_t group = r->groups->group[r->first_normal + normal];
+    const int outcome = group == NORMAL_NO_GROUP ? NORMAL_LOST : r->groups->outcomes[group];
+    if (outcome == NORMAL_KEPT)
+        return false;
+    if (outcome == NORMAL_LOST)
+        return carry(r, place, vertex, n);
+    bring_back(place, r->groups->directions + 3 * (size_t)group, n);
+    return true;
+}
+
+/* Tangents stand one a vertex, as the normals, which are there. */
+static void recompute_tangents(recomputing *r, size_t first, size_t count)
+{
+    mesh_document *document = r->document;
+    document->format->read_tangents(document, r->part, first, count, r->tangents);
+    for (size_t i = 0; i < count; i++) {
+        double gradient[9], *t = r->tangents + 4 * i;
+        const vertex_place place = ffd_vertex_place_of(&r->places, i);
+        if (!r->changed[i])
+            continue;
+        read_gradient(r, &place, first + i, gradient);
+        r->changed[i] = (uint8_t)ffd_tangent_of_normal(gradient, t, r->normals + 3 * i, t);
+    }
+    document->format->write_tangents(document, r->part, first, count, r->tangents, r->changed);
+}
+
+/* Normals [from, to) of the part, whose vertices are [first, ..); *vertex is the place to go on from. */
+static void recompute_run(recomputing *r, size_t first, size_t from, size_t to, size_t *vertex)
+{
+    mesh_document *document = r->document;
+    const mesh_part *part = &document->parts[r->part];
+    const size_t count = to - from;
+    document->format->read_normals(document, r->part, from, count, r->normals);
+    for (size_t i = 0; i < count; i++) {
+        while (part->normal_start ? part->normal_start[*vertex + 1] <= from + i : *vertex < from + i)
+            (*vertex)++;
+        const vertex_place place = ffd_vertex_place_of(&r->places, *vertex - first);
+        r->changed[i] = recompute(r, &place, *vertex, from + i, r->normals + 3 * i);
+    }
+    document->format->write_normals(document, r->part, from, count, r->normals, r->changed);
+    if (part->has_tangents)
+        recompute_tangents(r, first, count);
+}
+
+static void recompute_part(recomputing *r)
+{
+    const mesh_part *part = &r->document->parts[r->part];
+    for (size_t first = 0; first < part->vertex_count; first += BLOCK) {
+        const size_t last = part->vertex_count - first < BLOCK ? part->vertex_count : first + BLOCK;
+        size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;
+        const size_t end = part->normal_start ? part->normal_start[last] : last;
+        ffd_vertex_places_read(r->document, r->part, first, last - first, &r->places);
+        for (size_t to; from < end; from = to) {
+            to = end - from > BLOCK ? from + BLOCK : end;
+            recompute_run(r, first, from, to, &vertex);
+        }
+    }
+}
+
+static ffd_status recompute_parts(recomputing *r, ffd_error *error)
+{
+    size_t *first_vertices;
+    const ffd_status status = ffd_parts_number(r->document, &first_vertices, error);
+    for (r->part = 0; r->part < r->document->part_count && status == FFD_OK; r->part++) {
+        const mesh_part *part = &r->document->parts[r->part];
+        r->first_vertex = first_vertices[r->part];
+        if (part->normal_count && !part->skipped)
+            recompute_part(r);
+        r->first_normal += part->normal_count;
+    }
+    ffd_free(first_vertices);
+    return status;
+}
+
+ffd_status ffd_recompute_normals(mesh_document *document, const mesh_faces *faces, const double *deformed,
+                                 const double *gradients, recompute_counts *counts, ffd_error *error)
+{
+    normal_groups groups = {0};
+    recomputing *r = ffd_alloc_zero(1, sizeof *r);
+    *counts = (recompute_counts){0};
+    ffd_status status = r ? FFD_OK : ffd_fail_memory(error);
+    if (status == FFD_OK)
+        status = ffd_normal_groups_make(document, faces, deformed, &groups, error);
+    if (status == FFD_OK) {
+        r->document = document;
+        r->gradients = gradients;
+        r->groups = &groups;
+        r->counts = counts;
+        counts->normals = groups.normal_count;
+        status = recompute_parts(r, error);
+    }
+    ffd_normal_groups_free(&groups);
+    ffd_free(r);
+    return status;
+}

@@ -1,0 +1,72 @@
+/* tile.h - a tile of a pass: the vertices that one worker has in hand at a time (inside pass). */
+#ifndef FFD_JOB_PASS_TILE_H
+#define FFD_JOB_PASS_TILE_H
+
+#include "job/pass/pass.h"
+#include "job/pass/vertex_transform.h"
+#include <stdatomic.h>
+
+#define PASS_TILE VERTEX_PLACES /* at most */
+
+/* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place and
+   what the chain says stand one behind the other. */
+typedef struct shape_scratch {
+    double offsets[3 * PASS_TILE]; /* as the file has them, then what becomes of them */
+    double place[3 * PASS_TILE];
+    size_t moved[PASS_TILE];
+    size_t moved_count;
+    double moved_delta[3 * PASS_TILE], moved_gradient[9 * PASS_TILE];
+    chain_note moved_notes[PASS_TILE];
+    const double *gradients[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
+    double base[3 * PASS_TILE];         /* positions or directions without the target */
+    double normals[3 * PASS_TILE];      /* deformed, with the target */
+    double tangents[4 * PASS_TILE];
+    uint8_t changed[PASS_TILE];
+} shape_scratch;
+
+/* What one worker needs for a tile. */
+typedef struct tile_scratch {
+    double raw[3 * PASS_TILE]; /* positions as the file has them */
+    bool all_chosen;           /* all vertices of the tile are selected; else those are that are listed */
+    uint32_t chosen[PASS_TILE];
+    size_t chosen_count;
+    chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
+    /* Of the chosen ones, one behind the other, until they are spread to where they stand in the tile. */
+    double place[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
+    double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
+    chain_note notes[PASS_TILE];
+    uint8_t changed[PASS_TILE];
+    vertex_places places;
+    double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
+    uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
+    uint32_t of_points[PASS_TILE]; /* the points that normals stand at, where they are not one a vertex */
+    uint8_t outcomes[PASS_TILE];   /* what became of these */
+    shape_scratch *shape;          /* NULL where the document has no morph targets */
+    ffd_status status;             /* of the first tile of this worker that failed, and what it said */
+    ffd_error error;
+} tile_scratch;
+
+typedef struct part_work {
+    const mesh_pass *pass;
+    const mesh_part *part;
+    size_t part_number;
+    uint64_t first_vertex; /* the part's first vertex in the document */
+    tile_scratch *scratch; /* one a worker */
+    pass_totals *tiles;    /* what each tile adds */
+    atomic_bool stopped;   /* a tile failed: the others need not be looked at */
+} part_work;
+
+/* The vertex of the tile that the chosen one with this number is. */
+static inline size_t ffd_tile_chosen(const tile_scratch *scratch, size_t i)
+{
+    return scratch->all_chosen ? i : scratch->chosen[i];
+}
+
+/* Whether the file's numbers can hold the position. */
+bool ffd_tile_fits_file(const mesh_document *document, const double p[3]);
+
+/* pass_shapes.c: deforms the part's morph targets, after all else of the tile: the base's points, and its
+   normals and tangents as they are deformed, stand in scratch. */
+void ffd_tile_shapes(part_work *work, tile_scratch *scratch, size_t first, size_t count, pass_totals *totals);
+
+#endif

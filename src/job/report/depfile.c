@@ -1,0 +1,112 @@
+#include "job/report/depfile.h"
+#include "base/memory/memory.h"
+#include "job/report/replace.h"
+#include <string.h>
+
+struct ffd_depfile {
+    file_output *output; /* begun when the depfile is created */
+    byte_buffer rules;
+};
+
+/* A rule begins with a word that ends in a colon. */
+static bool is_depfile(const file_input *old)
+{
+    const char *text = (const char *)old->data;
+    for (size_t i = 0; i < old->size; i++) {
+        if (text[i] == '#' || (text[i] == '{' && i + 1 < old->size && text[i + 1] == '"'))
+            return false; /* a comment, JSON */
+        if (text[i] == '\\')
+            i++;
+        else if (strchr(" \t\r\n", text[i])) /* and a 0 */
+            return i > 1 && text[i - 1] == ':';
+    }
+    return false;
+}
+
+ffd_status ffd_depfile_create(const char *path, ffd_depfile **depfile, ffd_error *error)
+{
+    *depfile = NULL;
+    ffd_status status = ffd_replace_check(path, is_depfile, "depfile", error);
+    if (status)
+        return status;
+    ffd_depfile *made = ffd_alloc_zero(1, sizeof *made);
+    if (!made)
+        return ffd_fail_memory(error);
+    status = ffd_output_create(&made->output, error);
+    if (!status)
+        status = ffd_output_begin(made->output, path, true, error);
+    if (status)
+        ffd_depfile_destroy(&made);
+    *depfile = made;
+    return status;
+}
+
+void ffd_depfile_destroy(ffd_depfile **depfile)
+{
+    if (!depfile || !*depfile)
+        return;
+    ffd_output_destroy(&(*depfile)->output);
+    ffd_buffer_free(&(*depfile)->rules);
+    ffd_free(*depfile);
+    *depfile = NULL;
+}
+
+/* Backslashes are themselves but before what a backslash quotes, where they are doubled. */
+static void put_name(byte_buffer *rules, const char *name)
+{
+    size_t backslashes = 0;
+    for (; *name; name++) {
+        if (strchr(" \t#:", *name))
+            for (size_t i = 0; i <= backslashes; i++)
+                ffd_buffer_append(rules, "\\", 1);
+        else if (*name == '$')
+            ffd_buffer_append(rules, "$", 1);
+        ffd_buffer_append(rules, name, 1);
+        backslashes = *name == '\\' ? backslashes + 1 : 0;
+    }
+    while (backslashes-- > 0) /* a blank or the line's end follows */
+        ffd_buffer_append(rules, "\\", 1);
+}
+
+bool ffd_depfile_troubles(const char *name)
+{
+    for (const char *backslash = strchr(name, '\\'); backslash; backslash = strchr(backslash + 1, '\\'))
+        if (strchr("#:$", backslash[1])) /* or the name's end */
+            return true;
+    return name[strcspn(name, "\"%&'*;<=>?^`|\t")] != 0;
+}
+
+static ffd_status refuse_line_break(const char *name, ffd_error *error)
+{
+    if (!name[strcspn(name, "\r\n")])
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_IO, name, "cannot stand in a depfile: its name has a line break");
+}
+
+ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules, ffd_error *error)
+{
+    ffd_status status = refuse_line_break(output, error);
+    put_name(rules, output);
+    ffd_buffer_text(rules, ":");
+    for (size_t i = 0; i < inputs->count && !status; i++) {
+        status = refuse_line_break(inputs->paths[i], error);
+        ffd_buffer_text(rules, " ");
+        put_name(rules, inputs->paths[i]);
+    }
+    ffd_buffer_text(rules, "\n");
+    return status || !rules->failed ? status : ffd_fail_memory(error);
+}
+
+void ffd_depfile_add(ffd_depfile *depfile, const byte_buffer *rules)
+{
+    ffd_buffer_append(&depfile->rules, rules->data, rules->size);
+}
+
+ffd_status ffd_depfile_write(ffd_depfile *depfile, ffd_error *error)
+{
+    const byte_buffer *rules = &depfile->rules;
+    ffd_status status = rules->failed ? ffd_fail_memory(error) : FFD_OK;
+    if (!status)
+        status = ffd_output_write(depfile->output, rules->data, rules->size, error);
+    return status ? status : ffd_output_commit(depfile->output, error);
+}

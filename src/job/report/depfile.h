@@ -1,0 +1,18 @@
+/* depfile.h - the rules of a depfile (public: ffd/job.h). */
+#ifndef FFD_JOB_REPORT_DEPFILE_H
+#define FFD_JOB_REPORT_DEPFILE_H
+
+#include "base/file/path_list.h"
+#include "base/text/buffer.h"
+#include <ffd/job.h>
+
+/* Appends the rule "OUT: INPUT INPUT ..." to rules. Errors: FFD_E_IO, for a name with a line break, which
+   cannot stand there. */
+ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules,
+                            ffd_error *error);
+/* Whether a name has a character that make or ninja cannot read in a depfile, however it is written. */
+bool ffd_depfile_troubles(const char *name);
+/* Adds rules that are complete. A lack of memory is told of by ffd_depfile_write. */
+void ffd_depfile_add(ffd_depfile *depfile, const byte_buffer *rules);
+
+#endif

@@ -1,0 +1,16 @@
+#include "job/report/replace.h"
+
+ffd_status ffd_replace_check(const char *path, bool (*is_own)(const file_input *old), const char *kind,
+                             ffd_error *error)
+{
+    file_input old;
+    if (ffd_output_is_stream(path) || ffd_output_check(path, false, NULL) != FFD_E_EXISTS)
+        return FFD_OK;
+    const ffd_status status = ffd_file_load(path, &old, error);
+    if (status)
+        return status;
+    const bool free = old.size == 0 || is_own(&old);
+    ffd_file_unload(&old);
+    return free ? FFD_OK
+                : ffd_fail_file(error, FFD_E_EXISTS, path, "exists and is no %s: it is not replaced", kind);
+}

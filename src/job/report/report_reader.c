@@ -1,0 +1,244 @@
+#include "job/report/report_reader.h"
+#include "json/json_span.h"
+#include <stdio.h>
+#include <string.h>
+
+/* The line of a place in the text. Counted only where something is wrong. */
+static size_t line_of(const report_reader *reader, const char *place)
+{
+    size_t line = 1;
+    for (const char *c = reader->begin; c < place; c++)
+        line += *c == '\n';
+    return line;
+}
+
+static ffd_status refuse(const report_reader *reader, const char *what, ffd_error *error)
+{
+    char found[16] = "the end";
+    const unsigned char byte = reader->at < reader->end ? (unsigned char)*reader->at : 0;
+    if (byte > 0x20 && byte < 0x7f)
+        snprintf(found, sizeof found, "'%c'", byte);
+    else if (reader->at < reader->end)
+        snprintf(found, sizeof found, "byte 0x%02x", (unsigned)byte);
+    return ffd_fail_line(error, FFD_E_INVALID, reader->name, line_of(reader, reader->at),
+                         "not a report: %s, found %s", what, found);
+}
+
+static void skip_space(report_reader *reader)
+{
+    while (reader->at < reader->end && *reader->at && strchr(" \t\n\r", *reader->at))
+        reader->at++;
+}
+
+/* Steps over c and the space behind it. */
+static bool take(report_reader *reader, char c)
+{
+    if (reader->at == reader->end || *reader->at != c)
+        return false;
+    reader->at++;
+    skip_space(reader);
+    return true;
+}
+
+/* Steps over text, as it is, and the space behind it. */
+static bool take_text(report_reader *reader, const char *text)
+{
+    const size_t length = strlen(text);
+    if ((size_t)(reader->end - reader->at) < length || memcmp(reader->at, text, length) != 0)
+        return false;
+    reader->at += length;
+    skip_space(reader);
+    return true;
+}
+
+/* The end of the object that begins at c: brackets outside of strings are counted. NULL: it is not ended. */
+static const char *object_end(const char *c, const char *end)
+{
+    size_t depth = 0;
+    bool quoted = false;
+    for (; c < end; c++) {
+        if (quoted && *c == '\\' && c + 1 < end)
+            c++;
+        else if (*c == '"')
+            quoted = !quoted;
+        else if (!quoted && (*c == '{' || *c == '['))
+            depth++;
+        else if (!quoted && (*c == '}' || *c == ']') && --depth == 0)
+            return c + 1;
+    }
+    return NULL;
+}
+
+/* Steps over the entry that begins here. */
+static ffd_status take_entry(report_reader *reader, report_entry_text *entry, ffd_error *error)
+{
+    if (reader->at == reader->end || *reader->at != '{')
+        return refuse(reader, "an entry of \"jobs\" is expected", error);
+    const char *const end = object_end(reader->at, reader->end);
+    if (!end)
+        return ffd_fail_line(error, FFD_E_INVALID, reader->name, line_of(reader, reader->at),
+                             "not a report: this entry of \"jobs\" is not ended");
+    *entry = (report_entry_text){reader->at, (size_t)(end - reader->at)};
+    reader->at = end;
+    reader->jobs++;
+    skip_space(reader);
+    return FFD_OK;
+}
+
+/* Steps over the comma behind an entry, to the next one; or stays at the end of all. */
+static ffd_status take_comma(report_reader *reader, ffd_error *error)
+{
+    const bool comma = take(reader, ',');
+    if (reader->at < reader->end && *reader->at == (comma ? '{' : ']'))
+        return FFD_OK;
+    return refuse(
+        reader, comma ? "an entry is expected behind ','" : "',' or ']' is expected behind an entry", error);
+}
+
+/* What every entry says. */
+static const struct {
+    const char *key, *what;
+    unsigned kinds; /* bits of json_kind */
+} promised[] = {
+    {"input", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
+    {"output", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
+    {"status", "\"ok\", \"failed\" or \"skipped\"", 1U << JSON_STRING},
+    {"exit", "a whole number from 0 to 7", 1U << JSON_NUMBER},
+    {"error", "a text or null", 1U << JSON_STRING | 1U << JSON_NULL},
+};
+
+static bool is_promised(const json_span *tree, uint32_t value, size_t which)
+{
+    double code;
+    if (!(promised[which].kinds >> tree->values[value].kind & 1))
+        return false;
+    if (strcmp(promised[which].key, "status") == 0)
+        return ffd_json_span_string_is(tree, value, "ok") || ffd_json_span_string_is(tree, value, "failed") ||
+               ffd_json_span_string_is(tree, value, "skipped");
+    return !ffd_json_span_number(tree, value, &code) || (code >= 0 && code <= 7 && code == (int)code);
+}
+
+static ffd_status check_members(const json_span *tree, const char *name, ffd_error *error)
+{
+    for (size_t i = 0; i < sizeof promised / sizeof *promised; i++) {
+        const uint32_t value = ffd_json_span_member(tree, 0, promised[i].key);
+        if (value == JSON_NONE)
+            return ffd_json_span_fail(tree, 0, name, FFD_E_INVALID, error, "\"%s\" is missing",
+                                      promised[i].key);
+        if (!is_promised(tree, value, i))
+            return ffd_json_span_fail(tree, value, name, FFD_E_INVALID, error, "must be %s, not %.*s",
+                                      promised[i].what,
+                                      (int)(tree->values[value].end - tree->values[value].begin),
+                                      tree->text + tree->values[value].begin);
+    }
+    return FFD_OK;
+}
+
+/* Errors of an entry are told as those of the whole report. */
+static void place_error(const report_reader *reader, const char *entry, ffd_error *error)
+{
+    char pointer[sizeof error->pointer];
+    if (error && error->line)
+        error->line += line_of(reader, entry) - 1;
+    else if (error && error->status == FFD_E_INVALID) {
+        snprintf(pointer, sizeof pointer, "/jobs/%llu%s", (unsigned long long)(reader->jobs - 1),
+                 error->pointer);
+        memcpy(error->pointer, pointer, sizeof pointer);
+    }
+}
+
+static ffd_status check_entry(const report_reader *reader, const report_entry_text *entry, ffd_error *error)
+{
+    json_span tree;
+    ffd_status status = ffd_json_span_parse(entry->bytes, entry->size, reader->name, &tree, error);
+    if (!status)
+        status = check_members(&tree, reader->name, error);
+    if (status)
+        place_error(reader, entry->bytes, error);
+    ffd_json_span_free(&tree);
+    return status;
+}
+
+/* Checks the entries from the first one to the closing bracket. */
+static ffd_status read_jobs(report_reader *reader, ffd_error *error)
+{
+    report_entry_text entry;
+    if (!take(reader, '['))
+        return refuse(reader, "\"jobs\" must be an array", error);
+    while (!take(reader, ']')) {
+        ffd_status status = take_entry(reader, &entry, error);
+        if (!status)
+            status = check_entry(reader, &entry, error);
+        if (!status)
+            status = take_comma(reader, error);
+        if (status)
+            return status;
+    }
+    return FFD_OK;
+}
+
+/* Reads a member of the report; each may stand once. */
+static ffd_status read_member(report_reader *reader, unsigned *seen, const char **jobs, ffd_error *error)
+{
+    static const char *const keys[] = {"\"format\"", "\"version\"", "\"jobs\""};
+    static const char *const values[] = {"\"ffd-report\"", "1", NULL};
+    for (unsigned i = 0; i < 3; i++) {
+        const char *const key = reader->at;
+        if (!take_text(reader, keys[i]))
+            continue;
+        if (*seen & 1U << i) {
+            reader->at = key;
+            return refuse(reader, "a member stands twice", error);
+        }
+        *seen |= 1U << i;
+        if (!take(reader, ':'))
+            return refuse(reader, "':' is expected", error);
+        if (!values[i]) {
+            *jobs = reader->at;
+            return read_jobs(reader, error);
+        }
+        if (i == 1 && reader->at < reader->end && *reader->at >= '2' && *reader->at <= '9')
+            return ffd_fail_line(error, FFD_E_UNSUPPORTED, reader->name, line_of(reader, reader->at),
+                                 "this version of a report is newer than 1, the newest known here");
+        return take_text(reader, values[i])
+                   ? FFD_OK
+                   : refuse(reader, i == 0 ? "\"format\" must be \"ffd-report\"" : "\"version\" must be 1",
+                            error);
+    }
+    /* What else a report might say would be lost. */
+    return refuse(reader, "\"format\", \"version\" or \"jobs\" is expected", error);
+}
+
+ffd_status ffd_report_reader_open(report_reader *reader, const char *name, const void *text, size_t size,
+                                  ffd_error *error)
+{
+    const char *jobs = NULL;
+    unsigned seen = 0;
+    *reader = (report_reader){.name = name, .begin = text, .at = text, .end = (const char *)text + size};
+    take_text(reader, "\xef\xbb\xbf"); /* RFC 8259, 8.1: a byte order mark may be ignored */
+    skip_space(reader);
+    if (!take(reader, '{'))
+        return refuse(reader, "'{' is expected", error);
+    do {
+        const ffd_status status = read_member(reader, &seen, &jobs, error);
+        if (status)
+            return status;
+    } while (take(reader, ','));
+    if (!take(reader, '}'))
+        return refuse(reader, "',' or '}' is expected", error);
+    if (seen != 7)
+        return ffd_fail_file(error, FFD_E_INVALID, name,
+                             "not a report: \"format\", \"version\" or \"jobs\" is missing");
+    if (reader->at < reader->end)
+        return refuse(reader, "nothing more is expected", error);
+    reader->at = jobs;
+    reader->jobs = 0;
+    take(reader, '[');
+    return FFD_OK;
+}
+
+bool ffd_report_reader_next(report_reader *reader, report_entry_text *entry)
+{
+    return *reader->at != ']' && take_entry(reader, entry, NULL) == FFD_OK &&
+           take_comma(reader, NULL) == FFD_OK;
+}
