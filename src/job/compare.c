@@ -1,6 +1,6 @@
-#include "io/difference.h"
 #include "job/info.h"
 #include "job/input/source.h"
+#include "mesh/difference.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

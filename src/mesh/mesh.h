@@ -10,8 +10,8 @@
 #include "base/file/path_list.h"
 #include "base/text/buffer.h"
 #include "base/vector/vec.h"
+#include "mesh/memory_budget.h"
 #include "mesh/model.h"
-#include "mesh/room.h"
 #include "mesh/selector.h"
 #include "json/json_text.h"
 #include <ffd/job.h>

@@ -10,7 +10,7 @@
 
 #include "base/fail.h"
 #include "base/memory/intern.h"
-#include "mesh/room.h"
+#include "mesh/memory_budget.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

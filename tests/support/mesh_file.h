@@ -5,7 +5,7 @@
 
 #include "base/file/file.h"
 #include "base/memory/memory.h"
-#include "io/difference.h"
+#include "mesh/difference.h"
 #include "mesh/mesh.h"
 #include <stdio.h>
 #include <string.h>

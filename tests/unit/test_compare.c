@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "io/difference.h"
+#include "mesh/difference.h"
 #include <ffd/job.h>
 #include <jansson.h>
 #include <math.h>

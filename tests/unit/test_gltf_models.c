@@ -9,8 +9,8 @@
 
 #include "../support/draw.h"
 #include "../support/gltf_file.h"
-#include "io/difference.h"
 #include "io/gltf/document/gltf_document.h"
+#include "mesh/difference.h"
 #include <ftw.h>
 #include <math.h>
 #include <sys/stat.h>

@@ -9,8 +9,8 @@
 #include "../support/gltf_file.h"
 #include "../support/test_folder.h"
 #include "base/little_endian.h"
-#include "io/difference.h"
 #include "io/gltf/file/glb.h"
+#include "mesh/difference.h"
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -1,5 +1,5 @@
 /* test_room.c - how much memory a document may take. */
-#include "mesh/room.h"
+#include "mesh/memory_budget.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

@@ -2,8 +2,8 @@
 #ifndef FFD_IO_GLTF_GLTF_COMPARE_H
 #define FFD_IO_GLTF_GLTF_COMPARE_H
 
-#include "io/difference.h"
 #include "io/gltf/document/gltf_document.h"
+#include "mesh/difference.h"
 
 /* Of an accessor that has other "min" or "max" in the second file: the first such number in either. */
 typedef struct gltf_bound {

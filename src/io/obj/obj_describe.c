@@ -1,6 +1,6 @@
-#include "io/face_sizes.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_names.h"
+#include "mesh/face_sizes.h"
 
 typedef struct obj_facts {
     face_sizes sizes;

@@ -2,7 +2,7 @@
 #include "base/text/buffer.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_number.h"
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 #include <string.h>
 
 typedef struct extractor {

@@ -1,7 +1,7 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/obj/obj_document.h"
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 #include <string.h>
 
 /* Vectors that a thread copies at a time. */

@@ -3,7 +3,7 @@
 #include "base/text/number.h"
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_split.h"
-#include "io/splice.h"
+#include "io/text/splice.h"
 #include <inttypes.h>
 #include <stdatomic.h>
 #include <stdio.h>

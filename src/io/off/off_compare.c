@@ -3,8 +3,8 @@
    are equal where they are the same numbers and written in the same of the two ways, whole (0 to 255) or not
    (0 to 1). Comments, blanks, the number of edges, where lines end, and what stands behind the last face are
    no part of the mesh. */
-#include "io/difference.h"
 #include "io/off/off_document.h"
+#include "mesh/difference.h"
 #include <stdio.h>
 #include <string.h>
 

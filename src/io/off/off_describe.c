@@ -1,5 +1,5 @@
-#include "io/face_sizes.h"
 #include "io/off/off_document.h"
+#include "mesh/face_sizes.h"
 #include <stdio.h>
 
 typedef struct off_facts {

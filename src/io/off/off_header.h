@@ -8,7 +8,7 @@
 #define FFD_IO_OFF_OFF_HEADER_H
 
 #include "base/file/file.h"
-#include "io/text_scan.h"
+#include "io/text/text_scan.h"
 
 /* Vertices that a file may have: corners of faces are 32 bits. */
 #define OFF_VERTICES_MAX (UINT32_MAX - 1)

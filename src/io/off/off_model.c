@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
 #include "io/off/off_document.h"
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 #include <string.h>
 
 /* A colour, a texture coordinate, and one word more, which is too many. */

@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
 #include "io/off/off_document.h"
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 
 void ffd_off_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                             double *xyz)

@@ -1,6 +1,6 @@
 #include "io/off/off_document.h"
-#include "io/splice.h"
-#include "io/vectors.h"
+#include "io/text/splice.h"
+#include "io/text/vectors.h"
 
 static void replace_numbers(file_splice *splice, const text_word *words, const double *before,
                             const double *after, decimal_run *run)

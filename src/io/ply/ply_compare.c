@@ -2,8 +2,8 @@
    values as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the vertices may differ by their
    tolerances; other numbers may not. How the numbers are written (ascii, either binary order), comments,
    blanks and line ends are no part of the mesh; obj_info and the names of texture files are. */
-#include "io/difference.h"
 #include "io/ply/ply_document.h"
+#include "mesh/difference.h"
 #include <inttypes.h>
 #include <stdio.h>
 

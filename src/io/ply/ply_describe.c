@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
-#include "io/face_sizes.h"
 #include "io/ply/ply_document.h"
+#include "mesh/face_sizes.h"
 
 static face_sizes survey_faces(const ply_document *d)
 {

@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 #include <string.h>
 
 /* What the model takes of a vertex beside its position and normal. */

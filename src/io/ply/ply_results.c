@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 
 void ffd_ply_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                             double *xyz)

@@ -1,5 +1,5 @@
 #include "io/ply/ply_document.h"
-#include "io/splice.h"
+#include "io/text/splice.h"
 #include <string.h>
 
 /* Replaces a number whose bits have changed. */

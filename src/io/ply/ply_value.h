@@ -4,7 +4,7 @@
 #define FFD_IO_PLY_PLY_VALUE_H
 
 #include "base/text/number.h"
-#include "io/text_scan.h"
+#include "io/text/text_scan.h"
 #include <stdbool.h>
 #include <stddef.h>
 

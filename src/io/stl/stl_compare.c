@@ -2,8 +2,8 @@
    by their tolerances; not so the two bytes behind a binary file's facet (text has none: 0), nor,
    where both files are text or both are binary, the solids with their names or the header. How numbers are
    written, lines and blanks, and what stands behind a binary file's last facet are no part of the mesh. */
-#include "io/difference.h"
 #include "io/stl/stl_document.h"
+#include "mesh/difference.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 
 void ffd_stl_load(const unsigned char *bytes, double xyz[3])
 {

@@ -1,7 +1,7 @@
 #include "base/vector/vec.h"
-#include "io/splice.h"
 #include "io/stl/stl_document.h"
-#include "io/vectors.h"
+#include "io/text/splice.h"
+#include "io/text/vectors.h"
 #include <string.h>
 
 typedef struct stl_saver {

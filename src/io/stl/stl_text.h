@@ -7,7 +7,7 @@
 #define FFD_IO_STL_STL_TEXT_H
 
 #include "base/fail.h"
-#include "io/text_scan.h"
+#include "io/text/text_scan.h"
 
 typedef struct stl_text {
     text_scan scan;

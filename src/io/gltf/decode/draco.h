@@ -4,7 +4,7 @@
 #define FFD_IO_GLTF_DECODE_DRACO_H
 
 #include "base/fail.h"
-#include "mesh/room.h"
+#include "mesh/memory_budget.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -1,4 +1,4 @@
-#include "io/splice.h"
+#include "io/text/splice.h"
 #include <string.h>
 
 /* Of a file, in memory while it is copied. */

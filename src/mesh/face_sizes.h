@@ -1,6 +1,6 @@
 /* face_sizes.h - how many faces a file has of each number of corners, for its description. */
-#ifndef FFD_IO_FACE_SIZES_H
-#define FFD_IO_FACE_SIZES_H
+#ifndef FFD_MESH_FACE_SIZES_H
+#define FFD_MESH_FACE_SIZES_H
 
 #include <stddef.h>
 

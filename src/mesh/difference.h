@@ -1,7 +1,7 @@
 /* difference.h - what the comparisons of all formats share: distances, counts, and the first and the worst
    difference in words. */
-#ifndef FFD_IO_DIFFERENCE_H
-#define FFD_IO_DIFFERENCE_H
+#ifndef FFD_MESH_DIFFERENCE_H
+#define FFD_MESH_DIFFERENCE_H
 
 #include "base/fail.h"
 #include <ffd/job.h>

@@ -1,4 +1,4 @@
-#include "io/difference.h"
+#include "mesh/difference.h"
 #include "base/text/number.h"
 #include <math.h>
 #include <stdarg.h>

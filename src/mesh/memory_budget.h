@@ -1,6 +1,7 @@
-/* room.h - the memory that a document may ask for: a short file must not be able to take any amount. */
-#ifndef FFD_MESH_ROOM_H
-#define FFD_MESH_ROOM_H
+/* memory_budget.h - the memory that a document may ask for: a short file must not be able to take any amount.
+ */
+#ifndef FFD_MESH_MEMORY_BUDGET_H
+#define FFD_MESH_MEMORY_BUDGET_H
 
 #include "base/fail.h"
 #include <stdbool.h>

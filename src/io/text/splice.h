@@ -1,11 +1,11 @@
 /* splice.h - writes a file's bytes with some of them replaced, in blocks. */
-#ifndef FFD_IO_SPLICE_H
-#define FFD_IO_SPLICE_H
+#ifndef FFD_IO_TEXT_SPLICE_H
+#define FFD_IO_TEXT_SPLICE_H
 
 #include "base/file/file.h"
 #include "base/text/buffer.h"
 #include "base/text/decimal.h"
-#include "io/text_scan.h"
+#include "io/text/text_scan.h"
 #include "mesh/mesh.h"
 
 typedef struct file_splice {

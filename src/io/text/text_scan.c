@@ -1,4 +1,4 @@
-#include "io/text_scan.h"
+#include "io/text/text_scan.h"
 #include "base/text/number.h"
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "io/vectors.h"
+#include "io/text/vectors.h"
 #include "base/memory/memory.h"
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* vectors.h - the positions and normals of documents that hold them as numbers, 3 a vector. */
-#ifndef FFD_IO_VECTORS_H
-#define FFD_IO_VECTORS_H
+#ifndef FFD_IO_TEXT_VECTORS_H
+#define FFD_IO_TEXT_VECTORS_H
 
 #include "base/fail.h"
 #include <stddef.h>

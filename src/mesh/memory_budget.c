@@ -1,4 +1,4 @@
-#include "mesh/room.h"
+#include "mesh/memory_budget.h"
 
 #define MEGABYTE ((uint64_t)1000000)
 #define LEAST (100 * MEGABYTE)

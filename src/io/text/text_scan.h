@@ -1,7 +1,7 @@
 /* text_scan.h - the words and lines of a text file. Lines end with LF, CRLF or CR, also mixed; blanks and
    tabs separate words; a byte order mark is skipped. */
-#ifndef FFD_IO_TEXT_SCAN_H
-#define FFD_IO_TEXT_SCAN_H
+#ifndef FFD_IO_TEXT_TEXT_SCAN_H
+#define FFD_IO_TEXT_TEXT_SCAN_H
 
 #include <stdbool.h>
 #include <stddef.h>
