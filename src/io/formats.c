@@ -21,6 +21,15 @@ const mesh_format *ffd_format_table(ffd_format format)
     return NULL;
 }
 
+ffd_status ffd_format_open(const mesh_format *format, file_input *input, const ffd_source *source,
+                           mesh_document **document, ffd_error *error)
+{
+    const ffd_status status = format->open(input, source, document, error);
+    if (!status)
+        (*document)->format = format;
+    return status;
+}
+
 ffd_format ffd_format_from_name(const char *name)
 {
     static const struct {

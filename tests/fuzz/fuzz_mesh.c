@@ -58,7 +58,8 @@ static mesh_document *try_open(const trial *of, const char *name, const uint8_t 
     file_input input = {.data = block, .size = size, .block = block};
     const ffd_source source = {.path = path, .format = of->format, .space = of->space};
     mesh_document *document = NULL;
-    const ffd_status status = ffd_format_table(of->format)->open(&input, &source, &document, error);
+    const ffd_status status =
+        ffd_format_open(ffd_format_table(of->format), &input, &source, &document, error);
     if (status) {
         check_refusal(status, error);
         PROMISE(!document, "a document in spite of status %d", status);

@@ -188,7 +188,7 @@ static mesh_document *open_source(size_t i)
     assert_int_equal(fclose(file), 0);
     assert_int_equal(ffd_file_load(path, &input, NULL), FFD_OK);
     remove(path);
-    if (ffd_format_table(sources[i].format)->open(&input, &source, &document, &error))
+    if (ffd_format_open(ffd_format_table(sources[i].format), &input, &source, &document, &error))
         fail_msg("%s", error.message);
     return document;
 }

@@ -2,7 +2,6 @@
    document of its own; what this one has as results become the results of that target, and it is saved. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "io/formats.h"
 #include "io/gltf/save/gltf_morph.h"
 #include <string.h>
 
@@ -97,7 +96,7 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
         status = ffd_gltf_save(other, options, output, log, error);
         lend_results(d, meshes, true, (gltf_document *)other);
     }
-    ffd_gltf_format.close(other);
+    ffd_gltf_close(other);
     ffd_file_unload(&file);
     return status;
 }

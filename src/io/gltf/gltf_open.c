@@ -1,10 +1,8 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/formats.h"
 #include "io/gltf/document/gltf_document.h"
 #include "io/gltf/model/gltf_schema.h"
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,23 +12,6 @@
 
 /* Of a file's byte: itself. */
 #define KEPT_PER_BYTE 1
-
-const char *const ffd_gltf_semantic_names[GLTF_DEFORMED] = {"POSITION", "NORMAL", "TANGENT"};
-
-uint32_t ffd_gltf_primitive_value(const gltf_document *d, size_t mesh, size_t primitive)
-{
-    return d->primitive_values.values[d->first_primitive[mesh] + primitive];
-}
-
-uint32_t ffd_gltf_extension(const gltf_document *d, uint32_t value, const char *extension)
-{
-    return ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, value, "extensions"), extension);
-}
-
-bool ffd_gltf_has_extension(const gltf_document *d, uint32_t value, const char *extension)
-{
-    return ffd_gltf_extension(d, value, extension) != JSON_NONE;
-}
 
 static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
 {
@@ -289,24 +270,7 @@ static void free_document(gltf_document *d)
     ffd_free(d);
 }
 
-void ffd_gltf_forget(const gltf_document *d)
-{
-    ffd_file_forget(&d->input, d->input.data, d->input.size);
-    for (size_t i = 0; i < d->buffer_values.count; i++)
-        if (d->buffers[i].kind == BUFFER_FILE)
-            ffd_file_forget(&d->buffers[i].file, d->buffers[i].file.data, d->buffers[i].file.size);
-}
-
-void ffd_gltf_forget_bytes(const gltf_document *d, const gltf_buffer *buffer, size_t offset, size_t size)
-{
-    const file_input *input = buffer->kind == BUFFER_FILE ? &buffer->file : &d->input;
-    const bool in_file = buffer->kind == BUFFER_FILE || buffer->kind == BUFFER_BIN;
-    if (in_file && offset < buffer->size)
-        ffd_file_forget(input, buffer->data + offset,
-                        size < buffer->size - offset ? size : buffer->size - offset);
-}
-
-static ffd_status list_files(const mesh_document *document, path_list *files, ffd_error *error)
+ffd_status ffd_gltf_list_files(const mesh_document *document, path_list *files, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
     ffd_status status = FFD_OK;
@@ -365,7 +329,6 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
     gltf_document *d = ffd_alloc_zero(1, sizeof *d);
     if (!d)
         return ffd_fail_memory(error);
-    d->base.format = &ffd_gltf_format;
     d->base.room = *room;
     d->space = source->space;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
@@ -382,15 +345,15 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
     return FFD_OK;
 }
 
-static ffd_status open_document(file_input *input, const ffd_source *source, mesh_document **document,
-                                ffd_error *error)
+ffd_status ffd_gltf_open(file_input *input, const ffd_source *source, mesh_document **document,
+                         ffd_error *error)
 {
     mesh_room room = ffd_room_make(source->memory);
     ffd_room_add_file(&room, input->size, KEPT_PER_BYTE);
     return ffd_gltf_open_within(input, source, &room, document, error);
 }
 
-static void close_document(mesh_document *document)
+void ffd_gltf_close(mesh_document *document)
 {
     if (!document)
         return;
@@ -398,71 +361,3 @@ static void close_document(mesh_document *document)
     ffd_file_unload(&d->input);
     free_document(d);
 }
-
-static ffd_status check(const mesh_document *document, ffd_error *error)
-{
-    return ffd_gltf_refuse_read(ffd_gltf_of(document), error);
-}
-
-static void read_stream(const mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
-                        size_t count, size_t components, double *values)
-{
-    const gltf_document *d = ffd_gltf_of(document);
-    ffd_gltf_read(d, d->parts[part].streams[semantic].accessor, first, count, components, values);
-}
-
-static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                           double *xyz)
-{
-    read_stream(document, part, GLTF_POSITION, first, count, 3, xyz);
-}
-
-static void read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
-{
-    read_stream(document, part, GLTF_NORMAL, first, count, 3, xyz);
-}
-
-static void read_tangents(const mesh_document *document, size_t part, size_t first, size_t count,
-                          double *xyzw)
-{
-    read_stream(document, part, GLTF_TANGENT, first, count, 4, xyzw);
-}
-
-static void read_offsets(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
-                         size_t first, size_t count, double *xyz)
-{
-    const gltf_document *d = ffd_gltf_of(document);
-    const size_t target = d->base.part_count + d->parts[part].first_shape + shape;
-    ffd_gltf_read(d, d->parts[target].streams[stream].accessor, first, count, 3, xyz);
-}
-
-const mesh_format ffd_gltf_format = {
-    .format = FFD_FORMAT_GLTF,
-    .name = "glTF",
-    .open = open_document,
-    .close = close_document,
-    .list_files = list_files,
-    .list_images = ffd_gltf_list_images,
-    .check = check,
-    .check_reach = ffd_gltf_check_reach,
-    .keep_base = ffd_gltf_keep_base,
-    .largest_coordinate = FLT_MAX,
-    .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
-    .select = ffd_gltf_select,
-    .read_positions = read_positions,
-    .read_normals = read_normals,
-    .read_tangents = read_tangents,
-    .read_transforms = ffd_gltf_read_transforms,
-    .read_offsets = read_offsets,
-    .begin_results = ffd_gltf_begin_results,
-    .write_positions = ffd_gltf_write_positions,
-    .write_normals = ffd_gltf_write_normals,
-    .write_tangents = ffd_gltf_write_tangents,
-    .write_offsets = ffd_gltf_write_offsets,
-    .save = ffd_gltf_save,
-    .faces = ffd_gltf_faces,
-    .corner_normals = ffd_gltf_corner_normals,
-    .model = ffd_gltf_extract,
-    .describe = ffd_gltf_describe,
-    .compare = ffd_gltf_compare,
-};

@@ -2,7 +2,6 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/formats.h"
 #include "io/obj/obj_users.h"
 
 static void walk_blocks(const obj_document *d, size_t first, size_t last, obj_walk *walk)
@@ -53,7 +52,7 @@ static void describe_part(obj_document *d)
         d->part.normal_start = d->pair_start;
         d->part.normal_count = d->pair_start[d->vertices];
     }
-    d->base = (mesh_document){.format = &ffd_obj_format, .parts = &d->part, .part_count = 1};
+    d->base = (mesh_document){.parts = &d->part, .part_count = 1};
 }
 
 static void free_document(obj_document *d)

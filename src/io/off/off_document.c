@@ -1,7 +1,6 @@
 #include "io/off/off_document.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "io/formats.h"
 
 static ffd_status read_body(off_document *d, ffd_error *error)
 {
@@ -23,7 +22,7 @@ static void describe_part(off_document *d)
     d->part = (mesh_part){.vertex_count = d->header.vertices,
                           .normal_count = d->directions ? d->header.vertices : 0,
                           .identity = true};
-    d->base = (mesh_document){.format = &ffd_off_format, .parts = &d->part, .part_count = 1};
+    d->base = (mesh_document){.parts = &d->part, .part_count = 1};
 }
 
 static void free_document(off_document *d)

@@ -1,7 +1,6 @@
 #include "io/ply/ply_document.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "io/formats.h"
 #include <float.h>
 #include <inttypes.h>
 
@@ -64,10 +63,8 @@ static void describe_part(ply_document *d)
     d->part.vertex_count = (size_t)d->vertex->count;
     d->part.normal_count = d->has_normals ? d->part.vertex_count : 0;
     d->part.identity = true;
-    d->base = (mesh_document){.format = &ffd_ply_format,
-                              .parts = &d->part,
-                              .part_count = 1,
-                              .largest_coordinate = narrow ? FLT_MAX : DBL_MAX};
+    d->base =
+        (mesh_document){.parts = &d->part, .part_count = 1, .largest_coordinate = narrow ? FLT_MAX : DBL_MAX};
 }
 
 static void free_document(ply_document *d)

@@ -2,7 +2,6 @@
 #include "base/file/path.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "io/formats.h"
 #include <float.h>
 #include <inttypes.h>
 #include <string.h>
@@ -90,10 +89,8 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
 static void describe_part(stl_document *d)
 {
     d->part = (mesh_part){.vertex_count = 3 * d->facets, .identity = true};
-    d->base = (mesh_document){.format = &ffd_stl_format,
-                              .parts = &d->part,
-                              .part_count = 1,
-                              .largest_coordinate = d->binary ? FLT_MAX : DBL_MAX};
+    d->base = (mesh_document){
+        .parts = &d->part, .part_count = 1, .largest_coordinate = d->binary ? FLT_MAX : DBL_MAX};
 }
 
 static void free_document(stl_document *d)

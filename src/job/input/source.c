@@ -39,7 +39,7 @@ ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document 
     status = ffd_file_load(source->path, &input, error);
     if (status)
         return status;
-    status = ffd_format_table(typed.format)->open(&input, &typed, document, error);
+    status = ffd_format_open(ffd_format_table(typed.format), &input, &typed, document, error);
     if (status) {
         ffd_file_unload(&input);
         ffd_fail_name_file(error, ffd_source_name(source));

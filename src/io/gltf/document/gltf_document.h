@@ -281,6 +281,11 @@ mesh_write_function ffd_gltf_write_normals;
 mesh_write_function ffd_gltf_write_tangents;
 mesh_write_offsets_function ffd_gltf_write_offsets;
 
+/* gltf_open.c: entries of the table (mesh.h). */
+mesh_open_function ffd_gltf_open;
+mesh_close_function ffd_gltf_close;
+mesh_list_files_function ffd_gltf_list_files;
+
 /* gltf_resources.c: mesh.h's list_images. */
 mesh_list_files_function ffd_gltf_list_images;
 

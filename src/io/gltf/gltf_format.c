@@ -1,0 +1,71 @@
+#include "io/formats.h"
+#include "io/gltf/document/gltf_document.h"
+#include <float.h>
+
+static ffd_status check(const mesh_document *document, ffd_error *error)
+{
+    return ffd_gltf_refuse_read(ffd_gltf_of(document), error);
+}
+
+static void read_stream(const mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
+                        size_t count, size_t components, double *values)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    ffd_gltf_read(d, d->parts[part].streams[semantic].accessor, first, count, components, values);
+}
+
+static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                           double *xyz)
+{
+    read_stream(document, part, GLTF_POSITION, first, count, 3, xyz);
+}
+
+static void read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
+{
+    read_stream(document, part, GLTF_NORMAL, first, count, 3, xyz);
+}
+
+static void read_tangents(const mesh_document *document, size_t part, size_t first, size_t count,
+                          double *xyzw)
+{
+    read_stream(document, part, GLTF_TANGENT, first, count, 4, xyzw);
+}
+
+static void read_offsets(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
+                         size_t first, size_t count, double *xyz)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const size_t target = d->base.part_count + d->parts[part].first_shape + shape;
+    ffd_gltf_read(d, d->parts[target].streams[stream].accessor, first, count, 3, xyz);
+}
+
+const mesh_format ffd_gltf_format = {
+    .format = FFD_FORMAT_GLTF,
+    .name = "glTF",
+    .open = ffd_gltf_open,
+    .close = ffd_gltf_close,
+    .list_files = ffd_gltf_list_files,
+    .list_images = ffd_gltf_list_images,
+    .check = check,
+    .check_reach = ffd_gltf_check_reach,
+    .keep_base = ffd_gltf_keep_base,
+    .largest_coordinate = FLT_MAX,
+    .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
+    .select = ffd_gltf_select,
+    .read_positions = read_positions,
+    .read_normals = read_normals,
+    .read_tangents = read_tangents,
+    .read_transforms = ffd_gltf_read_transforms,
+    .read_offsets = read_offsets,
+    .begin_results = ffd_gltf_begin_results,
+    .write_positions = ffd_gltf_write_positions,
+    .write_normals = ffd_gltf_write_normals,
+    .write_tangents = ffd_gltf_write_tangents,
+    .write_offsets = ffd_gltf_write_offsets,
+    .save = ffd_gltf_save,
+    .faces = ffd_gltf_faces,
+    .corner_normals = ffd_gltf_corner_normals,
+    .model = ffd_gltf_extract,
+    .describe = ffd_gltf_describe,
+    .compare = ffd_gltf_compare,
+};
