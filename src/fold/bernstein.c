@@ -172,3 +172,11 @@ int ffd_bernstein_direction(const double *coefficients, const int order[3])
     }
     return best;
 }
+
+double ffd_bernstein_greatest_size(const double *values, size_t count)
+{
+    double greatest = 0;
+    for (size_t i = 0; i < count; i++)
+        greatest = fabs(values[i]) > greatest ? fabs(values[i]) : greatest;
+    return greatest;
+}

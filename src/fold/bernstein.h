@@ -39,4 +39,7 @@ double ffd_bernstein_value(const double *coefficients, const int order[3], const
    degree times second difference. */
 int ffd_bernstein_direction(const double *coefficients, const int order[3]);
 
+/* The greatest |value| of count coefficients; 0 for none. */
+double ffd_bernstein_greatest_size(const double *values, size_t count);
+
 #endif

@@ -36,7 +36,7 @@ static void make_rest(cell_search *search)
                        scratch->working, &form);
     ffd_determinant_bounds(&form, &bounds);
     ffd_determinant_coefficients(&form, search->plan->volume.sign, scratch->working, scratch->rest);
-    search->rest_greatest = ffd_box_greatest_size(scratch->rest, ffd_bernstein_count(search->order));
+    search->rest_greatest = ffd_bernstein_greatest_size(scratch->rest, ffd_bernstein_count(search->order));
     search->rest_rounding = bounds.coarse;
     search->has_exact_zeros =
         ffd_zeros_find(search->plan, search->index, search->rational, scratch->working, scratch->other);

@@ -4,14 +4,6 @@
 
 #define UNIT (0.5 * DBL_EPSILON)
 
-double ffd_box_greatest_size(const double *values, size_t count)
-{
-    double greatest = 0;
-    for (size_t i = 0; i < count; i++)
-        greatest = fabs(values[i]) > greatest ? fabs(values[i]) : greatest;
-    return greatest;
-}
-
 void ffd_box_make(cell_search *search, box *whole)
 {
     fold_scratch *scratch = search->scratch;
@@ -24,7 +16,7 @@ void ffd_box_make(cell_search *search, box *whole)
     whole->rounding = search->bounds.rounding;
     ffd_determinant_coefficients(&search->form, search->plan->volume.sign, scratch->working,
                                  whole->coefficients);
-    search->greatest = ffd_box_greatest_size(whole->coefficients, ffd_bernstein_count(search->order));
+    search->greatest = ffd_bernstein_greatest_size(whole->coefficients, ffd_bernstein_count(search->order));
     if (search->rational) {
         whole->weights = scratch->weights[0];
         memcpy(whole->weights, search->form.row[3][3],

@@ -18,11 +18,6 @@ long ffd_cell_boxes(const fold_plan *plan, long boxes)
     return fewer > LEAST_BOXES ? fewer : LEAST_BOXES;
 }
 
-double ffd_fold_target(double least_seen)
-{
-    return least_seen - 0.01 * fabs(least_seen);
-}
-
 static void begin(const fold_plan *plan, size_t cell, fold_scratch *scratch, cell_search *search)
 {
     int span[3];

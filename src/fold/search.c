@@ -59,7 +59,8 @@ static void look_at_least(cell_search *search, const box *part, const box_view *
 /* Whether all coefficients are 0 within their rounding: what there is to see of the sign has been seen. */
 static bool is_lost(const cell_search *search, const box *part)
 {
-    return ffd_box_greatest_size(part->coefficients, ffd_bernstein_count(search->order)) <= part->rounding;
+    return ffd_bernstein_greatest_size(part->coefficients, ffd_bernstein_count(search->order)) <=
+           part->rounding;
 }
 
 /* Nothing is surely negative, and no smaller box can show more. A whole cell that is lost is flat as far as

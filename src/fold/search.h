@@ -3,9 +3,10 @@
 #ifndef FFD_FOLD_SEARCH_H
 #define FFD_FOLD_SEARCH_H
 
-#include "fold/cell.h"
 #include "fold/cell_form.h"
 #include "fold/determinant.h"
+#include "fold/scratch.h"
+#include "fold/verdict.h"
 
 /* A part of the cell. Its memory is the slot of a depth of the search. */
 typedef struct box {
@@ -66,7 +67,6 @@ void ffd_box_view(cell_search *search, const box *part, box_view *view);
 double ffd_box_lower(const cell_search *search, const box *part, const box_view *view);
 double ffd_box_weight(const cell_search *search, const box *part, const double t[3]);
 double ffd_box_least(const cell_search *search, const box *part);
-double ffd_box_greatest_size(const double *values, size_t count);
 
 /* border.c: view's figures anew, without the coefficients that the border's zeros excuse. */
 void ffd_border_view(cell_search *search, const box *part, const bool touches[3][2], box_view *view);
