@@ -1,7 +1,11 @@
 #include "embed/locator.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "embed/cells/cell_locator.h"
+#include "embed/direct/affine.h"
 #include "embed/direct/affine_kernel.h"
+#include "embed/direct/separable.h"
+#include "embed/frame/box_tree.h"
 #include <math.h>
 
 /* The middle of the control points' bounds, and how far they reach from it. */
@@ -162,4 +166,9 @@ ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_
             ffd_separable_find(locator, p, &locations[i]);
     }
     return FFD_OK;
+}
+
+bool ffd_locator_is_strained(const ffd_locator *locator)
+{
+    return locator->cells && ffd_cells_are_strained(locator->cells);
 }

@@ -9,6 +9,7 @@
 #include "../support/lattice_by_hand.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cells.h"
+#include "embed/locator.h"
 #include <ffd/embedding.h>
 #include <float.h>
 

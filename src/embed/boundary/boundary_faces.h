@@ -2,9 +2,10 @@
 #ifndef FFD_EMBED_BOUNDARY_BOUNDARY_FACES_H
 #define FFD_EMBED_BOUNDARY_BOUNDARY_FACES_H
 
-#include "embed/boundary/boundary.h"
 #include "embed/boundary/patch.h"
 #include "lattice/border.h"
+#include "lattice/lattice.h"
+#include <stdbool.h>
 #include <stdint.h>
 
 #define MOST_FACES 6
@@ -27,7 +28,7 @@ typedef struct boundary_node {
     const face_patch *patch; /* leaf: kept, or NULL: made by each search that comes to it */
 } boundary_node;
 
-struct boundary {
+typedef struct boundary {
     const ffd_lattice *lattice;
     /* The search's units: powers of two that bring the lattice and its weights to size 1.
        x = (P - origin) scale. */
@@ -38,7 +39,7 @@ struct boundary {
     boundary_node *nodes;
     size_t node_count, node_capacity;
     face_patch *patches; /* the kept ones, a list */
-};
+} boundary;
 
 /* boundary_faces.c: cuts the border into patches and makes the tree. */
 ffd_status ffd_boundary_build(boundary *border, ffd_error *error);

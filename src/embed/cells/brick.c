@@ -1,5 +1,6 @@
+#include "embed/cells/brick.h"
 #include "base/memory/memory.h"
-#include "embed/cells/cells.h"
+#include "embed/cells/cell_locator.h"
 #include <string.h>
 
 static void brick_cells(const cell_search *cells, uint32_t number, size_t first[3], size_t last[3])
@@ -201,9 +202,9 @@ static ffd_status check_heavy(cell_search *cells, ffd_error *error)
     return FFD_OK;
 }
 
-bool ffd_locator_is_strained(const ffd_locator *locator)
+bool ffd_cells_are_strained(const struct cell_search *cells)
 {
-    return locator->cells && atomic_load(&locator->cells->heavy_leaves) > 0;
+    return atomic_load(&cells->heavy_leaves) > 0;
 }
 
 static void keep_light(cell_search *cells, uint32_t number, cell_brick *mine, own_bricks *own,

@@ -1,5 +1,5 @@
+#include "embed/cells/cell_volume.h"
 #include "base/vector/vec.h"
-#include "embed/cells/cells.h"
 
 /* Flat cells */
 

@@ -1,75 +1,9 @@
+/* cells.c - one cell of the rest lattice: its control points, its Bezier form, C and its derivatives. */
 #include "embed/cells/cells.h"
-#include "base/memory/memory.h"
-#include "lattice/border.h"
 #include "spline/basis.h"
 #include <string.h>
 
 enum { N = BEZIER_COMPONENTS };
-
-/* The power of two that brings size into [0.5, 1), as far as doubles allow. */
-static double scale_of(double size)
-{
-    int exponent;
-    frexp(size, &exponent);
-    return ldexp(1, exponent < -1000 ? 1000 : -exponent);
-}
-
-static void find_scale(const ffd_locator *locator, cell_search *cells)
-{
-    const double *extent = locator->extent;
-    cells->scale = scale_of(fmax(extent[0], fmax(extent[1], extent[2])));
-    for (int a = 0; a < 3; a++)
-        cells->extent[a] = extent[a] * cells->scale;
-}
-
-static ffd_status make_points(const ffd_locator *locator, cell_search *cells, ffd_error *error)
-{
-    const ffd_lattice *lattice = locator->lattice;
-    double greatest = 0;
-    cells->points = ffd_alloc(lattice->count, N * sizeof(double));
-    if (!cells->points)
-        return ffd_fail_memory(error);
-    for (size_t i = 0; cells->rational && i < lattice->count; i++)
-        greatest = fmax(greatest, lattice->rest_weights[i]);
-    const double weight_scale = cells->rational ? scale_of(greatest) : 1;
-    for (size_t i = 0; i < lattice->count; i++) {
-        const double h = cells->rational ? lattice->rest_weights[i] * weight_scale : 1;
-        double *point = cells->points + N * i;
-        for (size_t a = 0; a < 3; a++)
-            point[a] = h * ((lattice->rest[3 * i + a] - locator->origin[a]) * cells->scale);
-        point[3] = h;
-    }
-    return FFD_OK;
-}
-
-static ffd_status make_extractions(const ffd_locator *locator, cell_search *cells, ffd_error *error)
-{
-    for (int a = 0; a < 3; a++) {
-        cells->extraction[a] = ffd_bezier_extractions(&locator->knots[a]);
-        if (!cells->extraction[a])
-            return ffd_fail_memory(error);
-    }
-    return FFD_OK;
-}
-
-/* Half a kilobyte each, so that a direction of millions of spans goes without. */
-#define MOST_SCHEMES ((size_t)4096)
-
-static ffd_status make_schemes(const ffd_locator *locator, cell_search *cells, ffd_error *error)
-{
-    for (int a = 0; a < 3; a++) {
-        const knot_vector *const knots = &locator->knots[a];
-        const size_t intervals = knots->functions + (size_t)knots->degree;
-        if (intervals > MOST_SCHEMES)
-            continue;
-        cells->schemes[a] = ffd_alloc(intervals, sizeof *cells->schemes[a]);
-        if (!cells->schemes[a])
-            return ffd_fail_memory(error);
-        for (size_t i = 0; i < knots->span_count; i++)
-            ffd_basis_scheme(knots, knots->spans[i], &cells->schemes[a][knots->spans[i]]);
-    }
-    return FFD_OK;
-}
 
 const span_scheme *ffd_cells_scheme(const ffd_locator *locator, int a, int span, span_scheme *own)
 {
@@ -176,32 +110,6 @@ void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const dou
     }
 }
 
-/* Those of an instruction set; region is NULL where points are searched one by one. */
-typedef struct kernel_set {
-    cell_kernel *cell;
-    const contraction_kernel *contraction;
-    region_kernel *region;
-    size_t lanes; /* of region */
-} kernel_set;
-
-static const kernel_set kernels[] = {
-    [FFD_ISA_SCALAR] = {ffd_cell_kernel_scalar, &ffd_contraction_kernel_scalar, NULL, 0},
-#ifdef FFD_X86
-    [FFD_ISA_SSE2] = {ffd_cell_kernel_sse2, &ffd_contraction_kernel_sse2, ffd_region_kernel_sse2, 2},
-    [FFD_ISA_AVX2] = {ffd_cell_kernel_avx2, &ffd_contraction_kernel_avx2, ffd_region_kernel_avx2, 4},
-    [FFD_ISA_AVX512] = {ffd_cell_kernel_avx512, &ffd_contraction_kernel_avx512, ffd_region_kernel_avx512, 8},
-#endif
-};
-
-static void choose_kernels(cell_search *cells, ffd_isa isa)
-{
-    const kernel_set *set = &kernels[ffd_isa_resolve(isa)];
-    cells->kernel = set->cell;
-    cells->contraction = set->contraction;
-    cells->region_kernel = set->region;
-    cells->lanes = set->lanes;
-}
-
 void ffd_cells_centre(const ffd_locator *locator, cell_region *region)
 {
     homogeneous at;
@@ -210,50 +118,4 @@ void ffd_cells_centre(const ffd_locator *locator, cell_region *region)
         offset[a] = region->lo[a] + 0.5 * region->width[a];
     ffd_cells_evaluate(locator, region->span, offset, &at);
     memcpy(region->centre, at.value, sizeof region->centre);
-}
-
-ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
-{
-    const ffd_lattice *lattice = locator->lattice;
-    cell_search *cells = ffd_alloc_zero(1, sizeof *cells);
-    if (!cells)
-        return ffd_fail_memory(error);
-    locator->cells = cells;
-    choose_kernels(cells, locator->isa);
-    cells->rational = lattice->rest_weights != NULL;
-    for (int a = 0; a < 3; a++) {
-        cells->order[a] = lattice->knots[a].degree + 1;
-        cells->cells[a] = lattice->knots[a].span_count;
-    }
-    for (int a = 0; a < 3; a++)
-        cells->is_seam[a] = ffd_lattice_is_seam(lattice, a);
-    find_scale(locator, cells);
-    ffd_status status = make_points(locator, cells, error);
-    if (!status)
-        status = make_extractions(locator, cells, error);
-    if (!status)
-        status = make_schemes(locator, cells, error);
-    if (!status)
-        status = ffd_cells_look_at_volume(locator, error);
-    if (!status)
-        status = ffd_collapses_find(locator, &cells->collapses, error);
-    if (!status)
-        status = ffd_bricks_create(locator, error);
-    return status; /* the locator's destroy frees what there is */
-}
-
-void ffd_cells_destroy(cell_search **cells_pointer)
-{
-    cell_search *cells = *cells_pointer;
-    if (!cells)
-        return;
-    ffd_bricks_free(cells);
-    ffd_collapses_free(&cells->collapses);
-    for (int a = 0; a < 3; a++)
-        ffd_free(cells->extraction[a]);
-    for (int a = 0; a < 3; a++)
-        ffd_free(cells->schemes[a]);
-    ffd_free(cells->points);
-    ffd_free(cells);
-    *cells_pointer = NULL;
 }

@@ -5,11 +5,11 @@
 #define FFD_EMBED_CELLS_CELLS_H
 
 #include "embed/cells/cell_kernel.h"
-#include "embed/cells/collapse.h"
 #include "embed/cells/contraction_kernel.h"
 #include "embed/cells/region_kernel.h"
 #include "embed/frame/bezier_box.h"
-#include "embed/locator.h"
+#include "embed/frame/box_tree.h"
+#include "embed/frame/frame.h"
 #include "spline/basis.h"
 #include <math.h>
 #include <stdatomic.h>
@@ -43,13 +43,21 @@ typedef struct cell_brick {
 #define MOST_LIGHT_LEAVES ((size_t)1 << 21)
 #define MOST_HEAVY_LEAVES ((size_t)1 << 20)
 
-/* The bricks that one search made for itself, each at its number modulo the size. */
-#define OWN_BRICKS 64
-typedef struct own_bricks {
-    cell_brick *brick[OWN_BRICKS];
-    uint32_t number[OWN_BRICKS];
-} own_bricks;
-void ffd_own_bricks_free(own_bricks *own);
+/* 6 faces and 12 edges. */
+#define MOST_COLLAPSES 18
+
+/* The image of a collapsed face or edge: a point, or a curve along one direction. */
+typedef struct collapse {
+    double uvw[3];  /* the least of its points (of a curve: with the curve's start), in the locator's knots */
+    int along;      /* the curve's direction; -1: a point */
+    double *points; /* the curve's control points h x, h, one a basis function; or the one point */
+    bounds box;
+} collapse;
+
+typedef struct collapse_list {
+    collapse sets[MOST_COLLAPSES];
+    int count;
+} collapse_list;
 
 typedef struct cell_search {
     int order[3];
@@ -97,17 +105,8 @@ void ffd_cell_bezier(const ffd_locator *locator, const size_t cell[3], bezier_bo
 void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier_box *box,
                      const contraction_bound *contraction, cell_region *result);
 
-/* brick.c: the hulls of all bricks and their tree; bricks themselves are made when they are asked for. */
-ffd_status ffd_bricks_create(const ffd_locator *locator, ffd_error *error);
-void ffd_bricks_free(cell_search *cells);
-
 /* Evaluates the region's centre. */
 void ffd_cells_centre(const ffd_locator *locator, cell_region *region);
-
-/* The brick with this number, made if need be; lent by the locator, or by own until its next brick. Errors:
-   FFD_E_MEMORY, FFD_E_LIMIT. */
-ffd_status ffd_cells_brick(const ffd_locator *locator, uint32_t number, own_bricks *own,
-                           const cell_brick **brick, ffd_error *error);
 
 /* Finds where the rows of a cell's control points along u stand: where u goes round, in own. */
 #define CELL_NUMBERS (MAX_ORDER * MAX_ORDER * MAX_ORDER * BEZIER_COMPONENTS)
@@ -116,8 +115,5 @@ void ffd_cells_rows(const ffd_locator *locator, const int span[3], cell_rows row
 /* At u = t_span + offset. */
 void ffd_cells_evaluate(const ffd_locator *locator, const int span[3], const double offset[3],
                         homogeneous *result);
-
-/* cell_volume.c: finds volume_sign; FFD_E_INVALID where a cell has no volume. */
-ffd_status ffd_cells_look_at_volume(const ffd_locator *locator, ffd_error *error);
 
 #endif

@@ -3,24 +3,7 @@
 #ifndef FFD_EMBED_CELLS_COLLAPSE_H
 #define FFD_EMBED_CELLS_COLLAPSE_H
 
-#include "embed/frame/box_tree.h"
-#include "embed/locator.h"
-
-/* 6 faces and 12 edges. */
-#define MOST_COLLAPSES 18
-
-/* The image of a collapsed face or edge: a point, or a curve along one direction. */
-typedef struct collapse {
-    double uvw[3];  /* the least of its points (of a curve: with the curve's start), in the locator's knots */
-    int along;      /* the curve's direction; -1: a point */
-    double *points; /* the curve's control points h x, h, one a basis function; or the one point */
-    bounds box;
-} collapse;
-
-typedef struct collapse_list {
-    collapse sets[MOST_COLLAPSES];
-    int count;
-} collapse_list;
+#include "embed/cells/cells.h"
 
 /* Looks at the borders of the locator's lattice; its cells' points, scale and extent must be there. */
 ffd_status ffd_collapses_find(const ffd_locator *locator, collapse_list *list, ffd_error *error);

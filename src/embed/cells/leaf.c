@@ -1,6 +1,6 @@
 /* leaf.c - the one root of a region, by its contraction (maths.md 6.4). */
+#include "embed/cells/leaf.h"
 #include "base/vector/vec.h"
-#include "embed/cells/search.h"
 #include "embed/frame/face.h"
 #include <string.h>
 

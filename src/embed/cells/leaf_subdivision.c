@@ -1,9 +1,10 @@
 /* leaf_subdivision.c - leaves without a contraction bound, near folds and collapses: halved for one point
  * (maths.md 6.5).
  */
+#include "embed/cells/leaf_subdivision.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "embed/cells/search.h"
+#include "embed/cells/leaf.h"
 #include "embed/frame/face.h"
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #ifndef FFD_EMBED_CELLS_PACKET_H
 #define FFD_EMBED_CELLS_PACKET_H
 
-#include "embed/cells/search.h"
+#include "embed/cells/point_search.h"
 
 #define PACKET_SIZE 8
 /* Leaves of a point; with more it is searched for alone. */

@@ -4,6 +4,7 @@
    (search.c), and what is settled has the bits that it would get there. */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "embed/cells/leaf.h"
 #include "embed/cells/packet.h"
 #include "embed/cells/region_kernel.h"
 #include "spline/basis.h"

@@ -1,7 +1,7 @@
 /* affine.c - lattices whose rest map is affine: u,v,w by a 3x3 matrix. */
+#include "embed/direct/affine.h"
 #include "base/vector/vec.h"
 #include "embed/frame/face.h"
-#include "embed/locator.h"
 #include <math.h>
 #include <string.h>
 

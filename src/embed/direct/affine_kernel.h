@@ -2,7 +2,7 @@
 #ifndef FFD_EMBED_DIRECT_AFFINE_KERNEL_H
 #define FFD_EMBED_DIRECT_AFFINE_KERNEL_H
 
-#include "embed/locator.h"
+#include "embed/frame/frame.h"
 
 /* Most points at once. */
 #define AFFINE_POINTS ((size_t)256)

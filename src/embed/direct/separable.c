@@ -1,8 +1,8 @@
 /* separable.c - lattices with P_ijk = (x_i, y_j, z_k), each sequence strictly monotone: three equations in
    one unknown, each with exactly one root or none. */
+#include "embed/direct/separable.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "embed/locator.h"
 #include "spline/basis.h"
 #include <math.h>
 

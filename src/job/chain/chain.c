@@ -4,6 +4,7 @@
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
+#include "embed/frame/frame.h"
 #include "embed/locator.h"
 #include "job/chain/job_cache.h"
 #include "job/input/embedding_file.h"

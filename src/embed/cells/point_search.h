@@ -1,8 +1,10 @@
-/* search.h - the search for one point: what its parts share. Nothing is carried from one point to the next
-   but memory. */
-#ifndef FFD_EMBED_CELLS_SEARCH_H
-#define FFD_EMBED_CELLS_SEARCH_H
+/* point_search.h - the search for one point: what its parts share. Nothing is carried from one point to the
+   next but memory. */
+#ifndef FFD_EMBED_CELLS_POINT_SEARCH_H
+#define FFD_EMBED_CELLS_POINT_SEARCH_H
 
+#include "embed/cells/brick.h"
+#include "embed/cells/cell_locator.h"
 #include "embed/cells/roots.h"
 #include <stddef.h>
 #include <string.h>
@@ -62,22 +64,11 @@ void ffd_search_judge(const point_search *search, ffd_location *location);
 
 /* At the offsets from the spans' starts. */
 void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at);
-/* The same at t of a region. */
-void ffd_search_evaluate_in(point_search *search, const cell_region *region, const double t[3], sample *at);
 
 /* Whether the residual is within the tolerance. */
 bool ffd_search_accepts(const point_search *search, const sample *at, double weight_ratio);
 
 /* The greatest row of |Y| tolerance: what a rounding of C can do to t. */
 double ffd_image_of_tolerance(const double inverse[9], const double tolerance[3], double weight);
-
-/* leaf.c: records the root at t, whose sample is `at`. */
-void ffd_search_record(point_search *search, const cell_region *region, const double t[3], const sample *at,
-                       bool singular);
-/* Finds the region's root or shows that it has none. */
-void ffd_search_region(point_search *search, const cell_region *region);
-
-/* hard.c: a hard leaf is halved for this point alone. */
-void ffd_search_hard_leaf(point_search *search, const cell_leaf *leaf);
 
 #endif

@@ -1,0 +1,14 @@
+/* separable.h - u,v,w where x depends on u only, y on v, z on w: three monotone curves (maths.md 6.3). */
+#ifndef FFD_EMBED_DIRECT_SEPARABLE_H
+#define FFD_EMBED_DIRECT_SEPARABLE_H
+
+#include "embed/frame/frame.h"
+
+/* Looks whether the rest lattice is separable and monotone; fills locator->curves. Errors: FFD_E_MEMORY. */
+ffd_status ffd_separable_detect(ffd_locator *locator, bool *found, ffd_error *error);
+/* Frees the curves. */
+void ffd_separable_free(ffd_locator *locator);
+/* Finds p, with the origin subtracted; fills uvw, residual and status of *location. */
+void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_location *location);
+
+#endif

@@ -1,0 +1,66 @@
+/* frame.h - what the methods that find u,v,w share: the rest lattice in the search's own parameters, and the
+   tolerance. */
+#ifndef FFD_EMBED_FRAME_FRAME_H
+#define FFD_EMBED_FRAME_FRAME_H
+
+#include "base/vector/isa.h"
+#include "lattice/lattice.h"
+#include <ffd/embedding.h>
+#include <float.h>
+
+typedef enum locator_method { METHOD_AFFINE, METHOD_SEPARABLE, METHOD_GENERAL } locator_method;
+
+/* C(u,v,w) - origin = frame t, t in [0,1]^3 over the domain (maths.md 5). */
+typedef struct affine_map {
+    double frame[9], inverse[9];
+} affine_map;
+
+/* One direction of a separable lattice: a strictly monotone spline x(u). */
+typedef struct monotone_curve {
+    double *points;      /* one a basis function, origin subtracted */
+    double *breakpoints; /* x at the start of each non-empty span, and at the domain's end: span_count + 1 */
+    bool falling;
+} monotone_curve;
+
+struct ffd_locator {
+    const ffd_lattice *lattice;
+    ffd_isa isa;
+    locator_method method;
+    /* The lattice's knots with the domain's start subtracted, times a power of two that brings the domain's
+       side to size 1: far from 0 a parameter would be too coarse to meet the tolerance, and derivatives by
+       very long or short parameters leave the range of doubles. Every search is in these; what is reported is
+       taken back. */
+    knot_vector knots[3];
+    double knot_scale[3];
+    double origin[3]; /* subtracted from control points and points before anything else */
+    double extent[3]; /* max |P_a - origin_a| over the control points */
+    affine_map affine;
+    monotone_curve curves[3];
+    struct cell_search *cells;
+};
+
+/* tol_a = 16 eps (max|P_a| + |p_a|), p with the origin subtracted (maths.md 6.6). */
+static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
+{
+    for (int a = 0; a < 3; a++)
+        tolerance[a] = 16 * DBL_EPSILON * (locator->extent[a] + (p[a] < 0 ? -p[a] : p[a]));
+}
+
+/* The search's u,v,w in the lattice's own range. */
+static inline void ffd_locator_report(const ffd_locator *locator, const double local[3], double uvw[3])
+{
+    for (int a = 0; a < 3; a++)
+        uvw[a] = ffd_knots_wrap(&locator->lattice->knots[a], ffd_knots_first(&locator->lattice->knots[a]) +
+                                                                 local[a] / locator->knot_scale[a]);
+}
+
+/* Whether |r_a| <= tol_a for each a. */
+static inline bool ffd_within_tolerance(const double residual[3], const double tolerance[3])
+{
+    for (int a = 0; a < 3; a++)
+        if (!(residual[a] <= tolerance[a] && residual[a] >= -tolerance[a]))
+            return false;
+    return true;
+}
+
+#endif
