@@ -1,5 +1,5 @@
 #include "batch/batch.h"
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"

@@ -3,7 +3,7 @@
 #ifndef FFD_BATCH_HASH_CACHE_H
 #define FFD_BATCH_HASH_CACHE_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "base/file/path_list.h"
 #include "base/memory/hash.h"
 #include <ffd/job.h>

@@ -1,5 +1,5 @@
 #include "batch/journal.h"
-#include "base/file/file.h"
+#include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"

@@ -1,6 +1,6 @@
 #include "batch/worker.h"
 #include "base/file/cleanup.h"
-#include "base/file/file.h"
+#include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"

@@ -1,4 +1,5 @@
-#include "base/file/file.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"

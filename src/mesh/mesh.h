@@ -6,7 +6,8 @@
 #ifndef FFD_MESH_MESH_H
 #define FFD_MESH_MESH_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
 #include "base/file/path_list.h"
 #include "base/text/buffer.h"
 #include "base/vector/vec.h"

@@ -12,6 +12,7 @@
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "base/system/clock.h"
+#include "embed/cells/brick.h"
 #include "embed/cells/cells.h"
 #include <ffd/embedding.h>
 

@@ -3,7 +3,8 @@
 #ifndef FFD_TESTS_MESH_FILE_H
 #define FFD_TESTS_MESH_FILE_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "mesh/difference.h"
 #include "mesh/mesh.h"

@@ -8,7 +8,8 @@
 
 #include "../support/test_folder.h"
 #include "base/file/cleanup.h"
-#include "base/file/file.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
 #include <dirent.h>
 #include <ffd/job.h>
 #include <pthread.h>

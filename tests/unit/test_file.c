@@ -7,6 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/test_folder.h"
+#include "base/file/output.h"
 #include "base/file/written_files.h"
 #include <fcntl.h>
 #include <stdio.h>

@@ -12,7 +12,7 @@
 
 #include "../support/failing_new.h"
 #include "../support/test_folder.h"
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <dirent.h>
 #include <ffd/job.h>

@@ -1,6 +1,6 @@
 #define _DEFAULT_SOURCE /* SA_RESETHAND */
 #include "base/file/cleanup.h"
-#include "base/file/file.h"
+#include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <ffd/job.h>

@@ -1,5 +1,6 @@
 #define _XOPEN_SOURCE 700 /* realpath */
-#include "base/file/file.h"
+#include "base/file/folder.h"
+#include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <errno.h>

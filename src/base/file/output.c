@@ -1,6 +1,8 @@
 #define _DEFAULT_SOURCE /* flock, realpath */
+#include "base/file/output.h"
 #include "base/file/cleanup.h"
-#include "base/file/file.h"
+#include "base/file/folder.h"
+#include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/file/temporary.h"
 #include "base/file/written_files.h"

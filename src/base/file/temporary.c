@@ -1,6 +1,6 @@
 #define _DEFAULT_SOURCE /* flock, realpath */
 #include "base/file/temporary.h"
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <errno.h>

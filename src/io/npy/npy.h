@@ -2,7 +2,7 @@
 #ifndef FFD_IO_NPY_NPY_H
 #define FFD_IO_NPY_NPY_H
 
-#include "base/file/file.h"
+#include "base/file/output.h"
 #include <stdint.h>
 
 /* Capacity that is enough for every header below. */

@@ -3,7 +3,7 @@
 #define FFD_IO_OBJ_OBJ_BLOCKS_H
 
 #include "base/fail.h"
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include <stdbool.h>
 #include <stddef.h>
 

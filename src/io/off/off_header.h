@@ -7,7 +7,7 @@
 #ifndef FFD_IO_OFF_OFF_HEADER_H
 #define FFD_IO_OFF_OFF_HEADER_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "io/text/text_scan.h"
 
 /* Vertices that a file may have: corners of faces are 32 bits. */

@@ -5,7 +5,7 @@
 #ifndef FFD_IO_PLY_PLY_HEADER_H
 #define FFD_IO_PLY_PLY_HEADER_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "io/ply/ply_value.h"
 #include <stdint.h>
 

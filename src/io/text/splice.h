@@ -2,7 +2,8 @@
 #ifndef FFD_IO_TEXT_SPLICE_H
 #define FFD_IO_TEXT_SPLICE_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
 #include "base/text/buffer.h"
 #include "base/text/decimal.h"
 #include "io/text/text_scan.h"

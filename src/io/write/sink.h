@@ -3,7 +3,7 @@
 #ifndef FFD_IO_WRITE_SINK_H
 #define FFD_IO_WRITE_SINK_H
 
-#include "base/file/file.h"
+#include "base/file/output.h"
 #include <stdint.h>
 
 typedef struct model_sink {

@@ -2,7 +2,7 @@
 #ifndef FFD_IO_WRITE_WRITE_H
 #define FFD_IO_WRITE_WRITE_H
 
-#include "base/file/file.h"
+#include "base/file/output.h"
 #include "mesh/mesh.h"
 #include "mesh/model.h"
 

@@ -3,7 +3,7 @@
 #define FFD_JOB_CHAIN_CHAIN_H
 
 #include "base/fail.h"
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "base/memory/hash.h"
 #include "deform/displacement.h"
 #include "embed/boundary/boundary.h"

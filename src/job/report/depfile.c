@@ -1,4 +1,5 @@
 #include "job/report/depfile.h"
+#include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "job/report/replace.h"
 #include <string.h>

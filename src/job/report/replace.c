@@ -1,4 +1,5 @@
 #include "job/report/replace.h"
+#include "base/file/output.h"
 
 ffd_status ffd_replace_check(const char *path, bool (*is_own)(const file_input *old), const char *kind,
                              ffd_error *error)

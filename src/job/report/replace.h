@@ -2,7 +2,7 @@
 #ifndef FFD_JOB_REPORT_REPLACE_H
 #define FFD_JOB_REPORT_REPLACE_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
 
 /* Refuses (FFD_E_EXISTS) a path under which a file stands that is not empty and not of the own kind, which
    `kind` names in the message. Streams are free. Errors: those of reading it too. */

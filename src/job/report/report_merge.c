@@ -1,5 +1,6 @@
 /* report_merge.c - several reports to one, for jobs that ran in several places. */
-#include "base/file/file.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "job/report/report_reader.h"
 #include <ffd/job.h>

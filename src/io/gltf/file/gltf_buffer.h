@@ -2,7 +2,7 @@
 #ifndef FFD_IO_GLTF_FILE_GLTF_BUFFER_H
 #define FFD_IO_GLTF_FILE_GLTF_BUFFER_H
 
-#include "base/file/file.h"
+#include "base/file/input.h"
 #include "json/json_span.h"
 
 typedef enum gltf_buffer_kind {

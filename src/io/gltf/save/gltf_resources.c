@@ -1,3 +1,4 @@
+#include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
