@@ -10,6 +10,7 @@
 /* ffd_deform_normal, or ffd_deform_tangent, for every direction of the batch, with the same bits whatever the
    instruction set. No outcome is left open. */
 void ffd_deform_normals(ffd_isa isa, const attribute_batch *batch);
+/* The same for tangents. */
 void ffd_deform_tangents(ffd_isa isa, const attribute_batch *batch);
 
 /* ffd_deform_tangent for a normal that changed, perhaps though the gradient is 0. Returns 1 and writes

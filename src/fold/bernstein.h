@@ -8,6 +8,7 @@
 /* 4 degrees less 1, of a product of four polynomials of degree 9. */
 #define BERNSTEIN_MAX_ORDER 36
 
+/* Coefficients of a polynomial of this order. */
 size_t ffd_bernstein_count(const int order[3]);
 
 /* A product's coefficients are convex combinations of products of coefficients:

@@ -27,6 +27,7 @@ typedef struct cell_form {
 
 /* Doubles that a form's rows need, and those that making it needs besides. */
 size_t ffd_cell_form_size(const int order[3], bool rational);
+/* Doubles of scratch memory that ffd_cell_form_make needs besides. */
 size_t ffd_cell_form_scratch(const int order[3]);
 
 /* memory: ffd_cell_form_size doubles, whose contents the form refers to. */

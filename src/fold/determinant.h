@@ -11,6 +11,7 @@ typedef struct determinant_bounds {
     double greatest; /* no coefficient is greater in size */
 } determinant_bounds;
 
+/* Bounds the determinant's coefficients and their rounding by the rows of the form. */
 void ffd_determinant_bounds(const cell_form *form, determinant_bounds *bounds);
 
 /* The order of the determinant: 3 degrees (with weights 4), in each direction. */

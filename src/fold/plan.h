@@ -23,7 +23,10 @@ typedef struct fold_plan {
     signed_volume volume;
 } fold_plan;
 
+/* Extracts the Bezier form of every span and measures the rest volume. Free with ffd_fold_plan_free, after a
+   failure too. Errors: FFD_E_MEMORY, FFD_E_INVALID. */
 ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_error *error);
+/* Frees what ffd_fold_plan_make allocated. */
 void ffd_fold_plan_free(fold_plan *plan);
 
 /* The spans of a cell by its number, u fastest; index is the cell's place in each direction. */

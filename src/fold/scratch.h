@@ -24,6 +24,7 @@ typedef struct fold_scratch {
 
 /* NULL when there is no memory. */
 fold_scratch *ffd_fold_scratch_create(const fold_plan *plan);
+/* Frees it; NULL is allowed. */
 void ffd_fold_scratch_destroy(fold_scratch *scratch);
 
 #endif

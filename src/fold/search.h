@@ -54,18 +54,24 @@ double ffd_search_relative(const cell_search *search, double value, double weigh
 double ffd_search_lower(const cell_search *search, double value, double least_weight, double greatest_weight);
 /* A determinant that was computed at a place; a lower bound for a part; a witness. */
 void ffd_search_see(cell_search *search, double relative);
+/* Lowers the bound of the result to this value, if that is less. */
 void ffd_search_lower_to(cell_search *search, double relative);
+/* Records the witness of a fold: t in the cell's [0,1]^3, and the relative value there. */
 void ffd_search_set_folded(cell_search *search, const double place[3], double relative);
+/* The factor from a cell's scaled determinant to values relative to the rest volume's mean. */
 scaled ffd_search_unit(const fold_plan *plan, const size_t index[3], int exponent);
 
 /* box.c */
 void ffd_box_make(cell_search *search, box *whole);
 /* The lower half of `whole` into the next depth's slot; whole becomes the upper half. */
 void ffd_box_halve(const cell_search *search, box *whole, int a, int depth, box *lower);
+/* Finds what the coefficients of a box say. */
 void ffd_box_view(cell_search *search, const box *part, box_view *view);
 /* A lower bound of the determinant in the box. */
 double ffd_box_lower(const cell_search *search, const box *part, const box_view *view);
+/* W at t in the box's [0,1]^3; 1 without weights. */
 double ffd_box_weight(const cell_search *search, const box *part, const double t[3]);
+/* The least coefficient. */
 double ffd_box_least(const cell_search *search, const box *part);
 
 /* border.c: view's figures anew, without the coefficients that the border's zeros excuse. */

@@ -5,7 +5,8 @@
 
 #include "fold/plan.h"
 
-size_t ffd_zeros_scratch(const int order[3], bool rational); /* doubles */
+/* Doubles of scratch memory that ffd_zeros_find needs. */
+size_t ffd_zeros_scratch(const int order[3], bool rational);
 
 /* Whether some coefficients of the rest volume's determinant over the cell are exactly 0 for that reason.
    Then other[v] is a polynomial of the determinant's order with coefficients >= 0; where one is 0, volume v's

@@ -15,6 +15,7 @@ typedef struct cleanup_entry cleanup_entry;
 /* Between these two, signals wait and other threads take no part: to make a file and note it, or to rename it
    and strike it off, as one step. Not nested; not for what takes long. */
 void ffd_cleanup_hold(void);
+/* Lets signals and other threads go on. */
 void ffd_cleanup_release(void);
 
 /* Notes a file of this name (copied). Only while held. NULL: no memory. */

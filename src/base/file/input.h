@@ -25,6 +25,7 @@ ffd_status ffd_file_map(const char *path, file_input *input, ffd_error *error);
    (canonical paths are compared). Else FFD_E_IO with `named_by` as the file of the message. */
 ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
                                 file_input *input, ffd_error *error);
+/* Frees or unmaps what was loaded; an input of zeros is allowed. */
 void ffd_file_unload(file_input *input);
 /* For bytes, of a mapped file or any others, that are about to be read or written: brings them into memory at
    once, where the system has a call for that. Else a read waits for a few pages at a time; and a write copies
@@ -43,13 +44,16 @@ void ffd_file_forget_until(const file_input *input, const void *place, size_t *f
 /* Whether path names a stream of this process or nothing, and no file that stands somewhere: "-",
    /dev/stdin, /dev/fd/N, /dev/null. */
 bool ffd_file_is_stream(const char *path);
+/* Whether a file or folder of this name exists (links are followed). */
 bool ffd_file_exists(const char *path);
 /* Tells whether a file is the one that it was: which it is, its size and when it was written. */
 typedef struct file_stamp {
     uint64_t device, number, size;
     int64_t written[2], changed[2]; /* its bytes; these, or what is known of it: seconds and nanoseconds */
 } file_stamp;
+/* Reads the stamp of a regular file; false where there is none. */
 bool ffd_file_stamp(const char *path, file_stamp *stamp);
+/* Whether both stamps are of one file in one state. */
 bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b);
 /* Whether both paths lead to one existing file. */
 bool ffd_file_same(const char *a, const char *b);

@@ -5,16 +5,28 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-const char *ffd_path_name(const char *path);                    /* "a/b.obj" -> "b.obj" (inside path) */
-const char *ffd_path_ending(const char *path);                  /* "a/b.obj" -> ".obj", or "" (inside path) */
-bool ffd_path_has_ending(const char *path, const char *ending); /* letters in any case */
+/* "a/b.obj" -> "b.obj"; points into path. */
+const char *ffd_path_name(const char *path);
+/* "a/b.obj" -> ".obj", or ""; points into path. */
+const char *ffd_path_ending(const char *path);
+/* Whether path ends so; letters in any case. */
+bool ffd_path_has_ending(const char *path, const char *ending);
+/* Whether path starts at the root of a file system. */
 bool ffd_path_is_absolute(const char *path);
-const char *ffd_path_shown(const char *path); /* for messages: "-" -> "standard input"; others as they are */
-/* New strings (free with ffd_free), NULL when there is no memory. */
-char *ffd_path_folder(const char *path); /* "a/b.obj" -> "a"; "b.obj" -> "." */
-char *ffd_path_stem(const char *path);   /* "a/b.x.obj" -> "b.x" */
+/* The path as messages show it: "-" -> "standard input"; others as they are. */
+const char *ffd_path_shown(const char *path);
+
+/* The functions below return new strings (free with ffd_free); NULL when there is no memory. */
+
+/* "a/b.obj" -> "a"; "b.obj" -> "." */
+char *ffd_path_folder(const char *path);
+/* "a/b.x.obj" -> "b.x" */
+char *ffd_path_stem(const char *path);
+/* "a", "b" -> "a/b" */
 char *ffd_path_join(const char *folder, const char *name);
-char *ffd_path_beside(const char *path, const char *name); /* "a/b.obj", "c" -> "a/c" */
+/* "a/b.obj", "c" -> "a/c" */
+char *ffd_path_beside(const char *path, const char *name);
+/* A copy of text. */
 char *ffd_text_copy(const char *text);
 
 #endif

@@ -23,6 +23,7 @@ bool ffd_spill_grow(spill_array *array, size_t needed);
 /* For bytes that are not needed for a while: gives back the memory that they take, where they stand in a
    file. Any thread. */
 void ffd_spill_forget(const spill_array *array, size_t offset, size_t size);
+/* Frees the array and closes its file; the array is empty then. */
 void ffd_spill_free(spill_array *array);
 
 #endif

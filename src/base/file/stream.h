@@ -19,6 +19,7 @@ void ffd_stream_wait(const byte_stream *stream);
 int ffd_stream_byte(byte_stream *stream, ffd_status *status, ffd_error *error);
 /* Bytes of the whole, 0 where that is not known, and of what was read. */
 uint64_t ffd_stream_size(const byte_stream *stream);
+/* Bytes read so far. */
 uint64_t ffd_stream_position(const byte_stream *stream);
 /* NULL and pointers to NULL are allowed. */
 void ffd_stream_close(byte_stream **stream);

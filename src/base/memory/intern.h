@@ -23,6 +23,7 @@ bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *num
 bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *number);
 /* A key, ended by 0; lent until the next one is added. */
 const char *ffd_intern_key(const intern_table *table, uint32_t number);
+/* Frees the keys; the table is empty then. */
 void ffd_intern_free(intern_table *table);
 
 #endif

@@ -9,12 +9,14 @@
 extern "C" {
 #endif
 
-/* count * size bytes, not cleared / cleared; NULL when there is no memory or the product overflows. A count
+/* count * size bytes, not cleared; NULL when there is no memory or the product overflows. A count
    of 0 gives a pointer that can be freed. Free with ffd_free. */
 void *ffd_alloc(size_t count, size_t size);
+/* The same, cleared. */
 void *ffd_alloc_zero(size_t count, size_t size);
 /* Changes the size of a block (or NULL) of ffd_alloc. On failure the old block stays. */
 void *ffd_realloc(void *block, size_t count, size_t size);
+/* Frees a block of any of these; NULL is allowed. */
 void ffd_free(void *block);
 
 /* As ffd_alloc, for a block that will be used from end to end: if it is large it has large pages, where the
@@ -29,8 +31,9 @@ bool ffd_grow(void **block, size_t *capacity, size_t needed, size_t size);
 /* Tests: after `successes` further allocations every one fails; a negative number turns this off. */
 void ffd_alloc_fail_after(long successes);
 
-/* a + b, a * b in *result; false when they overflow. */
+/* a + b in *result; false on overflow. */
 bool ffd_add_size(size_t a, size_t b, size_t *result);
+/* a * b in *result; false on overflow. */
 bool ffd_multiply_size(size_t a, size_t b, size_t *result);
 
 #ifdef __cplusplus

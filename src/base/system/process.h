@@ -28,8 +28,9 @@ bool ffd_process_send(worker_process *process, const void *bytes, size_t size);
 void ffd_process_wait(worker_process *const *processes, size_t count, double seconds);
 /* Appends what is there to be read, without waiting. False at its end: the worker has ended, or will. */
 bool ffd_process_receive(worker_process *process, byte_buffer *bytes);
-/* Ends the worker after it has removed what it was writing; or at once. */
+/* Ends the worker after it has removed what it was writing. */
 void ffd_process_stop(worker_process *process);
+/* Ends the worker at once. */
 void ffd_process_kill(worker_process *process);
 /* Closes the channel, at which an idle worker ends, waits for its end, and frees. NULL and pointers to NULL
    are allowed; end may be NULL. */

@@ -18,6 +18,7 @@ void ffd_parallel_tiles(size_t count, size_t tile_size, int threads, tile_functi
    tile keeps until it is finished. False when there is no memory; nothing is called then. */
 bool ffd_parallel_in_order(size_t count, size_t tile_size, int threads, tile_function function,
                            tile_function finish, void *context);
+/* How many values `worker` has in ffd_parallel_in_order. */
 int ffd_ordered_slots(int threads);
 
 /* The number of processors that are switched on, at least 1. */

@@ -15,13 +15,18 @@ typedef struct byte_buffer {
 /* Where size more bytes can be written by the caller, who adds what he did write to the buffer's size; NULL
    when memory ran out. */
 char *ffd_buffer_room(byte_buffer *buffer, size_t size);
+/* Appends size bytes. */
 void ffd_buffer_append(byte_buffer *buffer, const void *bytes, size_t size);
+/* Appends a string without its final 0. */
 void ffd_buffer_text(byte_buffer *buffer, const char *text);
+/* Appends text as printf writes it. */
 void ffd_buffer_format(byte_buffer *buffer, const char *format, ...) FFD_PRINTF(2, 3);
-void ffd_buffer_number(byte_buffer *buffer, double value); /* shortest text, number.h */
+/* Appends the shortest text of a number (number.h). */
+void ffd_buffer_number(byte_buffer *buffer, double value);
 /* Appends a final 0 (not counted in size) and hands the block over (free with ffd_free); NULL when memory ran
    out. The buffer is empty afterwards. */
 char *ffd_buffer_finish(byte_buffer *buffer);
+/* Frees the bytes; the buffer is empty then. */
 void ffd_buffer_free(byte_buffer *buffer);
 
 #endif

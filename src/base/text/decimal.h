@@ -48,6 +48,7 @@ typedef struct decimal_run {
     decimal_batch batch;
 } decimal_run;
 
+/* Starts a run over an array that ends at `end`. */
 void ffd_decimal_run_begin(decimal_run *run, const double *end);
 
 /* ffd_number_format for a number of the run's array. */

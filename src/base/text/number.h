@@ -22,6 +22,7 @@ const char *ffd_number_parse_float(const char *first, const char *last, float *v
 /* Writes the shortest text that reads back as the same number (no final 0). Returns its length. A whole
    number is written without exponent or point where that is no longer ("1", "0.001", "1e+300"). */
 size_t ffd_number_format(double value, char text[FFD_NUMBER_CAPACITY]);
+/* The same for a float: the shortest text that reads back as the same float. */
 size_t ffd_number_format_float(float value, char text[FFD_NUMBER_CAPACITY]);
 
 /* The shortest text of a number as a string, for messages. */
@@ -29,6 +30,7 @@ typedef struct number_text {
     char text[FFD_NUMBER_CAPACITY + 1];
 } number_text;
 
+/* The text of value, ended by 0. */
 number_text ffd_number_text(double value);
 
 #ifdef __cplusplus

@@ -30,6 +30,7 @@ extern const array_kernel ffd_array_kernel_scalar;
 extern const array_kernel ffd_array_kernel_sse2, ffd_array_kernel_avx2, ffd_array_kernel_avx512;
 #endif
 
+/* The loops of an instruction set; FFD_ISA_AUTO: of the best one that the processor has. */
 const array_kernel *ffd_array_kernel(ffd_isa isa);
 
 #endif

@@ -24,7 +24,8 @@ typedef struct boundary_point {
 /* lattice must have control points and outlive the boundary unchanged. Memory: less than 250 MB,
    whatever the lattice. Errors: FFD_E_MEMORY. */
 ffd_status ffd_boundary_create(const ffd_lattice *lattice, boundary **made, ffd_error *error);
-void ffd_boundary_destroy(boundary **made); /* NULL and pointers to NULL are allowed */
+/* Frees the boundary and clears the pointer; NULL and pointers to NULL are allowed. */
+void ffd_boundary_destroy(boundary **made);
 
 /* The point of the border nearest to p (world units; also from within the volume), if it is no farther than
    reach (>= 0; HUGE_VAL: any). Of points equally near to rounding the least (u,v,w), where coordinates within

@@ -45,7 +45,9 @@ typedef struct boundary {
 ffd_status ffd_boundary_build(boundary *border, ffd_error *error);
 /* The whole cell of the face as a patch (of the face's orders), not yet measured. */
 void ffd_boundary_patch(const boundary *border, int face, const size_t cell[2], face_patch *made);
+/* A patch of the face's orders, without contents; NULL when there is no memory. */
 face_patch *ffd_boundary_new_patch(const boundary *border, int face);
+/* Frees a list of patches. */
 void ffd_boundary_free_patches(face_patch *list);
 
 static inline const knot_vector *boundary_knots(const boundary *border, int face, int f)
@@ -83,6 +85,7 @@ typedef struct boundary_place {
     double t[2];
 } boundary_place;
 
+/* u,v,w of a place, in the knots' range. */
 void ffd_boundary_uvw(const boundary *border, const boundary_place *place, double uvw[3]);
 /* Whether a comes before b by (u,v,w); coordinates within 1e-9 of the domain are equal. */
 bool ffd_boundary_before(const boundary *border, const double a[3], const double b[3]);

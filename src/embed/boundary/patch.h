@@ -51,6 +51,7 @@ typedef struct patch_sample {
     double second[3][3]; /* S_ss, S_st, S_tt */
 } patch_sample;
 
+/* S, its residual and its derivatives at t. */
 void ffd_patch_evaluate(const face_patch *patch, const double x[3], const double t[2], patch_sample *sample);
 
 /* Goes from t to a local minimum of |S - x| in [0,1]^2, which is the only one where the patch has one;

@@ -10,6 +10,7 @@ typedef struct search_scratch search_scratch;
 /* Cuts the lattice into cells: makes locator->cells, which ffd_cells_destroy frees, after a failure too.
    Errors: FFD_E_INVALID where a cell has no volume, FFD_E_MEMORY. */
 ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error);
+/* Frees the search and clears the pointer; a pointer to NULL is allowed. */
 void ffd_cells_destroy(struct cell_search **cells);
 /* Finds p, with the origin subtracted. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_scratch **scratch,
@@ -20,6 +21,7 @@ ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_
 /* The same for count points, to the bit; those whose first coordinate is NaN are left alone. */
 ffd_status ffd_cells_find_many(const ffd_locator *locator, const double *p, size_t count,
                                search_scratch **scratch, ffd_location *locations, ffd_error *error);
+/* Frees the memory of one thread's searches; NULL is allowed. */
 void ffd_search_scratch_free(search_scratch *scratch);
 
 /* Whether points so far needed bricks that count against the limit (FFD_E_LIMIT). */

@@ -7,6 +7,7 @@
 
 /* Looks at the borders of the locator's lattice; its cells' points, scale and extent must be there. */
 ffd_status ffd_collapses_find(const ffd_locator *locator, collapse_list *list, ffd_error *error);
+/* Frees the list; it is empty then. */
 void ffd_collapses_free(collapse_list *list);
 
 /* Whether x (in the search's units) lies on the set within the tolerance: then the least u,v,w there. */

@@ -30,6 +30,7 @@ typedef struct point_packet {
     bool enter[PACKET_SIZE];
 } point_packet;
 
+/* An empty packet for points in this locator's lattice. */
 void ffd_packet_begin(point_packet *packet, const ffd_locator *locator);
 /* Takes a point in; one beyond the search's doubles is left out. False where the packet is full, or the point
    too far from the others. */

@@ -17,8 +17,9 @@ typedef struct bezier_box {
     double *coefficients; /* ffd_bezier_size values: BEZIER_COMPONENTS a point, u fastest */
 } bezier_box;
 
-size_t ffd_bezier_count(const int order[3]); /* points */
-size_t ffd_bezier_size(const int order[3]);  /* doubles */
+/* Control points of a box of this order. */
+size_t ffd_bezier_count(const int order[3]);
+size_t ffd_bezier_size(const int order[3]); /* doubles */
 
 /* From a point to its neighbour along a. */
 static inline size_t ffd_bezier_stride(const int order[3], int a)

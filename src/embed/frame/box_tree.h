@@ -18,6 +18,7 @@ typedef struct box_tree {
 
 /* Builds the tree over count boxes (fewer than 2^31). False when there is no memory. */
 bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree);
+/* Frees the tree; it is empty then. */
 void ffd_box_tree_free(box_tree *tree);
 
 /* Calls visit for every box whose node's box, grown by slack in each coordinate, holds p; the caller tests
