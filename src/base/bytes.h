@@ -20,7 +20,7 @@ static ALWAYS_INLINE uint64_t bytes_low(uint64_t eight)
     return ~((eight | BYTES_TOPS) - '!' * BYTES_ONES) & ~eight & BYTES_TOPS;
 }
 
-/* Likewise those that are no digits. */
+/* Likewise those that are not digits. */
 static ALWAYS_INLINE uint64_t bytes_not_digits(uint64_t eight)
 {
     const uint64_t values = eight ^ '0' * BYTES_ONES;
@@ -42,7 +42,7 @@ static ALWAYS_INLINE uint64_t bytes_low_of_64_by_words(const char *at)
     return found;
 }
 
-/* Of 32 bytes, a bit for each that is no digit. */
+/* Of 32 bytes, a bit for each that is not a digit. */
 static ALWAYS_INLINE uint32_t bytes_not_digits_of_32_by_words(const char *at)
 {
     uint64_t found = 0;
@@ -77,8 +77,8 @@ static ALWAYS_INLINE uint64_t bytes_first(int count)
 }
 
 /* The number of 16 digits that begins with `count` digits of a text, 16 at most, and goes on with zeros. The
-   first `before` of them stand at its beginning, the others behind one more character, which is passed over.
-   17 characters of the text are read. */
+   first `before` of them are at its start; one character is skipped, then the others follow. 17 characters of
+   the text are read. */
 static ALWAYS_INLINE uint64_t bytes_digits_around_by_words(const char *text, int before, int count)
 {
     uint64_t number = 0;

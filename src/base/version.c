@@ -1,3 +1,4 @@
+/* version.c - the version that the library was built as. */
 #include <ffd/version.h>
 
 const char *ffd_version(void)

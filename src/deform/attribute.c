@@ -24,7 +24,7 @@ static void add_identity(const double gradient[9], double f[9])
         f[i] = gradient[i] + (i % 4 == 0 ? 1 : 0);
 }
 
-/* Copies v to result and tells why. */
+/* Copies v to result and returns why. */
 static int keep(const double v[3], double result[3], int *collapsed, int why)
 {
     memmove(result, v, 3 * sizeof *result);

@@ -53,7 +53,7 @@ static ALWAYS_INLINE void load_directions(const double *from, size_t step, lanes
     lanes_load_triples(triples, v);
 }
 
-/* Divides by the length and puts what is carried in its place. size: of the terms that were added up. */
+/* Divides by the length and replaces what is carried. size: of the terms that were added up. */
 static ALWAYS_INLINE void finish(const attribute_batch *batch, size_t first, mask still,
                                  const lanes before[3], lanes size, const lanes carried[3])
 {

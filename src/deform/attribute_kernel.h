@@ -8,15 +8,15 @@
 /* What has become of a direction. */
 enum {
     ATTRIBUTE_KEPT,      /* it has its bits */
-    ATTRIBUTE_CARRIED,   /* to another, which stands in its place */
+    ATTRIBUTE_CARRIED,   /* to another, which replaces it */
     ATTRIBUTE_COLLAPSED, /* nothing is left of it: it has its bits */
     ATTRIBUTE_OPEN       /* the kernel leaves it to the function for one */
 };
 
-/* Directions, and the points that they stand at. */
+/* Directions, and the points that they belong to. */
 typedef struct attribute_batch {
     const double *gradients; /* F - I of point n from gradients[9 * n] on */
-    const uint32_t *points;  /* of each direction; NULL: direction i stands at point i */
+    const uint32_t *points;  /* of each direction; NULL: direction i belongs to point i */
     size_t count;
     double *directions; /* of direction i from directions[i * step] on: 3 numbers, changed in place */
     size_t step;
@@ -25,7 +25,7 @@ typedef struct attribute_batch {
     uint8_t *outcomes;     /* of each */
 } attribute_batch;
 
-/* F - I where direction i stands. */
+/* F - I at the point of direction i. */
 static inline const double *attribute_gradient(const attribute_batch *batch, size_t i)
 {
     return batch->gradients + 9 * (batch->points ? batch->points[i] : i);

@@ -43,7 +43,7 @@ typedef struct kept_cells {
     int threads;                /* that share the memory; set by whoever made the scratch, 0 as 1 */
     const ffd_lattice *lattice; /* whose cells they are; NULL: there are none */
     cell_use use;               /* of them */
-    size_t count, numbers;      /* of cells that there is room for, and of numbers that each has */
+    size_t count, numbers;      /* capacity in cells, and the numbers that each has */
     size_t keys[KEPT_CELLS];    /* 1 + key of a batch_cell; 0: none */
     bool acts[KEPT_CELLS];      /* a moved control point acts in it */
     double all_numbers[KEPT_NUMBERS];
@@ -73,8 +73,8 @@ typedef struct displacement_batch {
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 
-/* To be called before the first batch, unless the scratch is zeroed, and before one of a lattice that may
-   stand where another stood. */
+/* To be called before the first batch, unless the scratch is zeroed, and before one of a lattice that
+   may have the address of an earlier one. */
 void ffd_displacement_scratch_clear(displacement_scratch *scratch);
 
 /* ffd_displacement for every point of the batch, with the same bits, whatever the instruction set and the

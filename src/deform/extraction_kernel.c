@@ -19,7 +19,7 @@ static ALWAYS_INLINE void combine_rows(const double *extraction, size_t order, s
         }
 }
 
-/* As quads: a vector of three and what stands behind it, which the next vector then replaces. */
+/* As quads: a vector of three and the number after it, which the next vector then replaces. */
 static ALWAYS_INLINE void combine_points(const double *extraction, const double *from, double *to)
 {
     quad point[4];

@@ -29,10 +29,11 @@ typedef struct kernel_cell {
 
 /* Points of the cell, and where their results go. */
 typedef struct kernel_points {
-    const double *uvw;     /* in the cell, 3 a point */
-    const uint32_t *which; /* the points' numbers, each greater than the one before: where results stand */
-    size_t count;          /* 1 or more */
-    double *delta;         /* 3 a point: sum (Q - P) N N N */
+    const double *uvw; /* in the cell, 3 a point */
+    const uint32_t
+        *which;       /* the points' numbers, each greater than the one before: where results are stored */
+    size_t count;     /* 1 or more */
+    double *delta;    /* 3 a point: sum (Q - P) N N N */
     double *gradient; /* 9 a point, or NULL: the number 3 r + c of them is d delta_r / d p_c where the cell
                          has the inverse; else it is d delta_r / d uvw_c */
     double *jacobian; /* 9 a point, d p_r / d uvw_c; or NULL. Not without the gradient. */

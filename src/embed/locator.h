@@ -9,7 +9,7 @@
 ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_locator **locator,
                                   ffd_error *error);
 
-/* Whether points so far needed what a limit counts (FFD_E_LIMIT): then it has less room for others. */
+/* Whether points so far used up a part of the memory budget (FFD_E_LIMIT): then less is left for others. */
 bool ffd_locator_is_strained(const ffd_locator *locator);
 
 #endif

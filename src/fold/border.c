@@ -1,3 +1,4 @@
+/* border.c - zeros of the determinant that the rest volume has too. */
 #include "fold/bernstein.h"
 #include "fold/search.h"
 #include "fold/zeros.h"
@@ -16,7 +17,7 @@
    Which coefficients are 0 is known in one of two ways.
    - exactly: control points are equal along lines (zeros.h), in both volumes. The above is the proof.
    - to rounding: where the rest volume has no such lines, but coefficients within its rounding of 0, those of
-     volumes whose axis is no line of equal control points (unclamped knots, weights that differ round the
+     volumes whose axis is not a line of equal control points (unclamped knots, weights that differ round the
      axis, points that were rounded). Excused are then coefficients of the first two layers that are 0 within
      rounding, that of the control points themselves included, in both volumes: nothing finer can be said of
      such a border, also not at rest. They may be less than 0 by 2 such bounds; the others are demanded to be

@@ -1,3 +1,4 @@
+/* box.c - the parts that a cell is halved into, and what their coefficients say. */
 #include "fold/bernstein.h"
 #include "fold/search.h"
 #include <string.h>

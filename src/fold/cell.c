@@ -42,7 +42,7 @@ static void begin(const fold_plan *plan, size_t cell, fold_scratch *scratch, cel
 }
 
 /* Values at the corners of the whole cell, before there are coefficients. A value that is negative even if
-   control points are known roughly only is no zero of the rest volume's. */
+   control points are known roughly only is not a zero of the rest volume's. */
 static void look_at_cell_corners(cell_search *search)
 {
     for (int corner = 0; corner < 8; corner++) {

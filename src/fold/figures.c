@@ -1,3 +1,4 @@
+/* figures.c - relative values of the determinant, and what a search has found so far. */
 #include "fold/search.h"
 
 #define UNIT (0.5 * DBL_EPSILON)

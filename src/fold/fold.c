@@ -1,3 +1,4 @@
+/* fold.c - the proof that a deformed lattice does not fold, cell by cell. */
 #include <ffd/fold.h>
 
 #include "base/memory/memory.h"
@@ -96,7 +97,8 @@ static void decide_all(fold_work *work)
         ffd_parallel_tiles(cells, TILE_CELLS, work->workers, decide_rest_of_tile, work);
 }
 
-/* u of a place in the cell; at its end the last number before the next cell, where that has another one. */
+/* u of a point in the cell; at the cell's end the last double before the next cell, where that belongs to
+   another one. */
 static double parameter_at(const knot_vector *knots, size_t span, double t)
 {
     const double *knot = knots->t + knots->spans[span];

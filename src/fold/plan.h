@@ -29,7 +29,7 @@ ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_e
 /* Frees what ffd_fold_plan_make allocated. */
 void ffd_fold_plan_free(fold_plan *plan);
 
-/* The spans of a cell by its number, u fastest; index is the cell's place in each direction. */
+/* The spans of a cell by its number, u fastest; index is the cell's number in each direction. */
 void ffd_fold_cell_at(const fold_plan *plan, size_t number, size_t index[3], int span[3]);
 
 /* volume.c */

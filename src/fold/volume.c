@@ -1,3 +1,4 @@
+/* volume.c - the signed volume of the rest lattice. */
 #include "base/memory/memory.h"
 #include "embed/frame/bezier_box.h"
 #include "fold/bernstein.h"

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The end of the next folder's name in a path, at or behind place; 0: there is none. */
+/* The end of the next folder's name in a path, at or after offset `place`; 0: there is none. */
 static size_t next_folder(const char *path, size_t place)
 {
     for (size_t i = place; path[i]; i++)

@@ -30,7 +30,7 @@
 
 static const unsigned char nothing[1] = {0};
 
-/* Where a descriptor stands, in place of a place in its file. */
+/* Read from the descriptor's current position instead of an offset in its file. */
 #define FROM_HERE ((off_t)-1)
 
 /* As many bytes as come at once. *got: 0 at the end. */
@@ -74,7 +74,8 @@ static ffd_status fail_room(const char *name, size_t size, ffd_error *error)
     return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size);
 }
 
-/* As a mapping has it: all of the file, wherever the descriptor stands, without what is added meanwhile. */
+/* Like a memory mapping: the whole file, whatever the descriptor's position, without bytes that are appended
+ * meanwhile. */
 static ffd_status read_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
 {
     unsigned char *const block = ffd_alloc(size, 1);

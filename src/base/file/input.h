@@ -27,7 +27,7 @@ ffd_status ffd_file_load_within(const char *folder, const char *relative, const 
                                 file_input *input, ffd_error *error);
 /* Frees or unmaps what was loaded; an input of zeros is allowed. */
 void ffd_file_unload(file_input *input);
-/* For bytes, of a mapped file or any others, that are about to be read or written: brings them into memory at
+/* Prefaults bytes, of a memory-mapped file or any others, that are about to be read or written: all at
    once, where the system has a call for that. Else a read waits for a few pages at a time; and a write copies
    without waiting for any, clears what it could not fill, and begins again, once a page. Does nothing where
    there are so few that it is not worth the call. Any thread. */
@@ -35,13 +35,13 @@ void ffd_file_bring_in(const void *bytes, size_t size);
 /* For bytes that are not needed for a while: gives back the memory that they take where the system can read
    them again, by itself, from the file. Any thread. */
 void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
-/* For a file that is gone through from its beginning on: gives back what stands before a place and has not
+/* For a file that is read from start to end: gives back the pages before `place` that have not
    been given back, behind *forgotten bytes, where that is worth the call, which stops the other threads for a
    moment; what is left in the end is the caller's to give back. Pages that another thread still reads come
    again. One thread at a time. */
 void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten);
 
-/* Whether path names a stream of this process or nothing, and no file that stands somewhere: "-",
+/* Whether path names a stream of this process or the null device, not a file: "-",
    /dev/stdin, /dev/fd/N, /dev/null. */
 bool ffd_file_is_stream(const char *path);
 /* Whether a file or folder of this name exists (links are followed). */

@@ -309,7 +309,7 @@ void ffd_output_remove_first(file_output *output)
     output->files[output->count - 1].remove_first = true;
 }
 
-/* Some file systems tell of a full disk only when a file is closed. Closing a twin asks them, while the old
+/* Some file systems report a full disk only when a file is closed. Closing a twin asks them, while the old
    target is still there, and does not give up the lock. */
 static ffd_status check_written(const file_output *output, ffd_error *error)
 {

@@ -32,8 +32,8 @@ static int make_file(void)
     return file;
 }
 
-/* The file's first `size` bytes, which have been given their place on the disk: writing to a page without one
-   would end the program. NULL where they cannot be had. */
+/* The file's first `size` bytes, which have been allocated on the disk: writing to a page without disk space
+ * would end the program. NULL where they cannot be had. */
 static void *map_bytes(int file, size_t size)
 {
     int failure = (size_t)(off_t)size == size ? EINTR : EFBIG;

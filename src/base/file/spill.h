@@ -1,6 +1,6 @@
-/* spill.h - arrays that may be larger than memory: beyond a size they stand in a temporary file without a
-   name, in the folder TMPDIR or /var/tmp, whose pages can leave memory (but where that is a file system in
-   memory). Where there is no such place, or no more of it, they are in memory. */
+/* spill.h - arrays that may be larger than memory: beyond a size they are memory-mapped from a temporary file
+   without a name, in the folder TMPDIR or /var/tmp, whose pages can leave memory (but where that is a file
+   system in memory). Where there is no such folder, or it is full, they are in memory. */
 #ifndef FFD_BASE_FILE_SPILL_H
 #define FFD_BASE_FILE_SPILL_H
 
@@ -12,15 +12,15 @@
 
 typedef struct spill_array {
     void *data;  /* NULL: nothing yet */
-    size_t size; /* bytes that there is room for */
+    size_t size; /* capacity in bytes */
     int file;    /* where is_mapped */
     bool is_mapped;
 } spill_array;
 
-/* Makes room for at least `needed` bytes, growing by half at least; what is there stays, perhaps elsewhere.
-   An array of zeros is empty. False when there is no memory; nothing is changed then. */
+/* Grows the capacity to at least `needed` bytes, by half at least; the content is kept, its address may
+   change. An array of zeros is empty. False when there is no memory; nothing is changed then. */
 bool ffd_spill_grow(spill_array *array, size_t needed);
-/* For bytes that are not needed for a while: gives back the memory that they take, where they stand in a
+/* For bytes that are not needed for a while: gives back the memory that they take, where they are in a
    file. Any thread. */
 void ffd_spill_forget(const spill_array *array, size_t offset, size_t size);
 /* Frees the array and closes its file; the array is empty then. */

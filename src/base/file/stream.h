@@ -15,7 +15,7 @@ ffd_status ffd_stream_open(const char *path, const char *name, byte_stream **str
 bool ffd_stream_is_ready(const byte_stream *stream);
 /* Waits until that is so. */
 void ffd_stream_wait(const byte_stream *stream);
-/* The next byte, or -1 at the end and after a failure, of which *status then tells (FFD_E_IO). Waits. */
+/* The next byte, or -1 at the end and after a failure, which *status then reports (FFD_E_IO). Waits. */
 int ffd_stream_byte(byte_stream *stream, ffd_status *status, ffd_error *error);
 /* Bytes of the whole, 0 where that is not known, and of what was read. */
 uint64_t ffd_stream_size(const byte_stream *stream);

@@ -12,11 +12,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Longest name that file systems take, with room for what is added. */
+/* The longest name that file systems take, less what is added to it. */
 #define LONGEST_NAME 255
 #define NAME_SUFFIX ".ffd-tmp"
 
-/* FNV-1a (Fowler, Noll, Vo): tells names apart whose beginnings are the same. */
+/* FNV-1a (Fowler, Noll, Vo): distinguishes names that start alike. */
 static unsigned long long digest_of(const char *text)
 {
     unsigned long long digest = 14695981039346656037ULL;

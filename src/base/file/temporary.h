@@ -7,8 +7,9 @@
    ffd_free; NULL: no memory. */
 char *ffd_temporary_name(const char *target);
 /* Makes the file of that name and locks it, so that a run that was killed leaves no obstacle and one that
-   still lives is not disturbed. What is there and not locked was left: it goes, for its permission bits are
-   those of another time. Returns its descriptor; -1: errno tells why not, EBUSY of a run that lives. */
+   still lives is not disturbed. A file that is there and not locked was left behind: it is removed, since its
+   permission bits are outdated. Returns its descriptor; -1: errno tells why not, EBUSY of a run that lives.
+ */
 int ffd_temporary_open(const char *name);
 /* Removes what a process that ended in the middle of writing path left beside it (and of the buffers beside a
    .gltf), unless another one is writing it. */

@@ -1,6 +1,6 @@
 /* written_files.h - the files that a run has written so far. Two names can lead to one file (links, "./"),
-   and names are derived from others (a .gltf's buffers): only the files themselves tell. Looking a file up
-   does not take longer where many were written. */
+   and names are derived from others (a .gltf's buffers): only the files themselves show it. A lookup takes
+   the same time however many were written. */
 #ifndef FFD_BASE_FILE_WRITTEN_FILES_H
 #define FFD_BASE_FILE_WRITTEN_FILES_H
 
@@ -16,7 +16,7 @@ typedef struct written_files {
 
 /* Whether path leads to one of them, under whatever name it was written. */
 bool ffd_written_holds(const written_files *written, const char *path);
-/* Adds the file with this stamp, which stands at path or is about to. Errors: FFD_E_MEMORY. */
+/* Adds the file with this stamp, which is at path or is about to be. Errors: FFD_E_MEMORY. */
 ffd_status ffd_written_add(written_files *written, const file_stamp *stamp, const char *path,
                            ffd_error *error);
 /* Frees the record; it is empty then. */

@@ -1,7 +1,7 @@
 #include "base/memory/hash.h"
 #include "base/little_endian.h"
 
-/* Compiled in, the streaming state can stand on the stack: its size is then the header's, not that of
+/* Compiled in, the streaming state can be on the stack: its size is then the header's, not that of
    whatever library is installed. */
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -1,4 +1,4 @@
-/* hash.h - 128-bit hashes (XXH3) that tell contents apart. They are no defence against somebody who makes
+/* hash.h - 128-bit hashes (XXH3) that distinguish contents. They do not protect against somebody who makes
    contents to fit. */
 #ifndef FFD_BASE_MEMORY_HASH_H
 #define FFD_BASE_MEMORY_HASH_H

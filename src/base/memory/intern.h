@@ -8,7 +8,7 @@
 
 /* Zeroed: the empty table. */
 typedef struct intern_table {
-    char *pool; /* the keys, one behind the other, each with a 0 that does not belong to it */
+    char *pool; /* the keys in a row, each followed by a 0 */
     size_t pool_size, pool_capacity;
     size_t *starts; /* of each key in the pool */
     size_t count, capacity;

@@ -1,4 +1,4 @@
-/* memory.h - allocation with counts checked for overflow; one place where tests can make it fail. */
+/* memory.h - allocation with counts checked for overflow, which tests can make fail. */
 #ifndef FFD_BASE_MEMORY_MEMORY_H
 #define FFD_BASE_MEMORY_MEMORY_H
 
@@ -19,13 +19,13 @@ void *ffd_realloc(void *block, size_t count, size_t size);
 /* Frees a block of any of these; NULL is allowed. */
 void ffd_free(void *block);
 
-/* As ffd_alloc, for a block that will be used from end to end: if it is large it has large pages, where the
-   system knows them, for a page's first touch costs more than filling it. Not for memory of which little may
-   be touched. */
+/* As ffd_alloc, for a block that will be used from end to end: a large one gets huge pages, where the
+   system has them, since the page fault at a page's first touch costs more than filling it. Not for memory of
+   which little may be touched. */
 void *ffd_alloc_whole(size_t count, size_t size);
 
-/* Makes room for at least `needed` elements of `size` bytes in *block, whose capacity is *capacity elements,
-   growing by half at least. False when there is no memory; nothing is changed then. */
+/* Grows the capacity to at least `needed` elements of `size` bytes in *block, whose capacity is *capacity
+   elements, by half at least. False when there is no memory; nothing is changed then. */
 bool ffd_grow(void **block, size_t *capacity, size_t needed, size_t size);
 
 /* Tests: after `successes` further allocations every one fails; a negative number turns this off. */

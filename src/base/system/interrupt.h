@@ -1,4 +1,4 @@
-/* interrupt.h - somebody wants the program to end: noticed, so that it can end in order. */
+/* interrupt.h - signals that ask the program to end are recorded, so that it can end in order. */
 #ifndef FFD_BASE_SYSTEM_INTERRUPT_H
 #define FFD_BASE_SYSTEM_INTERRUPT_H
 

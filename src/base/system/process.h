@@ -18,7 +18,7 @@ typedef struct process_end {
     bool killed; /* by a signal that no process sends itself: by the system, for want of memory, or by hand */
 } process_end;
 
-/* Starts this program with `name` in place of its own name, and no arguments: by that it knows that it is a
+/* Starts this program with `name` as its argument 0, and no other arguments: by that it knows that it is a
    worker. Standard error is shared. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_process_start(const char *name, worker_process **process, ffd_error *error);
 /* Hands bytes to the worker, and waits until it has taken them. False where it has ended. */

@@ -1,4 +1,4 @@
-/* terminal.h - whether people are looking. */
+/* terminal.h - whether standard error is a terminal, and how wide. */
 #ifndef FFD_BASE_SYSTEM_TERMINAL_H
 #define FFD_BASE_SYSTEM_TERMINAL_H
 

@@ -204,7 +204,7 @@ size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
 /* Numbers of a run that are that far from each other are near. */
 #define NEAR 8
 
-/* NULL where one number after the other is no slower. */
+/* NULL where formatting one number after the other is as fast. */
 static decimal_kernel *find_kernel(void)
 {
 #ifdef FFD_X86

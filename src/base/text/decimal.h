@@ -1,5 +1,5 @@
-/* decimal.h - fast ways for the numbers that meshes hold, with the results of <charconv>, whose ways they are
-   used beside (number.cpp). */
+/* decimal.h - fast paths for the numbers that meshes hold, with the results of <charconv>, which does the
+   others (number.cpp). */
 #ifndef FFD_BASE_TEXT_DECIMAL_H
 #define FFD_BASE_TEXT_DECIMAL_H
 
@@ -30,11 +30,11 @@ static inline bool ffd_decimal_quotient(int64_t number, int power, bool negative
 }
 
 /* Reads digits with a point in them or not, of a value that one division by a power of ten gives exactly
-   rounded. Returns the place behind it; NULL where something else stands there. */
+   rounded. Returns the end of the number; NULL where the text is not such a number. */
 const char *ffd_decimal_parse(const char *first, const char *last, double *value);
 
-/* Writes the shortest text as std::to_chars does. Returns its length, 24 at most (what stands behind it in
-   text is undefined); 0 where the number is none of those that this way is for: 2^-32 to 2^52 in size, and no
+/* Writes the shortest text as std::to_chars does. Returns its length, 24 at most (the rest of text is
+   undefined); 0 where the number is not one of those that this path is for: 2^-32 to 2^52 in size, and not a
    power of two. */
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY]);
 

@@ -9,7 +9,7 @@
 #define LEAST_EXPONENT (-84)
 #define MANTISSA_BITS 52
 
-/* As many as LEAST_EXPONENT asks for, and zeros up to the room of four registers. */
+/* As many as LEAST_EXPONENT asks for, and zeros up to the size of four registers. */
 #define POWERS_OF_FIVE 32
 extern const uint64_t ffd_powers_of_five[POWERS_OF_FIVE];
 

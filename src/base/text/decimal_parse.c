@@ -1,3 +1,4 @@
+/* decimal_parse.c - reads the decimal numbers that one exact division gives. */
 #include "base/text/decimal.h"
 #include <stdbool.h>
 #include <stdint.h>

@@ -13,7 +13,7 @@ extern "C" {
 #define FFD_NUMBER_CAPACITY 40
 
 /* Reads the decimal number at the start of [first, last): optional sign, digits, point, exponent, or inf/nan.
-   Returns the place behind it, or NULL where there is none. The nearest double is stored; too large numbers
+   Returns the end of the number, or NULL where there is none. The nearest double is stored; too large numbers
    give an infinity, too small ones 0, with their sign. */
 const char *ffd_number_parse(const char *first, const char *last, double *value);
 /* The nearest float, which is not always that of the nearest double. */

@@ -10,7 +10,7 @@ ffd_isa ffd_isa_best(void);
 /* Its name as options have it: "avx2". */
 const char *ffd_isa_name(ffd_isa isa);
 
-/* What an available one stands for: the best in place of FFD_ISA_AUTO. */
+/* FFD_ISA_AUTO becomes the best available one; others are returned as they are. */
 static inline ffd_isa ffd_isa_resolve(ffd_isa isa)
 {
     return isa == FFD_ISA_AUTO ? ffd_isa_best() : isa;

@@ -103,7 +103,7 @@ static ALWAYS_INLINE void lanes_transpose(lanes row[FFD_LANES])
 #endif
 }
 
-/* Nine numbers of each of FFD_LANES places, from and to a register for each number. */
+/* Gathers and scatters nine numbers of each of FFD_LANES points, a register for each number. */
 static ALWAYS_INLINE void lanes_load_nines(const double *const from[FFD_LANES], lanes v[9])
 {
     for (int first = 0; first < 8; first += FFD_LANES) {
@@ -131,7 +131,7 @@ static ALWAYS_INLINE void lanes_store_nines(const lanes v[9], double *const to[F
         to[l][8] = v[8][l];
 }
 
-/* Vectors of three that stand one behind the other, from and to a register for each coordinate. */
+/* Loads and stores consecutive vectors of three, a register for each coordinate. */
 static ALWAYS_INLINE void lanes_load_triples(const double *from, lanes v[3])
 {
     const lanes a = lanes_load(from), b = lanes_load(from + FFD_LANES), c = lanes_load(from + 2 * FFD_LANES);

@@ -71,8 +71,8 @@ static ALWAYS_INLINE quad quad_magnitude(const quad *a)
     return magnitude;
 }
 
-/* a > b ? a : b, a < b ? a : b. The processor has a step for just that, which compilers do not find: it gives
-   b where neither is larger, so that 0 and -0, and what is no number, are told apart by their order. */
+/* a > b ? a : b, a < b ? a : b. The processor has an instruction for just that, which compilers do not find:
+   it returns b where neither is larger, so that 0 and -0, and NaN, depend on the order of a and b. */
 #if FFD_LANES == 1
 #define QUAD_LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define QUAD_LESSER(a, b) ((a) < (b) ? (a) : (b))

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* fmin and fmax are calls. Where b is no number, it is a. */
+/* fmin and fmax are function calls. Returns a when b is NaN. */
 static inline double lesser_of(double a, double b)
 {
     return b < a ? b : a;
@@ -44,7 +44,7 @@ static inline void vec_cross(const double a[3], const double b[3], double out[3]
 
 static inline bool vec_is_finite(const double a[3])
 {
-    return 0 * a[0] + 0 * a[1] + 0 * a[2] == 0; /* of the others 0 times is no number */
+    return 0 * a[0] + 0 * a[1] + 0 * a[2] == 0; /* 0 times an infinity or NaN is NaN */
 }
 
 /* out may be v. */

@@ -5,7 +5,7 @@
 #include <float.h>
 #include <string.h>
 
-/* Exponents of the search's units that leave room for products. */
+/* Exponents of the search's units for which products neither overflow nor underflow. */
 #define MOST_EXPONENT 1000
 /* Points farther than this are replaced by ones at this distance: squares must stay in the range of doubles.
  */

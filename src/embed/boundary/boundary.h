@@ -36,7 +36,7 @@ void ffd_boundary_destroy(boundary **made);
    its control points, or an interval bound of the distance's derivatives, show that it holds nothing nearer
    (by 1e-12 of the lattice) than what is known; a search that has looked into 4096 patches, which takes very
    many points equally near, ends with the nearest found. Where p is more than 2^400 lattices away a nearer
-   point in the same direction stands in for it.
+   point in the same direction is used instead.
 
    Any thread; memory is taken for the time of the call. Errors: FFD_E_MEMORY. */
 ffd_status ffd_boundary_find(const boundary *border, const double p[3], double reach, boundary_point *nearest,

@@ -129,7 +129,7 @@ static void unite(bounds *box, const bounds *other)
     bounds_add(box, other->hi);
 }
 
-/* Two nodes; their places change when the array grows. */
+/* Adds two nodes; addresses of nodes change when the array grows. */
 static ffd_status add_children(builder *build, uint32_t *first)
 {
     boundary *border = build->border;

@@ -142,8 +142,8 @@ static double excess_of(const border_search *search, const patch_sample *sample)
     return sum > 0 ? (vec_dot(point, point) - 2 * vec_dot(point, search->x)) / sum : 0;
 }
 
-/* Where to keep a new candidate: with one at the same place, at the end, or instead of one that has fallen
-   behind or comes last by u,v,w. */
+/* The slot for a new candidate: that of one at the same point, a new one, or that of one that is farther
+   away or comes last by u,v,w. */
 static candidate *seat(border_search *search, const candidate *found)
 {
     candidate *last = NULL;

@@ -19,7 +19,7 @@ typedef struct settling {
     const boundary *border;
     const double *x;
     boundary_place place;
-    face_patch *patch; /* of the place's cell */
+    face_patch *patch; /* of the point's cell */
     patch_sample sample;
 } settling;
 
@@ -53,7 +53,7 @@ static void project(settling *at)
     ffd_patch_project(at->patch, at->x, at->place.t, &at->sample);
 }
 
-/* Whether the coordinate f stands at an end of the patch beyond which the distance falls. */
+/* Whether coordinate f is at an end of the patch beyond which the distance decreases. */
 static bool leads_out(const settling *at, int f)
 {
     double gradient[2], hessian[3];
@@ -66,7 +66,7 @@ static bool leads_out(const settling *at, int f)
     return t == 0 ? gradient[f] > noise : gradient[f] < -noise;
 }
 
-/* Whether the patch's end at which the coordinate f stands is an edge of the face. */
+/* Whether the patch's end at which coordinate f is lies on an edge of the face. */
 static bool is_edge(const boundary *border, const boundary_place *place, int f)
 {
     const size_t cells = border->faces[place->face].cells[f];
@@ -123,8 +123,8 @@ static bool cross(settling *at)
     return false;
 }
 
-/* The coordinates of the place that rest neither on an edge of the face, nor on a line where the surface has
-   a ridge, nor where the face collapses them. */
+/* The coordinates of the point that are held neither on an edge of the face, nor on a line where the surface
+   has a ridge, nor where the face collapses them. */
 static int free_coordinates(const settling *at, int free[2])
 {
     int count = 0;

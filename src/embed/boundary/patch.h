@@ -7,7 +7,7 @@
 
 #define PATCH_COMPONENTS 4 /* h x (3) and h */
 
-/* S(t) = A(t) / W(t) over t in [0,1]^2. What stands below `points` is made by ffd_patch_measure; "along the
+/* S(t) = A(t) / W(t) over t in [0,1]^2. What follows `points` is computed by ffd_patch_measure; "along the
    axes" means multiplied by the rows of axis. */
 typedef struct face_patch {
     int order[2];

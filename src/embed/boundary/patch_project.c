@@ -175,7 +175,7 @@ static bool rests(double t, double gradient)
     return (t == 0 && gradient >= 0) || (t == 1 && gradient <= 0);
 }
 
-/* The place to go to from t; false where both coordinates rest. Where the second derivatives are not positive
+/* The next t; false where both coordinates are held at an end. Where the second derivatives are not positive
    definite each coordinate goes its own way. */
 static bool next_place(const patch_sample *sample, const double t[2], double to[2])
 {

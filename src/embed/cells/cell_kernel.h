@@ -1,4 +1,4 @@
-/* cell_kernel.h - a volume and its derivatives at one place of a cell. */
+/* cell_kernel.h - a volume and its derivatives at one point of a cell. */
 #ifndef FFD_EMBED_CELLS_CELL_KERNEL_H
 #define FFD_EMBED_CELLS_CELL_KERNEL_H
 

@@ -108,8 +108,10 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
 /* Evaluates the region's centre. */
 void ffd_cells_centre(const ffd_locator *locator, cell_region *region);
 
-/* Finds where the rows of a cell's control points along u stand: where u goes round, in own. */
+/* Numbers of the control points of a cell, whatever the degrees. */
 #define CELL_NUMBERS (MAX_ORDER * MAX_ORDER * MAX_ORDER * BEZIER_COMPONENTS)
+/* Finds the rows of a cell's control points along u: in the lattice's array, or copied to own where a closed
+   u wraps around. */
 void ffd_cells_rows(const ffd_locator *locator, const int span[3], cell_rows rows, double own[CELL_NUMBERS]);
 
 /* At u = t_span + offset. */

@@ -171,7 +171,7 @@ typedef struct curve_search {
     double at; /* the answer: a fraction of the span */
 } curve_search;
 
-/* Whether the part [lo, lo + width] of the span comes to x; the least such place is stored. */
+/* Whether the part [lo, lo + width] of the span comes to x; the least such u is stored. */
 static bool search_curve(curve_search *search, double curve[MAX_ORDER][N], double lo, double width, int level)
 {
     bounds box = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};

@@ -9,7 +9,7 @@ typedef struct contraction_bound {
     bool regular;      /* J_F(centre) has an inverse; else inverse and bound are not set */
     double inverse[9]; /* Y = J_F(centre)^{-1}, in box coordinates t in [0,1]^3 */
     double bound;      /* L: the greatest row sum of |I - Y J_F| over the box and all p in middle +- reach;
-                          HUGE_VAL where that cannot be told */
+                          HUGE_VAL where that is not known */
 } contraction_bound;
 
 /* One table for each instruction set, all of the same source and with the same bits: the components of a

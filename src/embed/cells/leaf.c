@@ -116,7 +116,7 @@ static bool leave_centre(const point_search *search, const cell_region *region, 
 
 /* What a step led to. */
 typedef struct stride {
-    double t[3], radius; /* the new place, and a bound of its distance from the root */
+    double t[3], radius; /* the new point, and a bound of its distance from the root */
     sample at;
 } stride;
 

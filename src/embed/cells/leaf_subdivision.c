@@ -128,7 +128,7 @@ static double shortest_side(const bezier_box *box)
 }
 
 /* Whether the box is done with: it holds no root, or its one root was looked for. *blurred: else, its parts
-   could not be told apart, since the tolerance alone reaches across half of it. */
+ * could not be distinguished, since the tolerance alone reaches across half of it. */
 static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bound *found,
                        cell_region *region, bool *blurred)
 {

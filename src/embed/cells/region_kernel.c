@@ -173,7 +173,7 @@ static ALWAYS_INLINE mask newton_step(const sample_lanes *at, const lanes t[3], 
     return usable;
 }
 
-/* The places of the lanes, and which of them are still under way. */
+/* t of the lanes, and which of them are not finished. */
 typedef struct progress {
     lanes t[3], e;
     sample_lanes at;

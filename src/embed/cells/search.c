@@ -53,8 +53,8 @@ static bool visit_brick(void *context, uint32_t number)
     return ffd_box_tree_visit(&visit.brick->tree, search->x, search->slack, visit_leaf, &visit);
 }
 
-/* The curve of a collapse comes to the point within the tolerance: the nearest place there, by Gauss-Newton
-   steps along it. */
+/* The curve of a collapse passes the point within the tolerance: finds the nearest point of it, by
+   Gauss-Newton steps. */
 static void settle_on_curve(point_search *search, int along, const int span[3], double offset[3], sample *at)
 {
     const double *knot = search->locator->knots[along].t + span[along];

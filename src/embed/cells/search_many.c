@@ -117,7 +117,7 @@ static void load_point(const point_search *search, const cell_leaf *leaf, int la
     }
 }
 
-/* In its place: what is written number by number is slow to copy at once. */
+/* Written in place: copying at once what was stored number by number stalls the processor. */
 static void take_result(const cell_leaf *leaf, const region_lanes *lanes, int lane, leaf_result *result)
 {
     result->leaf = leaf;
@@ -217,7 +217,7 @@ typedef struct many_search {
     size_t waiting, shared, results; /* in the scratch */
 } many_search;
 
-/* Lets a point wait in its leaves. False: there is no room for so many. */
+/* Queues a point in its leaves. False: it has too many. */
 static bool wait_in_leaves(many_search *many, const packet_point *point)
 {
     struct many_scratch *const scratch = (*many->scratch)->many;

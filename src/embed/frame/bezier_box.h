@@ -19,7 +19,8 @@ typedef struct bezier_box {
 
 /* Control points of a box of this order. */
 size_t ffd_bezier_count(const int order[3]);
-size_t ffd_bezier_size(const int order[3]); /* doubles */
+/* Doubles that its coefficients take. */
+size_t ffd_bezier_size(const int order[3]);
 
 /* From a point to its neighbour along a. */
 static inline size_t ffd_bezier_stride(const int order[3], int a)
@@ -32,10 +33,10 @@ static inline size_t ffd_bezier_stride(const int order[3], int a)
    lo and hi become those of the whole cell. */
 void ffd_bezier_extract(bezier_box *box, const double *const matrix[3]);
 
-/* De Casteljau's scheme at 1/2 (P&T 1.4) for lines of `order` points side by side, `inner` numbers of all
-   lines one behind the other and then those of the next points. The upper halves arise in place of the lines
-   (high): after step k the points from the first on hold level k, and the first of them is point k of the
-   lower halves (low). */
+/* De Casteljau's scheme at 1/2 (P&T 1.4) for lines of `order` points side by side, `inner` consecutive
+   numbers of all lines, then those of the next points. The upper halves arise in place of the lines (high):
+   after step k the points from the first on hold level k, and the first of them is point k of the lower
+   halves (low). */
 void ffd_bezier_halve_lines(size_t order, size_t inner, double *low, double *high);
 
 /* The halves of box across direction a; lower and upper have their own coefficients (upper may share box's).

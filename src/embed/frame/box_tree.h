@@ -21,13 +21,15 @@ bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree);
 /* Frees the tree; it is empty then. */
 void ffd_box_tree_free(box_tree *tree);
 
+/* A callback: returns false to stop the traversal. */
+typedef bool (*box_tree_visitor)(void *context, uint32_t item);
+
 /* Calls visit for every box whose node's box, grown by slack in each coordinate, holds p; the caller tests
    the box itself. The order depends on the boxes only. Stops and returns false when visit does. */
-typedef bool (*box_tree_visitor)(void *context, uint32_t item);
 bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double slack[3],
                         box_tree_visitor visit, void *context);
 
-/* The same for every box that may hold a point of a box of places: one walk for points that are neighbours.
+/* The same for every box that meets another one, `places`: one traversal for points that are neighbours.
    What it visits for a point alone, it visits for the box too, if slack is no less. */
 bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *places, const double slack[3],
                             box_tree_visitor visit, void *context);

@@ -19,8 +19,8 @@ bool ffd_weigh_rows(const double jacobian[9], const double equation[3], const do
 typedef bool (*face_function)(void *context, const double t[3], double jacobian[9], double equation[3]);
 
 /* Looks for a t in [0,1]^3 with F(t) within the tolerance, from a t near it that has coordinates at or next
-   to an end: some of these rest there, in every combination, the others follow by Gauss-Newton steps, each
-   row of F weighed by its tolerance. On success t is the place that `function` accepted last; else it is
+   to an end: some of these are held there, in every combination, the others follow by Gauss-Newton steps,
+   each row of F weighed by its tolerance. On success t is the point that `function` accepted last; else it is
    unchanged. */
 bool ffd_face_settle(const double tolerance[3], face_function function, void *context, double t[3]);
 
