@@ -56,7 +56,8 @@ static ffd_status read_stream(int fd, const char *name, file_input *input, ffd_e
     do {
         size += got;
         if (size >= LONGEST_STREAM)
-            status = ffd_fail_file(error, FFD_E_LIMIT, name, "goes on after %zu bytes", size);
+            status = ffd_fail_file(error, FFD_E_LIMIT, name,
+                                   "has more than %zu bytes, the most that is read from a stream", size);
         else if (!ffd_grow((void **)&block, &capacity, size + 65536, 1))
             status = ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory after %zu bytes", size);
         else
