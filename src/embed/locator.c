@@ -52,7 +52,8 @@ ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_l
 {
     *locator = NULL;
     if (!lattice->rest)
-        return ffd_fail(error, FFD_E_ARGUMENT, "the lattice has no control points yet: its box is that of a mesh");
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "the lattice has no control points yet: its box is that of a mesh");
     ffd_locator *made = ffd_alloc_zero(1, sizeof *made);
     if (!made)
         return ffd_fail_memory(error);
