@@ -39,7 +39,7 @@ typedef struct ffd_error {
    Returns the length of the uncut line. error and text are not NULL unless capacity is 0. Any thread. */
 FFD_API size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
 
-/* The exit code (interface: 0 to 7) that stands for a status. Any thread. */
+/* The exit code (0 to 7; data/schema/formats.md 1) that stands for a status. Any thread. */
 FFD_API int ffd_status_exit_code(ffd_status status);
 
 #ifdef __cplusplus

@@ -161,7 +161,8 @@ typedef struct ffd_bounds {
     double min[3], max[3]; /* min > max where there is no finite vertex */
 } ffd_bounds;
 
-/* What a job did: the figures of the report (interface 4). Lengths in world units unless said otherwise. */
+/* What a job did: the figures of the report (data/schema/formats.md 2). Lengths in world units unless said
+ * otherwise. */
 typedef struct ffd_job_result {
     ffd_status status;
     ffd_error error;
@@ -296,7 +297,8 @@ FFD_API ffd_status ffd_info_run(const ffd_source *file, bool json, char **text, 
 FFD_API ffd_status ffd_lattice_new_run(const ffd_source *mesh, const ffd_lattice_desc *desc,
                                        const char *output, bool force, ffd_error *error);
 
-/* The report of interface 4. Entries are added in the order of the jobs, and go to its file at once. */
+/* The report (data/schema/formats.md 2). Entries are added in the order of the jobs, and go to its file at
+ * once. */
 typedef struct ffd_report ffd_report;
 
 /* Starts a report that will be written to path ("-": standard output), under a temporary name until it is

@@ -49,7 +49,7 @@ typedef struct ffd_lattice_desc {
 
 FFD_API void ffd_lattice_desc_init(ffd_lattice_desc *desc);
 
-/* Reads a lattice file (JSON, interface 3). On success *lattice is the caller's, to be destroyed.
+/* Reads a lattice file (JSON; data/schema/lattice.md). On success *lattice is the caller's, to be destroyed.
    Errors: FFD_E_IO; FFD_E_INVALID with line (syntax) or JSON pointer (meaning); FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
 
@@ -76,7 +76,8 @@ FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *
 FFD_API ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
                                       ffd_lattice **lattice, ffd_error *error);
 
-/* Writes the lattice as a file of interface 3, complete or not at all. force: replace an existing file. */
+/* Writes the lattice as a file (data/schema/lattice.md), complete or not at all. force: replace an existing
+ * file. */
 FFD_API ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force,
                                     ffd_error *error);
 

@@ -1,4 +1,4 @@
-/* batch.h - many jobs, by several workers, of which none can harm another (interface 5). */
+/* batch.h - many jobs, by several workers, of which none can harm another (data/schema/formats.md 3). */
 #ifndef FFD_BATCH_BATCH_H
 #define FFD_BATCH_BATCH_H
 

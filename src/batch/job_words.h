@@ -1,5 +1,5 @@
-/* job_words.h - a job as a line of a manifest says it (interface 5), and as the words of `ffd deform` that do
-   it. */
+/* job_words.h - a job as a line of a manifest says it (data/schema/formats.md 3), and as the words of `ffd
+   deform` that do it. */
 #ifndef FFD_BATCH_JOB_WORDS_H
 #define FFD_BATCH_JOB_WORDS_H
 

@@ -1,4 +1,4 @@
-/* attribute.c - normals and tangents under the deformation gradient F = I + gradient (maths.md 8). */
+/* attribute.c - normals and tangents under the deformation gradient F = I + gradient (src/maths.md 9.1). */
 #include "deform/attribute.h"
 #include "base/vector/vec.h"
 #include <float.h>

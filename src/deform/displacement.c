@@ -1,7 +1,7 @@
 #include "deform/displacement.h"
 #include <string.h>
 
-/* Delta form (maths.md 7): sum (Q - P) R, so that an inversion's residual enters only through the
+/* Delta form (src/maths.md 7.1): sum (Q - P) R, so that an inversion's residual enters only through the
    displacement's gradient and a translation is exact to rounding. by_uvw may be NULL. */
 static void sum_differences(const ffd_lattice *lattice, const lattice_basis *basis, double delta[3],
                             double *by_uvw)

@@ -74,7 +74,7 @@ typedef struct spec_settings {
     size_t count;
 } spec_settings;
 
-/* Reads the JSON text of interface 3, with these values for placeholders (NULL: none). Errors as
+/* Reads the JSON text of data/schema/lattice.md, with these values for placeholders (NULL: none). Errors as
    ffd_lattice_parse. */
 ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
                           lattice_spec **spec, ffd_error *error);

@@ -134,7 +134,7 @@ static void write_selection(json_text *json, const lattice_move *move)
         ffd_json_number(json, "weight", move->weight);
 }
 
-/* The actions that are objects: their members in the order of the interface's description. */
+/* The actions that are objects: their members in the order of data/schema/lattice.md. */
 static void write_action_object(json_text *json, const char *key, const lattice_move *move)
 {
     ffd_json_object(json, key, true);

@@ -35,8 +35,8 @@ typedef struct knot_vector {
 } knot_vector;
 
 /* Makes the knots of a kind; list holds the knots or breakpoints of the two list kinds (list_count of them),
-   else NULL. Refuses what maths.md 3 refuses; the message names direction ('u','v','w'), index and value. On
-   failure *knots is empty. */
+   else NULL. Refuses what src/maths.md 3 refuses; the message names direction ('u','v','w'), index and value.
+   On failure *knots is empty. */
 ffd_status ffd_knots_make(knot_kind kind, int degree, size_t points, const double *list, size_t list_count,
                           char direction, knot_vector *knots, ffd_error *error);
 void ffd_knots_free(knot_vector *knots);

@@ -118,7 +118,7 @@ def write_lattice(run, size, degree, points):
 
 
 def verify(spline, bounds, points, found):
-    """What the statuses say of u,v,w, and C(u,v,w) = p up to maths 6.6 and the rounding of this evaluation.
+    """What the statuses say of u,v,w, and C(u,v,w) = p up to src/maths.md 6.6 and the rounding of this evaluation.
     Returns how often each status stands."""
     rows, statuses = found
     equal(len(statuses), len(points))

@@ -173,7 +173,7 @@ def what_is_said(run):
 
 @case
 def a_volume_that_is_less_than_its_control_points(run):
-    """maths.md 4: open knots over given points cover only the middle."""
+    """src/maths.md 4.4: open knots over given points cover only the middle."""
     points = [[x, y, 2 * z] for z in range(-2, 3) for y in range(-2, 3) for x in range(-2, 3)]
     run.write("a.obj", CUBE + "v 1.5 0 0\n")
     start = "a.obj: 1 of 9 vertices are not inside: 1 outside (left where they are)"

@@ -101,8 +101,8 @@ static void taper(const move *m, long double f, const long double v[3], long dou
         p[a] = m->about[a] + along * m->axis[a] + factor * (v[a] - along * m->axis[a]);
 }
 
-/* interface 3's formula, with t' = t cos + R (1 - cos) and 1 - cos = 2 sin^2 of the half: no loss where R is
- * large. */
+/* The formula of data/schema/lattice.md 8.3, with t' = t cos + R (1 - cos) and 1 - cos = 2 sin^2 of the half:
+ * no loss where R is large. */
 static void bend(const move *m, const long double v[3], long double p[3])
 {
     const long double angle = m->amount * acosl(-1) / 180, length = m->high - m->low;

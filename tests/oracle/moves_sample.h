@@ -1,4 +1,5 @@
-/* moves_sample.h - random moves of interface 3, written as JSON and carried out in long double with libm. */
+/* moves_sample.h - random moves (data/schema/lattice.md 8), written as JSON and carried out in long double
+ * with libm. */
 #ifndef FFD_TEST_MOVES_SAMPLE_H
 #define FFD_TEST_MOVES_SAMPLE_H
 

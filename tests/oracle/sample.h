@@ -66,7 +66,7 @@ void sample_free(sample *s);
 
 /* Random sizes, degrees and knots of all kinds. */
 void sample_axes(sample *s, random_source *random, const sample_limits *limits);
-/* One direction with a kind of interface 3 by its name. */
+/* One direction with a kind of data/schema/lattice.md 4 by its name. */
 void sample_named_axis(sample *s, int a, const char *kind, int n, int degree);
 /* Lists the knots of direction a with shift added to each. */
 void sample_shift_knots(sample *s, int a, double shift);
@@ -93,8 +93,8 @@ double sample_widest_angle(const sample *s);
 /* Writes s->json. */
 void sample_write(sample *s);
 
-/* The box' control points by interface 3, in long double, seen from the box' lower corner: so they are as
-   exact far from the origin as near it. */
+/* The box' control points by data/schema/lattice.md 5.1, in long double, seen from the box' lower corner: so
+   they are as exact far from the origin as near it. */
 oracle_volume sample_box_volume(const sample *s, long double corner[3]);
 
 /* A volume of the library's own control points. */

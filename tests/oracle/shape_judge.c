@@ -139,8 +139,8 @@ static long double weight_ratio(const oracle_volume *volume)
     return most / least;
 }
 
-/* maths 6.6 with the lattice's origin anywhere among its control points: in their middle gives the least
-   tolerance (of 16 eps 4 may be C's own rounding), at the farther end of their bounds the largest. */
+/* src/maths.md 6.6 with the lattice's origin anywhere among its control points: in their middle gives the
+   least tolerance (of 16 eps 4 may be C's own rounding), at the farther end of their bounds the largest. */
 static void tolerances(const judge *j, const long double p[3], long double least[3], long double largest[3])
 {
     const long double ratio = weight_ratio(&j->volume);

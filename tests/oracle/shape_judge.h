@@ -33,7 +33,7 @@ void judge_add_within(judge *j, random_source *random);
 void judge_add_near(judge *j, random_source *random, const long double uvw[3], double distance);
 /* A point far from the control points. */
 void judge_add_far(judge *j, random_source *random);
-/* The point so many tolerances (maths 6.6) out of face u_a = face[a], opposite to C(face). */
+/* The point so many tolerances (src/maths.md 6.6) out of face u_a = face[a], opposite to C(face). */
 void judge_add_beside(judge *j, const long double face[3], int a, long double tolerance_count);
 bool judge_find(judge *j);
 

@@ -61,7 +61,7 @@ static long double weight_ratio(const oracle_volume *volume, const long double u
 }
 
 /* Parses s->json and prepares the search. The volume is the file's own box where the way is the affine closed
-   form (maths 5), else the spline of the library's control points. */
+   form (src/maths.md 5), else the spline of the library's control points. */
 static bool open_subject(subject *x, trial *t, sample *s)
 {
     ffd_error error = {.status = FFD_OK};
@@ -103,8 +103,8 @@ static void seen_from_origin(const subject *x, int i, long double p[3])
         p[a] = x->xyz[3 * i + a] - x->origin[a];
 }
 
-/* maths 6.6 with the lattice's origin anywhere among its control points: in their middle gives the least
-   tolerance, at the farther end of their bounds the largest. */
+/* src/maths.md 6.6 with the lattice's origin anywhere among its control points: in their middle gives the
+   least tolerance, at the farther end of their bounds the largest. */
 static void tolerances(const subject *x, const long double p[3], const long double uvw[3],
                        long double least[3], long double largest[3])
 {

@@ -1,4 +1,5 @@
-/* test_oracle_moves.c - moved control points against another implementation of interface 3; cylinders. */
+/* test_oracle_moves.c - moved control points against another implementation of data/schema/lattice.md;
+ * cylinders. */
 #include "moves_sample.h"
 
 #include <math.h>

@@ -340,8 +340,8 @@ static void quarter_tori(void **state)
 }
 
 /* Points of collapsed faces have a set of roots, the least of which stands for them; points next to them have
-   one. Steps from the face are 1e-3, 1e-4, ... of the domain; below 2^-24 (maths 6.5) a point may be called
-   singular. */
+   one. Steps from the face are 1e-3, 1e-4, ... of the domain; below 2^-24 a point may be called singular
+   (src/maths.md 6.5). */
 static void judge_collapsed(judge *j, const shape *x, random_source *random)
 {
     enum { ON = 12, STEPS = 8, CLEAR_STEPS = 5, NEXT = 2 * STEPS, KNOWN = 10, WITHIN = 6 };

@@ -306,8 +306,8 @@ static ffd_lattice *draw_lattice(draw *random)
     return lattice;
 }
 
-/* The triple sum over ALL basis functions, straight from maths.md 1, with the derivative in direction a (or
-   none, a = 3) as a sum too: A and W in sum[0..2] and sum[3]. */
+/* The triple sum over ALL basis functions, straight from src/maths.md 1, with the derivative in direction a
+   (or none, a = 3) as a sum too: A and W in sum[0..2] and sum[3]. */
 static void sum_all(const ffd_lattice *lattice, const double uvw[3], int a, long double sum[4])
 {
     long double value[3][MAX_POINTS + MAX_ORDER];

@@ -13,8 +13,8 @@ import sys
 import tree
 
 TOP = {
-    ".ci", ".clang-format", ".gitattributes", ".gitignore", "CHANGELOG.md", "LICENSE", "README.md", "data", "doc",
-    "include", "meson.build", "meson_options.txt", "src", "subprojects", "tests",
+    ".ci", ".clang-format", ".editorconfig", ".gitattributes", ".gitignore", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE", "README.md",
+    "data", "doc", "include", "meson.build", "meson_options.txt", "src", "subprojects", "tests",
 }
 
 # C++ is for adapters to C++ libraries, behind a C header, and for number text (<charconv>).

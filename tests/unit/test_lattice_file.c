@@ -55,7 +55,7 @@ static const char rich[] = HEAD "\"size\":[4,5,3],\"degree\":[3,2,1],"
                                 "5,0.5,0.5]},{\"matrix\":[1,0,0,0.1,0,1,"
                                 "0,0,0,0,1,0,0,0,0,1]}]}";
 
-/* All forms that the interface shows. */
+/* All forms that data/schema/lattice.md shows. */
 static void test_accepts(void **state)
 {
     (void)state;

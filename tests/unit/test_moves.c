@@ -244,7 +244,7 @@ static void test_taper(void **state)
     ffd_lattice_destroy(&l);
 }
 
-/* The formula of the interface, as it stands there, with the C library's functions. */
+/* The formula of data/schema/lattice.md 8.3, as it stands there, with the C library's functions. */
 static void check_bend(const ffd_lattice *l, double degrees, double about_x)
 {
     const double pi = 3.14159265358979323846, radius = 4 / (degrees * pi / 180);

@@ -84,7 +84,7 @@ typedef struct cell_search {
     atomic_size_t light_leaves, heavy_leaves; /* kept so far */
 } cell_search;
 
-/* 16 eps (max|x_a| + |x|): the tolerance of maths.md 6.6 in the search's units. */
+/* 16 eps (max|x_a| + |x|): the tolerance of src/maths.md 6.6 in the search's units. */
 static inline void ffd_cells_tolerance(const cell_search *cells, const double x[3], double tolerance[3])
 {
     for (int a = 0; a < 3; a++)

@@ -1,5 +1,5 @@
 /* collapse.h - faces and edges of the domain that the lattice collapses: a cylinder's axis, a pole. Their
-   points have whole lines of u,v,w; they are found once and answered directly (maths.md 6.5). */
+   points have whole lines of u,v,w; they are found once and answered directly (src/maths.md 6.5). */
 #ifndef FFD_EMBED_CELLS_COLLAPSE_H
 #define FFD_EMBED_CELLS_COLLAPSE_H
 

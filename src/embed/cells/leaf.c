@@ -1,4 +1,4 @@
-/* leaf.c - the one root of a region, by its contraction (maths.md 6.4). */
+/* leaf.c - the one root of a region, by its contraction (src/maths.md 6.4). */
 #include "embed/cells/leaf.h"
 #include "base/vector/vec.h"
 #include "embed/frame/face.h"

@@ -1,5 +1,5 @@
 /* leaf_subdivision.c - leaves without a contraction bound, near folds and collapses: halved for one point
- * (maths.md 6.5).
+ * (src/maths.md 6.5).
  */
 #include "embed/cells/leaf_subdivision.h"
 #include "base/memory/memory.h"

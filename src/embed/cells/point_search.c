@@ -1,5 +1,5 @@
 /* point_search.c - the search for one point: C and its derivatives beside it, what its tolerance means, and
-   the verdict on what was found (maths.md 6.6, 6.7). */
+   the verdict on what was found (src/maths.md 6.6, 6.7). */
 #include "embed/cells/point_search.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"

@@ -1,5 +1,5 @@
-/* region_kernel.h - the roots of regions of one cell for several points at a time (maths.md 6.4), each in a
-   lane. */
+/* region_kernel.h - the roots of regions of one cell for several points at a time (src/maths.md 6.4), each in
+   a lane. */
 #ifndef FFD_EMBED_CELLS_REGION_KERNEL_H
 #define FFD_EMBED_CELLS_REGION_KERNEL_H
 

@@ -1,6 +1,6 @@
 #include "embed/cells/roots.h"
 
-#define SAME 1e-9 /* of the domain: coordinates this near are equal (maths.md 6.7) */
+#define SAME 1e-9 /* of the domain: coordinates this near are equal (src/maths.md 6.7) */
 
 static double side_of(const ffd_locator *locator, int direction)
 {

@@ -1,4 +1,4 @@
-/* search.c - every u,v,w with C(u,v,w) = p: bricks, leaves, verdict (maths.md 6.4 to 6.7). */
+/* search.c - every u,v,w with C(u,v,w) = p: bricks, leaves, verdict (src/maths.md 6.4 to 6.7). */
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cell_locator.h"

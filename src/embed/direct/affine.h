@@ -1,4 +1,4 @@
-/* affine.h - u,v,w where C is an affine map: one product with the inverse matrix (maths.md 6.2). */
+/* affine.h - u,v,w where C is an affine map: one product with the inverse matrix (src/maths.md 5). */
 #ifndef FFD_EMBED_DIRECT_AFFINE_H
 #define FFD_EMBED_DIRECT_AFFINE_H
 

@@ -1,4 +1,4 @@
-/* separable.h - u,v,w where x depends on u only, y on v, z on w: three monotone curves (maths.md 6.3). */
+/* separable.h - u,v,w where x depends on u only, y on v, z on w: three monotone curves (src/maths.md 5). */
 #ifndef FFD_EMBED_DIRECT_SEPARABLE_H
 #define FFD_EMBED_DIRECT_SEPARABLE_H
 

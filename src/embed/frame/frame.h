@@ -10,7 +10,7 @@
 
 typedef enum locator_method { METHOD_AFFINE, METHOD_SEPARABLE, METHOD_GENERAL } locator_method;
 
-/* C(u,v,w) - origin = frame t, t in [0,1]^3 over the domain (maths.md 5). */
+/* C(u,v,w) - origin = frame t, t in [0,1]^3 over the domain (src/maths.md 5). */
 typedef struct affine_map {
     double frame[9], inverse[9];
 } affine_map;
@@ -39,7 +39,7 @@ struct ffd_locator {
     struct cell_search *cells;
 };
 
-/* tol_a = 16 eps (max|P_a| + |p_a|), p with the origin subtracted (maths.md 6.6). */
+/* tol_a = 16 eps (max|P_a| + |p_a|), p with the origin subtracted (src/maths.md 6.6). */
 static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
 {
     for (int a = 0; a < 3; a++)

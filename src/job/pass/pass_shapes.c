@@ -1,6 +1,6 @@
 /* pass_shapes.c - morph targets in a pass. With D the displacement in the file's own space, a vertex at p
    with the offset m gets m' = m + D(p + m) - D(p); its normals' offset is n'(p + m, n + dn) - n'(p, n),
-   tangents likewise (maths.md 8). */
+   tangents likewise (src/maths.md 9.3). */
 #include "base/vector/vec.h"
 #include "job/pass/tile.h"
 #include <ffd/deform.h>

@@ -1,4 +1,4 @@
-/* report.h - the JSON report of interface 4, entry by entry (public: ffd/job.h). */
+/* report.h - the JSON report (data/schema/formats.md 2), entry by entry (public: ffd/job.h). */
 #ifndef FFD_JOB_REPORT_REPORT_H
 #define FFD_JOB_REPORT_REPORT_H
 

@@ -1,4 +1,4 @@
-/* report_reader.h - goes through a report of interface 4 entry by entry, whatever its size. */
+/* report_reader.h - goes through a report (data/schema/formats.md 2) entry by entry, whatever its size. */
 #ifndef FFD_JOB_REPORT_REPORT_READER_H
 #define FFD_JOB_REPORT_REPORT_READER_H
 

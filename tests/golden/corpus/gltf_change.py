@@ -1,6 +1,6 @@
 """What a deformation changed in a glTF file, value by value and byte by byte, and whether it may.
 
-Allowed (interface, what is promised of the output): min and max of deformed accessors; bytes of their elements;
+Allowed (data/schema/formats.md 8): min and max of deformed accessors; bytes of their elements;
 appended bufferViews, accessors, meshes, buffers, and the references to them; byteLength and URI of buffers; and
 where geometry was compressed, what its decoding takes away."""
 

@@ -31,7 +31,7 @@ function twisted(axis, degrees) {
     });
 }
 
-// The arc of interface "bend": lengths on the axis kept, the low end fixed.
+// The arc of "bend" (data/schema/lattice.md 8.3): lengths on the axis kept, the low end fixed.
 function bent(axis, toward, degrees, about) {
     return (points) => {
         const along = points.map((p) => p[axis]);
