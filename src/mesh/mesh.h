@@ -107,6 +107,9 @@ typedef struct mesh_log {
     void *user;
 } mesh_log;
 
+/* Sends one line to a log. Does nothing if the log is NULL or has no function. */
+void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
+
 /* x = linear p + offset, in place. */
 static inline void ffd_point_place(const double linear[9], const double offset[3], double point[3])
 {

@@ -114,7 +114,6 @@ ffd_status ffd_gltf_save_as_morph(mesh_document *document, const mesh_save_optio
                                   file_output *output, const mesh_log *log, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
-    const gltf_saver talk = {.log = log};
     bool *meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *meshes);
     unsigned char *moved = ffd_alloc_zero(d->base.part_count, GLTF_DEFORMED);
     ffd_status status;
@@ -123,7 +122,7 @@ ffd_status ffd_gltf_save_as_morph(mesh_document *document, const mesh_save_optio
     } else if (mark_moved(d, moved, meshes)) {
         status = save_with_target(d, meshes, options, output, log, error);
     } else {
-        ffd_gltf_log(&talk, FFD_LOG_WARNING, "nothing moves: no morph target is added");
+        ffd_log_line(log, FFD_LOG_WARNING, "nothing moves: no morph target is added");
         drop_results(d);
         status = ffd_gltf_save(document, options, output, log, error);
     }

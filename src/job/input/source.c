@@ -3,8 +3,6 @@
 #include "base/vector/vec.h"
 #include "io/formats.h"
 #include "job/info.h"
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Positions read at once. */
@@ -86,16 +84,4 @@ size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *
                 not_finite++;
     }
     return not_finite;
-}
-
-void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...)
-{
-    char line[1024];
-    va_list arguments;
-    if (!log->function)
-        return;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    log->function(log->user, level, line);
 }

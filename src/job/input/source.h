@@ -28,7 +28,4 @@ size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *
 /* What a source is called in messages. */
 const char *ffd_source_name(const ffd_source *source);
 
-/* One line to a log. Does nothing where there is none. */
-void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
-
 #endif

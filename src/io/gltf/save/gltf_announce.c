@@ -4,9 +4,9 @@
 static void tell(const gltf_saver *saver, size_t count, const char *one, const char *many)
 {
     if (count == 1)
-        ffd_gltf_log(saver, FFD_LOG_WARNING, "1 %s", one);
+        ffd_log_line(saver->log, FFD_LOG_WARNING, "1 %s", one);
     else if (count > 1)
-        ffd_gltf_log(saver, FFD_LOG_WARNING, "%zu %s", count, many);
+        ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s", count, many);
 }
 
 /* What the scene shows otherwise than the parts do, or does not show at all. */

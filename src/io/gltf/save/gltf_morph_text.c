@@ -104,7 +104,7 @@ static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte
         ffd_buffer_format(text, "\"target_%zu\",", t);
     write_name(saver->document->morph_name, text);
     if (first < count)
-        ffd_gltf_log(saver, FFD_LOG_INFO,
+        ffd_log_line(saver->log, FFD_LOG_INFO,
                      "the targets of mesh %zu without a name are called target_%zu to "
                      "target_%zu",
                      mesh, first, count - 1);
@@ -118,7 +118,8 @@ static void edit_names(gltf_saver *saver, size_t mesh, uint32_t names)
     byte_buffer text = {0};
     for (uint32_t v = ffd_json_span_first(tree, names); v != JSON_NONE; v = ffd_json_span_after(tree, v))
         if (ffd_json_span_string_is(tree, v, saver->document->morph_name))
-            ffd_gltf_log(saver, FFD_LOG_WARNING, "mesh %zu has a morph target of that name already", mesh);
+            ffd_log_line(saver->log, FFD_LOG_WARNING, "mesh %zu has a morph target of that name already",
+                         mesh);
     write_names(saver, mesh, named < count ? named : count, &text);
     if (named <= count) {
         ffd_gltf_insert_last(saver, names, &text);
@@ -139,7 +140,7 @@ static void add_names(gltf_saver *saver, size_t mesh)
     byte_buffer text = {0};
     if ((extras != JSON_NONE && tree->values[extras].kind != JSON_OBJECT) ||
         (names != JSON_NONE && !is_array(saver, names))) {
-        ffd_gltf_log(saver, FFD_LOG_WARNING,
+        ffd_log_line(saver->log, FFD_LOG_WARNING,
                      "mesh %zu: its extras have no place for the name of the morph target", mesh);
         return;
     }

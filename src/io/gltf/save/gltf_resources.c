@@ -126,7 +126,7 @@ static ffd_status copy_image(const resources *r, size_t image, const char *path,
     if (status)
         goto done;
     if (!ffd_path_leads_out(path) && !ffd_file_exists(source)) {
-        ffd_gltf_log(r->saver, FFD_LOG_WARNING, "the image \"%s\" is missing and was not copied", path);
+        ffd_log_line(r->saver->log, FFD_LOG_WARNING, "the image \"%s\" is missing and was not copied", path);
         goto done;
     }
     if (!ffd_path_leads_out(path))

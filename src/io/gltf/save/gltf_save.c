@@ -2,21 +2,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/file/base64.h"
 #include "io/gltf/save/gltf_morph.h"
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
-
-void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...)
-{
-    if (!saver->log || !saver->log->function)
-        return;
-    char line[512];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    saver->log->function(saver->log->user, level, line);
-}
 
 static ffd_status put(const gltf_saver *saver, const void *bytes, size_t size, ffd_error *error)
 {
@@ -207,7 +193,7 @@ static void warn_of_chunks(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
     if (d->binary && !saver->binary && d->glb.rest_begin < d->glb.end)
-        ffd_gltf_log(saver, FFD_LOG_WARNING,
+        ffd_log_line(saver->log, FFD_LOG_WARNING,
                      "a .gltf cannot hold: the GLB's further chunks (%zu bytes), which are left out",
                      d->glb.end - d->glb.rest_begin);
 }

@@ -58,8 +58,6 @@ typedef struct gltf_saver {
     bool replaces; /* some buffer file that exists is replaced */
 } gltf_saver;
 
-void ffd_gltf_log(const gltf_saver *saver, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
-
 /* gltf_announce.c: tells what was left alone, copied or stored otherwise; comes after all else is known. */
 void ffd_gltf_announce(const gltf_saver *saver);
 

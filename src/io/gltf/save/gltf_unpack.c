@@ -158,7 +158,7 @@ void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t plac
         if (!ffd_gltf_is_unpacked(saver, mesh, p, place))
             continue;
         remove_extensions(&d->tree, ffd_gltf_primitive_value(d, mesh, p), names, 1, edits);
-        ffd_gltf_log(saver, FFD_LOG_INFO,
+        ffd_log_line(saver->log, FFD_LOG_INFO,
                      "primitive %zu of mesh %zu is written uncompressed (it was " DRACO "): it is deformed",
                      p, mesh);
     }
@@ -183,7 +183,7 @@ static void edit_view(gltf_saver *saver, const gltf_unpacking *unpacking)
     set_number(&d->tree, view, "buffer", unpacking->buffer, &saver->edits);
     set_number(&d->tree, view, "byteOffset", unpacking->offset, &saver->edits);
     remove_extensions(&d->tree, view, names, 2, &saver->edits);
-    ffd_gltf_log(saver, FFD_LOG_INFO,
+    ffd_log_line(saver->log, FFD_LOG_INFO,
                  "bufferView %zu is written uncompressed (it was %s): what it holds is deformed",
                  unpacking->view, ffd_gltf_has_extension(d, view, names[0]) ? names[0] : names[1]);
 }
