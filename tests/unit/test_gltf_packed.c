@@ -10,7 +10,7 @@
 #include "../support/draco_sample.h"
 #include "../support/gltf_file.h"
 #include "../support/sheet.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/file/base64.h"
 #include "mesh/difference.h"
 #include <meshoptimizer.h>

@@ -9,7 +9,7 @@
 
 #include "../support/gltf_file.h"
 #include "io/gltf/decode/gltf_encode.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
 #include <math.h>
 #include <unistd.h>
 

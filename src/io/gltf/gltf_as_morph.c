@@ -1,8 +1,13 @@
 /* gltf_as_morph.c - the deformation as a further morph target. The file with a target of zeros is opened as a
    document of its own; what this one has as results become the results of that target, and it is saved. */
+#include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "io/gltf/save/gltf_morph.h"
+#include "io/gltf/gltf_open.h"
+#include "io/gltf/save/gltf_morph_text.h"
+#include "io/gltf/save/gltf_save.h"
+#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/scene/gltf_results.h"
 #include <string.h>
 
 ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_error *error)
@@ -93,7 +98,7 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
         ((gltf_document *)other)->own_accessors =
             ffd_gltf_of(other)->model.accessor_count - d->model.accessor_count;
         lend_results(d, meshes, false, (gltf_document *)other);
-        status = ffd_gltf_save(other, options, output, log, error);
+        status = ffd_gltf_save_results(other, options, output, log, error);
         lend_results(d, meshes, true, (gltf_document *)other);
     }
     ffd_gltf_close(other);
@@ -110,8 +115,8 @@ static void drop_results(gltf_document *d)
     d->morph_name = NULL;
 }
 
-ffd_status ffd_gltf_save_as_morph(mesh_document *document, const mesh_save_options *options,
-                                  file_output *output, const mesh_log *log, ffd_error *error)
+static ffd_status save_as_morph(mesh_document *document, const mesh_save_options *options,
+                                file_output *output, const mesh_log *log, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
     bool *meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *meshes);
@@ -124,9 +129,16 @@ ffd_status ffd_gltf_save_as_morph(mesh_document *document, const mesh_save_optio
     } else {
         ffd_log_line(log, FFD_LOG_WARNING, "nothing moves: no morph target is added");
         drop_results(d);
-        status = ffd_gltf_save(document, options, output, log, error);
+        status = ffd_gltf_save_results(document, options, output, log, error);
     }
     ffd_free(meshes);
     ffd_free(moved);
     return status;
+}
+
+ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                         const mesh_log *log, ffd_error *error)
+{
+    return ffd_gltf_of(document)->morph_name ? save_as_morph(document, options, output, log, error)
+                                             : ffd_gltf_save_results(document, options, output, log, error);
 }

@@ -1,38 +1,10 @@
-/* gltf_compare.h - comparing two glTF files: their JSON, and what their buffers hold. */
+/* gltf_compare.h - compares two glTF files: their JSON, and what their buffers hold. */
 #ifndef FFD_IO_GLTF_GLTF_COMPARE_H
 #define FFD_IO_GLTF_GLTF_COMPARE_H
 
 #include "io/gltf/document/gltf_document.h"
-#include "mesh/difference.h"
 
-/* Of an accessor that has other "min" or "max" in the second file: the first such number in either. */
-typedef struct gltf_bound {
-    uint32_t in_a, in_b; /* values of the JSON; 0: none */
-} gltf_bound;
-
-typedef struct gltf_comparer {
-    const gltf_document *a, *b;
-    ffd_comparison *result;
-    /* For each accessor of a: */
-    uint8_t *kinds;  /* ffd_difference_kind: what its elements are */
-    uint8_t *states; /* of gltf_elements */
-    gltf_bound *bounds;
-    /* For each bufferView of a: */
-    bool *is_same;     /* all bytes are, decoded if they can be */
-    bool *is_unpacked; /* of Draco data, whose elements are compared in its place */
-    /* Where the JSON says other things of accessors, bufferViews or meshes, the elements are not matched. */
-    bool other_storage;
-    mesh_room room; /* for going over elements; a copy of a's */
-    ffd_error *error;
-} gltf_comparer;
-
-/* What is known of an accessor's elements, beyond the bytes of their bufferViews. */
-typedef enum gltf_elements { GLTF_NOT_COMPARED, GLTF_ALL_SAME, GLTF_DIFFER } gltf_elements;
-
-/* gltf_compare_json.c: compares the JSON, but for the bounds of what may differ by a tolerance (ignored), and
-   of what else can be measured (which go to bounds). */
-ffd_status ffd_gltf_compare_json(gltf_comparer *c);
-/* Says what a bound differs in. */
-void ffd_gltf_differ_in_bound(gltf_comparer *c, const gltf_bound *bound);
+/* mesh_format's compare. */
+mesh_compare_function ffd_gltf_compare;
 
 #endif

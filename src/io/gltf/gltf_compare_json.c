@@ -1,5 +1,5 @@
+#include "io/gltf/gltf_compare_json.h"
 #include "base/memory/memory.h"
-#include "io/gltf/gltf_compare.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,9 @@
+#include "io/gltf/gltf_extract.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/scene/gltf_skin.h"
 #include <string.h>
 
 typedef struct extractor {

@@ -1,5 +1,17 @@
 #include "io/formats.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/gltf_as_morph.h"
+#include "io/gltf/gltf_compare.h"
+#include "io/gltf/gltf_describe.h"
+#include "io/gltf/gltf_extract.h"
+#include "io/gltf/gltf_open.h"
+#include "io/gltf/save/gltf_resources.h"
+#include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/scene/gltf_instancing.h"
+#include "io/gltf/scene/gltf_refuse.h"
+#include "io/gltf/scene/gltf_results.h"
+#include "io/gltf/scene/gltf_select.h"
+#include "io/gltf/scene/gltf_skin.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)

@@ -1,8 +1,16 @@
+#include "io/gltf/gltf_open.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_check.h"
+#include "io/gltf/decode/gltf_indices.h"
 #include "io/gltf/model/gltf_schema.h"
+#include "io/gltf/scene/gltf_instancing.h"
+#include "io/gltf/scene/gltf_parts.h"
+#include "io/gltf/scene/gltf_results.h"
+#include "io/gltf/scene/gltf_scene.h"
+#include "io/gltf/scene/gltf_shapes.h"
+#include "io/gltf/scene/gltf_skin.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,7 @@
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_check.h"
+#include "io/gltf/decode/gltf_draco.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/decode/gltf_views.h"
 #include <stdarg.h>
 #include <stdio.h>
 

@@ -1,7 +1,8 @@
+#include "io/gltf/decode/gltf_draco.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/draco.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_views.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 #include "io/gltf/decode/gltf_encode.h"
 #include "base/little_endian.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
 #include <math.h>
 #include <string.h>
 

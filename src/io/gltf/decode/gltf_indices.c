@@ -1,7 +1,8 @@
+#include "io/gltf/decode/gltf_indices.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
 
 /* Elements that are read at a time. */
 #define BLOCK ((size_t)256)

@@ -1,6 +1,7 @@
+#include "io/gltf/decode/gltf_read.h"
 #include "base/little_endian.h"
 #include "base/vector/array_kernel.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_views.h"
 #include <string.h>
 
 #define LARGEST_ELEMENT 64 /* MAT4 of floats */

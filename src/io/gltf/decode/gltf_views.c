@@ -1,6 +1,6 @@
+#include "io/gltf/decode/gltf_views.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/meshopt_view.h"
-#include "io/gltf/document/gltf_document.h"
 #include <string.h>
 
 /* A view may be longer than its elements by what aligns the next one. */

@@ -153,12 +153,9 @@ typedef struct gltf_document {
                         that is deformed */
 } gltf_document;
 
-/* The format's open function, with the room that the document has: another one may be in memory too. */
-ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const mesh_room *room,
-                                mesh_document **document, ffd_error *error);
-
 /* Gives back the memory of the files' bytes, which are read again when they are needed. */
 void ffd_gltf_forget(const gltf_document *document);
+
 /* The same for those of one buffer's bytes [offset, offset + size) that it has. */
 void ffd_gltf_forget_bytes(const gltf_document *document, const gltf_buffer *buffer, size_t offset,
                            size_t size);
@@ -168,138 +165,22 @@ static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
     return (const gltf_document *)document;
 }
 
-/* Number of the value of primitive p of mesh m in the JSON. */
-uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
-/* value's extension of this name; JSON_NONE: it has none. */
-uint32_t ffd_gltf_extension(const gltf_document *document, uint32_t value, const char *extension);
-/* Whether value's "extensions" has one of this name. */
-bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const char *extension);
-extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
-
-/* gltf_check.c: validates every index, offset, count and stride of the model, and fills layouts. */
-ffd_status ffd_gltf_check(gltf_document *document, ffd_error *error);
-/* gltf_views.c: decodes the bufferViews that are compressed. Comes within ffd_gltf_check. What is not
-   supported is left out. */
-ffd_status ffd_gltf_decode_views(gltf_document *document, ffd_error *error);
-/* The meshopt extension of a view; JSON_NONE: it is not compressed. */
-uint32_t ffd_gltf_meshopt_value(const gltf_document *document, size_t view);
-/* The bytes of a view, decoded; NULL: there are none. */
-const unsigned char *ffd_gltf_view_bytes(const gltf_document *document, size_t view);
-/* The bytes that a compressed view is stored in; NULL: it is not compressed, or they are not there. */
-const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *document, size_t view, size_t *size);
-/* Says why a compressed view was left out. */
-ffd_status ffd_gltf_refuse_view(const gltf_document *document, size_t view, ffd_error *error);
-/* gltf_draco.c: likewise for the primitives that are compressed, of meshes that are checked. */
-ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
-uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);
-ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, size_t primitive,
-                                 ffd_error *error);
-/* gltf_indices.c: refuses indices that are not below their primitive's number of vertices. */
-ffd_status ffd_gltf_check_indices(const gltf_document *document, ffd_error *error);
-/* gltf_scene.c: which nodes are shown, and their matrices. Refuses cycles and second parents. */
-ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
-/* The node's own matrix, linear row by row and offset. */
-void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3]);
-/* joined (12 numbers) = parent (likewise) * (linear, offset). */
-void ffd_gltf_join_matrix(const double parent[12], const double linear[9], const double offset[3],
-                          double joined[12]);
-/* gltf_skin.c. list: reads the skins. place: gives the skins of shown nodes their matrices, and checks what
-   weighs them. */
-ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
-ffd_status ffd_gltf_place_skins(gltf_document *document, ffd_error *error);
-void ffd_gltf_free_skins(gltf_document *document);
-/* mesh.h's read_transforms. */
-mesh_read_function ffd_gltf_read_transforms;
-/* gltf_parts.c */
-ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
-/* gltf_shapes.c: the morph targets of the parts. Comes after ffd_gltf_make_parts. */
-ffd_status ffd_gltf_make_shapes(gltf_document *document, ffd_error *error);
-/* gltf_instancing.c. make: finds the nodes with EXT_mesh_gpu_instancing; nothing of them is selected. Comes
-   after ffd_gltf_make_parts. */
-ffd_status ffd_gltf_make_crowds(gltf_document *document, ffd_error *error);
-/* That of a node; NULL: it shows its mesh once, or not at all. */
-gltf_crowd *ffd_gltf_crowd_of(const gltf_document *document, size_t node);
-mesh_check_reach_function ffd_gltf_check_reach;
 /* Parts and shapes. */
 static inline size_t ffd_gltf_part_count(const gltf_document *document)
 {
     return document->base.part_count + document->shape_count;
 }
-/* gltf_refuse.c: valid, but more than can be done. read: what would make the positions wrong or unreadable;
-   store: what cannot be written back. */
-ffd_status ffd_gltf_refuse_read(const gltf_document *document, ffd_error *error);
-ffd_status ffd_gltf_refuse_store(const gltf_document *document, bool normals, bool tangents,
-                                 ffd_error *error);
 
-/* Refuses a primitive whose accessor cannot be read. */
-ffd_status ffd_gltf_refuse_unreadable(const gltf_document *document, size_t mesh, size_t primitive,
-                                      int accessor, ffd_error *error);
+/* Returns the JSON value of a primitive of a mesh. */
+uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
 
-/* gltf_faces.c: adds what the primitives of a mesh draw, once. */
-void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *triangles, size_t *lines,
-                            size_t *points);
+/* Returns a value's extension of this name; JSON_NONE if it has none. */
+uint32_t ffd_gltf_extension(const gltf_document *document, uint32_t value, const char *extension);
 
-/* gltf_faces.c: the vertices (0, 1, ..) that a primitive with positions draws, one after the other, for the
-   caller to free; NULL after a failure. */
-ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,
-                                 uint32_t **corners, size_t *count, ffd_error *error);
+/* Whether a value has an extension of this name. */
+bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const char *extension);
 
-/* gltf_faces.c: the most that it gives of any primitive. */
-uint64_t ffd_gltf_most_corners(const gltf_document *document);
-
-/* gltf_faces.c: the vertices of triangle t among a primitive's corners. Every second triangle of a strip is
-   turned round (glTF 2.0, 3.7.2.1). */
-void ffd_gltf_triangle(int mode, size_t t, const uint32_t *corners, uint32_t triangle[3]);
-
-/* gltf_read.c: elements [first, first + count) of an accessor as double, `components` values of each (the
- * first ones). */
-void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first, size_t count,
-                   size_t components, double *values);
-/* The bytes of element i of a readable accessor: those of its sparse value, of its bufferView, or zeros. */
-const unsigned char *ffd_gltf_element(const gltf_document *document, size_t accessor, size_t i);
-/* The first 3 components of an element as results hold them (gltf_stream): floats bit for bit. */
-void ffd_gltf_original(const gltf_document *document, size_t accessor, size_t i, float values[3]);
-/* Those of elements [first, first + count). */
-void ffd_gltf_originals(const gltf_document *document, size_t accessor, size_t first, size_t count,
-                        float *values);
-/* The number that a component's bytes stand for. */
-double ffd_gltf_read_number(const unsigned char *at, int component, bool normalized);
-/* Element i of a sparse.indices or index accessor. */
-uint32_t ffd_gltf_read_index(const unsigned char *at, int component);
-size_t ffd_gltf_component_size(int component);
-
-/* gltf_bounds.c: of so many vectors. */
-gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count);
-
-/* gltf_results.c */
-mesh_begin_results_function ffd_gltf_begin_results;
-/* Brings the originals to where nothing has been handed back. */
-void ffd_gltf_complete_results(gltf_document *document);
-void ffd_gltf_free_result(gltf_stream *stream);
-mesh_write_function ffd_gltf_write_positions;
-mesh_write_function ffd_gltf_write_normals;
-mesh_write_function ffd_gltf_write_tangents;
-mesh_write_offsets_function ffd_gltf_write_offsets;
-
-/* gltf_open.c: entries of the table (mesh.h). */
-mesh_open_function ffd_gltf_open;
-mesh_close_function ffd_gltf_close;
-mesh_list_files_function ffd_gltf_list_files;
-
-/* gltf_resources.c: mesh.h's list_images. */
-mesh_list_files_function ffd_gltf_list_images;
-
-/* gltf_as_morph.c: mesh.h's keep_base. */
-mesh_keep_base_function ffd_gltf_keep_base;
-
-/* gltf_select.c, gltf_save.c, gltf_describe.c, gltf_faces.c, gltf_extract.c, gltf_compare.c: entries of the
-   table (mesh.h). */
-mesh_select_function ffd_gltf_select;
-mesh_save_function ffd_gltf_save;
-mesh_model_function ffd_gltf_extract;
-mesh_describe_function ffd_gltf_describe;
-mesh_faces_function ffd_gltf_faces;
-mesh_corner_normals_function ffd_gltf_corner_normals;
-mesh_compare_function ffd_gltf_compare;
+/* The names of the deformed attributes: "POSITION" and so on. */
+extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];
 
 #endif

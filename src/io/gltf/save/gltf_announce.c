@@ -1,4 +1,6 @@
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_announce.h"
+#include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_unpack.h"
 
 /* One line of what was left alone or stored otherwise; all the single ones are told where they are made. */
 static void tell(const gltf_saver *saver, size_t count, const char *one, const char *many)

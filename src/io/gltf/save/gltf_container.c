@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_container.h"
 #include <string.h>
 
 static gltf_buffer_kind kind_in_glb(const gltf_buffer *buffer, size_t number)

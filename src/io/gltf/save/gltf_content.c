@@ -1,7 +1,10 @@
+#include "io/gltf/save/gltf_content.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_encode.h"
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_unpack.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,9 +1,10 @@
 /* gltf_content_write.c - writes the new content of a buffer: threads make its pieces ready, in order they are
    written. */
+#include "io/gltf/save/gltf_content_write.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/gltf/file/base64.h"
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_content.h"
 #include <stdatomic.h>
 
 /* Bytes of a piece, multiples of 3, so that pieces of base64 join: many, for each changes hands; fewer where

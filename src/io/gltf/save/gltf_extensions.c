@@ -1,6 +1,8 @@
 /* gltf_extensions.c - the extensions that the output no longer needs. */
+#include "io/gltf/save/gltf_extensions.h"
 #include "base/memory/memory.h"
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_unpack.h"
 #include <string.h>
 
 #define TEXCOORD "TEXCOORD_"

@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_lists.h"
 
 /* Where the elements of a list at the top of the JSON end, or the top itself if it lacks the list. */
 static uint32_t find_end(const gltf_document *d, const gltf_values *list, uint32_t array)
@@ -65,4 +65,19 @@ void ffd_gltf_add_buffer(gltf_saver *saver)
     }
     ffd_edits_format(&saver->edits, opened.at, opened.at, "}");
     end_list(saver, &opened);
+}
+
+void ffd_gltf_insert_last(gltf_saver *saver, uint32_t container, const byte_buffer *text)
+{
+    const json_span *tree = &saver->document->tree;
+    uint32_t last = JSON_NONE;
+    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+        last = v;
+    const uint32_t at = last == JSON_NONE ? tree->values[container].begin + 1 : tree->values[last].end;
+    saver->edits.failed = saver->edits.failed || text->failed;
+    if (text->failed)
+        return;
+    if (last != JSON_NONE)
+        ffd_edits_format(&saver->edits, at, at, ",");
+    ffd_edits_replace(&saver->edits, at, at, text->data, text->size);
 }

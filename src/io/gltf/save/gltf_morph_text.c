@@ -1,7 +1,10 @@
+#include "io/gltf/save/gltf_morph_text.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/file/base64.h"
-#include "io/gltf/save/gltf_morph.h"
+#include "io/gltf/save/gltf_lists.h"
+#include "io/gltf/save/gltf_morph_weights.h"
+#include "io/gltf/save/gltf_saver.h"
 #include <string.h>
 
 /* A saver that only edits the JSON. */
@@ -11,30 +14,6 @@ typedef struct morph_writer {
     size_t *zeros[2]; /* of an accessor: the new one of zeros of as many elements; 1: with bounds */
     morph_data data;
 } morph_writer;
-
-size_t ffd_gltf_target_count(const gltf_document *d, size_t mesh)
-{
-    size_t count = 0;
-    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        if (d->model.meshes[mesh].primitives[p].target_count > count)
-            count = d->model.meshes[mesh].primitives[p].target_count;
-    return count;
-}
-
-void ffd_gltf_insert_last(gltf_saver *saver, uint32_t container, const byte_buffer *text)
-{
-    const json_span *tree = &saver->document->tree;
-    uint32_t last = JSON_NONE;
-    for (uint32_t v = ffd_json_span_first(tree, container); v != JSON_NONE; v = ffd_json_span_after(tree, v))
-        last = v;
-    const uint32_t at = last == JSON_NONE ? tree->values[container].begin + 1 : tree->values[last].end;
-    saver->edits.failed = saver->edits.failed || text->failed;
-    if (text->failed)
-        return;
-    if (last != JSON_NONE)
-        ffd_edits_format(&saver->edits, at, at, ",");
-    ffd_edits_replace(&saver->edits, at, at, text->data, text->size);
-}
 
 static bool is_array(const gltf_saver *saver, uint32_t value)
 {

@@ -1,6 +1,8 @@
+#include "io/gltf/save/gltf_morph_weights.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "io/gltf/save/gltf_morph.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/save/gltf_lists.h"
 #include <math.h>
 #include <string.h>
 
@@ -14,6 +16,15 @@ typedef struct animation {
     size_t *copies;  /* the number of its copy; GLTF_NONE */
     size_t copy_count;
 } animation;
+
+size_t ffd_gltf_target_count(const gltf_document *d, size_t mesh)
+{
+    size_t count = 0;
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        if (d->model.meshes[mesh].primitives[p].target_count > count)
+            count = d->model.meshes[mesh].primitives[p].target_count;
+    return count;
+}
 
 static bool read_index(const gltf_saver *saver, uint32_t object, const char *key, size_t count, size_t *index)
 {

@@ -1,7 +1,8 @@
+#include "io/gltf/save/gltf_output_names.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/file/uri.h"
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_container.h"
 #include <string.h>
 
 /* "OUT-stem.bin" for the first external buffer, "OUT-stem-1.bin" for the next. */

@@ -1,3 +1,4 @@
+#include "io/gltf/save/gltf_overlap.h"
 #include "base/memory/memory.h"
 #include "io/gltf/save/gltf_plan.h"
 #include <stdlib.h>

@@ -1,5 +1,13 @@
+#include "io/gltf/save/gltf_patch.h"
 #include "base/memory/memory.h"
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/save/gltf_bounds.h"
+#include "io/gltf/save/gltf_container.h"
+#include "io/gltf/save/gltf_content.h"
+#include "io/gltf/save/gltf_extensions.h"
+#include "io/gltf/save/gltf_lists.h"
+#include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_unpack.h"
 
 static const json_value *value_of(const gltf_saver *saver, uint32_t value)
 {

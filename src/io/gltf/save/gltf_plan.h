@@ -40,18 +40,11 @@ typedef struct gltf_plan {
     size_t appended_count;
 } gltf_plan;
 
-/* Whether some value changed at all is plan->version_count > 0. Errors: FFD_E_MEMORY. */
-ffd_status ffd_gltf_make_plan(const gltf_document *document, gltf_plan *plan, ffd_error *error);
-void ffd_gltf_free_plan(gltf_plan *plan);
-
-/* The version that primitive p of a mesh shows at a place (of its showing; GLTF_NONE: the original). */
+/* Returns the version that primitive p of a mesh shows at a place of its showing; GLTF_NONE: the original. */
 size_t ffd_gltf_version_at(const gltf_document *document, const gltf_plan *plan, size_t mesh, size_t p,
                            size_t slot, size_t place);
 
-/* gltf_overlap.c: takes back the in-place versions that would change bytes which something else wants
- * otherwise. */
-ffd_status ffd_gltf_resolve_overlaps(const gltf_document *document, gltf_plan *plan, ffd_error *error);
-/* gltf_users.c: marks the accessors that something else than a deformed attribute uses. */
-void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
+/* Frees the plan's arrays. */
+void ffd_gltf_free_plan(gltf_plan *plan);
 
 #endif

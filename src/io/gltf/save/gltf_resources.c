@@ -1,9 +1,9 @@
+#include "io/gltf/save/gltf_resources.h"
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
 #include "io/gltf/file/uri.h"
-#include "io/gltf/save/gltf_saver.h"
 #include <string.h>
 
 /* An image that is to be copied. */

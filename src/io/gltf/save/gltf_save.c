@@ -1,7 +1,19 @@
+#include "io/gltf/save/gltf_save.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/file/base64.h"
-#include "io/gltf/save/gltf_morph.h"
+#include "io/gltf/save/gltf_announce.h"
+#include "io/gltf/save/gltf_container.h"
+#include "io/gltf/save/gltf_content.h"
+#include "io/gltf/save/gltf_content_write.h"
+#include "io/gltf/save/gltf_make_plan.h"
+#include "io/gltf/save/gltf_output_names.h"
+#include "io/gltf/save/gltf_patch.h"
+#include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_resources.h"
+#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/save/gltf_unpack.h"
+#include "io/gltf/scene/gltf_results.h"
 #include <string.h>
 
 static ffd_status put(const gltf_saver *saver, const void *bytes, size_t size, ffd_error *error)
@@ -198,12 +210,10 @@ static void warn_of_chunks(const gltf_saver *saver)
                      d->glb.end - d->glb.rest_begin);
 }
 
-ffd_status ffd_gltf_save(mesh_document *document, const mesh_save_options *options, file_output *output,
-                         const mesh_log *log, ffd_error *error)
+ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_options *options,
+                                 file_output *output, const mesh_log *log, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
-    if (d->morph_name)
-        return ffd_gltf_save_as_morph(document, options, output, log, error);
     ffd_gltf_complete_results((gltf_document *)document);
     gltf_saver saver = {.document = d, .options = options, .output = output, .log = log};
     saver.binary = options->format == FFD_FORMAT_AUTO ? d->binary : options->format == FFD_FORMAT_GLB;

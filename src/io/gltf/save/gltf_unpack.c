@@ -1,6 +1,10 @@
 /* gltf_unpack.c - which compressed data the output holds decoded: where something in it changed. */
+#include "io/gltf/save/gltf_unpack.h"
 #include "base/memory/memory.h"
-#include "io/gltf/save/gltf_saver.h"
+#include "io/gltf/decode/gltf_draco.h"
+#include "io/gltf/decode/gltf_views.h"
+#include "io/gltf/save/gltf_bounds.h"
+#include "io/gltf/save/gltf_plan.h"
 
 #define DRACO "KHR_draco_mesh_compression"
 

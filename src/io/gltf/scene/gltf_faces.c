@@ -1,5 +1,7 @@
+#include "io/gltf/scene/gltf_faces.h"
 #include "base/memory/memory.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_refuse.h"
 
 #define MOST_TRIANGLES INT32_MAX
 

@@ -1,8 +1,10 @@
 /* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh in many places, which cannot get results
    of their own. Their vertices stay, and boxes tell where these stand. */
+#include "io/gltf/scene/gltf_instancing.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_scene.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,7 +1,7 @@
+#include "io/gltf/scene/gltf_parts.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
 #include "base/vector/vec.h"
-#include "io/gltf/document/gltf_document.h"
 #include <string.h>
 
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)

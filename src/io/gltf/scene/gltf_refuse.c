@@ -1,5 +1,7 @@
+#include "io/gltf/scene/gltf_refuse.h"
 #include "base/memory/memory.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_draco.h"
+#include "io/gltf/decode/gltf_views.h"
 #include <string.h>
 
 static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *error, const char *what)

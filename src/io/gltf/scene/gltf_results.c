@@ -1,7 +1,9 @@
+#include "io/gltf/scene/gltf_results.h"
 #include "base/memory/memory.h"
 #include "base/vector/array_kernel.h"
 #include "io/gltf/decode/gltf_encode.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_refuse.h"
 #include <string.h>
 
 static size_t tiles_of(size_t count)
@@ -33,6 +35,34 @@ static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *
             stream->is_there[t] = 1;
         else if (!stream->is_there[t])
             begin_tile(d, part, stream, t);
+}
+
+/* So many vectors at a time, of which compilers make vectors of their own. */
+#define GROUP 4
+
+gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count)
+{
+    float least[3 * GROUP], largest[3 * GROUP];
+    size_t first = 0;
+    for (size_t k = 0; k < 3 * GROUP; k++) {
+        least[k] = HUGE_VALF;
+        largest[k] = -HUGE_VALF;
+    }
+    for (; count - first >= GROUP; first += GROUP)
+        for (size_t k = 0; k < 3 * GROUP; k++) {
+            const float value = xyz[3 * first + k];
+            least[k] = value < least[k] ? value : least[k];
+            largest[k] = value > largest[k] ? value : largest[k];
+        }
+    for (size_t k = 3 * first; k < 3 * count; k++) {
+        least[k % 3] = xyz[k] < least[k % 3] ? xyz[k] : least[k % 3];
+        largest[k % 3] = xyz[k] > largest[k % 3] ? xyz[k] : largest[k % 3];
+    }
+    for (size_t k = 3; k < 3 * GROUP; k++) {
+        least[k % 3] = least[k] < least[k % 3] ? least[k] : least[k % 3];
+        largest[k % 3] = largest[k] > largest[k % 3] ? largest[k] : largest[k % 3];
+    }
+    return (gltf_tile_bounds){{least[0], least[1], least[2]}, {largest[0], largest[1], largest[2]}};
 }
 
 /* What a tile that is at hand has now. */

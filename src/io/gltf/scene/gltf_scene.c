@@ -1,6 +1,6 @@
+#include "io/gltf/scene/gltf_scene.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "io/gltf/document/gltf_document.h"
 #include <math.h>
 #include <string.h>
 

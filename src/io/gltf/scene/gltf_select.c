@@ -1,6 +1,8 @@
 /* gltf_select.c - which primitives under which nodes `--only` leaves, and which vertices these draw. */
+#include "io/gltf/scene/gltf_select.h"
 #include "base/memory/memory.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/scene/gltf_instancing.h"
 #include <string.h>
 
 typedef struct selecting {

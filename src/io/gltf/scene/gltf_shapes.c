@@ -1,7 +1,7 @@
 /* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives name it. */
+#include "io/gltf/scene/gltf_shapes.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
-#include "io/gltf/document/gltf_document.h"
 #include <string.h>
 
 /* A morph target of a part. */

@@ -1,7 +1,9 @@
 /* gltf_skin.c - skins in their default pose: the matrix of every vertex (glTF 2.0, 3.7.3). */
+#include "io/gltf/scene/gltf_skin.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include "io/gltf/document/gltf_document.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_scene.h"
 #include <stdio.h>
 #include <string.h>
 

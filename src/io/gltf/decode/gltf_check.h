@@ -1,0 +1,11 @@
+/* gltf_check.h - checks what a file states before anything of it is used. */
+#ifndef FFD_IO_GLTF_DECODE_GLTF_CHECK_H
+#define FFD_IO_GLTF_DECODE_GLTF_CHECK_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Checks every index, offset, count and stride of the model, decodes what is compressed, and fills
+   document->layouts. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_check(gltf_document *document, ffd_error *error);
+
+#endif

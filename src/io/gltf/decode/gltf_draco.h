@@ -1,0 +1,18 @@
+/* gltf_draco.h - primitives of KHR_draco_mesh_compression, decoded into their accessors. */
+#ifndef FFD_IO_GLTF_DECODE_GLTF_DRACO_H
+#define FFD_IO_GLTF_DECODE_GLTF_DRACO_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Decodes the compressed primitives of meshes that are checked; called by ffd_gltf_check. A primitive whose
+   data is not supported is left out. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_decode_draco(gltf_document *document, ffd_error *error);
+
+/* Returns the JSON value of a primitive's Draco extension; JSON_NONE if the primitive is not compressed. */
+uint32_t ffd_gltf_draco_value(const gltf_document *document, size_t mesh, size_t primitive);
+
+/* Fails with the reason why ffd_gltf_decode_draco left a primitive out; FFD_OK if it did not. */
+ffd_status ffd_gltf_refuse_draco(const gltf_document *document, size_t mesh, size_t primitive,
+                                 ffd_error *error);
+
+#endif

@@ -1,0 +1,10 @@
+/* gltf_extract.h - a glTF file as a mesh_model, for conversion to other formats. */
+#ifndef FFD_IO_GLTF_GLTF_EXTRACT_H
+#define FFD_IO_GLTF_GLTF_EXTRACT_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* mesh_format's model. */
+mesh_model_function ffd_gltf_extract;
+
+#endif

@@ -1,0 +1,13 @@
+/* gltf_bounds.h - "min" and "max" of accessors whose content changes. */
+#ifndef FFD_IO_GLTF_SAVE_GLTF_BOUNDS_H
+#define FFD_IO_GLTF_SAVE_GLTF_BOUNDS_H
+
+#include "io/gltf/save/gltf_saver.h"
+
+/* Edits the bounds of an accessor that gets a version, where it has them. */
+void ffd_gltf_edit_bounds(const gltf_saver *saver, const gltf_version *version, json_edits *edits);
+
+/* Edits the bounds of an accessor that keeps its content. */
+void ffd_gltf_edit_original_bounds(const gltf_saver *saver, size_t accessor, json_edits *edits);
+
+#endif

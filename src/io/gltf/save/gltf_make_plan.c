@@ -1,0 +1,340 @@
+#include "io/gltf/save/gltf_make_plan.h"
+#include "base/memory/memory.h"
+#include "io/gltf/decode/gltf_encode.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/save/gltf_overlap.h"
+#include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/save/gltf_users.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* A part's attribute whose content changed. */
+typedef struct candidate {
+    size_t accessor, order;
+    uint64_t hash;
+    const float *values;
+    size_t size; /* bytes */
+} candidate;
+
+static bool is_changed(const gltf_document *d, size_t part, const gltf_stream *stream)
+{
+    for (size_t i = 0; i < d->mesh_parts[part].vertex_count; i++) {
+        float original[3];
+        ffd_gltf_original(d, stream->accessor, i, original);
+        if (memcmp(original, stream->result + 3 * i, sizeof original) != 0)
+            return true;
+    }
+    return false;
+}
+
+/* FNV-1a over whole words. */
+static uint64_t hash_words(const float *values, size_t count)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, values + i, sizeof bits);
+        hash = (hash ^ bits) * 0x100000001b3u;
+        hash ^= hash >> 29;
+    }
+    return hash;
+}
+
+static int compare_sizes(size_t a, size_t b)
+{
+    return (a > b) - (a < b);
+}
+
+static int compare_candidates(const void *a, const void *b)
+{
+    const candidate *x = a, *y = b;
+    if (x->accessor != y->accessor)
+        return compare_sizes(x->accessor, y->accessor);
+    if (x->hash != y->hash)
+        return x->hash < y->hash ? -1 : 1;
+    return compare_sizes(x->order, y->order);
+}
+
+static int compare_versions(const void *a, const void *b)
+{
+    return compare_sizes(((const gltf_version *)a)->order, ((const gltf_version *)b)->order);
+}
+
+static size_t list_candidates(const gltf_document *d, candidate *candidates)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
+        for (size_t s = 0; s < GLTF_DEFORMED; s++) {
+            const gltf_stream *stream = &d->parts[i].streams[s];
+            const size_t values = 3 * d->mesh_parts[i].vertex_count;
+            if (!stream->result || !is_changed(d, i, stream))
+                continue;
+            candidates[count++] = (candidate){stream->accessor, i * GLTF_DEFORMED + s, 0, stream->result,
+                                              values * sizeof *stream->result};
+        }
+    if (count == 0)
+        return 0;
+    /* Most accessors have one, which needs no hash. */
+    qsort(candidates, count, sizeof *candidates, compare_candidates);
+    for (size_t i = 0; i < count; i++)
+        if ((i > 0 && candidates[i - 1].accessor == candidates[i].accessor) ||
+            (i + 1 < count && candidates[i + 1].accessor == candidates[i].accessor))
+            candidates[i].hash =
+                hash_words(candidates[i].values, candidates[i].size / sizeof *candidates[i].values);
+    qsort(candidates, count, sizeof *candidates, compare_candidates);
+    return count;
+}
+
+/* Gives candidates of equal content one version; first_orders[i] is the order of version i's first. */
+static void join_candidates(const candidate *candidates, size_t count, gltf_plan *plan)
+{
+    for (size_t i = 0; i < count; i++) {
+        const candidate *c = &candidates[i];
+        gltf_version *last = plan->version_count ? &plan->versions[plan->version_count - 1] : NULL;
+        const bool same =
+            last && last->accessor == c->accessor && memcmp(last->values, c->values, c->size) == 0;
+        if (!same)
+            plan->versions[plan->version_count++] = (gltf_version){
+                .accessor = c->accessor, .values = c->values, .order = c->order, .output = GLTF_NONE};
+        /* For now by the order that its version has, which sorting does not change. */
+        plan->part_versions[c->order] = plan->versions[plan->version_count - 1].order;
+    }
+}
+
+static void choose_component(const gltf_document *d, gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
+    const bool fits = ffd_gltf_fits(accessor, version->values, 3 * (size_t)accessor->count);
+    version->component = fits ? accessor->component : GLTF_FLOAT;
+}
+
+static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_error *error)
+{
+    const size_t most = ffd_gltf_part_count(d) * GLTF_DEFORMED;
+    candidate *candidates = ffd_alloc(most, sizeof *candidates);
+    size_t *numbers = ffd_alloc(most, sizeof *numbers);
+    plan->versions = ffd_alloc(most, sizeof *plan->versions);
+    plan->part_versions = ffd_alloc(most, sizeof *plan->part_versions);
+    ffd_status status = FFD_OK;
+    if (!candidates || !numbers || !plan->versions || !plan->part_versions) {
+        status = ffd_fail_memory(error);
+        goto done;
+    }
+    for (size_t i = 0; i < most; i++)
+        plan->part_versions[i] = GLTF_NONE;
+    join_candidates(candidates, list_candidates(d, candidates), plan);
+    if (plan->version_count > 0)
+        qsort(plan->versions, plan->version_count, sizeof *plan->versions, compare_versions);
+    for (size_t i = 0; i < plan->version_count; i++) {
+        numbers[plan->versions[i].order] = i;
+        choose_component(d, &plan->versions[i]);
+    }
+    for (size_t i = 0; i < most; i++)
+        if (plan->part_versions[i] != GLTF_NONE)
+            plan->part_versions[i] = numbers[plan->part_versions[i]];
+done:
+    ffd_free(candidates);
+    ffd_free(numbers);
+    return status;
+}
+
+static bool same_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t a, size_t b)
+{
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++)
+            if (ffd_gltf_version_at(d, plan, mesh, p, s, a) != ffd_gltf_version_at(d, plan, mesh, p, s, b))
+                return false;
+    return true;
+}
+
+typedef struct variant {
+    uint64_t hash;
+    size_t place;
+} variant;
+
+static uint64_t hash_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t place)
+{
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
+            hash = (hash ^ ffd_gltf_version_at(d, plan, mesh, p, s, place)) * 0x100000001b3u;
+            hash ^= hash >> 29;
+        }
+    return hash;
+}
+
+static int compare_variants(const void *a, const void *b)
+{
+    const variant *x = a, *y = b;
+    if (x->hash != y->hash)
+        return x->hash < y->hash ? -1 : 1;
+    return compare_sizes(x->place, y->place);
+}
+
+static int compare_changes(const void *a, const void *b)
+{
+    return compare_sizes(((const gltf_node_change *)a)->node, ((const gltf_node_change *)b)->node);
+}
+
+/* Finds which nodes of a mesh need copies of it; variants has room for its nodes. */
+static void split_mesh(const gltf_document *d, size_t mesh, variant *variants, gltf_plan *plan)
+{
+    const gltf_showing *showing = &d->showings[mesh];
+    const size_t base = showing->hidden_too && d->space == FFD_SPACE_SCENE ? GLTF_NONE : 0;
+    plan->base_places[mesh] = base;
+    size_t count = 0;
+    for (size_t place = 0; place < showing->node_count; place++)
+        if (place != base && !same_mesh(d, plan, mesh, base, place))
+            variants[count++] = (variant){hash_mesh(d, plan, mesh, place), place};
+    if (count == 0)
+        return;
+    qsort(variants, count, sizeof *variants, compare_variants);
+    for (size_t i = 0; i < count; i++) {
+        const bool joined =
+            i > 0 && variants[i].hash == variants[i - 1].hash &&
+            same_mesh(d, plan, mesh, plan->copies[plan->copy_count - 1].place, variants[i].place);
+        if (!joined)
+            plan->copies[plan->copy_count++] = (gltf_mesh_copy){mesh, variants[i].place};
+        plan->changes[plan->change_count++] =
+            (gltf_node_change){showing->nodes[variants[i].place], plan->copies[plan->copy_count - 1].place};
+    }
+}
+
+static int compare_copies(const void *a, const void *b)
+{
+    return compare_sizes(((const gltf_mesh_copy *)a)->place, ((const gltf_mesh_copy *)b)->place);
+}
+
+/* Puts a mesh's copies in the order of their first nodes, whatever their hashes. */
+static void order_copies(gltf_plan *plan, size_t first_copy, size_t first_change)
+{
+    if (plan->copy_count == first_copy)
+        return;
+    qsort(plan->copies + first_copy, plan->copy_count - first_copy, sizeof *plan->copies, compare_copies);
+    for (size_t i = first_change; i < plan->change_count; i++) {
+        gltf_node_change *change = &plan->changes[i];
+        const gltf_mesh_copy key = {.place = change->copy};
+        const gltf_mesh_copy *found = bsearch(&key, plan->copies + first_copy, plan->copy_count - first_copy,
+                                              sizeof *plan->copies, compare_copies);
+        change->copy = (size_t)(found - plan->copies);
+    }
+    qsort(plan->changes + first_change, plan->change_count - first_change, sizeof *plan->changes,
+          compare_changes);
+}
+
+static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_error *error)
+{
+    size_t nodes = 0, most = 0;
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        nodes += d->showings[m].node_count;
+        most = d->showings[m].node_count > most ? d->showings[m].node_count : most;
+    }
+    variant *variants = ffd_alloc(most, sizeof *variants);
+    plan->base_places = ffd_alloc(d->model.mesh_count, sizeof *plan->base_places);
+    plan->copies = ffd_alloc(nodes, sizeof *plan->copies);
+    plan->changes = ffd_alloc(nodes, sizeof *plan->changes);
+    ffd_status status = FFD_OK;
+    if (!variants || !plan->base_places || !plan->copies || !plan->changes)
+        status = ffd_fail_memory(error);
+    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
+        const size_t first_copy = plan->copy_count, first_change = plan->change_count;
+        split_mesh(d, m, variants, plan);
+        order_copies(plan, first_copy, first_change);
+    }
+    ffd_free(variants);
+    return status;
+}
+
+/* Notes what the original meshes and their copies show; original[a]: accessor a's own content is still
+ * wanted. */
+static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size_t place, bool *original)
+{
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
+            const int accessor = gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], s);
+            const size_t version = ffd_gltf_version_at(d, plan, mesh, p, s, place);
+            if (version != GLTF_NONE)
+                plan->versions[version].needed = true;
+            else if (accessor >= 0)
+                original[accessor] = true;
+        }
+}
+
+/* Whether the accessor's own bytes, decoded where they are compressed, can hold the version. Sparse ones are
+   only the exceptions. */
+static bool has_place(const gltf_document *d, const gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
+    const bool has_bytes = accessor->view >= 0 || d->layouts[version->accessor].packing == GLTF_DRACO;
+    return has_bytes && !accessor->sparse.present && version->component == accessor->component;
+}
+
+/* Whether the accessor is one of our own, of zeros without bytes, that can get bytes for the version. */
+static bool can_rebind(const gltf_document *d, const gltf_version *version)
+{
+    const gltf_accessor *accessor = &d->model.accessors[version->accessor];
+    return version->accessor >= d->model.accessor_count - d->own_accessors && accessor->view < 0;
+}
+
+static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_error *error)
+{
+    bool *original = ffd_alloc_zero(d->model.accessor_count, sizeof *original);
+    plan->in_place = ffd_alloc(d->model.accessor_count, sizeof *plan->in_place);
+    if (!original || !plan->in_place) {
+        ffd_free(original);
+        return ffd_fail_memory(error);
+    }
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        mark_mesh(d, plan, m, plan->base_places[m], original);
+    for (size_t i = 0; i < plan->copy_count; i++)
+        mark_mesh(d, plan, plan->copies[i].mesh, plan->copies[i].place, original);
+    ffd_gltf_mark_other_users(d, original);
+    for (size_t a = 0; a < d->model.accessor_count; a++)
+        plan->in_place[a] = GLTF_NONE;
+    for (size_t v = plan->version_count; v-- > 0;) {
+        gltf_version *version = &plan->versions[v];
+        if (!version->needed || original[version->accessor])
+            continue;
+        if (has_place(d, version))
+            plan->in_place[version->accessor] = v;
+        version->rebinds = can_rebind(d, version);
+        original[version->accessor] = original[version->accessor] || version->rebinds; /* one of them */
+    }
+    ffd_free(original);
+    return FFD_OK;
+}
+
+static ffd_status append_rest(const gltf_document *d, gltf_plan *plan, ffd_error *error)
+{
+    plan->appended = ffd_alloc(plan->version_count, sizeof *plan->appended);
+    if (!plan->appended)
+        return ffd_fail_memory(error);
+    size_t added = 0;
+    for (size_t v = 0; v < plan->version_count; v++) {
+        gltf_version *version = &plan->versions[v];
+        if (plan->in_place[version->accessor] == v) {
+            version->output = version->accessor;
+        } else if (version->needed) {
+            version->output = version->rebinds ? version->accessor : d->model.accessor_count + added++;
+            plan->appended[plan->appended_count++] = v;
+        }
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_make_plan(const gltf_document *d, gltf_plan *plan, ffd_error *error)
+{
+    *plan = (gltf_plan){0};
+    ffd_status status = make_versions(d, plan, error);
+    if (status == FFD_OK)
+        status = split_meshes(d, plan, error);
+    if (status == FFD_OK)
+        status = choose_in_place(d, plan, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_resolve_overlaps(d, plan, error);
+    if (status == FFD_OK)
+        status = append_rest(d, plan, error);
+    if (status)
+        ffd_gltf_free_plan(plan);
+    return status;
+}

@@ -1,0 +1,10 @@
+/* gltf_output_names.h - names of the files that buffers are written to. */
+#ifndef FFD_IO_GLTF_SAVE_GLTF_OUTPUT_NAMES_H
+#define FFD_IO_GLTF_SAVE_GLTF_OUTPUT_NAMES_H
+
+#include "io/gltf/save/gltf_saver.h"
+
+/* Chooses these names and edits the buffers' URIs. Errors: FFD_E_EXISTS, FFD_E_ARGUMENT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error);
+
+#endif

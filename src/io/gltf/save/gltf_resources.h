@@ -1,0 +1,15 @@
+/* gltf_resources.h - the images of a file. */
+#ifndef FFD_IO_GLTF_SAVE_GLTF_RESOURCES_H
+#define FFD_IO_GLTF_SAVE_GLTF_RESOURCES_H
+
+#include "io/gltf/save/gltf_saver.h"
+
+/* Copies the images beside the output, or edits their URIs. Refuses an image that has the name of a file of
+   the model itself. Begins and writes files of saver->output; comes after ffd_gltf_name_buffers. Errors:
+   FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
+
+/* mesh_format's list_images. */
+mesh_list_files_function ffd_gltf_list_images;
+
+#endif

@@ -1,0 +1,10 @@
+/* gltf_save.h - writes a document with its results. */
+#ifndef FFD_IO_GLTF_SAVE_GLTF_SAVE_H
+#define FFD_IO_GLTF_SAVE_GLTF_SAVE_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Saves the results of a document where they belong, as mesh_format's save says. */
+mesh_save_function ffd_gltf_save_results;
+
+#endif

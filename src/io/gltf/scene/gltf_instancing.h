@@ -1,0 +1,17 @@
+/* gltf_instancing.h - nodes with EXT_mesh_gpu_instancing. */
+#ifndef FFD_IO_GLTF_SCENE_GLTF_INSTANCING_H
+#define FFD_IO_GLTF_SCENE_GLTF_INSTANCING_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Finds these nodes and deselects what they show; comes after ffd_gltf_make_parts. Errors: FFD_E_INVALID,
+   FFD_E_MEMORY. */
+ffd_status ffd_gltf_make_crowds(gltf_document *document, ffd_error *error);
+
+/* Returns the instances of a node; NULL if it has none. */
+gltf_crowd *ffd_gltf_crowd_of(const gltf_document *document, size_t node);
+
+/* mesh_format's check_reach. */
+mesh_check_reach_function ffd_gltf_check_reach;
+
+#endif

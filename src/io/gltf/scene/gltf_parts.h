@@ -1,0 +1,10 @@
+/* gltf_parts.h - the parts: each POSITION accessor under each node, once. */
+#ifndef FFD_IO_GLTF_SCENE_GLTF_PARTS_H
+#define FFD_IO_GLTF_SCENE_GLTF_PARTS_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Makes document->parts and instances from the scene. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_make_parts(gltf_document *document, ffd_error *error);
+
+#endif

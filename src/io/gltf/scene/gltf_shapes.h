@@ -1,0 +1,10 @@
+/* gltf_shapes.h - the morph targets of the parts. */
+#ifndef FFD_IO_GLTF_SCENE_GLTF_SHAPES_H
+#define FFD_IO_GLTF_SCENE_GLTF_SHAPES_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Makes document->shapes and targets; comes after ffd_gltf_make_parts. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_make_shapes(gltf_document *document, ffd_error *error);
+
+#endif

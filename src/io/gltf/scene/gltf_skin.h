@@ -1,0 +1,20 @@
+/* gltf_skin.h - skins in their default pose (glTF 2.0, 3.7.3). */
+#ifndef FFD_IO_GLTF_SCENE_GLTF_SKIN_H
+#define FFD_IO_GLTF_SCENE_GLTF_SKIN_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Reads document->skins, without their matrices. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
+ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
+
+/* Computes the joint matrices of the skins that shown nodes have, and checks the joints and weights of their
+   meshes. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_place_skins(gltf_document *document, ffd_error *error);
+
+/* Frees document->skins. */
+void ffd_gltf_free_skins(gltf_document *document);
+
+/* mesh_format's read_transforms. */
+mesh_read_function ffd_gltf_read_transforms;
+
+#endif
