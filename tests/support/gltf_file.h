@@ -17,7 +17,7 @@ static inline ffd_status open_bytes(const void *bytes, size_t size, const char *
 {
     file_input input = {.data = bytes, .size = size};
     const ffd_source source = {.path = path, .format = format, .space = space};
-    return gltf->open(&input, &source, document, error);
+    return ffd_format_open(gltf, &input, &source, document, error);
 }
 
 static inline ffd_status open_file(const char *path, ffd_space space, mesh_document **document,
@@ -30,7 +30,7 @@ static inline ffd_status open_file(const char *path, ffd_space space, mesh_docum
     ffd_status status = ffd_file_load(path, &input, error);
     if (status)
         return status;
-    status = gltf->open(&input, &source, document, error);
+    status = ffd_format_open(gltf, &input, &source, document, error);
     if (status)
         ffd_file_unload(&input);
     return status;

@@ -6,6 +6,7 @@
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "io/formats.h"
 #include "mesh/difference.h"
 #include "mesh/mesh.h"
 #include <stdio.h>
@@ -20,7 +21,7 @@ static inline ffd_status open_bytes(const mesh_format *format, const void *bytes
     const ffd_source source = {.path = "a.mesh", .format = format->format};
     *error = (ffd_error){0};
     *document = NULL;
-    return format->open(&input, &source, document, error);
+    return ffd_format_open(format, &input, &source, document, error);
 }
 
 static inline mesh_document *opened_bytes(const mesh_format *format, const void *bytes, size_t size)
