@@ -47,7 +47,7 @@ static bool mark_moved(const gltf_document *d, unsigned char *moved, bool *meshe
     const gltf_instance *instance = d->instances;
     bool any = false;
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t k = 0; k < d->model.meshes[m].primitive_count * d->showings[m].node_count;
+        for (size_t k = 0; k < d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count;
              k++, instance++)
             for (size_t s = 0; s < GLTF_DEFORMED && instance->selected && !meshes[m]; s++) {
                 meshes[m] = is_stream_moved(d, instance->part[s], s, moved);
@@ -63,7 +63,7 @@ static void lend_results(const gltf_document *d, const bool *meshes, bool back, 
     size_t k = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->showings[m].node_count; n++, k++) {
+            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++, k++) {
                 const gltf_instance *from = &d->instances[k];
                 gltf_instance *to = &other->instances[k];
                 to->selected = from->selected;

@@ -11,15 +11,15 @@
 #define BLOCK 256
 
 /* An element that is compared. */
-typedef struct element_place {
+typedef struct element_name {
     size_t accessor, element;
     const char *what; /* "vertex", "element" */
-} element_place;
+} element_name;
 
 /* A difference_place. */
-static void format_place(const void *context, char *text, size_t capacity)
+static void format_element(const void *context, char *text, size_t capacity)
 {
-    const element_place *place = context;
+    const element_name *place = context;
     snprintf(text, capacity, "/accessors/%zu: %s %zu", place->accessor, place->what, place->element);
 }
 
@@ -85,26 +85,26 @@ static void compare_block(gltf_comparer *c, size_t accessor, size_t part, size_t
 {
     const ffd_difference_kind kind = (ffd_difference_kind)c->kinds[accessor];
     const size_t size = (size_t)c->a->model.accessors[accessor].rows;
-    element_place place = {accessor, first, kind == FFD_DIFFERENCE_POSITION ? "vertex" : "element"};
-    double a[4 * BLOCK], b[4 * BLOCK], placed_a[4 * BLOCK], placed_b[4 * BLOCK];
+    element_name place = {accessor, first, kind == FFD_DIFFERENCE_POSITION ? "vertex" : "element"};
+    double a[4 * BLOCK], b[4 * BLOCK], world_a[4 * BLOCK], world_b[4 * BLOCK];
     ffd_gltf_read(c->a, accessor, first, count, size, a);
     ffd_gltf_read(c->b, accessor, first, count, size, b);
     if (memcmp(a, b, size * count * sizeof *a) == 0)
         return;
     c->states[accessor] = GLTF_DIFFER;
-    memcpy(placed_a, a, size * count * sizeof *a);
-    memcpy(placed_b, b, size * count * sizeof *b);
+    memcpy(world_a, a, size * count * sizeof *a);
+    memcpy(world_b, b, size * count * sizeof *b);
     if (part != GLTF_NONE) {
-        ffd_part_place(&c->a->base, part, first, count, placed_a);
-        ffd_part_place(&c->a->base, part, first, count, placed_b);
+        ffd_part_place(&c->a->base, part, first, count, world_a);
+        ffd_part_place(&c->a->base, part, first, count, world_b);
     }
     for (size_t i = 0; i < count; i++, place.element++) {
-        const double *x = placed_a + size * i, *y = placed_b + size * i;
+        const double *x = world_a + size * i, *y = world_b + size * i;
         bool hidden = true;
         for (size_t k = 0; k < size; k++)
             hidden = hidden && !(ffd_difference_of(x[k], y[k]) > 0);
         ffd_difference_vector(c->result, kind, (int)size, hidden ? a + size * i : x,
-                              hidden ? b + size * i : y, format_place, &place);
+                              hidden ? b + size * i : y, format_element, &place);
     }
 }
 

@@ -160,7 +160,7 @@ ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd
     for (size_t i = 0; i < sizeof counted / sizeof *counted; i++)
         describe_count(d, counted[i], json);
     ffd_json_count(json, "primitives", d->primitive_values.count);
-    ffd_json_count(json, "nodes_with_mesh_not_shown", d->hidden_nodes);
+    ffd_json_count(json, "nodes_with_mesh_not_shown", d->nodes_outside_scene);
     if (d->shared_child != GLTF_NONE)
         ffd_json_count(json, "node_with_two_parents", d->shared_child);
     ffd_status status = describe_attributes(d, json, error);

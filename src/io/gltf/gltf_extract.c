@@ -23,9 +23,9 @@ typedef struct drawn {
     bool mirrored;                     /* its triangles would look inward */
 } drawn;
 
-static const gltf_showing *showing_of(const extractor *e, size_t mesh)
+static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
 {
-    return &e->document->showings[mesh];
+    return &e->document->mesh_uses[mesh];
 }
 
 /* The accessor of an attribute with `rows` numbers an element (or least to most of them) for all of a
@@ -67,7 +67,7 @@ static ffd_status count_values(extractor *e)
     for (size_t a = 0; a < d->model.accessor_count; a++)
         e->first_texcoord[a] = GLTF_NONE;
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && showing_of(e, m)->node_count > 0; p++) {
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && uses_of(e, m)->node_count > 0; p++) {
             const size_t a = find_texcoords(d, m, p);
             if (a == GLTF_NONE || e->first_texcoord[a] != GLTF_NONE)
                 continue;
@@ -85,8 +85,8 @@ static void read_stream(const gltf_document *d, size_t part, gltf_semantic seman
     const size_t count = d->mesh_parts[part].vertex_count;
     ffd_gltf_read(d, stream->accessor, 0, count, 3, values);
     for (size_t i = 0; i < 3 * count && stream->result; i++) {
-        const bool is_there = !stream->is_there || stream->is_there[i / 3 / MESH_RANGE_STEP];
-        if (is_there && ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i]))
+        const bool filled = !stream->filled || stream->filled[i / 3 / MESH_RANGE_STEP];
+        if (filled && ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i]))
             values[i] = stream->result[i];
     }
 }
@@ -269,8 +269,8 @@ static bool is_mirrored(const gltf_document *d, size_t part)
 static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
 {
     const gltf_document *d = e->document;
-    const gltf_showing *showing = showing_of(e, m);
-    const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + n];
+    const gltf_mesh_uses *uses = uses_of(e, m);
+    const gltf_instance *instance = &d->instances[uses->first_instance + p * uses->node_count + n];
     const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
     const size_t texcoords = find_texcoords(d, m, p);
     if (part == GLTF_NONE)
@@ -282,7 +282,7 @@ static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
                      .mirrored = is_mirrored(d, part)};
     ffd_status status = ffd_gltf_read_corners(d, m, p, &drawing.corners, &drawing.count, e->error);
     if (status == FFD_OK)
-        status = begin_run(e, m, p, showing->nodes ? showing->nodes[n] : GLTF_NONE);
+        status = begin_run(e, m, p, uses->nodes ? uses->nodes[n] : GLTF_NONE);
     if (status == FFD_OK)
         status = take_colours(e, m, p, &drawing);
     if (status == FFD_OK)
@@ -330,7 +330,7 @@ static uint32_t features_of(const extractor *e)
     const gltf_document *d = e->document;
     uint32_t found = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && showing_of(e, m)->node_count > 0; p++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && uses_of(e, m)->node_count > 0; p++)
             found |= features_of_primitive(d, m, p);
     for (size_t n = 0; n < d->model.node_count; n++)
         found |= d->model.nodes[n].child_count > 0 ? MODEL_HAS_HIERARCHY : 0;
@@ -340,7 +340,7 @@ static uint32_t features_of(const extractor *e)
     found |= has_any(d, "animations") ? MODEL_HAS_ANIMATIONS : 0;
     found |=
         has_any(d, "cameras") || ffd_gltf_has_extension(d, 0, "KHR_lights_punctual") ? MODEL_HAS_CAMERAS : 0;
-    found |= d->hidden_nodes > 0 ? MODEL_HAS_HIDDEN : 0;
+    found |= d->nodes_outside_scene > 0 ? MODEL_HAS_HIDDEN : 0;
     found |= d->space == FFD_SPACE_MESH && d->model.node_count > 0 ? MODEL_HAS_PLACES : 0;
     return found;
 }
@@ -361,7 +361,7 @@ static ffd_status extract(extractor *e)
         return status;
     fill_values(e);
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t n = 0; n < showing_of(e, m)->node_count; n++)
+        for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
             for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
                 status = add_instance(e, m, p, n);
     e->model->features = features_of(e);
@@ -371,10 +371,11 @@ static ffd_status extract(extractor *e)
 /* A model has no instances, and the node's own place shows none of them. */
 static ffd_status refuse_instances(const gltf_document *d, ffd_error *error)
 {
-    if (d->crowd_count == 0)
+    if (d->instanced_node_count == 0)
         return FFD_OK;
-    return ffd_json_span_fail(&d->tree, d->node_values.values[d->crowds[0].node], d->name, FFD_E_UNSUPPORTED,
-                              error, "the instances of EXT_mesh_gpu_instancing are not converted");
+    return ffd_json_span_fail(&d->tree, d->node_values.values[d->instanced_nodes[0].node], d->name,
+                              FFD_E_UNSUPPORTED, error,
+                              "the instances of EXT_mesh_gpu_instancing are not converted");
 }
 
 ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error)

@@ -264,15 +264,15 @@ static void free_document(gltf_document *d)
     ffd_free(d->buffers);
     ffd_free(d->layouts);
     ffd_free(d->world);
-    ffd_free(d->is_shown);
-    ffd_free(d->shown_nodes);
-    ffd_free(d->showings);
+    ffd_free(d->in_scene);
+    ffd_free(d->scene_nodes);
+    ffd_free(d->mesh_uses);
     ffd_free(d->instances);
     ffd_free(d->parts);
     ffd_free(d->mesh_parts);
     ffd_free(d->shapes);
     ffd_free(d->targets);
-    ffd_free(d->crowds);
+    ffd_free(d->instanced_nodes);
     ffd_free(d->morph_name);
     ffd_free(d->path);
     ffd_free(d);
@@ -320,13 +320,13 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (status == FFD_OK)
         status = ffd_gltf_make_shapes(d, error);
     if (status == FFD_OK)
-        d->crowds_status = ffd_gltf_make_crowds(d, &d->crowds_error);
+        d->instancing_status = ffd_gltf_find_instanced_nodes(d, &d->instancing_error);
     if (status == FFD_OK)
-        d->skins_status = ffd_gltf_place_skins(d, &d->skins_error);
+        d->skins_status = ffd_gltf_prepare_skins(d, &d->skins_error);
     ffd_gltf_forget(d);
     if (status == FFD_OK && d->skins_status == FFD_E_LIMIT)
         return ffd_fail(error, FFD_E_LIMIT, "%s", d->skins_error.message);
-    const bool no_memory = d->skins_status == FFD_E_MEMORY || d->crowds_status == FFD_E_MEMORY;
+    const bool no_memory = d->skins_status == FFD_E_MEMORY || d->instancing_status == FFD_E_MEMORY;
     return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
 }
 

@@ -52,7 +52,7 @@ typedef struct gltf_stream {
     float *result;   /* 3 * count; NULL before begin_results, and where a part repeats */
     /* One for each MESH_RANGE_STEP vectors of the result: 0 where nothing has been handed back, and so
        nothing stands in it yet. NULL: all of it stands there. */
-    uint8_t *is_there;
+    uint8_t *filled;
     gltf_tile_bounds *bounds; /* of positions, one for each of these tiles; NULL: not known */
 } gltf_stream;
 
@@ -74,14 +74,14 @@ typedef struct gltf_part {
 } gltf_part;
 
 /* The instances of a node with EXT_mesh_gpu_instancing. */
-typedef struct gltf_crowd {
+typedef struct gltf_instanced_node {
     size_t node;
     size_t translation, rotation, scale; /* accessors; GLTF_NONE: absent */
     uint64_t count;
     ffd_bounds mesh; /* of the mesh in its own space; min > max: no vertices */
     bool everywhere; /* nothing more is known of their places */
     bool idle;       /* not selected */
-} gltf_crowd;
+} gltf_instanced_node;
 
 /* A primitive under a node that shows it (or by itself, in mesh space). */
 typedef struct gltf_instance {
@@ -91,13 +91,13 @@ typedef struct gltf_instance {
 } gltf_instance;
 
 /* The instances of a mesh: for each primitive, for each node. */
-typedef struct gltf_showing {
+typedef struct gltf_mesh_uses {
     size_t first_instance;
-    size_t *nodes;     /* lent by document->shown_nodes; ascending */
-    size_t node_count; /* in mesh space 1, nodes is NULL */
-    bool is_used;      /* by a node */
-    bool hidden_too;   /* some node outside the shown scene uses it, or none at all */
-} gltf_showing;
+    size_t *nodes;           /* lent by document->scene_nodes; ascending */
+    size_t node_count;       /* in mesh space 1, nodes is NULL */
+    bool is_used;            /* by a node */
+    bool used_outside_scene; /* some node outside the shown scene uses it, or none at all */
+} gltf_mesh_uses;
 
 typedef struct gltf_document {
     mesh_document base;
@@ -128,12 +128,12 @@ typedef struct gltf_document {
     uint64_t draco_decoded;        /* points and corners of all decodings */
 
     double *world;  /* 12 a node: linear row by row, offset */
-    bool *is_shown; /* a node */
-    size_t *shown_nodes;
-    size_t hidden_nodes; /* with a mesh, not shown */
+    bool *in_scene; /* a node */
+    size_t *scene_nodes;
+    size_t nodes_outside_scene; /* with a mesh, not shown */
     /* A node below two parents: not valid, but described as if it had the first; GLTF_NONE: none. */
     size_t shared_child, shared_by[2];
-    gltf_showing *showings; /* model.mesh_count */
+    gltf_mesh_uses *mesh_uses; /* model.mesh_count */
     gltf_instance *instances;
     /* base.part_count, and behind them one for each shape, whose streams are its offsets: results of both go
        the same way. */
@@ -144,11 +144,11 @@ typedef struct gltf_document {
     char *morph_name;     /* results are offsets of a further morph target of this name; NULL: they are not */
     bool morph_normals;   /* of normals and tangents too */
     size_t own_accessors; /* at the end of the list, that the file did not have: zeros without bytes */
-    gltf_crowd *crowds;   /* by node */
-    size_t crowd_count;
+    gltf_instanced_node *instanced_nodes; /* by node */
+    size_t instanced_node_count;
     /* What keeps their places from being known: such a document can only be described. */
-    ffd_status crowds_status;
-    ffd_error crowds_error;
+    ffd_status instancing_status;
+    ffd_error instancing_error;
     size_t *targets; /* of the instances' morph targets: the part that holds the offsets; GLTF_NONE: nothing
                         that is deformed */
 } gltf_document;

@@ -3,7 +3,7 @@
 #include "io/gltf/save/gltf_unpack.h"
 
 /* One line of what was left alone or stored otherwise; all the single ones are told where they are made. */
-static void tell(const gltf_saver *saver, size_t count, const char *one, const char *many)
+static void warn(const gltf_saver *saver, size_t count, const char *one, const char *many)
 {
     if (count == 1)
         ffd_log_line(saver->log, FFD_LOG_WARNING, "1 %s", one);
@@ -12,18 +12,18 @@ static void tell(const gltf_saver *saver, size_t count, const char *one, const c
 }
 
 /* What the scene shows otherwise than the parts do, or does not show at all. */
-static void tell_left(const gltf_saver *saver)
+static void warn_of_rest(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
     size_t unused = 0;
     for (size_t m = 0; m < d->model.mesh_count && d->space == FFD_SPACE_SCENE; m++)
-        unused += !d->showings[m].is_used;
-    tell(saver, d->crowd_count,
+        unused += !d->mesh_uses[m].is_used;
+    warn(saver, d->instanced_node_count,
          "node with EXT_mesh_gpu_instancing, out of the lattice's reach: left as it is",
          "nodes with EXT_mesh_gpu_instancing, out of the lattice's reach: left as they are");
-    tell(saver, d->hidden_nodes, "node with a mesh is not in the scene that is shown: left as it is",
+    warn(saver, d->nodes_outside_scene, "node with a mesh is not in the scene that is shown: left as it is",
          "nodes with a mesh are not in the scene that is shown: left as they are");
-    tell(saver, unused, "mesh that no node has: left as it is", "meshes that no node has: left as they are");
+    warn(saver, unused, "mesh that no node has: left as it is", "meshes that no node has: left as they are");
 }
 
 static size_t count_floats(const gltf_saver *saver)
@@ -42,21 +42,21 @@ static size_t count_unpacked(const gltf_saver *saver)
     size_t count = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            count += ffd_gltf_is_unpacked(saver, m, p, saver->plan.base_places[m]);
+            count += ffd_gltf_is_unpacked(saver, m, p, saver->plan.base_uses[m]);
     return count;
 }
 
 void ffd_gltf_announce(const gltf_saver *saver)
 {
-    tell_left(saver);
-    tell(saver, saver->plan.change_count,
+    warn_of_rest(saver);
+    warn(saver, saver->plan.change_count,
          "node gets a copy of its mesh, which is deformed otherwise than under other nodes",
          "nodes get copies of their meshes, which are deformed otherwise than under other nodes");
-    tell(saver, count_floats(saver), "quantized accessor is left for one of floats: its type's range is left",
+    warn(saver, count_floats(saver), "quantized accessor is left for one of floats: its type's range is left",
          "quantized accessors are left for ones of floats: their types' range is left");
-    tell(saver, count_unpacked(saver), "primitive is written uncompressed (Draco): it is deformed",
+    warn(saver, count_unpacked(saver), "primitive is written uncompressed (Draco): it is deformed",
          "primitives are written uncompressed (Draco): they are deformed");
-    tell(saver, saver->unpacking_count - saver->unpacked_accessor_count,
+    warn(saver, saver->unpacking_count - saver->unpacked_accessor_count,
          "bufferView is written uncompressed (meshopt): what it holds is deformed",
          "bufferViews are written uncompressed (meshopt): what they hold is deformed");
 }

@@ -15,7 +15,7 @@ static gltf_buffer_kind kind_in_text(const gltf_buffer *buffer, bool stream)
     return stream ? BUFFER_DATA : BUFFER_FILE;
 }
 
-void ffd_gltf_place_buffers(gltf_saver *saver)
+void ffd_gltf_choose_buffer_kinds(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
     const bool stream = ffd_output_is_stream(saver->options->path);

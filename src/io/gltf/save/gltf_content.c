@@ -26,11 +26,11 @@ size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
 }
 
 /* Where the elements of an accessor stand that changes in its place. */
-typedef struct new_place {
+typedef struct new_location {
     size_t buffer, begin;
-} new_place;
+} new_location;
 
-static new_place place_of(const gltf_saver *saver, size_t a)
+static new_location location_of(const gltf_saver *saver, size_t a)
 {
     const gltf_document *d = saver->document;
     const gltf_layout *layout = &d->layouts[a];
@@ -39,12 +39,12 @@ static new_place place_of(const gltf_saver *saver, size_t a)
     switch (layout->packing) {
     case GLTF_MESHOPT:
         u = &saver->unpackings[saver->view_unpackings[view]];
-        return (new_place){u->buffer, u->offset + (layout->begin - (size_t)d->model.views[view].offset)};
+        return (new_location){u->buffer, u->offset + (layout->begin - (size_t)d->model.views[view].offset)};
     case GLTF_DRACO:
         u = &saver->unpackings[saver->accessor_unpackings[a]];
-        return (new_place){u->buffer, u->offset};
+        return (new_location){u->buffer, u->offset};
     default:
-        return (new_place){buffer_of(d, a), layout->begin};
+        return (new_location){buffer_of(d, a), layout->begin};
     }
 }
 
@@ -65,7 +65,7 @@ static gltf_buffer_kind kind_of_added(const gltf_saver *saver)
     return saver->binary && d->buffer_values.count == 0 && !d->glb.has_bin ? BUFFER_BIN : BUFFER_DATA;
 }
 
-static ffd_status make_room(gltf_saver *saver, ffd_error *error)
+static ffd_status make_buffers(gltf_saver *saver, ffd_error *error)
 {
     static const gltf_buffer nothing = {.kind = BUFFER_EMPTY};
     const gltf_document *d = saver->document;
@@ -77,7 +77,7 @@ static ffd_status make_room(gltf_saver *saver, ffd_error *error)
         saver->buffers[b].old = b < d->buffer_values.count ? &d->buffers[b] : &nothing;
     for (size_t a = 0; a < d->model.accessor_count; a++)
         if (saver->plan.in_place[a] != GLTF_NONE)
-            saver->buffers[place_of(saver, a).buffer].overwrite_count++;
+            saver->buffers[location_of(saver, a).buffer].overwrite_count++;
     for (size_t i = 0; i < saver->plan.appended_count; i++)
         saver->buffers[ffd_gltf_append_buffer(d, saver->plan.versions[saver->plan.appended[i]].accessor)]
             .append_count++;
@@ -112,7 +112,7 @@ static void list_overwrites(gltf_saver *saver)
             continue;
         const gltf_layout *layout = &d->layouts[a];
         const size_t count = (size_t)d->model.accessors[a].count;
-        const new_place place = place_of(saver, a);
+        const new_location place = location_of(saver, a);
         gltf_new_buffer *buffer = &saver->buffers[place.buffer];
         buffer->overwrites[buffer->overwrite_count++] =
             (gltf_overwrite){.accessor = a,
@@ -188,7 +188,7 @@ ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error)
 {
     ffd_status status = ffd_gltf_list_unpackings(saver, error);
     if (status == FFD_OK)
-        status = make_room(saver, error);
+        status = make_buffers(saver, error);
     if (status == FFD_OK)
         status = list_appends(saver, error);
     if (status == FFD_OK)

@@ -19,9 +19,9 @@ static bool needs_quantization(const char *attribute, int component, bool normal
            !(normalized && (component == GLTF_U8 || component == GLTF_U16));
 }
 
-/* The attributes of a primitive at a place of its mesh's showing, or those of one of its morph targets. */
+/* The attributes of a primitive at a use of its mesh's uses, or those of one of its morph targets. */
 typedef struct attribute_set {
-    size_t mesh, p, place;
+    size_t mesh, p, use;
     size_t first_slot;
     uint32_t attributes; /* in the JSON */
 } attribute_set;
@@ -32,7 +32,7 @@ static int output_component(const gltf_saver *saver, const attribute_set *set, c
 {
     for (size_t s = 0; s < GLTF_DEFORMED; s++) {
         const size_t version = ffd_gltf_version_at(saver->document, &saver->plan, set->mesh, set->p,
-                                                   set->first_slot + s, set->place);
+                                                   set->first_slot + s, set->use);
         if (strcmp(attribute, ffd_gltf_semantic_names[s]) == 0 && version != GLTF_NONE)
             return saver->plan.versions[version].component;
     }
@@ -61,13 +61,13 @@ static bool are_quantized(gltf_saver *saver, const attribute_set *set)
     return false;
 }
 
-static bool is_quantized_mesh(gltf_saver *saver, size_t mesh, size_t place)
+static bool is_quantized_mesh(gltf_saver *saver, size_t mesh, size_t use)
 {
     const gltf_document *d = saver->document;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
         const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
         const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
-        attribute_set set = {mesh, p, place, 0, ffd_json_span_member(&d->tree, primitive, "attributes")};
+        attribute_set set = {mesh, p, use, 0, ffd_json_span_member(&d->tree, primitive, "attributes")};
         if (are_quantized(saver, &set))
             return true;
         for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
@@ -91,9 +91,9 @@ static bool lost_quantization(gltf_saver *saver)
         lost = lost || version->component != d->model.accessors[version->accessor].component;
     }
     for (size_t m = 0; m < d->model.mesh_count && lost; m++)
-        lost = !is_quantized_mesh(saver, m, saver->plan.base_places[m]);
+        lost = !is_quantized_mesh(saver, m, saver->plan.base_uses[m]);
     for (size_t i = 0; i < saver->plan.copy_count && lost; i++)
-        lost = !is_quantized_mesh(saver, saver->plan.copies[i].mesh, saver->plan.copies[i].place);
+        lost = !is_quantized_mesh(saver, saver->plan.copies[i].mesh, saver->plan.copies[i].use);
     return lost;
 }
 

@@ -2,9 +2,9 @@
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/save/gltf_accessor_users.h"
 #include "io/gltf/save/gltf_overlap.h"
 #include "io/gltf/save/gltf_plan.h"
-#include "io/gltf/save/gltf_users.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -149,15 +149,15 @@ static bool same_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh
 
 typedef struct variant {
     uint64_t hash;
-    size_t place;
+    size_t use;
 } variant;
 
-static uint64_t hash_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t place)
+static uint64_t hash_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t use)
 {
     uint64_t hash = 0xcbf29ce484222325u;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
         for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
-            hash = (hash ^ ffd_gltf_version_at(d, plan, mesh, p, s, place)) * 0x100000001b3u;
+            hash = (hash ^ ffd_gltf_version_at(d, plan, mesh, p, s, use)) * 0x100000001b3u;
             hash ^= hash >> 29;
         }
     return hash;
@@ -168,7 +168,7 @@ static int compare_variants(const void *a, const void *b)
     const variant *x = a, *y = b;
     if (x->hash != y->hash)
         return x->hash < y->hash ? -1 : 1;
-    return compare_sizes(x->place, y->place);
+    return compare_sizes(x->use, y->use);
 }
 
 static int compare_changes(const void *a, const void *b)
@@ -179,30 +179,29 @@ static int compare_changes(const void *a, const void *b)
 /* Finds which nodes of a mesh need copies of it; variants has room for its nodes. */
 static void split_mesh(const gltf_document *d, size_t mesh, variant *variants, gltf_plan *plan)
 {
-    const gltf_showing *showing = &d->showings[mesh];
-    const size_t base = showing->hidden_too && d->space == FFD_SPACE_SCENE ? GLTF_NONE : 0;
-    plan->base_places[mesh] = base;
+    const gltf_mesh_uses *uses = &d->mesh_uses[mesh];
+    const size_t base = uses->used_outside_scene && d->space == FFD_SPACE_SCENE ? GLTF_NONE : 0;
+    plan->base_uses[mesh] = base;
     size_t count = 0;
-    for (size_t place = 0; place < showing->node_count; place++)
-        if (place != base && !same_mesh(d, plan, mesh, base, place))
-            variants[count++] = (variant){hash_mesh(d, plan, mesh, place), place};
+    for (size_t use = 0; use < uses->node_count; use++)
+        if (use != base && !same_mesh(d, plan, mesh, base, use))
+            variants[count++] = (variant){hash_mesh(d, plan, mesh, use), use};
     if (count == 0)
         return;
     qsort(variants, count, sizeof *variants, compare_variants);
     for (size_t i = 0; i < count; i++) {
-        const bool joined =
-            i > 0 && variants[i].hash == variants[i - 1].hash &&
-            same_mesh(d, plan, mesh, plan->copies[plan->copy_count - 1].place, variants[i].place);
+        const bool joined = i > 0 && variants[i].hash == variants[i - 1].hash &&
+                            same_mesh(d, plan, mesh, plan->copies[plan->copy_count - 1].use, variants[i].use);
         if (!joined)
-            plan->copies[plan->copy_count++] = (gltf_mesh_copy){mesh, variants[i].place};
+            plan->copies[plan->copy_count++] = (gltf_mesh_copy){mesh, variants[i].use};
         plan->changes[plan->change_count++] =
-            (gltf_node_change){showing->nodes[variants[i].place], plan->copies[plan->copy_count - 1].place};
+            (gltf_node_change){uses->nodes[variants[i].use], plan->copies[plan->copy_count - 1].use};
     }
 }
 
 static int compare_copies(const void *a, const void *b)
 {
-    return compare_sizes(((const gltf_mesh_copy *)a)->place, ((const gltf_mesh_copy *)b)->place);
+    return compare_sizes(((const gltf_mesh_copy *)a)->use, ((const gltf_mesh_copy *)b)->use);
 }
 
 /* Puts a mesh's copies in the order of their first nodes, whatever their hashes. */
@@ -213,7 +212,7 @@ static void order_copies(gltf_plan *plan, size_t first_copy, size_t first_change
     qsort(plan->copies + first_copy, plan->copy_count - first_copy, sizeof *plan->copies, compare_copies);
     for (size_t i = first_change; i < plan->change_count; i++) {
         gltf_node_change *change = &plan->changes[i];
-        const gltf_mesh_copy key = {.place = change->copy};
+        const gltf_mesh_copy key = {.use = change->copy};
         const gltf_mesh_copy *found = bsearch(&key, plan->copies + first_copy, plan->copy_count - first_copy,
                                               sizeof *plan->copies, compare_copies);
         change->copy = (size_t)(found - plan->copies);
@@ -226,15 +225,15 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
 {
     size_t nodes = 0, most = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        nodes += d->showings[m].node_count;
-        most = d->showings[m].node_count > most ? d->showings[m].node_count : most;
+        nodes += d->mesh_uses[m].node_count;
+        most = d->mesh_uses[m].node_count > most ? d->mesh_uses[m].node_count : most;
     }
     variant *variants = ffd_alloc(most, sizeof *variants);
-    plan->base_places = ffd_alloc(d->model.mesh_count, sizeof *plan->base_places);
+    plan->base_uses = ffd_alloc(d->model.mesh_count, sizeof *plan->base_uses);
     plan->copies = ffd_alloc(nodes, sizeof *plan->copies);
     plan->changes = ffd_alloc(nodes, sizeof *plan->changes);
     ffd_status status = FFD_OK;
-    if (!variants || !plan->base_places || !plan->copies || !plan->changes)
+    if (!variants || !plan->base_uses || !plan->copies || !plan->changes)
         status = ffd_fail_memory(error);
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
         const size_t first_copy = plan->copy_count, first_change = plan->change_count;
@@ -247,12 +246,12 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
 
 /* Notes what the original meshes and their copies show; original[a]: accessor a's own content is still
  * wanted. */
-static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size_t place, bool *original)
+static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size_t use, bool *original)
 {
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
         for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
             const int accessor = gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], s);
-            const size_t version = ffd_gltf_version_at(d, plan, mesh, p, s, place);
+            const size_t version = ffd_gltf_version_at(d, plan, mesh, p, s, use);
             if (version != GLTF_NONE)
                 plan->versions[version].needed = true;
             else if (accessor >= 0)
@@ -262,7 +261,7 @@ static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size
 
 /* Whether the accessor's own bytes, decoded where they are compressed, can hold the version. Sparse ones are
    only the exceptions. */
-static bool has_place(const gltf_document *d, const gltf_version *version)
+static bool can_overwrite(const gltf_document *d, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];
     const bool has_bytes = accessor->view >= 0 || d->layouts[version->accessor].packing == GLTF_DRACO;
@@ -285,9 +284,9 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
         return ffd_fail_memory(error);
     }
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        mark_mesh(d, plan, m, plan->base_places[m], original);
+        mark_mesh(d, plan, m, plan->base_uses[m], original);
     for (size_t i = 0; i < plan->copy_count; i++)
-        mark_mesh(d, plan, plan->copies[i].mesh, plan->copies[i].place, original);
+        mark_mesh(d, plan, plan->copies[i].mesh, plan->copies[i].use, original);
     ffd_gltf_mark_other_users(d, original);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         plan->in_place[a] = GLTF_NONE;
@@ -295,7 +294,7 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
         gltf_version *version = &plan->versions[v];
         if (!version->needed || original[version->accessor])
             continue;
-        if (has_place(d, version))
+        if (can_overwrite(d, version))
             plan->in_place[version->accessor] = v;
         version->rebinds = can_rebind(d, version);
         original[version->accessor] = original[version->accessor] || version->rebinds; /* one of them */

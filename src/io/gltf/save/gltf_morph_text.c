@@ -2,7 +2,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/file/base64.h"
-#include "io/gltf/save/gltf_lists.h"
+#include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/save/gltf_morph_weights.h"
 #include "io/gltf/save/gltf_saver.h"
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
-#include "io/gltf/save/gltf_lists.h"
+#include "io/gltf/save/gltf_json_insert.h"
 #include <math.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #include "io/gltf/save/gltf_container.h"
 #include "io/gltf/save/gltf_content.h"
 #include "io/gltf/save/gltf_extensions.h"
-#include "io/gltf/save/gltf_lists.h"
+#include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_unpack.h"
 
@@ -15,13 +15,13 @@ static const json_value *value_of(const gltf_saver *saver, uint32_t value)
 }
 
 /* Lets the members of an object, "attributes" or a morph target, name the accessors of the slots from `first`
-   on that hold what the primitive shows at a place. */
+   on that hold what the primitive shows at a use. */
 static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t object, size_t first,
-                       size_t place, json_edits *edits)
+                       size_t use, json_edits *edits)
 {
     const gltf_document *d = saver->document;
     for (size_t s = 0; s < GLTF_DEFORMED; s++) {
-        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, first + s, place);
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, first + s, use);
         if (version == GLTF_NONE ||
             saver->plan.versions[version].output == saver->plan.versions[version].accessor)
             continue;
@@ -31,20 +31,20 @@ static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t 
     }
 }
 
-/* Lets a mesh name the accessors that hold what it shows at a place. */
-static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t place, json_edits *edits)
+/* Lets a mesh name the accessors that hold what it shows at a use. */
+static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits)
 {
     const gltf_document *d = saver->document;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
         const uint32_t primitive = ffd_gltf_primitive_value(d, mesh, p);
         const uint32_t targets = ffd_json_span_member(&d->tree, primitive, "targets");
         size_t first = 0;
-        edit_slots(saver, mesh, p, ffd_json_span_member(&d->tree, primitive, "attributes"), first, place,
+        edit_slots(saver, mesh, p, ffd_json_span_member(&d->tree, primitive, "attributes"), first, use,
                    edits);
         for (uint32_t t = ffd_json_span_first(&d->tree, targets); t != JSON_NONE;
              t = ffd_json_span_after(&d->tree, t)) {
             first += GLTF_DEFORMED;
-            edit_slots(saver, mesh, p, t, first, place, edits);
+            edit_slots(saver, mesh, p, t, first, use, edits);
         }
     }
 }
@@ -175,8 +175,8 @@ static void add_meshes(gltf_saver *saver)
     for (size_t i = 0; i < saver->plan.copy_count; i++) {
         const gltf_mesh_copy *copy = &saver->plan.copies[i];
         json_edits edits = {0};
-        edit_attributes(saver, copy->mesh, copy->place, &edits);
-        ffd_gltf_edit_compression(saver, copy->mesh, copy->place, &edits);
+        edit_attributes(saver, copy->mesh, copy->use, &edits);
+        ffd_gltf_edit_compression(saver, copy->mesh, copy->use, &edits);
         add_copy(saver, &d->mesh_values, "meshes", copy->mesh, &edits);
     }
     for (size_t i = 0; i < saver->plan.change_count; i++) {
@@ -227,8 +227,8 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
         if (saver->plan.in_place[a] != GLTF_NONE)
             ffd_gltf_edit_bounds(saver, &saver->plan.versions[saver->plan.in_place[a]], &saver->edits);
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        edit_attributes(saver, m, saver->plan.base_places[m], &saver->edits);
-        ffd_gltf_edit_compression(saver, m, saver->plan.base_places[m], &saver->edits);
+        edit_attributes(saver, m, saver->plan.base_uses[m], &saver->edits);
+        ffd_gltf_edit_compression(saver, m, saver->plan.base_uses[m], &saver->edits);
     }
     ffd_gltf_edit_unpackings(saver);
     add_views(saver);

@@ -2,12 +2,12 @@
 #include "base/memory/memory.h"
 
 size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p, size_t slot,
-                           size_t place)
+                           size_t use)
 {
-    if (place == GLTF_NONE)
+    if (use == GLTF_NONE)
         return GLTF_NONE;
-    const gltf_showing *showing = &d->showings[mesh];
-    const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + place];
+    const gltf_mesh_uses *uses = &d->mesh_uses[mesh];
+    const gltf_instance *instance = &d->instances[uses->first_instance + p * uses->node_count + use];
     if (!instance->selected)
         return GLTF_NONE;
     const size_t part = slot < GLTF_DEFORMED ? instance->part[slot]
@@ -19,7 +19,7 @@ void ffd_gltf_free_plan(gltf_plan *plan)
 {
     ffd_free(plan->versions);
     ffd_free(plan->part_versions);
-    ffd_free(plan->base_places);
+    ffd_free(plan->base_uses);
     ffd_free(plan->copies);
     ffd_free(plan->changes);
     ffd_free(plan->in_place);

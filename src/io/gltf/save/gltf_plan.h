@@ -18,7 +18,7 @@ typedef struct gltf_version {
 
 /* A mesh as nodes want it that cannot use the original. */
 typedef struct gltf_mesh_copy {
-    size_t mesh, place; /* place: the first of its nodes, in the mesh's showing */
+    size_t mesh, use; /* use: the first of those that want it, in the mesh's uses */
 } gltf_mesh_copy;
 
 typedef struct gltf_node_change {
@@ -29,8 +29,8 @@ typedef struct gltf_plan {
     gltf_version *versions;
     size_t version_count;
     size_t *part_versions; /* GLTF_DEFORMED a part, shapes too */
-    size_t *base_places;   /* of a mesh: the node (in its showing) after which the original mesh goes;
-                              GLTF_NONE: it   keeps its accessors' content */
+    size_t *base_uses;     /* of a mesh: the node (in its uses) after which the original mesh goes;
+                                GLTF_NONE: it   keeps its accessors' content */
     gltf_mesh_copy *copies;
     size_t copy_count;
     gltf_node_change *changes;
@@ -40,9 +40,9 @@ typedef struct gltf_plan {
     size_t appended_count;
 } gltf_plan;
 
-/* Returns the version that primitive p of a mesh shows at a place of its showing; GLTF_NONE: the original. */
+/* Returns the version that primitive p of a mesh shows at a place of its uses; GLTF_NONE: the original. */
 size_t ffd_gltf_version_at(const gltf_document *document, const gltf_plan *plan, size_t mesh, size_t p,
-                           size_t slot, size_t place);
+                           size_t slot, size_t use);
 
 /* Frees the plan's arrays. */
 void ffd_gltf_free_plan(gltf_plan *plan);

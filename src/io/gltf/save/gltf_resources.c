@@ -72,12 +72,12 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
 /* Begins the image's file, unless it is there. Other models that are written at the same time may have the
    same image, and be about to write it: that is waited for. They do not wait for this one in turn, since all
    go through their images in the order of their paths. */
-static ffd_status begin_image(const resources *r, const char *target, bool *is_there, ffd_error *error)
+static ffd_status begin_image(const resources *r, const char *target, bool *exists, ffd_error *error)
 {
     const double begin = ffd_clock_seconds();
     for (;;) {
-        *is_there = ffd_file_exists(target);
-        if (*is_there)
+        *exists = ffd_file_exists(target);
+        if (*exists)
             return FFD_OK;
         const ffd_status status = ffd_output_begin(r->saver->output, target, false, error);
         /* It may also have come between these two. */
@@ -102,18 +102,18 @@ static ffd_status compare_image(const char *target, const file_input *bytes, ffd
 static ffd_status write_image(const resources *r, const char *target, const file_input *bytes,
                               ffd_error *error)
 {
-    bool is_there;
+    bool exists;
     if (ffd_file_exists(target))
         return compare_image(target, bytes, error);
     char *folder = ffd_path_folder(target);
     ffd_status status = folder ? ffd_output_folder(r->saver->output, folder, error) : ffd_fail_memory(error);
     ffd_free(folder);
     if (status == FFD_OK)
-        status = begin_image(r, target, &is_there, error);
+        status = begin_image(r, target, &exists, error);
     if (status)
         return status;
-    return is_there ? compare_image(target, bytes, error)
-                    : ffd_output_write(r->saver->output, bytes->data, bytes->size, error);
+    return exists ? compare_image(target, bytes, error)
+                  : ffd_output_write(r->saver->output, bytes->data, bytes->size, error);
 }
 
 static ffd_status copy_image(const resources *r, size_t image, const char *path, ffd_error *error)
@@ -201,12 +201,12 @@ static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
 }
 
 /* An image's file and, where the output looks for it in its own folder, its place there. */
-typedef struct image_places {
+typedef struct image_paths {
     const char *path;
     char *source, *copy; /* copy: NULL where the output refers to the source */
-} image_places;
+} image_paths;
 
-static ffd_status refuse_clash(const image_places *image, const char *target, ffd_error *error)
+static ffd_status refuse_clash(const image_paths *image, const char *target, ffd_error *error)
 {
     if (!ffd_file_same(image->source, target) &&
         !(image->copy &&
@@ -224,9 +224,9 @@ static ffd_status refuse_image_name(const resources *r, size_t number, bool own_
     ffd_status status = image_path(saver->document, number, &path, error);
     if (status || !path)
         return status;
-    const image_places image = {.path = path,
-                                .source = ffd_path_join(r->from, path),
-                                .copy = own_copy ? ffd_path_join(r->to, path) : NULL};
+    const image_paths image = {.path = path,
+                               .source = ffd_path_join(r->from, path),
+                               .copy = own_copy ? ffd_path_join(r->to, path) : NULL};
     if (!image.source || (own_copy && !image.copy))
         status = ffd_fail_memory(error);
     if (status == FFD_OK && !saver->in_place)

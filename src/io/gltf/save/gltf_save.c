@@ -223,7 +223,7 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
     if (status == FFD_OK)
         status = ffd_gltf_make_content(&saver, error);
     if (status == FFD_OK) {
-        ffd_gltf_place_buffers(&saver);
+        ffd_gltf_choose_buffer_kinds(&saver);
         warn_of_chunks(&saver);
     }
     if (status == FFD_OK)

@@ -8,7 +8,7 @@
 
 #define DRACO "KHR_draco_mesh_compression"
 
-bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t place)
+bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t use)
 {
     const gltf_document *d = saver->document;
     if (ffd_gltf_draco_value(d, mesh, p) == JSON_NONE)
@@ -16,18 +16,18 @@ bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t
     for (int s = 0; s < GLTF_DEFORMED; s++) {
         const int accessor = d->model.meshes[mesh].primitives[p].accessor[s];
         if (accessor >= 0 && d->layouts[accessor].packing == GLTF_DRACO &&
-            ffd_gltf_version_at(d, &saver->plan, mesh, p, (gltf_semantic)s, place) != GLTF_NONE)
+            ffd_gltf_version_at(d, &saver->plan, mesh, p, (gltf_semantic)s, use) != GLTF_NONE)
             return true;
     }
     return false;
 }
 
 /* Whether the output names another accessor for this attribute, or for none of the deformed ones. */
-static bool is_redirected(const gltf_saver *saver, size_t mesh, size_t p, size_t place, uint32_t attribute)
+static bool is_redirected(const gltf_saver *saver, size_t mesh, size_t p, size_t use, uint32_t attribute)
 {
     const gltf_document *d = saver->document;
     for (int s = 0; s < GLTF_DEFORMED; s++) {
-        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, (gltf_semantic)s, place);
+        const size_t version = ffd_gltf_version_at(d, &saver->plan, mesh, p, (gltf_semantic)s, use);
         if (version != GLTF_NONE && ffd_json_span_key_is(&d->tree, attribute, ffd_gltf_semantic_names[s]))
             return saver->plan.versions[version].output != saver->plan.versions[version].accessor;
     }
@@ -64,8 +64,8 @@ static void unpack_accessor(gltf_saver *saver, size_t a, bool indices)
                                    .buffer = stored_in(d, unpacked->view)});
 }
 
-/* All that a primitive takes from its compressed data, as it is shown at a place. */
-static void unpack_primitive(gltf_saver *saver, size_t mesh, size_t p, size_t place)
+/* All that a primitive takes from its compressed data, as it is shown at a use. */
+static void unpack_primitive(gltf_saver *saver, size_t mesh, size_t p, size_t use)
 {
     const gltf_document *d = saver->document;
     const int indices = d->model.meshes[mesh].primitives[p].indices;
@@ -75,18 +75,18 @@ static void unpack_primitive(gltf_saver *saver, size_t mesh, size_t p, size_t pl
          v = ffd_json_span_after(&d->tree, v)) {
         double number = 0;
         ffd_json_span_number(&d->tree, v, &number);
-        if (d->layouts[(size_t)number].packing == GLTF_DRACO && !is_redirected(saver, mesh, p, place, v))
+        if (d->layouts[(size_t)number].packing == GLTF_DRACO && !is_redirected(saver, mesh, p, use, v))
             unpack_accessor(saver, (size_t)number, false);
     }
     if (indices >= 0 && d->layouts[indices].packing == GLTF_DRACO)
         unpack_accessor(saver, (size_t)indices, true);
 }
 
-static void unpack_mesh(gltf_saver *saver, size_t mesh, size_t place)
+static void unpack_mesh(gltf_saver *saver, size_t mesh, size_t use)
 {
     for (size_t p = 0; p < saver->document->model.meshes[mesh].primitive_count; p++)
-        if (ffd_gltf_is_unpacked(saver, mesh, p, place))
-            unpack_primitive(saver, mesh, p, place);
+        if (ffd_gltf_is_unpacked(saver, mesh, p, use))
+            unpack_primitive(saver, mesh, p, use);
 }
 
 static void unpack_view(gltf_saver *saver, size_t view)
@@ -114,9 +114,9 @@ ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error)
     for (size_t a = 0; a < accessors; a++)
         saver->accessor_unpackings[a] = GLTF_NONE;
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        unpack_mesh(saver, m, saver->plan.base_places[m]);
+        unpack_mesh(saver, m, saver->plan.base_uses[m]);
     for (size_t i = 0; i < saver->plan.copy_count; i++)
-        unpack_mesh(saver, saver->plan.copies[i].mesh, saver->plan.copies[i].place);
+        unpack_mesh(saver, saver->plan.copies[i].mesh, saver->plan.copies[i].use);
     for (size_t a = 0; a < accessors; a++)
         if (saver->plan.in_place[a] != GLTF_NONE && d->layouts[a].packing == GLTF_DRACO)
             unpack_accessor(saver, a, false);
@@ -154,12 +154,12 @@ static void remove_extensions(const json_span *tree, uint32_t object, const char
         ffd_edits_remove(edits, tree, extensions, gone, gone_count);
 }
 
-void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t place, json_edits *edits)
+void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits)
 {
     static const char *const names[] = {DRACO};
     const gltf_document *d = saver->document;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
-        if (!ffd_gltf_is_unpacked(saver, mesh, p, place))
+        if (!ffd_gltf_is_unpacked(saver, mesh, p, use))
             continue;
         remove_extensions(&d->tree, ffd_gltf_primitive_value(d, mesh, p), names, 1, edits);
         ffd_log_line(saver->log, FFD_LOG_INFO,
@@ -229,11 +229,11 @@ void ffd_gltf_write_unpacked_views(const gltf_saver *saver, byte_buffer *text)
     }
 }
 
-static bool has_draco(const gltf_saver *saver, size_t mesh, size_t place)
+static bool has_draco(const gltf_saver *saver, size_t mesh, size_t use)
 {
     const gltf_document *d = saver->document;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        if (ffd_gltf_draco_value(d, mesh, p) != JSON_NONE && !ffd_gltf_is_unpacked(saver, mesh, p, place))
+        if (ffd_gltf_draco_value(d, mesh, p) != JSON_NONE && !ffd_gltf_is_unpacked(saver, mesh, p, use))
             return true;
     return false;
 }
@@ -242,9 +242,9 @@ bool ffd_gltf_lost_draco(gltf_saver *saver)
 {
     bool lost = saver->unpacked_accessor_count > 0;
     for (size_t m = 0; m < saver->document->model.mesh_count && lost; m++)
-        lost = !has_draco(saver, m, saver->plan.base_places[m]);
+        lost = !has_draco(saver, m, saver->plan.base_uses[m]);
     for (size_t i = 0; i < saver->plan.copy_count && lost; i++)
-        lost = !has_draco(saver, saver->plan.copies[i].mesh, saver->plan.copies[i].place);
+        lost = !has_draco(saver, saver->plan.copies[i].mesh, saver->plan.copies[i].use);
     return lost;
 }
 

@@ -10,12 +10,12 @@ ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error);
 /* Frees the lists of unpackings. */
 void ffd_gltf_free_unpackings(gltf_saver *saver);
 
-/* Whether primitive p of a mesh, as it is shown at a place of its showing, is written uncompressed. */
-bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t place);
+/* Whether primitive p of a mesh, as it is shown at a use of its uses, is written uncompressed. */
+bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t use);
 
 /* Removes the compression of a mesh's primitives where they are written uncompressed, as the mesh is shown at
-   a place of its showing, and logs it. */
-void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t place, json_edits *edits);
+   a use of its uses, and logs it. */
+void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits);
 
 /* Edits the views and accessors so that they name the decoded data. */
 void ffd_gltf_edit_unpackings(gltf_saver *saver);

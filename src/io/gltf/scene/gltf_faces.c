@@ -67,7 +67,7 @@ static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error
 {
     uint64_t triangles = 0, lines = 0, points = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        const size_t nodes = d->showings[m].node_count;
+        const size_t nodes = d->mesh_uses[m].node_count;
         for (size_t p = 0; p < d->model.meshes[m].primitive_count && nodes > 0; p++) {
             const ffd_status status = refuse_primitive(d, m, p, error);
             if (status)
@@ -159,14 +159,14 @@ static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, cons
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const drawing counted = count_drawing(d, primitive);
-    const gltf_showing *showing = &d->showings[m];
-    if (counted.triangles == 0 || showing->node_count == 0)
+    const gltf_mesh_uses *uses = &d->mesh_uses[m];
+    if (counted.triangles == 0 || uses->node_count == 0)
         return FFD_OK;
     uint32_t *corners;
     size_t count;
     const ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &count, error);
-    for (size_t n = 0; n < showing->node_count && status == FFD_OK; n++) {
-        const gltf_instance *instance = &d->instances[showing->first_instance + p * showing->node_count + n];
+    for (size_t n = 0; n < uses->node_count && status == FFD_OK; n++) {
+        const gltf_instance *instance = &d->instances[uses->first_instance + p * uses->node_count + n];
         for (size_t t = 0; t < counted.triangles; t++) {
             uint32_t *triangle = to + 3 * (*added)++;
             ffd_gltf_triangle(primitive->mode, t, corners, triangle);
@@ -190,7 +190,7 @@ uint64_t ffd_gltf_most_corners(const gltf_document *d)
 }
 
 /* For the faces, beside the corners of one primitive. */
-static ffd_status check_room(const gltf_document *d, const mesh_faces *faces, ffd_error *error)
+static ffd_status check_budget(const gltf_document *d, const mesh_faces *faces, ffd_error *error)
 {
     mesh_room room = d->base.room;
     const ffd_status status = ffd_mesh_faces_take(faces, 3 * (uint64_t)faces->face_count, &room, error);
@@ -206,7 +206,7 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
         return status;
     for (size_t i = 0; i < d->base.part_count; i++)
         faces->vertex_count += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
-    status = check_room(d, faces, error);
+    status = check_budget(d, faces, error);
     if (status == FFD_OK)
         status = ffd_mesh_faces_make(document, faces, 3 * faces->face_count, error);
     if (status)
@@ -260,9 +260,9 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
             const size_t count = 3 * count_drawing(d, &d->model.meshes[m].primitives[p]).triangles;
-            const gltf_showing *showing = &d->showings[m];
-            const gltf_instance *instances = d->instances + showing->first_instance + p * showing->node_count;
-            for (size_t n = 0; n < showing->node_count && count > 0; n++, corner += count)
+            const gltf_mesh_uses *uses = &d->mesh_uses[m];
+            const gltf_instance *instances = d->instances + uses->first_instance + p * uses->node_count;
+            for (size_t n = 0; n < uses->node_count && count > 0; n++, corner += count)
                 number_corners(&instances[n], first_vertices, first_normals, faces->corners + corner, count,
                                normals + corner);
         }

@@ -21,7 +21,7 @@ typedef struct survey {
     uint64_t instances;
 } survey;
 
-static const ffd_bounds nowhere = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+static const ffd_bounds empty_bounds = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
 
 static void join(ffd_bounds *box, const ffd_bounds *other)
 {
@@ -69,7 +69,8 @@ static ffd_status find_attribute(const gltf_document *d, uint32_t attributes, co
     return FFD_OK;
 }
 
-static ffd_status find_instances(const gltf_document *d, size_t node, gltf_crowd *found, ffd_error *error)
+static ffd_status find_instances(const gltf_document *d, size_t node, gltf_instanced_node *found,
+                                 ffd_error *error)
 {
     const uint32_t extension = ffd_gltf_extension(d, d->node_values.values[node], EXTENSION);
     const uint32_t attributes = ffd_json_span_member(&d->tree, extension, "attributes");
@@ -109,7 +110,7 @@ static bool is_finite(const ffd_bounds *box)
 /* The bounds of a mesh in its own space; false where it cannot be read. */
 static bool find_mesh_bounds(survey *s, size_t mesh, ffd_bounds *box)
 {
-    *box = nowhere;
+    *box = empty_bounds;
     for (size_t p = 0; p < s->document->model.meshes[mesh].primitive_count; p++) {
         const int accessor = s->document->model.meshes[mesh].primitives[p].accessor[GLTF_POSITION];
         if (accessor < 0)
@@ -126,56 +127,57 @@ static bool can_read(const gltf_document *d, size_t accessor)
     return accessor == GLTF_NONE || d->layouts[accessor].readable;
 }
 
-static ffd_status describe_crowd(survey *s, size_t node, gltf_crowd *crowd, ffd_error *error)
+static ffd_status describe_instanced_node(survey *s, size_t node, gltf_instanced_node *instanced,
+                                          ffd_error *error)
 {
     const gltf_document *d = s->document;
-    *crowd = (gltf_crowd){.node = node};
-    const ffd_status status = find_instances(d, node, crowd, error);
+    *instanced = (gltf_instanced_node){.node = node};
+    const ffd_status status = find_instances(d, node, instanced, error);
     if (status)
         return status;
-    s->instances += crowd->count;
-    crowd->everywhere = !find_mesh_bounds(s, (size_t)d->model.nodes[node].mesh, &crowd->mesh) ||
-                        d->model.nodes[node].skin >= 0 || s->instances > MOST_INSTANCES ||
-                        !can_read(d, crowd->translation) || !can_read(d, crowd->rotation) ||
-                        !can_read(d, crowd->scale);
+    s->instances += instanced->count;
+    instanced->everywhere = !find_mesh_bounds(s, (size_t)d->model.nodes[node].mesh, &instanced->mesh) ||
+                            d->model.nodes[node].skin >= 0 || s->instances > MOST_INSTANCES ||
+                            !can_read(d, instanced->translation) || !can_read(d, instanced->rotation) ||
+                            !can_read(d, instanced->scale);
     return FFD_OK;
 }
 
 /* The node's vertices stay, whatever is asked for. */
 static void skip_node(gltf_document *d, size_t node)
 {
-    gltf_showing *showing = &d->showings[d->model.nodes[node].mesh];
-    size_t low = 0, high = showing->node_count;
+    gltf_mesh_uses *uses = &d->mesh_uses[d->model.nodes[node].mesh];
+    size_t low = 0, high = uses->node_count;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        *(showing->nodes[middle] <= node ? &low : &high) = middle;
+        *(uses->nodes[middle] <= node ? &low : &high) = middle;
     }
-    showing->hidden_too = true; /* so that the node keeps its mesh */
+    uses->used_outside_scene = true; /* so that the node keeps its mesh */
     for (size_t p = 0; p < d->model.meshes[d->model.nodes[node].mesh].primitive_count; p++)
-        d->instances[showing->first_instance + p * showing->node_count + low].selected = false;
+        d->instances[uses->first_instance + p * uses->node_count + low].selected = false;
 }
 
 static bool is_instanced(const gltf_document *d, size_t node)
 {
-    return d->space == FFD_SPACE_SCENE && d->is_shown[node] && d->model.nodes[node].mesh >= 0 &&
+    return d->space == FFD_SPACE_SCENE && d->in_scene[node] && d->model.nodes[node].mesh >= 0 &&
            ffd_gltf_has_extension(d, d->node_values.values[node], EXTENSION);
 }
 
-static ffd_status describe_crowds(survey *s, ffd_error *error)
+static ffd_status describe_instanced_nodes(survey *s, ffd_error *error)
 {
     gltf_document *d = s->document;
     ffd_status status = FFD_OK;
     for (size_t n = 0; n < d->model.node_count && status == FFD_OK; n++)
         if (is_instanced(d, n)) {
             skip_node(d, n);
-            status = describe_crowd(s, n, &d->crowds[d->crowd_count++], error);
+            status = describe_instanced_node(s, n, &d->instanced_nodes[d->instanced_node_count++], error);
         }
     for (size_t i = 0; i < d->base.part_count; i++)
-        d->mesh_parts[i].skipped = ffd_gltf_crowd_of(d, d->parts[i].node) != NULL;
+        d->mesh_parts[i].skipped = ffd_gltf_instanced_node(d, d->parts[i].node) != NULL;
     return status;
 }
 
-ffd_status ffd_gltf_make_crowds(gltf_document *d, ffd_error *error)
+ffd_status ffd_gltf_find_instanced_nodes(gltf_document *d, ffd_error *error)
 {
     survey s = {.document = d};
     size_t count = 0;
@@ -184,22 +186,23 @@ ffd_status ffd_gltf_make_crowds(gltf_document *d, ffd_error *error)
     if (count == 0)
         return FFD_OK;
     s.accessors = ffd_alloc(d->model.accessor_count, sizeof *s.accessors);
-    d->crowds = ffd_alloc(count, sizeof *d->crowds);
+    d->instanced_nodes = ffd_alloc(count, sizeof *d->instanced_nodes);
     for (size_t a = 0; s.accessors && a < d->model.accessor_count; a++)
-        s.accessors[a] = nowhere;
-    const ffd_status status = s.accessors && d->crowds ? describe_crowds(&s, error) : ffd_fail_memory(error);
+        s.accessors[a] = empty_bounds;
+    const ffd_status status =
+        s.accessors && d->instanced_nodes ? describe_instanced_nodes(&s, error) : ffd_fail_memory(error);
     ffd_free(s.accessors);
     return status;
 }
 
-gltf_crowd *ffd_gltf_crowd_of(const gltf_document *d, size_t node)
+gltf_instanced_node *ffd_gltf_instanced_node(const gltf_document *d, size_t node)
 {
-    size_t low = 0, high = d->crowd_count;
+    size_t low = 0, high = d->instanced_node_count;
     while (low < high) {
         const size_t middle = low + (high - low) / 2;
-        if (d->crowds[middle].node == node)
-            return &d->crowds[middle];
-        if (d->crowds[middle].node < node)
+        if (d->instanced_nodes[middle].node == node)
+            return &d->instanced_nodes[middle];
+        if (d->instanced_nodes[middle].node < node)
             low = middle + 1;
         else
             high = middle;
@@ -227,29 +230,31 @@ static bool meets(const ffd_bounds *box, const double world[12], const ffd_bound
     return true; /* also what is not a number */
 }
 
-static void place_instance(const gltf_document *d, const gltf_crowd *crowd, size_t i, double world[12])
+static void instance_matrix(const gltf_document *d, const gltf_instanced_node *instanced, size_t i,
+                            double world[12])
 {
     gltf_node instance = {.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
     double linear[9], offset[3];
-    if (crowd->translation != GLTF_NONE)
-        ffd_gltf_read(d, crowd->translation, i, 1, 3, instance.translation);
-    if (crowd->rotation != GLTF_NONE)
-        ffd_gltf_read(d, crowd->rotation, i, 1, 4, instance.rotation);
-    if (crowd->scale != GLTF_NONE)
-        ffd_gltf_read(d, crowd->scale, i, 1, 3, instance.scale);
+    if (instanced->translation != GLTF_NONE)
+        ffd_gltf_read(d, instanced->translation, i, 1, 3, instance.translation);
+    if (instanced->rotation != GLTF_NONE)
+        ffd_gltf_read(d, instanced->rotation, i, 1, 4, instance.rotation);
+    if (instanced->scale != GLTF_NONE)
+        ffd_gltf_read(d, instanced->scale, i, 1, 3, instance.scale);
     ffd_gltf_local_matrix(&instance, linear, offset);
-    ffd_gltf_join_matrix(d->world + 12 * crowd->node, linear, offset, world);
+    ffd_gltf_join_matrix(d->world + 12 * instanced->node, linear, offset, world);
 }
 
-static bool is_reached(const gltf_document *d, const gltf_crowd *crowd, const ffd_bounds *reach)
+static bool is_reached(const gltf_document *d, const gltf_instanced_node *instanced, const ffd_bounds *reach)
 {
-    if (crowd->idle || crowd->everywhere)
-        return !crowd->idle;
+    if (instanced->idle || instanced->everywhere)
+        return !instanced->idle;
     bool met = false;
-    for (size_t i = 0; i < crowd->count && crowd->mesh.min[0] <= crowd->mesh.max[0] && !met; i++) {
+    for (size_t i = 0; i < instanced->count && instanced->mesh.min[0] <= instanced->mesh.max[0] && !met;
+         i++) {
         double world[12];
-        place_instance(d, crowd, i, world);
-        met = meets(&crowd->mesh, world, reach);
+        instance_matrix(d, instanced, i, world);
+        met = meets(&instanced->mesh, world, reach);
     }
     return met;
 }
@@ -257,11 +262,11 @@ static bool is_reached(const gltf_document *d, const gltf_crowd *crowd, const ff
 ffd_status ffd_gltf_check_reach(const mesh_document *document, const ffd_bounds *reach, ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
-    for (size_t i = 0; i < d->crowd_count; i++)
-        if (is_reached(d, &d->crowds[i], reach))
+    for (size_t i = 0; i < d->instanced_node_count; i++)
+        if (is_reached(d, &d->instanced_nodes[i], reach))
             return ffd_json_span_fail(
-                &d->tree, ffd_gltf_extension(d, d->node_values.values[d->crowds[i].node], EXTENSION), d->name,
-                FFD_E_UNSUPPORTED, error,
+                &d->tree, ffd_gltf_extension(d, d->node_values.values[d->instanced_nodes[i].node], EXTENSION),
+                d->name, FFD_E_UNSUPPORTED, error,
                 EXTENSION " is not supported where the lattice reaches the instances (--space mesh deforms "
                           "the mesh itself)");
     return FFD_OK;

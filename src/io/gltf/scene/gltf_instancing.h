@@ -6,10 +6,10 @@
 
 /* Finds these nodes and deselects what they show; comes after ffd_gltf_make_parts. Errors: FFD_E_INVALID,
    FFD_E_MEMORY. */
-ffd_status ffd_gltf_make_crowds(gltf_document *document, ffd_error *error);
+ffd_status ffd_gltf_find_instanced_nodes(gltf_document *document, ffd_error *error);
 
 /* Returns the instances of a node; NULL if it has none. */
-gltf_crowd *ffd_gltf_crowd_of(const gltf_document *document, size_t node);
+gltf_instanced_node *ffd_gltf_instanced_node(const gltf_document *document, size_t node);
 
 /* mesh_format's check_reach. */
 mesh_check_reach_function ffd_gltf_check_reach;

@@ -25,8 +25,8 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
     *total = 0;
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
         const uint64_t shown =
-            (uint64_t)d->model.meshes[m].primitive_count * d->showings[m].node_count; /* below 2^31 each */
-        d->showings[m].first_instance = *total;
+            (uint64_t)d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count; /* below 2^31 each */
+        d->mesh_uses[m].first_instance = *total;
         status = ffd_room_take(&d->base.room, shown, INSTANCE_BYTES, error);
         *total += (size_t)shown;
     }
@@ -76,7 +76,7 @@ static bool serves(const gltf_part *part, size_t normal, size_t tangent)
            (tangent == GLTF_NONE || part->streams[GLTF_TANGENT].accessor == tangent);
 }
 
-static void place_part(const gltf_document *d, const gltf_part *from, mesh_part *part)
+static void set_part_transform(const gltf_document *d, const gltf_part *from, mesh_part *part)
 {
     static const double unit[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
     const double *world = from->node == GLTF_NONE ? unit : d->world + 12 * from->node;
@@ -101,7 +101,7 @@ static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
     shown->has_tangents = part->streams[GLTF_TANGENT].accessor != GLTF_NONE;
     shown->repeats_positions = repeated != GLTF_NONE;
     shown->repeats = repeated;
-    place_part(d, part, shown);
+    set_part_transform(d, part, shown);
     return index;
 }
 
@@ -183,8 +183,8 @@ ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)
     gltf_instance *instance = d->instances;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->showings[m].node_count; n++)
-                add_instance(d, &table, m, p, d->showings[m].nodes ? d->showings[m].nodes[n] : GLTF_NONE,
+            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++)
+                add_instance(d, &table, m, p, d->mesh_uses[m].nodes ? d->mesh_uses[m].nodes[n] : GLTF_NONE,
                              instance++);
     d->base.parts = d->mesh_parts;
     status = limit_vertices(d, error);

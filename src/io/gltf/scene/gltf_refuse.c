@@ -142,18 +142,18 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
             *error = d->skins_error;
         return d->skins_status;
     }
-    if (status == FFD_OK && d->crowds_status) {
+    if (status == FFD_OK && d->instancing_status) {
         if (error)
-            *error = d->crowds_error;
-        return d->crowds_status;
+            *error = d->instancing_error;
+        return d->instancing_status;
     }
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        const gltf_showing *showing = &d->showings[m];
-        for (size_t p = 0;
-             p < d->model.meshes[m].primitive_count && showing->node_count > 0 && status == FFD_OK; p++)
+        const gltf_mesh_uses *uses = &d->mesh_uses[m];
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && uses->node_count > 0 && status == FFD_OK;
+             p++)
             status = refuse_primitive(d, m, p, error);
-        for (size_t n = 0; showing->nodes && n < showing->node_count && status == FFD_OK; n++)
-            status = refuse_skin(d, showing->nodes[n], error);
+        for (size_t n = 0; uses->nodes && n < uses->node_count && status == FFD_OK; n++)
+            status = refuse_skin(d, uses->nodes[n], error);
     }
     return status;
 }
@@ -162,7 +162,7 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
 ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tangents, ffd_error *error)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && d->showings[m].node_count > 0; p++) {
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && d->mesh_uses[m].node_count > 0; p++) {
             const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
             const bool wanted[GLTF_DEFORMED] = {true, normals,
                                                 tangents && primitive->accessor[GLTF_NORMAL] >= 0};

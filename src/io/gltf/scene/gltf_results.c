@@ -23,7 +23,7 @@ static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *s
     const size_t first = tile * MESH_RANGE_STEP;
     ffd_gltf_originals(d, stream->accessor, first, tile_end(d, part, tile) - first,
                        stream->result + 3 * first);
-    stream->is_there[tile] = 1;
+    stream->filled[tile] = 1;
 }
 
 /* Before vectors [first, last) get their results. whole: each of them does. */
@@ -32,8 +32,8 @@ static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *
 {
     for (size_t t = first / MESH_RANGE_STEP; t <= (last - 1) / MESH_RANGE_STEP; t++)
         if (whole && first <= t * MESH_RANGE_STEP && tile_end(d, part, t) <= last)
-            stream->is_there[t] = 1;
-        else if (!stream->is_there[t])
+            stream->filled[t] = 1;
+        else if (!stream->filled[t])
             begin_tile(d, part, stream, t);
 }
 
@@ -79,25 +79,25 @@ void ffd_gltf_complete_results(gltf_document *d)
     for (size_t i = 0; i < ffd_gltf_part_count(d); i++)
         for (int s = 0; s < GLTF_DEFORMED; s++) {
             gltf_stream *stream = &d->parts[i].streams[s];
-            if (!stream->is_there)
+            if (!stream->filled)
                 continue;
             for (size_t tile = 0; tile < tiles_of(d->mesh_parts[i].vertex_count); tile++)
-                if (!stream->is_there[tile]) {
+                if (!stream->filled[tile]) {
                     begin_tile(d, i, stream, tile);
                     note_bounds(d, i, stream, tile);
                 }
-            ffd_free(stream->is_there);
-            stream->is_there = NULL;
+            ffd_free(stream->filled);
+            stream->filled = NULL;
         }
 }
 
 void ffd_gltf_free_result(gltf_stream *stream)
 {
     ffd_free(stream->result);
-    ffd_free(stream->is_there);
+    ffd_free(stream->filled);
     ffd_free(stream->bounds);
     stream->result = NULL;
-    stream->is_there = NULL;
+    stream->filled = NULL;
     stream->bounds = NULL;
 }
 
@@ -119,15 +119,14 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
         if (d->morph_name)
             memset(stream->result, 0, count * 3 * sizeof *stream->result);
     }
-    ffd_free(stream->is_there); /* of an earlier deformation */
-    stream->is_there = NULL;
+    ffd_free(stream->filled); /* of an earlier deformation */
+    stream->filled = NULL;
     if (d->morph_name)
         return FFD_OK;
-    stream->is_there = ffd_alloc_zero(tiles_of(count), 1);
+    stream->filled = ffd_alloc_zero(tiles_of(count), 1);
     if (semantic == GLTF_POSITION && !stream->bounds)
         stream->bounds = ffd_alloc(tiles_of(count), sizeof *stream->bounds);
-    return stream->is_there && (stream->bounds || semantic != GLTF_POSITION) ? FFD_OK
-                                                                             : ffd_fail_memory(error);
+    return stream->filled && (stream->bounds || semantic != GLTF_POSITION) ? FFD_OK : ffd_fail_memory(error);
 }
 
 /* Of an earlier deformation that wanted it. */
@@ -206,7 +205,7 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
     if (!stream->result || count == 0)
         return;
     const bool plain = is_plain(d, stream, semantic), whole = !memchr(changed, 0, count);
-    if (stream->is_there)
+    if (stream->filled)
         begin_tiles(d, part, stream, first, first + count, whole);
     if (whole && plain && components == 3) /* nearly always */
         ffd_array_kernel(FFD_ISA_AUTO)->round(values, 3 * count, stream->result + 3 * first);

@@ -36,7 +36,7 @@ void ffd_gltf_join_matrix(const double parent[12], const double linear[9], const
         joined[9 + i] += parent[9 + i];
 }
 
-static void place(gltf_document *d, size_t n, const double *parent)
+static void set_world_matrix(gltf_document *d, size_t n, const double *parent)
 {
     double *world = d->world + 12 * n;
     double linear[9], offset[3];
@@ -101,34 +101,34 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
 }
 
 /* Joints may stand outside the shown scene: all nodes get their place. */
-static void place_all(gltf_document *d, const size_t *parents, const size_t *order)
+static void set_world_matrices(gltf_document *d, const size_t *parents, const size_t *order)
 {
     for (size_t i = 0; i < d->model.node_count; i++) {
         const size_t n = order[i], parent = parents[n];
-        place(d, n, parent == GLTF_NONE ? NULL : d->world + 12 * parent);
+        set_world_matrix(d, n, parent == GLTF_NONE ? NULL : d->world + 12 * parent);
     }
 }
 
 /* Shows a root and all nodes below it. */
-static void show(gltf_document *d, size_t root, const size_t *parents, size_t *pending)
+static void add_subtree(gltf_document *d, size_t root, const size_t *parents, size_t *pending)
 {
     size_t waiting = 0;
     pending[waiting++] = root;
-    d->is_shown[root] = true;
+    d->in_scene[root] = true;
     while (waiting > 0) {
         const size_t n = pending[--waiting];
         const gltf_node *node = &d->model.nodes[n];
         for (size_t i = 0; i < node->child_count; i++) {
             const size_t child = (size_t)node->children[i];
-            if (parents[child] != n || d->is_shown[child])
+            if (parents[child] != n || d->in_scene[child])
                 continue;
-            d->is_shown[child] = true;
+            d->in_scene[child] = true;
             pending[waiting++] = child;
         }
     }
 }
 
-static ffd_status show_scene(gltf_document *d, const size_t *parents, size_t *pending, ffd_error *error)
+static ffd_status add_scene(gltf_document *d, const size_t *parents, size_t *pending, ffd_error *error)
 {
     const gltf_scene *scene = &d->model.scenes[d->model.scene >= 0 ? d->model.scene : 0];
     for (size_t i = 0; i < scene->node_count; i++) {
@@ -137,10 +137,10 @@ static ffd_status show_scene(gltf_document *d, const size_t *parents, size_t *pe
             return ffd_json_span_fail(&d->tree, d->node_values.values[root], d->name, FFD_E_INVALID, error,
                                       "a scene names the node as a root, but it is a child of node %zu",
                                       parents[root]);
-        if (d->is_shown[root])
+        if (d->in_scene[root])
             return ffd_json_span_fail(&d->tree, d->node_values.values[root], d->name, FFD_E_INVALID, error,
                                       "the scene names the node twice");
-        show(d, root, parents, pending);
+        add_subtree(d, root, parents, pending);
     }
     return FFD_OK;
 }
@@ -148,7 +148,7 @@ static ffd_status show_scene(gltf_document *d, const size_t *parents, size_t *pe
 static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
 {
     for (size_t n = 0; n < d->model.node_count; n++)
-        for (int i = 0; d->is_shown[n] && i < 12; i++)
+        for (int i = 0; d->in_scene[n] && i < 12; i++)
             if (!isfinite(d->world[12 * n + i]))
                 return ffd_json_span_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
                                           "the node's place in the scene is not finite");
@@ -163,35 +163,36 @@ static ffd_status list_nodes(gltf_document *d, ffd_error *error)
     for (size_t n = 0; n < model->node_count; n++) {
         if (model->nodes[n].mesh < 0)
             continue;
-        gltf_showing *showing = &d->showings[model->nodes[n].mesh];
-        showing->is_used = true;
-        showing->node_count += d->is_shown[n];
-        showing->hidden_too = showing->hidden_too || !d->is_shown[n];
-        d->hidden_nodes += !d->is_shown[n];
-        total += d->is_shown[n];
+        gltf_mesh_uses *uses = &d->mesh_uses[model->nodes[n].mesh];
+        uses->is_used = true;
+        uses->node_count += d->in_scene[n];
+        uses->used_outside_scene = uses->used_outside_scene || !d->in_scene[n];
+        d->nodes_outside_scene += !d->in_scene[n];
+        total += d->in_scene[n];
     }
-    d->shown_nodes = ffd_alloc(total, sizeof *d->shown_nodes);
-    if (!d->shown_nodes)
+    d->scene_nodes = ffd_alloc(total, sizeof *d->scene_nodes);
+    if (!d->scene_nodes)
         return ffd_fail_memory(error);
-    size_t *room = d->shown_nodes;
+    size_t *room = d->scene_nodes;
     for (size_t m = 0; m < model->mesh_count; m++) {
-        d->showings[m].nodes = room;
-        room += d->showings[m].node_count;
-        d->showings[m].hidden_too = d->showings[m].hidden_too || d->showings[m].node_count == 0;
-        d->showings[m].node_count = 0;
+        d->mesh_uses[m].nodes = room;
+        room += d->mesh_uses[m].node_count;
+        d->mesh_uses[m].used_outside_scene =
+            d->mesh_uses[m].used_outside_scene || d->mesh_uses[m].node_count == 0;
+        d->mesh_uses[m].node_count = 0;
     }
     for (size_t n = 0; n < model->node_count; n++)
-        if (model->nodes[n].mesh >= 0 && d->is_shown[n]) {
-            gltf_showing *showing = &d->showings[model->nodes[n].mesh];
-            showing->nodes[showing->node_count++] = n;
+        if (model->nodes[n].mesh >= 0 && d->in_scene[n]) {
+            gltf_mesh_uses *uses = &d->mesh_uses[model->nodes[n].mesh];
+            uses->nodes[uses->node_count++] = n;
         }
     return FFD_OK;
 }
 
-static void show_meshes_alone(gltf_document *d)
+static void use_meshes_alone(gltf_document *d)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        d->showings[m].node_count = 1;
+        d->mesh_uses[m].node_count = 1;
 }
 
 ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
@@ -199,10 +200,10 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
     const size_t count = d->model.node_count;
     size_t *parents = ffd_alloc(count, sizeof *parents), *pending = ffd_alloc(count, sizeof *pending);
     d->world = ffd_alloc_zero(count, 12 * sizeof *d->world);
-    d->is_shown = ffd_alloc_zero(count, sizeof *d->is_shown);
-    d->showings = ffd_alloc_zero(d->model.mesh_count, sizeof *d->showings);
+    d->in_scene = ffd_alloc_zero(count, sizeof *d->in_scene);
+    d->mesh_uses = ffd_alloc_zero(d->model.mesh_count, sizeof *d->mesh_uses);
     ffd_status status =
-        parents && pending && d->world && d->is_shown && d->showings ? FFD_OK : ffd_fail_memory(error);
+        parents && pending && d->world && d->in_scene && d->mesh_uses ? FFD_OK : ffd_fail_memory(error);
     if (status)
         goto done;
     find_parents(d, parents);
@@ -210,16 +211,16 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
     if (status)
         goto done;
     if (d->space == FFD_SPACE_MESH) {
-        show_meshes_alone(d);
+        use_meshes_alone(d);
         goto done;
     }
-    place_all(d, parents, pending);
+    set_world_matrices(d, parents, pending);
     if (d->model.scene_count > 0)
-        status = show_scene(d, parents, pending, error);
+        status = add_scene(d, parents, pending, error);
     else
         for (size_t n = 0; n < count; n++)
             if (parents[n] == GLTF_NONE)
-                show(d, n, parents, pending);
+                add_subtree(d, n, parents, pending);
     if (status == FFD_OK)
         status = refuse_infinite(d, error);
     if (status == FFD_OK)

@@ -142,16 +142,16 @@ static ffd_status mark_vertices(gltf_document *d, const gltf_instance *instance,
 static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_error *error)
 {
     gltf_document *d = s->document;
-    const gltf_showing *showing = &d->showings[m];
-    gltf_instance *instances = d->instances + showing->first_instance + p * showing->node_count;
+    const gltf_mesh_uses *uses = &d->mesh_uses[m];
+    gltf_instance *instances = d->instances + uses->first_instance + p * uses->node_count;
     const bool everywhere = s->meshes[m] || has_material(s, m, p);
     bool any = false;
-    for (size_t n = 0; n < showing->node_count; n++) {
-        const bool wanted = everywhere || (showing->nodes && s->nodes[showing->nodes[n]]);
-        gltf_crowd *crowd = showing->nodes ? ffd_gltf_crowd_of(d, showing->nodes[n]) : NULL;
-        instances[n].selected = wanted && !crowd;
-        if (wanted && crowd)
-            crowd->idle = false;
+    for (size_t n = 0; n < uses->node_count; n++) {
+        const bool wanted = everywhere || (uses->nodes && s->nodes[uses->nodes[n]]);
+        gltf_instanced_node *instanced = uses->nodes ? ffd_gltf_instanced_node(d, uses->nodes[n]) : NULL;
+        instances[n].selected = wanted && !instanced;
+        if (wanted && instanced)
+            instanced->idle = false;
         any = any || (instances[n].selected && instances[n].part[GLTF_POSITION] != GLTF_NONE);
     }
     if (!any)
@@ -159,7 +159,7 @@ static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_e
     uint32_t *corners;
     size_t count;
     ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &count, error);
-    for (size_t n = 0; n < showing->node_count && status == FFD_OK; n++)
+    for (size_t n = 0; n < uses->node_count && status == FFD_OK; n++)
         if (instances[n].selected)
             status = mark_vertices(d, &instances[n], corners, count, error);
     ffd_free(corners);
@@ -177,8 +177,8 @@ static ffd_status select_all(selecting *s, ffd_error *error)
     mark_meshes_of_nodes(s);
     for (size_t i = 0; i < d->base.part_count; i++)
         d->mesh_parts[i].skipped = true;
-    for (size_t i = 0; i < d->crowd_count; i++)
-        d->crowds[i].idle = true;
+    for (size_t i = 0; i < d->instanced_node_count; i++)
+        d->instanced_nodes[i].idle = true;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
             status = select_primitive(s, m, p, error);

@@ -48,7 +48,7 @@ static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *erro
     *total = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
-            for (size_t n = 0; n < d->showings[m].node_count; n++) {
+            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++) {
                 const size_t count = d->model.meshes[m].primitives[p].target_count;
                 (instance++)->first_target = *total;
                 const ffd_status status = ffd_room_take(&d->base.room, count, TARGET_BYTES, error);
@@ -81,7 +81,7 @@ static void find_targets(gltf_document *d, target_table *table)
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
             const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
-            for (size_t n = 0; n < d->showings[m].node_count; n++, instance++)
+            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++, instance++)
                 for (size_t t = 0; t < primitive->target_count; t++)
                     d->targets[instance->first_target + t] = add_target(
                         d, table, primitive, instance, primitive->target_accessors + GLTF_DEFORMED * t);
@@ -134,7 +134,7 @@ static bool grow_parts(gltf_document *d, size_t count)
     return d->shapes;
 }
 
-static ffd_status place_targets(gltf_document *d, const target_table *table, size_t total, ffd_error *error)
+static ffd_status add_shapes(gltf_document *d, const target_table *table, size_t total, ffd_error *error)
 {
     size_t *places = ffd_alloc(table->count, sizeof *places);
     if (!places || !grow_parts(d, table->count)) {
@@ -163,7 +163,7 @@ ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
     d->targets = ffd_alloc(total, sizeof *d->targets);
     if (table.slots && table.targets && d->targets) {
         find_targets(d, &table);
-        status = place_targets(d, &table, total, error);
+        status = add_shapes(d, &table, total, error);
     } else {
         status = ffd_fail_memory(error);
     }

@@ -108,7 +108,7 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
     return FFD_OK;
 }
 
-static ffd_status place_joints(gltf_document *d, gltf_skin *skin, ffd_error *error)
+static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_error *error)
 {
     const ffd_status taken =
         ffd_room_take(&d->base.room, skin->joint_count, 12 * sizeof *skin->matrices, error);
@@ -218,64 +218,64 @@ static ffd_status check_primitive(const gltf_document *d, const gltf_skin *skin,
     return status;
 }
 
-static ffd_status place_skin(gltf_document *d, size_t node, size_t *largest, ffd_error *error)
+static ffd_status prepare_skin(gltf_document *d, size_t node, size_t *largest, ffd_error *error)
 {
     const size_t mesh = (size_t)d->model.nodes[node].mesh;
     gltf_skin *skin = &d->skins[d->model.nodes[node].skin];
-    ffd_status status = skin->matrices ? FFD_OK : place_joints(d, skin, error);
+    ffd_status status = skin->matrices ? FFD_OK : make_joint_matrices(d, skin, error);
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count && status == FFD_OK; p++)
         status = check_primitive(d, skin, mesh, p, largest, error);
     return status;
 }
 
-ffd_status ffd_gltf_place_skins(gltf_document *d, ffd_error *error)
+ffd_status ffd_gltf_prepare_skins(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     size_t *largest = ffd_alloc_zero(d->model.accessor_count, sizeof *largest);
     if (!largest)
         return ffd_fail_memory(error);
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t n = 0; d->showings[m].nodes && n < d->showings[m].node_count && status == FFD_OK; n++)
-            if (d->model.nodes[d->showings[m].nodes[n]].skin >= 0)
-                status = place_skin(d, d->showings[m].nodes[n], largest, error);
+        for (size_t n = 0; d->mesh_uses[m].nodes && n < d->mesh_uses[m].node_count && status == FFD_OK; n++)
+            if (d->model.nodes[d->mesh_uses[m].nodes[n]].skin >= 0)
+                status = prepare_skin(d, d->mesh_uses[m].nodes[n], largest, error);
     ffd_free(largest);
     return status;
 }
 
 /* One joint's part in a vertex. */
-typedef struct share {
+typedef struct joint_weight {
     size_t joint;
     double weight;
-} share;
+} joint_weight;
 
 /* The same joints give the same sum in whatever order the file has them. */
-static void sort_shares(share *shares, size_t count)
+static void sort_joint_weights(joint_weight *terms, size_t count)
 {
     for (size_t i = 1; i < count; i++)
         for (size_t k = i;
-             k > 0 && (shares[k].joint < shares[k - 1].joint ||
-                       (shares[k].joint == shares[k - 1].joint && shares[k].weight < shares[k - 1].weight));
+             k > 0 && (terms[k].joint < terms[k - 1].joint ||
+                       (terms[k].joint == terms[k - 1].joint && terms[k].weight < terms[k - 1].weight));
              k--) {
-            const share other = shares[k - 1];
-            shares[k - 1] = shares[k];
-            shares[k] = other;
+            const joint_weight other = terms[k - 1];
+            terms[k - 1] = terms[k];
+            terms[k] = other;
         }
 }
 
 /* sum of weight * matrix, divided by the sum of the weights: these are to be 1 in sum, and viewers make them
    so where a file's are not. Without any weight: zeros, which have no inverse. */
-static void blend(const gltf_skin *skin, share *shares, size_t count, double transform[12])
+static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, double transform[12])
 {
     double total = 0;
     memset(transform, 0, 12 * sizeof *transform);
-    sort_shares(shares, count);
+    sort_joint_weights(terms, count);
     for (size_t i = 0; i < count; i++)
-        total += shares[i].weight;
+        total += terms[i].weight;
     if (!(total > 0) && !isnan(total))
         return;
     for (size_t i = 0; i < count; i++)
-        for (size_t k = 0; k < 12 && shares[i].weight != 0; k++)
-            transform[k] += shares[i].weight / total * skin->matrices[12 * shares[i].joint + k];
+        for (size_t k = 0; k < 12 && terms[i].weight != 0; k++)
+            transform[k] += terms[i].weight / total * skin->matrices[12 * terms[i].joint + k];
 }
 
 void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t first, size_t count,
@@ -283,7 +283,7 @@ void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t fi
 {
     const gltf_document *d = ffd_gltf_of(document);
     const gltf_part *part = &d->parts[p];
-    share shares[BLOCK][4 * MOST_SETS];
+    joint_weight terms[BLOCK][4 * MOST_SETS];
     for (size_t i = 0; d->skins_status && i < 12 * count; i++)
         transforms[i] = NAN;
     if (d->skins_status)
@@ -295,9 +295,9 @@ void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t fi
             ffd_gltf_read(d, (size_t)part->influences[s].joints, first + at, size, 4, joints);
             ffd_gltf_read(d, (size_t)part->influences[s].weights, first + at, size, 4, weights);
             for (size_t i = 0; i < 4 * size; i++)
-                shares[i / 4][4 * s + i % 4] = (share){(size_t)joints[i], weights[i]};
+                terms[i / 4][4 * s + i % 4] = (joint_weight){(size_t)joints[i], weights[i]};
         }
         for (size_t i = 0; i < size; i++)
-            blend(part->skin, shares[i], 4 * part->influence_count, transforms + 12 * (at + i));
+            blend(part->skin, terms[i], 4 * part->influence_count, transforms + 12 * (at + i));
     }
 }

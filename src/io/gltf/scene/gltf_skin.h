@@ -9,7 +9,7 @@ ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
 
 /* Computes the joint matrices of the skins that shown nodes have, and checks the joints and weights of their
    meshes. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
-ffd_status ffd_gltf_place_skins(gltf_document *document, ffd_error *error);
+ffd_status ffd_gltf_prepare_skins(gltf_document *document, ffd_error *error);
 
 /* Frees document->skins. */
 void ffd_gltf_free_skins(gltf_document *document);

@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_users.h"
+#include "io/gltf/save/gltf_accessor_users.h"
 #include "io/gltf/save/gltf_plan.h"
 
 static void mark_number(const gltf_document *d, uint32_t value, bool *used)

@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_lists.h"
+#include "io/gltf/save/gltf_json_insert.h"
 
 /* Where the elements of a list at the top of the JSON end, or the top itself if it lacks the list. */
 static uint32_t find_end(const gltf_document *d, const gltf_values *list, uint32_t array)

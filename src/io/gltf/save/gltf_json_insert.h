@@ -1,6 +1,6 @@
-/* gltf_lists.h - inserts elements at the end of lists of the JSON. */
-#ifndef FFD_IO_GLTF_SAVE_GLTF_LISTS_H
-#define FFD_IO_GLTF_SAVE_GLTF_LISTS_H
+/* gltf_json_insert.h - inserts elements at the end of lists of the JSON. */
+#ifndef FFD_IO_GLTF_SAVE_GLTF_JSON_INSERT_H
+#define FFD_IO_GLTF_SAVE_GLTF_JSON_INSERT_H
 
 #include "io/gltf/save/gltf_saver.h"
 

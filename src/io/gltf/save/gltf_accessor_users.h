@@ -1,6 +1,6 @@
-/* gltf_users.h - who uses an accessor. */
-#ifndef FFD_IO_GLTF_SAVE_GLTF_USERS_H
-#define FFD_IO_GLTF_SAVE_GLTF_USERS_H
+/* gltf_accessor_users.h - who uses an accessor. */
+#ifndef FFD_IO_GLTF_SAVE_GLTF_ACCESSOR_USERS_H
+#define FFD_IO_GLTF_SAVE_GLTF_ACCESSOR_USERS_H
 
 #include "io/gltf/document/gltf_document.h"
 
