@@ -19,8 +19,7 @@ FFD = os.path.abspath(os.environ["FFD"])
 MODELS = os.environ.get("FFD_MODELS")
 SECONDS = 120
 # What a glTF's output stores otherwise than its input is said at the end, a line a kind.
-ANNOUNCED = re.compile("deformed otherwise than under other nodes$|is left for one of floats|are left for ones of floats|"
-                       "(is|are) written uncompressed")
+ANNOUNCED = re.compile("deformed differently under other nodes$|(is|are) stored as floats|(is|are) written uncompressed")
 NOBODY = 65534
 
 OK, NO, USAGE, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT = range(8)

@@ -372,7 +372,7 @@ def faces_that_are_not_valid(run):
     run.write("l.json", lattice(moves=SHIFT))
     for command in (["deform", "a.glb", "b.glb"], ["check", "a.glb"]):
         run.ffd(*command, "-l", "l.json", code=INVALID,
-                err="a.glb:/meshes/0/primitives/0: there is an index 99, but only 8 vertices")
+                err="a.glb:/meshes/0/primitives/0: there is an index 99, but there are only 8 vertices")
 
 
 @case

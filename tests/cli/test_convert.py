@@ -647,7 +647,7 @@ def containers_of_gltf(run):
     more = run.read("out/b.glb") + struct.pack("<II", 4, 0x12345678) + b"more"
     run.write("more.glb", more[:8] + struct.pack("<I", len(more)) + more[12:])
     run.ffd("deform", "more.glb", "more.gltf", "-l", "still.json",
-            err="more.glb: a .gltf cannot hold: the GLB's further chunks (12 bytes), which are left out")
+            err="more.glb: the GLB's further chunks (12 bytes) are left out: a .gltf cannot hold them")
 
 
 @case

@@ -261,8 +261,8 @@ def gltf_json_text(run):
     start(run)
     for text, message in (
             ("{", ":1: JSON: a string is expected, found end of text"),
-            ("[]", ": is not glTF: the JSON is no object"),
-            ("null", ": is not glTF: the JSON is no object"),
+            ("[]", ": is not glTF: the JSON is not an object"),
+            ("null", ": is not glTF: the JSON is not an object"),
             ("{}", ': "asset" is missing'),
             ('{"asset":{"version":"2.0"}', ":1: JSON: ',' or '}' is expected, found end of text"),
             ('{"asset":{"version":"2.0"}} x', ":1: JSON: the text goes on behind its value, found 'x'"),
@@ -293,7 +293,7 @@ def gltf_references_and_sizes(run):
             ("meshes/0/primitives/0/mode", 9, INVALID,
              ":/meshes/0/primitives/0/mode: a mode from 0 to 6 is expected, not 9"),
             ("meshes/0/primitives/0/indices", 0, INVALID,
-             ":/meshes/0/primitives/0/indices: accessor 0 has no indices (SCALAR, 5121, 5123 or 5125)"),
+             ":/meshes/0/primitives/0/indices: accessor 0 does not hold indices (SCALAR of component type 5121, 5123 or 5125)"),
             ("accessors/0/count", 9, INVALID,
              ":/accessors/0/count: 9 elements need 108 bytes of bufferView 0, which has 96"),
             ("accessors/0/count", 2**31, INVALID,
@@ -304,7 +304,7 @@ def gltf_references_and_sizes(run):
             ("accessors/0/byteOffset", 4, INVALID,
              ":/accessors/0/count: 8 elements need 100 bytes of bufferView 0, which has 96"),
             ("accessors/0/type", "VEC2", INVALID,
-             ":/meshes/0/primitives/0/attributes/POSITION: its accessor is no VEC3"),
+             ":/meshes/0/primitives/0/attributes/POSITION: its accessor is not a VEC3"),
             ("accessors/0/bufferView", 3, INVALID, ":/accessors/0/bufferView: there is no bufferView 3, only 1"),
             ("bufferViews/0/buffer", 1, INVALID, ":/bufferViews/0/buffer: there is no buffer 1, only 1"),
             ("bufferViews/0/byteLength", 10**6, INVALID,
@@ -352,7 +352,7 @@ def gltf_buffers_outside_the_folder(run):
 @case
 def gltf_data_uris(run):
     start(run)
-    for uri, message in (("data:application/octet-stream;base64,!!!!", ":/buffers/0/uri: the data URI holds what is not base64"),
+    for uri, message in (("data:application/octet-stream;base64,!!!!", ":/buffers/0/uri: the data URI is not valid base64"),
                          ("data:application/octet-stream;base64,AAAA",
                           ":/buffers/0: the buffer has 3 bytes, less than its byteLength 96")):
         refused(run, "m.gltf", json.dumps(gltf_json(CUBE_CORNERS, uri=uri)[0]), INVALID, message)
@@ -403,7 +403,7 @@ def a_file_for_newer_readers_is_described_but_not_deformed(run):
     run.write("m.glb", glb(asset, data))
     run.write("l.json", lattice())
     run.ffd("deform", "m.glb", "out.glb", "-l", "l.json", code=UNSUPPORTED,
-            err="m.glb:/asset/minVersion: the file needs a reader of glTF 2.1, this is one of 2.0")
+            err="m.glb:/asset/minVersion: the file needs glTF 2.1, but only 2.0 is supported")
     run.ffd("info", "m.glb")
 
 

@@ -198,19 +198,19 @@ def broken_skins_are_refused(run):
     for missing in ("WEIGHTS_0", "JOINTS_0"):
         del scene.asset["meshes"][0]["primitives"][0]["attributes"][missing]
         refused(scene, missing + " is missing" if missing == "WEIGHTS_0" else "it has no JOINTS_0 and WEIGHTS_0")
-    refused(skinned([[0, 0, 0, 0]], weights, joint_type=5126), "JOINTS_0 is no VEC4 of unsigned bytes or shorts")
+    refused(skinned([[0, 0, 0, 0]], weights, joint_type=5126), "JOINTS_0 is not a VEC4 of unsigned bytes or shorts")
     scene = skinned([[0, 0, 0, 0]], [[255, 0, 0, 0]], weight_type=5121)
     del scene.asset["accessors"][2]["normalized"]
-    refused(scene, "WEIGHTS_0 is no VEC4 of floats")
+    refused(scene, "WEIGHTS_0 is not a VEC4 of floats")
     scene = skinned([[0, 0, 0, 0]], weights)
     scene.asset["accessors"][1]["type"] = "VEC3"
-    refused(scene, "JOINTS_0 is no VEC4")
+    refused(scene, "JOINTS_0 is not a VEC4")
     scene = skinned([[0, 0, 0, 0]], weights, bind=[[1.0] + [0.0] * 14 + [1.0]])
     refused(scene, "has 1 matrices for 2 joints")
     scene.asset["skins"][0]["inverseBindMatrices"] = 77
     refused(scene, "there is no accessor 77")
     scene.asset["skins"][0]["inverseBindMatrices"] = 0
-    refused(scene, "accessor 0 is no MAT4 of floats")
+    refused(scene, "accessor 0 is not a MAT4 of floats")
     for bad, message in ((float("nan"), "inverse bind matrix 1 is not finite"), (3.0, "the last row of")):
         rows = [[1.0 if i % 5 == 0 else 0.0 for i in range(16)] for _ in range(2)]
         rows[1][0 if bad != bad else 15] = bad
@@ -220,7 +220,7 @@ def broken_skins_are_refused(run):
     scene.asset["nodes"][1] = {"scale": [1e300, 1, 1], "children": [2]}
     scene.asset["nodes"][2]["scale"] = [1e300, 1, 1]
     scene.asset["scenes"] = [{"nodes": [0]}]
-    refused(scene, "/nodes/2: the joint's place is not finite")
+    refused(scene, "/nodes/2: the joint's matrix is not finite")
 
 
 def morphed(targets, points=None, **attributes):
@@ -436,7 +436,7 @@ def broken_targets_are_refused(run):
         del scene.asset["accessors"][1][bound]
     refused(scene, "a morph target brings vertex 1 .counted from 0. to a coordinate that is not finite")
     scene = morphed([{"TANGENT": 2}], NORMAL=[[0.0, 0.0, 1.0]] * 2, TANGENT=[[1.0, 0.0, 0.0, 1.0]] * 2)
-    refused(scene, "/meshes/0/primitives/0/targets/0/TANGENT: its accessor is no VEC3")
+    refused(scene, "/meshes/0/primitives/0/targets/0/TANGENT: its accessor is not a VEC3")
     huge = 3e38
     scene = morphed([{"POSITION": [[-huge, 0.0, 0.0]] * 2}], [[huge, 0.0, 0.0]] * 2)
     run.write("l.json", lattice(low=(-1, -1, -1), high=(1, 1, 1), moves=[{"by": [-1e38, 0, 0]}]))
@@ -462,7 +462,7 @@ def refused_instances(run, scene, *options, box=SHIFT):
     check(not run.exists("no.glb"), "an output")
 
 
-LEFT = "in.glb: 1 node with EXT_mesh_gpu_instancing, out of the lattice's reach: left as it is"
+LEFT = "in.glb: 1 node with EXT_mesh_gpu_instancing is out of the lattice's reach: left as it is"
 
 
 @case
@@ -503,14 +503,14 @@ def instances_out_of_reach_are_left_alone(run):
     run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", err=[LEFT])
     equal(run.read("out.glb"), run.read("in.glb"))
     run.ffd("deform", "in.glb", "out.obj", "-l", "l.json", code=UNSUPPORTED,
-            err="in.glb:/nodes/0: the instances of EXT_mesh_gpu_instancing are not converted")
+            err="in.glb:/nodes/0: instances of EXT_mesh_gpu_instancing cannot be converted")
     # The same mesh under nodes without instances: a copy of it.
     for nodes in ([{"mesh": 0}, {"mesh": 0, "translation": [100, 0, 0]}],):
         scene = instanced([[11.0, 0.0, 0.0]], nodes)
         run.write("in.glb", scene.glb())
         done = run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--report", "r.json", lines=2)
         check(LEFT in done.err, done.err)
-        equal(done.announced, ["in.glb: 1 node gets a copy of its mesh, which is deformed otherwise than under other nodes"])
+        equal(done.announced, ["in.glb: 1 node gets a copy of its mesh, which is deformed differently under other nodes"])
         asset, data = glb_split(run.read("out.glb"))
         equal([node["mesh"] for node in asset["nodes"]], [0, 1, 0])
         near(gltf_vectors(asset, data, asset["meshes"][1]["primitives"][0]["attributes"]["POSITION"]),
@@ -545,7 +545,7 @@ def instances_in_mesh_space_and_broken_ones(run):
     scene = instanced([[0.0, 0.0, 0.0]])
     near(vectors(deformed(run, scene, SHIFT, "--space", "mesh"), 0), [[1, 0, 0], [3, 1, 0]], 1e-6)
     for attributes, message in (({"TRANSLATION": 9}, "is not the number of one of the 2 accessors"),
-                                ({"ROTATION": 1}, "accessor 1 is no VEC4"),
+                                ({"ROTATION": 1}, "accessor 1 is not a VEC4"),
                                 ({"TRANSLATION": 0, "SCALE": 1}, "accessor 1 has 1 elements, another attribute has 2"),
                                 ({"SCALE": "1"}, "is not the number")):
         scene.asset["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes
@@ -569,8 +569,8 @@ def the_scene_that_is_shown(run):
             "POSITION": scene.add([[float(i), 0.0, 0.0]], bounds=True)}, "mode": 0}]} for i in range(3)]
         return scene
 
-    one = "in.glb: 1 node with a mesh is not in the scene that is shown: left as it is"
-    two = "in.glb: 2 nodes with a mesh are not in the scene that is shown: left as they are"
+    one = "in.glb: 1 node with a mesh is not in the displayed scene: left as it is"
+    two = "in.glb: 2 nodes with a mesh are not in the displayed scene: left as they are"
     near(places(three_meshes()), [1, 2, 3], 1e-6)
     near(places(three_meshes(scenes=[])), [1, 2, 3], 1e-6)
     near(places(three_meshes(scenes=[{"nodes": [1]}, {"nodes": [0]}]), err=one), [0, 2, 3], 1e-6)
@@ -578,7 +578,7 @@ def the_scene_that_is_shown(run):
     near(places(three_meshes(scenes=[{}, {"nodes": [0, 1]}], scene=1)), [1, 2, 3], 1e-6)
     scene = three_meshes(scenes=[{"nodes": [0]}])
     scene.asset["nodes"] = [{"mesh": 0}]
-    near(places(scene, err="in.glb: 2 meshes that no node has: left as they are"), [1, 1, 2], 1e-6)
+    near(places(scene, err="in.glb: 2 meshes are not used by any node: left as they are"), [1, 1, 2], 1e-6)
     # All of them in mesh space.
     run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--space", "mesh")
     equal([v[0][0] for v in (vectors(run.read("out.glb"), i) for i in range(3))], [1, 2, 3])

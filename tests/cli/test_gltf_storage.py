@@ -322,8 +322,8 @@ def integers_become_floats(run):
         maker.mesh({"POSITION": maker.dense(points, component, **bounds(points), **flags)})
         source = maker.write(run, "in", "glb")
         before, after, said = deform_with_twin(run, source, ALL, options=("-v",), lines=2)
-        equal(said[0], f"{source}: accessor 0: its component type {component} does not hold what is deformed, which "
-              "goes into accessor 1 as floats", "what is said")
+        equal(said[0], f"{source}: accessor 0: its component type {component} cannot hold the results, which "
+              "accessor 1 holds as floats", "what is said")
         copied = after.accessor(1)
         equal((copied["componentType"], "normalized" in copied), (FLOAT, False), "the type")
         on_grid(after, 1, before.step(0))

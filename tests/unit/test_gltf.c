@@ -54,7 +54,7 @@ static void broken_values_are_refused(void **state)
 {
     (void)state;
     static const refusal cases[] = {
-        {"[]", "t.gltf: is not glTF: the JSON is no object", FFD_E_INVALID},
+        {"[]", "t.gltf: is not glTF: the JSON is not an object", FFD_E_INVALID},
         {"{}", "t.gltf: \"asset\" is missing", FFD_E_INVALID},
         {"{\"asset\":{\"version\":\"1.0\"}}",
          "t.gltf:/asset/version: glTF version \"1.0\" is not known, only 2", FFD_E_UNSUPPORTED},
@@ -77,7 +77,7 @@ static void broken_values_are_refused(void **state)
         {"{" ASSET ",\"nodes\":[{\"children\":[1]},{\"children\":[0]}]}",
          "t.gltf:/nodes/0: the node is its own ancestor, or below one that is", FFD_E_INVALID},
         {"{" ASSET ",\"nodes\":[{\"children\":[1,2]},{\"children\":[2]},{}]}",
-         "t.gltf:/nodes/2: the node is a child of node 0 and again of node 1", FFD_E_INVALID},
+         "t.gltf:/nodes/2: the node is a child of both node 0 and node 1", FFD_E_INVALID},
         {"{" ASSET ",\"nodes\":[{\"children\":[7]}]}", "t.gltf:/nodes/0/children: there is no node 7, only 1",
          FFD_E_INVALID},
         {"{" ASSET ",\"nodes\":[{\"children\":[1]},{}],\"scenes\":[{\"nodes\":[1]}]}",
@@ -85,14 +85,14 @@ static void broken_values_are_refused(void **state)
         {"{" ASSET ",\"nodes\":[{}],\"scenes\":[{\"nodes\":[0,0]}]}",
          "t.gltf:/nodes/0: the scene names the node twice", FFD_E_INVALID},
         {"{" ASSET ",\"nodes\":[{\"scale\":[1e300,1,1],\"children\":[1]},{\"scale\":[1e300,1,1]}]}",
-         "t.gltf:/nodes/1: the node's place in the scene is not finite", FFD_E_INVALID},
+         "t.gltf:/nodes/1: the node's matrix in the scene is not finite", FFD_E_INVALID},
         {"{" ASSET ",\"scene\":2,\"scenes\":[{}]}", "t.gltf:/scene: there is no scene 2, only 1",
          FFD_E_INVALID},
         {"{" ASSET ",\"buffers\":[{}]}", "t.gltf:/buffers/0: \"byteLength\" is missing", FFD_E_INVALID},
         {"{" ASSET ",\"buffers\":[{\"byteLength\":4,\"uri\":\"data:x;base64,AA==\"}]}",
          "t.gltf:/buffers/0: the buffer has 1 bytes, less than its byteLength 4", FFD_E_INVALID},
         {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"data:x;base64,A$==\"}]}",
-         "t.gltf:/buffers/0/uri: the data URI holds what is not base64", FFD_E_INVALID},
+         "t.gltf:/buffers/0/uri: the data URI is not valid base64", FFD_E_INVALID},
         {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"data:x;base64\"}]}",
          "t.gltf:/buffers/0/uri: the data URI has no comma", FFD_E_INVALID},
         {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"file:///etc/passwd\"}]}",
@@ -100,7 +100,7 @@ static void broken_values_are_refused(void **state)
         {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"/etc/passwd\"}]}",
          "t.gltf:/buffers/0/uri: the buffer \"/etc/passwd\" is outside the model's folder", FFD_E_IO},
         {"{" ASSET ",\"buffers\":[{\"byteLength\":1,\"uri\":\"a%00b\"}]}",
-         "t.gltf:/buffers/0/uri: the buffer's name holds the character 0", FFD_E_INVALID},
+         "t.gltf:/buffers/0/uri: the buffer's name holds a NUL character", FFD_E_INVALID},
         {"{" ASSET "," BUFFERS ",\"bufferViews\":[{\"buffer\":1,\"byteLength\":1}]}",
          "t.gltf:/bufferViews/0/buffer: there is no buffer 1, only 1", FFD_E_INVALID},
         {"{" ASSET "," BUFFERS
@@ -144,10 +144,11 @@ static void broken_values_are_refused(void **state)
         {"{" DATA "," ACCESSORS ",\"meshes\":[{\"primitives\":[{}]}]}",
          "t.gltf:/meshes/0/primitives/0: \"attributes\" is missing", FFD_E_INVALID},
         {"{" DATA "," ACCESSORS ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"TANGENT\":0}}]}]}",
-         "t.gltf:/meshes/0/primitives/0/attributes/TANGENT: its accessor is no VEC4", FFD_E_INVALID},
+         "t.gltf:/meshes/0/primitives/0/attributes/TANGENT: its accessor is not a VEC4", FFD_E_INVALID},
         {"{" DATA "," ACCESSORS
          ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":0}]}]}",
-         "t.gltf:/meshes/0/primitives/0/indices: accessor 0 has no indices (SCALAR, 5121, 5123 or 5125)",
+         "t.gltf:/meshes/0/primitives/0/indices: accessor 0 does not hold indices (SCALAR of component type "
+         "5121, 5123 or 5125)",
          FFD_E_INVALID},
         {"{" DATA "," ACCESSORS
          ",\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":7}]}]}",
@@ -325,7 +326,7 @@ static void an_index_out_of_range_is_refused(void **state)
     ffd_error error = {0};
     assert_int_equal(open_text(text, FFD_SPACE_SCENE, &document, &error), FFD_E_INVALID);
     assert_string_equal(error.pointer, "/meshes/0/primitives/0");
-    assert_string_equal(error.message, "there is an index 16256, but only 3 vertices");
+    assert_string_equal(error.message, "there is an index 16256, but there are only 3 vertices");
 }
 
 static void broken_glb_is_refused(void **state)

@@ -342,7 +342,7 @@ static void draco_that_cannot_be_is_refused(void **state)
         {DRACO_ACCESSORS,
          WITH("{\"attributes\":{\"POSITION\":1},\"extensions\":{\"" DRACO
               "\":{\"bufferView\":7,\"attributes\":{}}}}"),
-         "/meshes/0/primitives/0/extensions/" DRACO "/bufferView", "there is no such bufferView",
+         "/meshes/0/primitives/0/extensions/" DRACO "/bufferView", "the bufferView does not exist",
          FFD_E_INVALID},
         {DRACO_ACCESSORS, WITH(POSITION_ONLY("\"NORMAL\":7", "")),
          "/meshes/0/primitives/0/extensions/" DRACO "/attributes/NORMAL",
@@ -366,7 +366,7 @@ static void draco_that_cannot_be_is_refused(void **state)
          "indices of mode 5 compressed by Draco are not supported, only triangles", FFD_E_UNSUPPORTED},
         /* Accessor 1 comes out of the data here, and is zeros there. */
         {DRACO_ACCESSORS, WITH(DRACO_PRIMITIVE ",{\"attributes\":{\"POSITION\":1}}"), "/accessors/1",
-         "primitives take different values for the accessor, out of Draco data and elsewhere: that is not "
+         "primitives read different values for the accessor, from Draco data and from elsewhere: this is not "
          "supported",
          FFD_E_UNSUPPORTED},
     };
@@ -541,13 +541,14 @@ static void meshopt_that_cannot_be_is_refused(void **state)
         {"\"filter\":\"NONE\"", "\"filter\":\"NINE\"", "/bufferViews/1/extensions/" MESHOPT "/filter",
          "only the filters NONE, OCTAHEDRAL, QUATERNION and EXPONENTIAL are known", FFD_E_UNSUPPORTED},
         {"\"count\":25}}}", "\"count\":24}}}", "/bufferViews/0/extensions/" MESHOPT,
-         "24 elements of 24 bytes are not the 600 bytes of the bufferView", FFD_E_INVALID},
+         "24 elements of 24 bytes do not fill the 600 bytes of the bufferView", FFD_E_INVALID},
         {"\"count\":25}}}", "\"count\":-1}}}", "/bufferViews/0/extensions/" MESHOPT "/count",
          "an integer from 0 to 2^53 is expected, not -1", FFD_E_INVALID},
         {"\"byteStride\":24,\"mode\"", "\"byteStride\":21,\"mode\"", "/bufferViews/0/extensions/" MESHOPT,
-         "byteStride 21 is not one of mode ATTRIBUTES", FFD_E_INVALID},
+         "byteStride 21 is not allowed with mode ATTRIBUTES", FFD_E_INVALID},
         {"{\"buffer\":0,\"byteOffset\":0,", "{\"buffer\":1,\"byteOffset\":0,",
-         "/bufferViews/0/extensions/" MESHOPT "/buffer", "there is no such buffer with bytes", FFD_E_INVALID},
+         "/bufferViews/0/extensions/" MESHOPT "/buffer", "the buffer does not exist or has no bytes",
+         FFD_E_INVALID},
         {"{\"buffer\":0,\"byteOffset\":0,", "{\"buffer\":0,\"byteOffset\":9,",
          "/bufferViews/0/extensions/" MESHOPT, "the compressed data is not of mode ATTRIBUTES",
          FFD_E_INVALID},

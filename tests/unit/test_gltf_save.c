@@ -93,7 +93,7 @@ static void check_conversion(const char *text, ffd_space space, mover move, cons
         assert_string_equal(lines.text, log);
     else
         assert_non_null(
-            strstr(lines.text, "1 node with a mesh is not in the scene that is shown: left as it is"));
+            strstr(lines.text, "1 node with a mesh is not in the displayed scene: left as it is"));
 }
 
 static void only_what_changes_is_replaced(void **state)
@@ -159,8 +159,8 @@ static void a_mesh_under_two_nodes_is_copied_where_they_differ(void **state)
                                                    "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
                                                    "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
                                                        TWO_NODES("0", "1"),
-        "1 node 1 gets a copy of mesh 0 (mesh 1): it is deformed otherwise than under other nodes\n"
-        "0 1 node gets a copy of its mesh, which is deformed otherwise than under other nodes\n");
+        "1 node 1 gets a copy of mesh 0 (mesh 1): the mesh is deformed differently under other nodes\n"
+        "0 1 node gets a copy of its mesh, which is deformed differently under other nodes\n");
 }
 
 static void nodes_that_agree_share_a_copy(void **state)
@@ -180,9 +180,9 @@ static void nodes_that_agree_share_a_copy(void **state)
                                                    "\"min\":[1, 0,0.0],\"max\":[2,1,0],"
                                                    "\"type\":\"VEC3\"}],\"meshes\":[" MESH("0") "," MESH("1")
                                                        THREE("1"),
-        "1 node 1 gets a copy of mesh 0 (mesh 1): it is deformed otherwise than under other nodes\n"
-        "1 node 2 gets a copy of mesh 0 (mesh 1): it is deformed otherwise than under other nodes\n"
-        "0 2 nodes get copies of their meshes, which are deformed otherwise than under other nodes\n");
+        "1 node 1 gets a copy of mesh 0 (mesh 1): the mesh is deformed differently under other nodes\n"
+        "1 node 2 gets a copy of mesh 0 (mesh 1): the mesh is deformed differently under other nodes\n"
+        "0 2 nodes get copies of their meshes, which are deformed differently under other nodes\n");
 #undef THREE
 }
 
@@ -596,7 +596,7 @@ static void an_image_is_not_overwritten(void **state)
         assert_int_equal(deform(document, add_one, false, NULL), FFD_OK);
         assert_int_equal(save_to(document, in_folder(cases[i].output), &error), FFD_E_EXISTS);
         assert_string_equal(error.file, in_folder(cases[i].file));
-        assert_non_null(strstr(error.message, "is the place of the image \"skin."));
+        assert_non_null(strstr(error.message, "is also the path of the image \"skin."));
         gltf->close(document);
         check_text(cases[i].image, "picture");
         unlink(in_folder(cases[i].image));

@@ -246,13 +246,13 @@ static void what_cannot_be_is_refused_before_there_is_memory(void **state)
                   "209 bytes cannot hold 9007199254740992 elements of mode ATTRIBUTES");
     changed.view = s.view;
     changed.view.stride = 18;
-    check_refusal(&changed.view, FFD_E_INVALID, "byteStride 18 is not one of mode ATTRIBUTES");
+    check_refusal(&changed.view, FFD_E_INVALID, "byteStride 18 is not allowed with mode ATTRIBUTES");
     changed.view.stride = 260;
-    check_refusal(&changed.view, FFD_E_INVALID, "byteStride 260 is not one of mode ATTRIBUTES");
+    check_refusal(&changed.view, FFD_E_INVALID, "byteStride 260 is not allowed with mode ATTRIBUTES");
     changed.view = s.view;
     changed.view.filter = MESHOPT_QUATERNION;
     check_refusal(&changed.view, FFD_E_INVALID,
-                  "the filter does not go with mode ATTRIBUTES and byteStride 16");
+                  "the filter is not allowed with mode ATTRIBUTES and byteStride 16");
     changed.view = s.view;
     changed.view.mode = MESHOPT_INDICES;
     changed.view.stride = 4;

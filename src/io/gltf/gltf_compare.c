@@ -146,7 +146,7 @@ static void compare_elements(gltf_comparer *c, size_t accessor)
         if (memcmp(ffd_gltf_element(c->a, accessor, i), ffd_gltf_element(c->b, accessor, i), size) != 0) {
             c->states[accessor] = GLTF_DIFFER;
             ffd_difference_say(c->result, (ffd_difference_kind)c->kinds[accessor],
-                               "/accessors/%zu: element %zu is not the same", accessor, i);
+                               "/accessors/%zu: element %zu differs", accessor, i);
         }
 }
 

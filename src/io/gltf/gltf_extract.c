@@ -375,7 +375,7 @@ static ffd_status refuse_instances(const gltf_document *d, ffd_error *error)
         return FFD_OK;
     return ffd_json_span_fail(&d->tree, d->node_values.values[d->instanced_nodes[0].node], d->name,
                               FFD_E_UNSUPPORTED, error,
-                              "the instances of EXT_mesh_gpu_instancing are not converted");
+                              "instances of EXT_mesh_gpu_instancing cannot be converted");
 }
 
 ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error)

@@ -197,7 +197,8 @@ static ffd_status check_counts(const gltf_document *d, ffd_error *error)
         same = model->meshes[m].primitive_count == d->tree.values[primitives].count;
     }
     return same ? FFD_OK
-                : ffd_fail_file(error, FFD_E_INVALID, d->name, "is not valid glTF: tinygltf left out a part");
+                : ffd_fail_file(error, FFD_E_INVALID, d->name,
+                                "is not valid glTF: tinygltf did not read all of it");
 }
 
 static ffd_status parse_model(gltf_document *d, ffd_error *error)

@@ -17,7 +17,7 @@ REFUSED_IN_SCENE = {
     "gltf/tinygltf/regression/unassigned-skeleton.gltf":
         (INVALID, "inverse bind matrix 0", "an inverse bind matrix of numbers from nowhere, last row not 0 0 0 1"),
     "gltf/draco/CubeScaledInstances/glTF/cube_att.gltf":
-        (INVALID, "child of node 1 and again of node 2", "node 5 has two parents, which glTF forbids"),
+        (INVALID, "child of both node 1 and node 2", "node 5 has two parents, which glTF forbids"),
     "gltf/khronos/SimpleInstancing/glTF-Binary/SimpleInstancing.glb":
         (UNSUPPORTED, "EXT_mesh_gpu_instancing", "one mesh cannot follow the field at every instance"),
 }

@@ -226,10 +226,11 @@ ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &cl
     draco::DracoHeader header;
     buffer.Init(reinterpret_cast<const char *>(bytes), size);
     if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok())
-        return ffd_fail(error, FFD_E_INVALID, "the compressed data is not Draco's: it has no header of it");
+        return ffd_fail(error, FFD_E_INVALID, "the compressed data has no Draco header");
     if (header.encoder_type != draco::TRIANGULAR_MESH)
         return ffd_fail(error, FFD_E_UNSUPPORTED,
-                        "Draco data of type %d is no triangle mesh and not supported", header.encoder_type);
+                        "Draco data of type %d is not supported, only triangle meshes are",
+                        header.encoder_type);
     const uint16_t version = DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor);
     const uint16_t newest = DRACO_BITSTREAM_VERSION(draco::kDracoMeshBitstreamVersionMajor,
                                                     draco::kDracoMeshBitstreamVersionMinor);

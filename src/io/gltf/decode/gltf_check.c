@@ -185,7 +185,7 @@ static ffd_status check_shape(const gltf_document *d, uint32_t value, const char
                               const gltf_accessor *accessor, ffd_error *error)
 {
     if (accessor->columns != 1 || accessor->rows != rows)
-        return refuse(d, value, key, error, "its accessor is no VEC%d", rows);
+        return refuse(d, value, key, error, "its accessor is not a VEC%d", rows);
     if (accessor->component == GLTF_U32)
         return refuse(d, value, key, error, "its accessor has component type %d", accessor->component);
     return FFD_OK;
@@ -249,7 +249,8 @@ static ffd_status check_primitive(const gltf_document *d, size_t mesh, size_t p,
     const gltf_accessor *indices = &d->model.accessors[primitive->indices];
     if (indices->columns * indices->rows != 1 || indices->normalized ||
         (indices->component != GLTF_U8 && indices->component != GLTF_U16 && indices->component != GLTF_U32))
-        return refuse(d, value, "indices", error, "accessor %d has no indices (SCALAR, 5121, 5123 or 5125)",
+        return refuse(d, value, "indices", error,
+                      "accessor %d does not hold indices (SCALAR of component type 5121, 5123 or 5125)",
                       primitive->indices);
     return FFD_OK;
 }

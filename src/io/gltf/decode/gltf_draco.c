@@ -148,7 +148,7 @@ static ffd_status read_claim(const gltf_document *d, const packed_primitive *pac
     const uint32_t value = ffd_gltf_draco_value(d, packed->mesh, packed->primitive);
     if (packed->view >= d->model.view_count)
         return fail(d, ffd_json_span_member(&d->tree, value, "bufferView"), FFD_E_INVALID, error,
-                    "there is no such bufferView");
+                    "the bufferView does not exist");
     if (primitive->attribute_count == 0)
         return fail(d, value, FFD_E_INVALID, error, "the primitive has no attributes");
     if (primitive->indices >= 0 && primitive->mode != MODE_TRIANGLES)
@@ -175,7 +175,7 @@ static ffd_status decode_mesh(gltf_document *d, const packed_primitive *packed, 
         return fail(d, value, status, error, problem.message);
     d->draco_decoded += (uint64_t)ffd_draco_point_count(*mesh) + ffd_draco_corner_count(*mesh);
     if ((double)d->draco_decoded > MOST_DECODED_A_BYTE * (double)ffd_room_most(&d->base.room))
-        return fail(d, value, FFD_E_LIMIT, error, "the file has its Draco data decoded too often");
+        return fail(d, value, FFD_E_LIMIT, error, "the file's Draco data would be decoded too many times");
     return FFD_OK;
 }
 

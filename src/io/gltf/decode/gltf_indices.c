@@ -103,7 +103,7 @@ static ffd_status check_primitive(const gltf_document *d, size_t m, size_t p, ui
     if (largest[indices] < vertices)
         return FFD_OK;
     return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID, error,
-                              "there is an index %llu, but only %llu vertices",
+                              "there is an index %llu, but there are only %llu vertices",
                               (unsigned long long)largest[indices], (unsigned long long)vertices);
 }
 

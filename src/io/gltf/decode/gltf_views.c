@@ -74,7 +74,7 @@ static ffd_status find_bytes(const gltf_document *d, uint32_t value, meshopt_vie
     const uint64_t offset = integer(d, value, "byteOffset"), length = integer(d, value, "byteLength");
     if (buffer >= d->buffer_values.count || d->buffers[buffer].kind == BUFFER_EMPTY)
         return refuse(d, ffd_json_span_member(&d->tree, value, "buffer"), error,
-                      "there is no such buffer with bytes");
+                      "the buffer does not exist or has no bytes");
     if (offset > d->buffers[buffer].length || length > d->buffers[buffer].length - offset)
         return refuse(d, ffd_json_span_member(&d->tree, value, "byteLength"), error,
                       "the compressed bytes are outside their buffer");
@@ -111,7 +111,7 @@ static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_vie
     const uint64_t size = view->count * view->stride;
     if (size > length || length - size >= ALIGNMENT)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "%llu elements of %llu bytes are not the %llu bytes of the bufferView",
+                                  "%llu elements of %llu bytes do not fill the %llu bytes of the bufferView",
                                   (unsigned long long)view->count, (unsigned long long)view->stride,
                                   (unsigned long long)length);
     return FFD_OK;

@@ -60,10 +60,10 @@ ffd_status ffd_meshopt_check(const meshopt_view *view, ffd_error *error)
 {
     const mode_facts *mode = &facts[view->mode];
     if (!is_stride(view))
-        return ffd_fail(error, FFD_E_INVALID, "byteStride %llu is not one of mode %s",
+        return ffd_fail(error, FFD_E_INVALID, "byteStride %llu is not allowed with mode %s",
                         (unsigned long long)view->stride, mode->name);
     if (!is_filter(view))
-        return ffd_fail(error, FFD_E_INVALID, "the filter does not go with mode %s and byteStride %llu",
+        return ffd_fail(error, FFD_E_INVALID, "the filter is not allowed with mode %s and byteStride %llu",
                         mode->name, (unsigned long long)view->stride);
     if (view->mode == MESHOPT_TRIANGLES && view->count % 3)
         return ffd_fail(error, FFD_E_INVALID, "count %llu is not a multiple of 3",

@@ -43,7 +43,7 @@ static ffd_status load_data_uri(const loader *l, char *uri, size_t size, gltf_bu
         buffer->size = size;
     } else if (!ffd_base64_decode(uri + head, size, buffer->decoded, &buffer->size)) {
         return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
-                                  "the data URI holds what is not base64");
+                                  "the data URI is not valid base64");
     }
     return FFD_OK;
 }
@@ -60,7 +60,7 @@ static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer
     uri[size] = 0;
     if (memchr(uri, 0, size))
         return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
-                                  "the buffer's name holds the character 0");
+                                  "the buffer's name holds a NUL character");
     buffer->path = ffd_text_copy(uri);
     char *folder = ffd_path_folder(l->model);
     ffd_status status = buffer->path && folder ? FFD_OK : ffd_fail_memory(l->error);

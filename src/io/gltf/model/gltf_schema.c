@@ -287,7 +287,7 @@ static ffd_status check_version(const checker *c)
     ffd_status status = FFD_OK;
     if (!is_version(text))
         status = ffd_json_span_fail(c->tree, version, c->name, FFD_E_INVALID, c->error,
-                                    "\"%s\" is no version of glTF like \"2.0\"", text);
+                                    "\"%s\" is not a version of glTF like \"2.0\"", text);
     else if (strncmp(text, "2.", 2) != 0)
         status = ffd_json_span_fail(c->tree, version, c->name, FFD_E_UNSUPPORTED, c->error,
                                     "glTF version \"%s\" is not known, only 2", text);
@@ -299,7 +299,7 @@ ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_e
 {
     const checker c = {.tree = tree, .name = name, .plain = plain, .error = error};
     if (tree->values[0].kind != JSON_OBJECT)
-        return ffd_fail_file(error, FFD_E_INVALID, name, "is not glTF: the JSON is no object");
+        return ffd_fail_file(error, FFD_E_INVALID, name, "is not glTF: the JSON is not an object");
     const ffd_status status = check_object(&c, 0, root_rules);
     return status ? status : check_version(&c);
 }

@@ -19,11 +19,12 @@ static void warn_of_rest(const gltf_saver *saver)
     for (size_t m = 0; m < d->model.mesh_count && d->space == FFD_SPACE_SCENE; m++)
         unused += !d->mesh_uses[m].is_used;
     warn(saver, d->instanced_node_count,
-         "node with EXT_mesh_gpu_instancing, out of the lattice's reach: left as it is",
-         "nodes with EXT_mesh_gpu_instancing, out of the lattice's reach: left as they are");
-    warn(saver, d->nodes_outside_scene, "node with a mesh is not in the scene that is shown: left as it is",
-         "nodes with a mesh are not in the scene that is shown: left as they are");
-    warn(saver, unused, "mesh that no node has: left as it is", "meshes that no node has: left as they are");
+         "node with EXT_mesh_gpu_instancing is out of the lattice's reach: left as it is",
+         "nodes with EXT_mesh_gpu_instancing are out of the lattice's reach: left as they are");
+    warn(saver, d->nodes_outside_scene, "node with a mesh is not in the displayed scene: left as it is",
+         "nodes with a mesh are not in the displayed scene: left as they are");
+    warn(saver, unused, "mesh is not used by any node: left as it is",
+         "meshes are not used by any node: left as they are");
 }
 
 static size_t count_floats(const gltf_saver *saver)
@@ -50,13 +51,14 @@ void ffd_gltf_announce(const gltf_saver *saver)
 {
     warn_of_rest(saver);
     warn(saver, saver->plan.change_count,
-         "node gets a copy of its mesh, which is deformed otherwise than under other nodes",
-         "nodes get copies of their meshes, which are deformed otherwise than under other nodes");
-    warn(saver, count_floats(saver), "quantized accessor is left for one of floats: its type's range is left",
-         "quantized accessors are left for ones of floats: their types' range is left");
-    warn(saver, count_unpacked(saver), "primitive is written uncompressed (Draco): it is deformed",
-         "primitives are written uncompressed (Draco): they are deformed");
+         "node gets a copy of its mesh, which is deformed differently under other nodes",
+         "nodes get copies of their meshes, which are deformed differently under other nodes");
+    warn(saver, count_floats(saver),
+         "quantized accessor is stored as floats: its type cannot hold the results",
+         "quantized accessors are stored as floats: their types cannot hold the results");
+    warn(saver, count_unpacked(saver), "primitive is written uncompressed (Draco) because it is deformed",
+         "primitives are written uncompressed (Draco) because they are deformed");
     warn(saver, saver->unpacking_count - saver->unpacked_accessor_count,
-         "bufferView is written uncompressed (meshopt): what it holds is deformed",
-         "bufferViews are written uncompressed (meshopt): what they hold is deformed");
+         "bufferView is written uncompressed (meshopt) because its content is deformed",
+         "bufferViews are written uncompressed (meshopt) because their content is deformed");
 }

@@ -84,9 +84,8 @@ static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte
     write_name(saver->document->morph_name, text);
     if (first < count)
         ffd_log_line(saver->log, FFD_LOG_INFO,
-                     "the targets of mesh %zu without a name are called target_%zu to "
-                     "target_%zu",
-                     mesh, first, count - 1);
+                     "the unnamed morph targets of mesh %zu are now called target_%zu to target_%zu", mesh,
+                     first, count - 1);
 }
 
 /* A list that names more than there are has a place for the new one. */
@@ -97,7 +96,7 @@ static void edit_names(gltf_saver *saver, size_t mesh, uint32_t names)
     byte_buffer text = {0};
     for (uint32_t v = ffd_json_span_first(tree, names); v != JSON_NONE; v = ffd_json_span_after(tree, v))
         if (ffd_json_span_string_is(tree, v, saver->document->morph_name))
-            ffd_log_line(saver->log, FFD_LOG_WARNING, "mesh %zu has a morph target of that name already",
+            ffd_log_line(saver->log, FFD_LOG_WARNING, "mesh %zu already has a morph target of that name",
                          mesh);
     write_names(saver, mesh, named < count ? named : count, &text);
     if (named <= count) {
@@ -120,7 +119,7 @@ static void add_names(gltf_saver *saver, size_t mesh)
     if ((extras != JSON_NONE && tree->values[extras].kind != JSON_OBJECT) ||
         (names != JSON_NONE && !is_array(saver, names))) {
         ffd_log_line(saver->log, FFD_LOG_WARNING,
-                     "mesh %zu: its extras have no place for the name of the morph target", mesh);
+                     "mesh %zu: its extras cannot hold the name of the morph target", mesh);
         return;
     }
     if (names != JSON_NONE) {

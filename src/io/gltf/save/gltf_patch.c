@@ -148,10 +148,10 @@ static void announce_floats(const gltf_saver *saver, const gltf_version *version
 {
     const int component = saver->document->model.accessors[version->accessor].component;
     if (version->component != component)
-        ffd_log_line(saver->log, FFD_LOG_INFO,
-                     "accessor %zu: its component type %d does not hold what is deformed, which goes into "
-                     "accessor %zu as floats",
-                     version->accessor, component, version->output);
+        ffd_log_line(
+            saver->log, FFD_LOG_INFO,
+            "accessor %zu: its component type %d cannot hold the results, which accessor %zu holds as floats",
+            version->accessor, component, version->output);
 }
 
 static void add_accessors(gltf_saver *saver)
@@ -183,10 +183,10 @@ static void add_meshes(gltf_saver *saver)
         const gltf_node_change *change = &saver->plan.changes[i];
         const size_t mesh = d->mesh_values.count + change->copy;
         replace_number(saver, d->node_values.values[change->node], "mesh", mesh, &saver->edits);
-        ffd_log_line(saver->log, FFD_LOG_INFO,
-                     "node %zu gets a copy of mesh %d (mesh %zu): it is deformed otherwise than under "
-                     "other nodes",
-                     change->node, d->model.nodes[change->node].mesh, mesh);
+        ffd_log_line(
+            saver->log, FFD_LOG_INFO,
+            "node %zu gets a copy of mesh %d (mesh %zu): the mesh is deformed differently under other nodes",
+            change->node, d->model.nodes[change->node].mesh, mesh);
     }
 }
 

@@ -94,9 +94,9 @@ static ffd_status compare_image(const char *target, const file_input *bytes, ffd
     const ffd_status status = ffd_file_compare(target, bytes, &same, error);
     if (status || same)
         return status;
-    return ffd_fail_file(error, FFD_E_IO, target,
-                         "exists with other content than the image that belongs there "
-                         "(--resources reference leaves it)");
+    return ffd_fail_file(
+        error, FFD_E_IO, target,
+        "already exists and is not the image to be copied there (--resources reference copies none)");
 }
 
 static ffd_status write_image(const resources *r, const char *target, const file_input *bytes,
@@ -135,7 +135,7 @@ static ffd_status copy_image(const resources *r, size_t image, const char *path,
         status = ffd_json_span_fail(
             &d->tree, d->image_values.values[image], d->name,
             status == FFD_E_MEMORY ? FFD_E_MEMORY : FFD_E_IO, error,
-            "the image \"%s\" cannot be copied: %s; --resources reference leaves it where it is", path,
+            "the image \"%s\" cannot be copied: %s; --resources reference refers to it where it is", path,
             status ? reason.message : "it is outside the model's folder");
     else
         status = write_image(r, target, &bytes, error);
@@ -213,7 +213,7 @@ static ffd_status refuse_clash(const image_paths *image, const char *target, ffd
           (strcmp(image->path, ffd_path_name(target)) == 0 || ffd_file_same(image->copy, target))))
         return FFD_OK;
     return ffd_fail_file(error, FFD_E_EXISTS, target,
-                         "is the place of the image \"%s\" too: give the output another name", image->path);
+                         "is also the path of the image \"%s\": give the output another name", image->path);
 }
 
 /* None of the files that are written for the model itself may be one of its images. */

@@ -140,7 +140,7 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
     const glb_sizes sizes = measure_glb(saver);
     if (sizes.total > UINT32_MAX)
         return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
-                             "would have %zu bytes, more than a GLB's 4294967295", sizes.total);
+                             "would have %zu bytes, but a GLB holds at most 4294967295", sizes.total);
     unsigned char header[GLB_HEADER_SIZE];
     store_u32(header, GLB_MAGIC);
     store_u32(header + 4, GLB_VERSION);
@@ -206,7 +206,7 @@ static void warn_of_chunks(const gltf_saver *saver)
     const gltf_document *d = saver->document;
     if (d->binary && !saver->binary && d->glb.rest_begin < d->glb.end)
         ffd_log_line(saver->log, FFD_LOG_WARNING,
-                     "a .gltf cannot hold: the GLB's further chunks (%zu bytes), which are left out",
+                     "the GLB's further chunks (%zu bytes) are left out: a .gltf cannot hold them",
                      d->glb.end - d->glb.rest_begin);
 }
 

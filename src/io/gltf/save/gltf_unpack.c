@@ -163,7 +163,8 @@ void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use,
             continue;
         remove_extensions(&d->tree, ffd_gltf_primitive_value(d, mesh, p), names, 1, edits);
         ffd_log_line(saver->log, FFD_LOG_INFO,
-                     "primitive %zu of mesh %zu is written uncompressed (it was " DRACO "): it is deformed",
+                     "primitive %zu of mesh %zu is written uncompressed (it was " DRACO
+                     ") because it is deformed",
                      p, mesh);
     }
 }
@@ -188,7 +189,7 @@ static void edit_view(gltf_saver *saver, const gltf_unpacking *unpacking)
     set_number(&d->tree, view, "byteOffset", unpacking->offset, &saver->edits);
     remove_extensions(&d->tree, view, names, 2, &saver->edits);
     ffd_log_line(saver->log, FFD_LOG_INFO,
-                 "bufferView %zu is written uncompressed (it was %s): what it holds is deformed",
+                 "bufferView %zu is written uncompressed (it was %s) because its content is deformed",
                  unpacking->view, ffd_gltf_has_extension(d, view, names[0]) ? names[0] : names[1]);
 }
 

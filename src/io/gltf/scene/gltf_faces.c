@@ -77,7 +77,7 @@ static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error
             lines += (uint64_t)counted.lines * nodes;
             points += (uint64_t)counted.points * nodes;
             if (triangles > MOST_TRIANGLES)
-                return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %d triangles",
+                return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene has more than %d triangles",
                                      MOST_TRIANGLES);
         }
     }

@@ -59,7 +59,7 @@ static ffd_status find_attribute(const gltf_document *d, uint32_t attributes, co
     const gltf_accessor *accessor = &d->model.accessors[(size_t)number];
     if (accessor->columns != 1 || accessor->rows != rows || !allowed(accessor))
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "accessor %.0f is no VEC%d of an allowed component type", number, rows);
+                                  "accessor %.0f is not a VEC%d of an allowed component type", number, rows);
     if (*count != UINT64_MAX && accessor->count != *count)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
                                   "accessor %.0f has %llu elements, another attribute has %llu", number,

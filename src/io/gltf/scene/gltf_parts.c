@@ -158,7 +158,7 @@ static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
     for (size_t i = 0; i < d->base.part_count; i++) {
         vertices += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
         if (vertices > MOST_VERTICES)
-            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene shows more than %llu vertices",
+            return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene has more than %llu vertices",
                                  (unsigned long long)MOST_VERTICES);
     }
     /* Whoever goes over all of them keeps this of each at the least. */

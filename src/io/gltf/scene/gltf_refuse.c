@@ -65,8 +65,8 @@ ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_
     const uint32_t value = d->accessor_values.values[accessor];
     if (d->unpacked[accessor].clash)
         return refuse(d, value, error,
-                      "primitives take different values for the accessor, out of Draco data and elsewhere: "
-                      "that is not supported");
+                      "primitives read different values for the accessor, from Draco data and from "
+                      "elsewhere: this is not supported");
     if (d->model.accessors[accessor].view >= 0)
         status = ffd_gltf_refuse_view(d, (size_t)d->model.accessors[accessor].view, error);
     return status ? status : refuse(d, value, error, "an accessor without bytes is not supported");
@@ -108,7 +108,7 @@ static ffd_status refuse_shared_child(const gltf_document *d, ffd_error *error)
     if (d->shared_child == GLTF_NONE || d->space == FFD_SPACE_MESH)
         return FFD_OK;
     return ffd_json_span_fail(&d->tree, d->node_values.values[d->shared_child], d->name, FFD_E_INVALID, error,
-                              "the node is a child of node %zu and again of node %zu", d->shared_by[0],
+                              "the node is a child of both node %zu and node %zu", d->shared_by[0],
                               d->shared_by[1]);
 }
 
@@ -125,7 +125,7 @@ static ffd_status refuse_newer_version(const gltf_document *d, ffd_error *error)
     ffd_status status = FFD_OK;
     if (strcmp(text, "2.0") != 0)
         status = ffd_json_span_fail(&d->tree, version, d->name, FFD_E_UNSUPPORTED, error,
-                                    "the file needs a reader of glTF %s, this is one of 2.0", text);
+                                    "the file needs glTF %s, but only 2.0 is supported", text);
     ffd_free(text);
     return status;
 }

@@ -151,7 +151,7 @@ static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
         for (int i = 0; d->in_scene[n] && i < 12; i++)
             if (!isfinite(d->world[12 * n + i]))
                 return ffd_json_span_fail(&d->tree, d->node_values.values[n], d->name, FFD_E_INVALID, error,
-                                          "the node's place in the scene is not finite");
+                                          "the node's matrix in the scene is not finite");
     return FFD_OK;
 }
 

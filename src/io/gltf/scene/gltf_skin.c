@@ -52,7 +52,7 @@ static ffd_status check_inverse_bind(const gltf_document *d, const gltf_skin *sk
         ffd_json_span_member(&d->tree, d->skin_values.values[skin - d->skins], "inverseBindMatrices");
     if (accessor->columns != 4 || accessor->rows != 4 || accessor->component != GLTF_FLOAT)
         return ffd_json_span_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
-                                  "accessor %d is no MAT4 of floats", skin->inverse_bind);
+                                  "accessor %d is not a MAT4 of floats", skin->inverse_bind);
     if (accessor->count < skin->joint_count)
         return ffd_json_span_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
                                   "accessor %d has %llu matrices for %zu joints", skin->inverse_bind,
@@ -134,7 +134,7 @@ static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_err
         for (int i = 0; i < 12; i++)
             if (!isfinite(matrix[i]))
                 return ffd_json_span_fail(&d->tree, d->node_values.values[skin->joints[j]], d->name,
-                                          FFD_E_INVALID, error, "the joint's place is not finite");
+                                          FFD_E_INVALID, error, "the joint's matrix is not finite");
     }
     return FFD_OK;
 }
@@ -186,10 +186,10 @@ static ffd_status check_set(const gltf_document *d, const gltf_skin *skin, uint3
         return refuse_attribute(d, primitive, "WEIGHTS", set, "is missing", error);
     if (!has_shape(&d->model.accessors[influence->joints], false))
         return refuse_attribute(d, primitive, "JOINTS", set,
-                                "is no VEC4 of unsigned bytes or shorts (5121, 5123)", error);
+                                "is not a VEC4 of unsigned bytes or shorts (5121, 5123)", error);
     if (!has_shape(&d->model.accessors[influence->weights], true))
         return refuse_attribute(d, primitive, "WEIGHTS", set,
-                                "is no VEC4 of floats or of normalized unsigned bytes or shorts", error);
+                                "is not a VEC4 of floats or of normalized unsigned bytes or shorts", error);
     const size_t joints = count_joints(d, (size_t)influence->joints, largest);
     if (joints > skin->joint_count)
         return ffd_json_span_fail(&d->tree, d->accessor_values.values[influence->joints], d->name,
@@ -208,11 +208,11 @@ static ffd_status check_primitive(const gltf_document *d, const gltf_skin *skin,
         return FFD_OK;
     if (primitive->influence_count == 0)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "a node shows it with a skin, but it has no JOINTS_0 and WEIGHTS_0");
+                                  "a node uses it with a skin, but it has no JOINTS_0 and WEIGHTS_0");
     if (primitive->influence_count > MOST_SETS)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_LIMIT, error,
-                                  "%zu sets of joints are more than %zu", primitive->influence_count,
-                                  MOST_SETS);
+                                  "%zu sets of joints are more than the %zu that are supported",
+                                  primitive->influence_count, MOST_SETS);
     for (size_t i = 0; i < primitive->influence_count && status == FFD_OK; i++)
         status = check_set(d, skin, value, &primitive->influences[i], i, largest, error);
     return status;
