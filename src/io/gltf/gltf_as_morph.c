@@ -1,5 +1,6 @@
-/* gltf_as_morph.c - the deformation as a further morph target. The file with a target of zeros is opened as a
-   document of its own; what this one has as results become the results of that target, and it is saved. */
+/* gltf_as_morph.c - the deformation as a further morph target. The file with a target of zeros added is
+   opened as a document of its own; the results of this document become the results of that target, and
+   that document is saved. */
 #include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
@@ -17,7 +18,7 @@ ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_err
     if (!d->morph_name)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < d->base.part_count; i++)
-        d->mesh_parts[i].shape_count = 0; /* the other targets stay */
+        d->mesh_parts[i].shape_count = 0; /* the other targets stay as they are */
     return FFD_OK;
 }
 
@@ -30,7 +31,7 @@ static bool is_moved(const gltf_document *d, size_t part, size_t semantic)
     return false;
 }
 
-/* moved: a part's streams, 1 + whether they are; 0: not looked at. */
+/* moved caches the answers, one per stream of a part: 1 + the answer; 0: not known yet. */
 static bool is_stream_moved(const gltf_document *d, size_t part, size_t semantic, unsigned char *moved)
 {
     if (part == GLTF_NONE)
@@ -41,7 +42,7 @@ static bool is_stream_moved(const gltf_document *d, size_t part, size_t semantic
     return *known > 1;
 }
 
-/* Marks the meshes that some node shows otherwise than before. Returns whether there are any. */
+/* Marks the meshes that changed under some node. Returns whether there are any. */
 static bool mark_moved(const gltf_document *d, unsigned char *moved, bool *meshes)
 {
     const gltf_instance *instance = d->instances;
@@ -56,8 +57,8 @@ static bool mark_moved(const gltf_document *d, unsigned char *moved, bool *meshe
     return any;
 }
 
-/* Lends the results to the last targets of the other document's primitives, or takes them back. Both have the
-   same instances in the same order. */
+/* Lends the results to the last targets of the other document's primitives, or takes them back. Both
+   have the same instances in the same order. */
 static void lend_results(const gltf_document *d, const bool *meshes, bool back, gltf_document *other)
 {
     size_t k = 0;

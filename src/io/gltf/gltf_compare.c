@@ -10,7 +10,7 @@
 
 #define BLOCK 256
 
-/* An element that is compared. */
+/* Names an element in messages. */
 typedef struct element_name {
     size_t accessor, element;
     const char *what; /* "vertex", "element" */
@@ -19,11 +19,11 @@ typedef struct element_name {
 /* A difference_place. */
 static void format_element(const void *context, char *text, size_t capacity)
 {
-    const element_name *place = context;
-    snprintf(text, capacity, "/accessors/%zu: %s %zu", place->accessor, place->what, place->element);
+    const element_name *name = context;
+    snprintf(text, capacity, "/accessors/%zu: %s %zu", name->accessor, name->what, name->element);
 }
 
-/* What elements are */
+/* The kinds of elements */
 
 static void note_kind(gltf_comparer *c, int accessor, ffd_difference_kind kind)
 {
@@ -79,13 +79,13 @@ static bool has_same_bytes(const gltf_comparer *c, size_t accessor)
            (!sparse->present || (c->is_same[sparse->indices_view] && c->is_same[sparse->values_view]));
 }
 
-/* Compares elements [first, first + count), as the part (GLTF_NONE: none) places positions: differences in
-   the lattice's units, or, where its matrix hides them, in the file's. */
+/* Compares elements [first, first + count), transformed by the part (GLTF_NONE: not): differences are
+   in the lattice's units, or in the file's where the part's matrix hides them. */
 static void compare_block(gltf_comparer *c, size_t accessor, size_t part, size_t first, size_t count)
 {
     const ffd_difference_kind kind = (ffd_difference_kind)c->kinds[accessor];
     const size_t size = (size_t)c->a->model.accessors[accessor].rows;
-    element_name place = {accessor, first, kind == FFD_DIFFERENCE_POSITION ? "vertex" : "element"};
+    element_name name = {accessor, first, kind == FFD_DIFFERENCE_POSITION ? "vertex" : "element"};
     double a[4 * BLOCK], b[4 * BLOCK], world_a[4 * BLOCK], world_b[4 * BLOCK];
     ffd_gltf_read(c->a, accessor, first, count, size, a);
     ffd_gltf_read(c->b, accessor, first, count, size, b);
@@ -98,17 +98,17 @@ static void compare_block(gltf_comparer *c, size_t accessor, size_t part, size_t
         ffd_part_place(&c->a->base, part, first, count, world_a);
         ffd_part_place(&c->a->base, part, first, count, world_b);
     }
-    for (size_t i = 0; i < count; i++, place.element++) {
+    for (size_t i = 0; i < count; i++, name.element++) {
         const double *x = world_a + size * i, *y = world_b + size * i;
         bool hidden = true;
         for (size_t k = 0; k < size; k++)
             hidden = hidden && !(ffd_difference_of(x[k], y[k]) > 0);
         ffd_difference_vector(c->result, kind, (int)size, hidden ? a + size * i : x,
-                              hidden ? b + size * i : y, format_element, &place);
+                              hidden ? b + size * i : y, format_element, &name);
     }
 }
 
-/* Positions, normals or tangents. */
+/* Compares positions, normals or tangents. */
 static void compare_vectors(gltf_comparer *c, size_t accessor, size_t part)
 {
     const size_t count = has_same_bytes(c, accessor) ? 0 : (size_t)c->a->model.accessors[accessor].count;
@@ -118,7 +118,7 @@ static void compare_vectors(gltf_comparer *c, size_t accessor, size_t part)
         compare_block(c, accessor, part, first, count - first < BLOCK ? count - first : BLOCK);
 }
 
-/* A part's positions, and those of its morph targets, which are offsets. */
+/* Compares a part's positions, and those of its morph targets, which are offsets. */
 static void compare_part(gltf_comparer *c, size_t i)
 {
     const gltf_document *d = c->a;
@@ -136,7 +136,7 @@ static void compare_part(gltf_comparer *c, size_t i)
     }
 }
 
-/* The bytes of elements that nothing can be measured of. */
+/* Compares the bytes of elements that are not vectors. */
 static void compare_elements(gltf_comparer *c, size_t accessor)
 {
     const uint64_t count = has_same_bytes(c, accessor) ? 0 : c->a->model.accessors[accessor].count;
@@ -150,8 +150,8 @@ static void compare_elements(gltf_comparer *c, size_t accessor)
         }
 }
 
-/* Where many accessors share the same few bytes they are left to the comparison of these bytes. (What Draco
-   data becomes was limited before.) */
+/* Limits the work if many accessors share the same few bytes: these bytes are then compared as such. (The
+   size of decoded Draco data was limited before.) */
 static bool may_compare(gltf_comparer *c, size_t accessor)
 {
     const uint64_t count = c->a->model.accessors[accessor].count;
@@ -159,7 +159,7 @@ static bool may_compare(gltf_comparer *c, size_t accessor)
                                       ffd_room_take(&c->room, count, 1, NULL) == FFD_OK);
 }
 
-/* Positions under each node that shows them, then the other accessors. */
+/* Compares positions under each node that uses them, then the other accessors. */
 static void compare_accessors(gltf_comparer *c)
 {
     for (size_t i = 0; i < c->a->base.part_count; i++)
@@ -178,7 +178,7 @@ static void compare_accessors(gltf_comparer *c)
 
 /* Bytes */
 
-/* The bytes of a view, decoded if they can be; else as they are stored. NULL: there are none. */
+/* Returns the bytes of a view, decoded if they can be, else as they are stored. NULL: there are none. */
 static const unsigned char *find_bytes(const gltf_document *d, size_t view, size_t *size)
 {
     const unsigned char *bytes = ffd_gltf_view_bytes(d, view);
@@ -195,14 +195,14 @@ static void find_same_views(gltf_comparer *c)
     }
 }
 
-/* Whether elements of an accessor lie in a view: of the accessor itself, or of its sparse ones. */
+/* Whether a view holds elements of an accessor, its own or its sparse ones. */
 static bool lies_in(const gltf_accessor *accessor, size_t view)
 {
     return accessor->view == (int)view ||
            (accessor->sparse.present && accessor->sparse.values_view == (int)view);
 }
 
-/* Sets the elements in b's copy of a view that were compared by themselves to a's. */
+/* In b's copy of a view, sets the elements that were compared on their own to a's. */
 static void equalize_elements(const gltf_comparer *c, size_t view, unsigned char *bytes)
 {
     const uintptr_t begin = (uintptr_t)ffd_gltf_view_bytes(c->b, view);
@@ -221,7 +221,7 @@ static void equalize_elements(const gltf_comparer *c, size_t view, unsigned char
     }
 }
 
-/* One difference at most. */
+/* Adds one difference at most. */
 static void compare_bytes(gltf_comparer *c, size_t view, const unsigned char *a, const unsigned char *b,
                           size_t size)
 {
@@ -234,7 +234,7 @@ static void compare_bytes(gltf_comparer *c, size_t view, const unsigned char *a,
         }
 }
 
-/* What is in a view that is not the same, beside the elements. */
+/* Compares the rest of a view that differs, without its elements. */
 static ffd_status compare_view(gltf_comparer *c, size_t i)
 {
     size_t size, other_size;
@@ -244,7 +244,7 @@ static ffd_status compare_view(gltf_comparer *c, size_t i)
                            i);
         return FFD_OK;
     }
-    if (!ffd_gltf_view_bytes(c->a, i) || !ffd_gltf_view_bytes(c->b, i)) { /* nobody can tell what is in it */
+    if (!ffd_gltf_view_bytes(c->a, i) || !ffd_gltf_view_bytes(c->b, i)) { /* its content is unknown */
         compare_bytes(c, i, a, b, size);
         return FFD_OK;
     }
@@ -265,7 +265,7 @@ static void find_unpacked(const gltf_document *d, bool *is_unpacked)
             is_unpacked[d->unpacked[a].view] = true;
 }
 
-/* Of Draco data that could not be decoded the bytes are compared. */
+/* If Draco data could not be decoded, its bytes are compared. */
 static void leave_problems(const gltf_document *d, bool *is_unpacked)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++)
@@ -279,7 +279,7 @@ static void leave_problems(const gltf_document *d, bool *is_unpacked)
         }
 }
 
-/* Of files whose JSON says the same of accessors and bufferViews. */
+/* Compares the contents of files whose JSON is the same for accessors and bufferViews. */
 static ffd_status compare_contents(gltf_comparer *c)
 {
     ffd_status status = FFD_OK;

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The value is `levels` above `value`; JSON_NONE past the top. */
+/* Returns the value `levels` above `value`; JSON_NONE past the top. */
 static uint32_t above(const json_span *tree, uint32_t value, int levels)
 {
     for (; levels > 0 && value != JSON_NONE; levels--)
@@ -11,7 +11,7 @@ static uint32_t above(const json_span *tree, uint32_t value, int levels)
     return value;
 }
 
-/* Whether value tells where elements lie, or what they are. */
+/* Whether the value says where elements are stored, or what they are. */
 static bool is_about_storage(const json_span *tree, uint32_t value)
 {
     static const char *const keys[] = {"accessors", "bufferViews", "buffers", "meshes"};
@@ -36,7 +36,7 @@ static ffd_difference_kind kind_of(const json_span *tree, uint32_t value)
 static void say_at(gltf_comparer *c, uint32_t value, const char *what)
 {
     char pointer[256] = "";
-    if (c->result->differences == 0) /* else nobody reads it */
+    if (c->result->differences == 0) /* only the first one is reported */
         ffd_json_span_pointer(&c->a->tree, value, pointer, sizeof pointer);
     ffd_difference_say(c->result, kind_of(&c->a->tree, value), "%s: %s", pointer[0] ? pointer : "/", what);
 }
@@ -47,7 +47,7 @@ static void differ_at(gltf_comparer *c, uint32_t value, const char *what)
     say_at(c, value, what);
 }
 
-/* What may differ between equal files: where buffers are, and how long what follows their views is. */
+/* Whether the value may differ between equal files: a buffer's file, and its length past its views. */
 static bool is_storage(const json_span *tree, uint32_t value)
 {
     const uint32_t buffers = ffd_json_span_member(tree, 0, "buffers");
@@ -55,7 +55,7 @@ static bool is_storage(const json_span *tree, uint32_t value)
            (ffd_json_span_key_is(tree, value, "uri") || ffd_json_span_key_is(tree, value, "byteLength"));
 }
 
-/* The accessor whose "min" or "max" value is a number of; GLTF_NONE: it is none. */
+/* Returns the accessor whose "min" or "max" has the value as a number; GLTF_NONE: it is not one. */
 static size_t bounded_accessor(const gltf_comparer *c, uint32_t value)
 {
     const json_span *tree = &c->a->tree;
@@ -91,15 +91,15 @@ static bool same_text(const json_span *a, uint32_t x, const json_span *b, uint32
            memcmp(a->text + a->values[x].begin, b->text + b->values[y].begin, size) == 0;
 }
 
-/* As many characters of a number as a message has room for. */
+/* Returns how many characters of a number go into a message. */
 static int shown_size(const json_span *tree, uint32_t value)
 {
     const uint32_t size = tree->values[value].end - tree->values[value].begin;
     return size > 40 ? 40 : (int)size;
 }
 
-/* Whether two numbers of different text are equal. JSON has no leading zeros, so that plain integers, which
-   may have more digits than a double holds, are not; but for 0 and -0. */
+/* Whether two numbers of different text are equal. Plain integers, which may have more digits than a
+   double holds, never are, since JSON has no leading zeros; but 0 and -0 are. */
 static bool equal_numbers(gltf_comparer *c, uint32_t x, double a, uint32_t y, double b)
 {
     if (is_plain_integer(&c->a->tree, x) && is_plain_integer(&c->b->tree, y) && (a < 0 || a > 0))
@@ -115,7 +115,7 @@ static void differ_in_numbers(const gltf_comparer *c, uint32_t x, uint32_t y, ch
     ffd_json_span_number(second, y, &b);
     if (a < b || a > b)
         snprintf(what, capacity, "%.17g and %.17g", a, b);
-    else /* beyond what a double tells apart */
+    else /* a double does not distinguish them */
         snprintf(what, capacity, "%.*s and %.*s", shown_size(first, x), first->text + first->values[x].begin,
                  shown_size(second, y), second->text + second->values[y].begin);
 }
@@ -127,8 +127,8 @@ void ffd_gltf_differ_in_bound(gltf_comparer *c, const gltf_bound *bound)
     say_at(c, bound->in_a, what);
 }
 
-/* Bounds follow from the elements, which are compared themselves: with a tolerance in the lattice's units,
-   where bounds are not. */
+/* Bounds follow from the elements, which are compared on their own. With a tolerance, which is in the
+   lattice's units unlike bounds, these are not compared. */
 static void note_bound(gltf_comparer *c, size_t accessor, uint32_t x, uint32_t y)
 {
     const uint8_t kind = c->kinds[accessor];
@@ -180,7 +180,7 @@ static ffd_status compare_arrays(gltf_comparer *c, uint32_t x, uint32_t y)
     return status;
 }
 
-/* y, which the object x of the first file does not have. */
+/* Adds the difference that only the second file has y, a member of x. */
 static ffd_status differ_in_second(gltf_comparer *c, uint32_t x, uint32_t y)
 {
     char *key = ffd_json_span_key(&c->b->tree, y);
@@ -194,7 +194,7 @@ static ffd_status differ_in_second(gltf_comparer *c, uint32_t x, uint32_t y)
     return FFD_OK;
 }
 
-/* The sorted members, in both, of two objects; one that only one object has is a difference. */
+/* Compares the sorted members of two objects; a member that only one object has is a difference. */
 static ffd_status compare_members(gltf_comparer *c, uint32_t x, const json_member *first, size_t first_count,
                                   const json_member *second, size_t second_count)
 {
@@ -235,7 +235,7 @@ static ffd_status compare_objects(gltf_comparer *c, uint32_t x, uint32_t y)
     return status;
 }
 
-/* Depth is limited by the scanner. */
+/* The parser limits the depth of the recursion. */
 static ffd_status compare_values(gltf_comparer *c, uint32_t x, uint32_t y)
 {
     const uint8_t kind = c->a->tree.values[x].kind;

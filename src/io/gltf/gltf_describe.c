@@ -40,7 +40,7 @@ static void describe_strings(const gltf_document *d, const char *key, json_text 
     ffd_json_end(json, ']');
 }
 
-/* How the vertices that a deformation would change are stored. */
+/* How the vertices that a deformation can change are stored. */
 typedef struct storage_facts {
     size_t vertices;                                   /* of POSITION accessors, each once */
     size_t morphed, sparse, quantized, draco, meshopt; /* primitives */
@@ -97,7 +97,7 @@ static ffd_status describe_storage(const gltf_document *d, json_text *json, ffd_
     return FFD_OK;
 }
 
-/* The names of all attributes, each once, in the order of their letters. */
+/* Writes the names of all attributes, each once, in alphabetical order. */
 static ffd_status describe_attributes(const gltf_document *d, json_text *json, ffd_error *error)
 {
     size_t count = 0;

@@ -1,4 +1,4 @@
-/* gltf_describe.h - what `ffd info` says of a glTF file. */
+/* gltf_describe.h - what `ffd info` reports of a glTF file. */
 #ifndef FFD_IO_GLTF_GLTF_DESCRIBE_H
 #define FFD_IO_GLTF_GLTF_DESCRIBE_H
 

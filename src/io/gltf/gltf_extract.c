@@ -14,13 +14,13 @@ typedef struct extractor {
     ffd_error *error;
 } extractor;
 
-/* What a primitive shows under one node. */
+/* What a primitive draws under one node. */
 typedef struct drawn {
     const gltf_primitive *primitive;
     uint32_t *corners;
     size_t count;
     size_t position, normal, texcoord; /* the first of each; GLTF_NONE: none */
-    bool mirrored;                     /* its triangles would look inward */
+    bool mirrored;                     /* its triangles would face inward */
 } drawn;
 
 static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
@@ -28,8 +28,8 @@ static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
     return &e->document->mesh_uses[mesh];
 }
 
-/* The accessor of an attribute with `rows` numbers an element (or least to most of them) for all of a
-   primitive's vertices; GLTF_NONE where there is none that can be used. */
+/* Returns the accessor of an attribute with least to most numbers per element for all of a primitive's
+   vertices; GLTF_NONE if it has none that can be used. */
 static size_t find_attribute(const gltf_document *d, size_t m, size_t p, const char *name, int least,
                              int most)
 {
@@ -53,7 +53,7 @@ static size_t find_texcoords(const gltf_document *d, size_t m, size_t p)
     return find_attribute(d, m, p, "TEXCOORD_0", 2, 2);
 }
 
-/* Counts the values and gives each part and accessor its place. */
+/* Counts the values and sets the first one of each part and accessor. */
 static ffd_status count_values(extractor *e)
 {
     const gltf_document *d = e->document;
@@ -77,8 +77,8 @@ static ffd_status count_values(extractor *e)
     return ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
 }
 
-/* The result of a stream where it is another than what the file has; that may be finer than a float, in
- * integers. */
+/* Reads a stream's results where they differ from the file's values as floats, else the file's values:
+   integers may be more precise than floats. */
 static void read_stream(const gltf_document *d, size_t part, gltf_semantic semantic, double *values)
 {
     const gltf_stream *stream = &d->parts[part].streams[semantic];
@@ -100,8 +100,8 @@ static void read_transform(const gltf_document *d, size_t part, size_t vertex, d
         memcpy(transform, p->linear, sizeof p->linear);
 }
 
-/* Normals go by the inverse transposed matrix, which is the cofactor matrix but for a factor whose sign
-   counts: where the matrix mirrors, it is negative. */
+/* Normals transform by the inverse transpose, which is the cofactor matrix but for a factor; its sign
+   matters: it is negative if the matrix mirrors. */
 static void turn_normal(const double linear[9], double normal[3])
 {
     double cofactor[9];
@@ -144,7 +144,7 @@ static void fill_values(const extractor *e)
         double *texcoords = e->model->texcoords + 2 * e->first_texcoord[a];
         ffd_gltf_read(d, a, 0, count, 2, texcoords);
         for (size_t i = 0; i < count; i++)
-            texcoords[2 * i + 1] = 1 - texcoords[2 * i + 1]; /* glTF's v goes down */
+            texcoords[2 * i + 1] = 1 - texcoords[2 * i + 1]; /* v points down in glTF */
     }
 }
 
@@ -215,7 +215,7 @@ static ffd_status add_points(extractor *e, const drawn *drawing)
     return status;
 }
 
-/* The member "name" of element i of a list; JSON_NONE where it has none, or an empty one. */
+/* Returns the member "name" of element i of a list; JSON_NONE if it has none, or an empty one. */
 static uint32_t find_name(const gltf_document *d, const gltf_values *list, size_t i)
 {
     const uint32_t name =
@@ -223,7 +223,7 @@ static uint32_t find_name(const gltf_document *d, const gltf_values *list, size_
     return name != JSON_NONE && d->tree.values[name].end - d->tree.values[name].begin > 2 ? name : JSON_NONE;
 }
 
-/* The name of element i of a list; "KIND i" where it has none. To be freed. */
+/* Returns the name of element i of a list, "KIND i" if it has none; to be freed by the caller. */
 static char *name_of(const gltf_document *d, const gltf_values *list, size_t i, const char *kind)
 {
     const uint32_t name = find_name(d, list, i);
@@ -324,7 +324,7 @@ static bool has_any(const gltf_document *d, const char *array)
     return ffd_json_span_first(&d->tree, ffd_json_span_member(&d->tree, 0, array)) != JSON_NONE;
 }
 
-/* What stays behind in the source. */
+/* Returns the features of the file that the model lacks. */
 static uint32_t features_of(const extractor *e)
 {
     const gltf_document *d = e->document;
@@ -353,7 +353,7 @@ static ffd_status extract(extractor *e)
     e->first_texcoord = ffd_alloc(d->model.accessor_count, sizeof *e->first_texcoord);
     if (!e->first_position || !e->first_normal || !e->first_texcoord)
         return ffd_fail_memory(e->error);
-    /* For the corners of a primitive while it is added. */
+    /* Memory for the corners of a primitive while it is added. */
     ffd_status status = ffd_model_take(e->model, ffd_gltf_most_corners(d), sizeof(uint32_t), e->error);
     if (status == FFD_OK)
         status = count_values(e);
@@ -368,7 +368,7 @@ static ffd_status extract(extractor *e)
     return status;
 }
 
-/* A model has no instances, and the node's own place shows none of them. */
+/* A model has no instances, and the node's own matrix is not that of any of them. */
 static ffd_status refuse_instances(const gltf_document *d, ffd_error *error)
 {
     if (d->instanced_node_count == 0)

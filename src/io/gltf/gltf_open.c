@@ -14,11 +14,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the JSON library and tinygltf need at most for one object of a list; the model keeps less of it. */
+/* What the JSON library and tinygltf need at most for one object of a list, and what the model keeps of
+   it. */
 #define OBJECT_BYTES 1024
 #define KEPT_OBJECT_BYTES 256
 
-/* Of a file's byte: itself. */
+/* Bytes that are kept per byte of a file: the file itself. */
 #define KEPT_PER_BYTE 1
 
 static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *error)
@@ -74,7 +75,7 @@ static int compare_files(const void *a, const void *b)
     return memcmp((*x)->identity, (*y)->identity, sizeof(*x)->identity);
 }
 
-/* Allows memory for the files of buffers, however many buffers name one of them. */
+/* Adds the files of buffers to the memory budget, each once even if several buffers name it. */
 static ffd_status count_files(gltf_document *d, ffd_error *error)
 {
     size_t count = 0;
@@ -130,7 +131,7 @@ static ffd_status list_primitives(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* A file needs 3 bytes to state an object. */
+/* An object can take as few as 3 bytes of the file. */
 static ffd_status limit_objects(gltf_document *d, ffd_error *error)
 {
     const uint32_t scenes = ffd_json_span_member(&d->tree, 0, "scenes");
@@ -141,8 +142,8 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     return status ? status : ffd_room_take(&d->base.room, count, KEPT_OBJECT_BYTES, error);
 }
 
-/* tinygltf refuses indices without a bufferView, which compressed and sparse ones have: it is not shown them.
- */
+/* tinygltf refuses indices whose accessor has no bufferView, as compressed and sparse ones may not:
+   they are hidden from it. */
 static void hide_indices(const gltf_document *d, json_edits *edits)
 {
     for (size_t i = 0; i < d->primitive_values.count; i++) {
@@ -164,8 +165,9 @@ static void set_indices(gltf_document *d)
         }
 }
 
-/* The JSON for tinygltf: only what is geometry, so that it neither takes time nor refuses a file for the
-   rest; buffers are stubs, so that it sees neither files nor large data; integers are plain digits. */
+/* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf does not spend time on the
+   rest nor refuse the file because of it; buffers are stubs, so that it opens no files and decodes no
+   data; integers are plain digits. */
 static void write_model_text(const gltf_document *d, const json_edits *plain, byte_buffer *out)
 {
     static const char *const used[] = {"asset", "bufferViews", "accessors", "meshes",
@@ -185,7 +187,7 @@ static void write_model_text(const gltf_document *d, const json_edits *plain, by
     ffd_buffer_text(out, "}");
 }
 
-/* What tinygltf read must be what the JSON says: both are used side by side. */
+/* The counts must agree, since the model and the JSON are used side by side. */
 static ffd_status check_counts(const gltf_document *d, ffd_error *error)
 {
     const gltf_model *model = &d->model;
@@ -341,7 +343,7 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
     d->base.room = *room;
     d->space = source->space;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
-    d->input = *input; /* borrowed until all is well */
+    d->input = *input; /* the caller's until all succeeded */
     const ffd_status status = read_document(d, source, error);
     if (status) {
         if (error)

@@ -1,5 +1,6 @@
-/* The only place that sees Draco. The library trusts what the data's headers say and makes room for it at
-   once; its decoders are derived from here to look at these numbers first. */
+/* draco.cpp - with draco_orientations.cpp, the only source that includes Draco. The library trusts the
+   numbers in the data's headers and allocates memory for them at once; classes derived from its decoders
+   check these numbers first. */
 #include "io/gltf/decode/draco.h"
 #include "io/gltf/decode/draco_orientations.h"
 #include "io/gltf/model/gltf_model.h"
@@ -18,8 +19,8 @@ struct draco_mesh {
 namespace
 {
 
-/* What the library needs about at most for a triangle, for each set of attribute seams of it, and for a
-   number of an attribute beside the number itself. */
+/* About the most memory that the library needs for a triangle, for a triangle of each set of attribute
+   seams, for a point, and for a number of an attribute beside the number itself. */
 constexpr uint64_t TRIANGLE_MEMORY = 64;
 constexpr uint64_t SEAMS_MEMORY = 24;
 constexpr uint64_t POINT_MEMORY = 8;
@@ -29,7 +30,7 @@ constexpr int HEADER_SIZE = 11;
 constexpr int FLAGS_AT = 9;
 constexpr unsigned char METADATA_FLAG = 0x80; /* in the second byte of the flags */
 
-/* A problem that one of our own checks found; the library itself only says that it failed. */
+/* A failure of one of our own checks; the library itself only reports that decoding failed. */
 struct finding {
     ffd_status status = FFD_OK;
     ffd_error error = {};
@@ -38,7 +39,7 @@ struct finding {
 /* The counts at the head of the connectivity. */
 struct head {
     uint32_t triangles = 0;
-    uint32_t points = 0; /* at least so many */
+    uint32_t points = 0; /* a lower bound */
     uint8_t seams = 0;   /* sets of attribute seams */
 };
 
@@ -47,8 +48,8 @@ bool read_u32(draco::DecoderBuffer &buffer, bool varint, uint32_t &value)
     return varint ? draco::DecodeVarint(&value, &buffer) : buffer.Decode(&value);
 }
 
-/* Before 2.0 the numbers were plain, before 2.2 there was one more (bitstream specification, "Edgebreaker
-   connectivity header"). The byte before them is read already. */
+/* Before 2.0 the numbers were not varints, before 2.2 there was one more (bitstream specification,
+   "Edgebreaker connectivity header"). The byte before them is read already. */
 bool read_head(const draco::MeshEdgebreakerDecoder &, draco::DecoderBuffer buffer, head &found)
 {
     const uint16_t version = buffer.bitstream_version();
@@ -66,7 +67,7 @@ bool read_head(const draco::MeshSequentialDecoder &, draco::DecoderBuffer buffer
     return read_u32(buffer, varint, found.triangles) && read_u32(buffer, varint, found.points);
 }
 
-/* A decoder of the library that looks at every count before it is believed. */
+/* A decoder of the library that checks every count before it is used. */
 template <class Decoder> class careful : public Decoder
 {
   public:
@@ -89,7 +90,7 @@ template <class Decoder> class careful : public Decoder
         return fits(counts.triangles, TRIANGLE_MEMORY + SEAMS_MEMORY * counts.seams);
     }
 
-    /* Comes when the connectivity is known. */
+    /* Called when the connectivity is known. */
     bool CreateAttributesDecoder(int32_t id) override
     {
         return check_points() && Decoder::CreateAttributesDecoder(id);
@@ -158,7 +159,8 @@ bool skip_entries(draco::DecoderBuffer &buffer)
     return true;
 }
 
-/* A tree of metadata: each one behind its parent and its elder sisters, the root without a name. */
+/* Skips a tree of metadata: each node follows its parent and its earlier siblings; the root has no
+   name. */
 bool skip_tree(draco::DecoderBuffer &buffer)
 {
     uint32_t children;
@@ -181,8 +183,8 @@ bool skip_metadata(draco::DecoderBuffer &buffer)
     return skip_tree(buffer);
 }
 
-/* The data without its metadata: glTF has no use for it, and the library's reader can be made to fill any
-   memory with it. Empty: it is broken. */
+/* Returns the data without its metadata, which glTF does not use and with which the library's reader
+   could fill all memory. Empty: the metadata is broken. */
 std::vector<char> without_metadata(const unsigned char *bytes, size_t size, uint16_t version)
 {
     draco::DecoderBuffer buffer;

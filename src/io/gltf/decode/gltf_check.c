@@ -5,12 +5,12 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Zeros need no bytes in the file: without a limit a few characters could ask for any amount of memory.
-   Elements without bytes, of all accessors: so many, and so many more for a byte of a buffer. */
-/* How an element without bytes counts. */
+/* Elements that are zeros need no bytes in the file: without a limit, a few characters could ask for any
+   amount of memory. */
+/* What an element without bytes counts in the memory budget. */
 #define ZERO_BYTES 4
 
-/* A failure at a member of a value, or at the value where the member is absent. */
+/* Fails at a member of a value, or at the value if the member is absent. */
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
                          const char *format, ...) FFD_PRINTF(5, 6);
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
@@ -157,7 +157,7 @@ static ffd_status check_accessor(gltf_document *d, size_t i, ffd_error *error)
     const gltf_accessor *accessor = &d->model.accessors[i];
     gltf_layout *layout = &d->layouts[i];
     measure(accessor, layout);
-    layout->readable = true; /* zeros, if nothing else is said */
+    layout->readable = true; /* zeros, unless it has a view */
     if (accessor->view >= 0 ||
         ffd_json_span_member(&d->tree, d->accessor_values.values[i], "bufferView") != JSON_NONE) {
         ffd_status status = check_index(d, d->accessor_values.values[i], "bufferView", accessor->view,
@@ -180,7 +180,7 @@ static ffd_status check_accessor(gltf_document *d, size_t i, ffd_error *error)
     return accessor->sparse.present ? check_sparse(d, i, error) : FFD_OK;
 }
 
-/* The shape that glTF 2.0 (3.7.2) and KHR_mesh_quantization give an attribute. */
+/* Checks that an attribute has the type that glTF 2.0 (3.7.2) and KHR_mesh_quantization allow. */
 static ffd_status check_shape(const gltf_document *d, uint32_t value, const char *key, int rows,
                               const gltf_accessor *accessor, ffd_error *error)
 {
@@ -191,7 +191,8 @@ static ffd_status check_shape(const gltf_document *d, uint32_t value, const char
     return FFD_OK;
 }
 
-/* Those of a primitive, whose tangents have 4 components, or of a morph target, whose offsets have 3. */
+/* Checks those of a primitive, whose tangents have 4 components, or of a morph target, whose offsets
+   have 3. */
 static ffd_status check_shapes(const gltf_document *d, uint32_t value, int tangent_rows, const int *accessors,
                                ffd_error *error)
 {
@@ -255,7 +256,7 @@ static ffd_status check_primitive(const gltf_document *d, size_t mesh, size_t p,
     return FFD_OK;
 }
 
-/* What has no bufferView in a primitive under Draco is in the compressed data. */
+/* In a primitive compressed by Draco, accessors without a bufferView are in the compressed data. */
 static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t value)
 {
     const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
@@ -270,7 +271,8 @@ static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t va
         d->layouts[primitive->indices].readable = false;
 }
 
-/* A few bytes can state any number of elements without bytes of their own, and going over them takes time. */
+/* A few bytes can state any number of elements without bytes of their own, and visiting them takes
+   time. */
 static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
 {
     mesh_room room = d->base.room;

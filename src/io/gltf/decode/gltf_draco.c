@@ -6,19 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MODE_TRIANGLES 4
 #define INDICES_SOURCE UINT64_MAX
 
-/* Views may name the same data again and again, and decoding it takes time: points and corners of all
-   decodings may be so many for each byte of memory allowed. */
+/* Many views can name the same data, and decoding it takes time: limits the points and corners of all
+   decodings, per byte of the memory budget. */
 #define MOST_DECODED_A_BYTE 0.25
 
-/* A primitive whose data stands in a bufferView. */
+/* A primitive whose data is in a bufferView. */
 typedef struct packed_primitive {
     size_t view, mesh, primitive;
 } packed_primitive;
 
-/* One primitive as it is decoded. */
+/* A primitive while it is decoded. */
 typedef struct unpacker {
     gltf_document *document;
     const draco_mesh *mesh;
@@ -49,7 +48,7 @@ static uint64_t integer(const gltf_document *d, uint32_t value)
     return (uint64_t)number;
 }
 
-/* Takes decoded elements as those of an accessor, or holds them against those that it has. */
+/* Gives decoded elements to an accessor, or compares them with those that it has already. */
 static void give_elements(gltf_document *d, size_t accessor, size_t stride, uint64_t source, size_t view,
                           unsigned char *bytes)
 {
@@ -75,7 +74,8 @@ static void give_elements(gltf_document *d, size_t accessor, size_t stride, uint
     layout->packing = GLTF_DRACO;
 }
 
-/* Decodes one attribute (source: its id) or the indices into an accessor. value: where it is named. */
+/* Decodes one attribute (source: its id) or the indices into an accessor. value: the JSON value that
+   names it. */
 static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, uint64_t source)
 {
     gltf_document *d = u->document;
@@ -109,7 +109,8 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
     return FFD_OK;
 }
 
-/* The accessor that a primitive's attributes name by the key of `attribute`; GLTF_NONE: none. */
+/* Returns the accessor that a primitive's attributes have under the key of `attribute`; GLTF_NONE:
+   none. */
 static size_t find_accessor(const gltf_document *d, uint32_t attributes, uint32_t attribute)
 {
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
@@ -140,7 +141,7 @@ static ffd_status unpack_primitive(const unpacker *u, const packed_primitive *pa
     return status;
 }
 
-/* What the file says of a primitive's mesh. */
+/* Reads what the file states about a primitive's mesh. */
 static ffd_status read_claim(const gltf_document *d, const packed_primitive *packed, draco_claim *claim,
                              ffd_error *error)
 {
@@ -184,7 +185,7 @@ static bool same_claim(const draco_claim *a, const draco_claim *b)
     return a->points == b->points && a->corners == b->corners;
 }
 
-/* Decodes a primitive. *mesh is that of the primitive before it with the same bufferView and claim, or
+/* Decodes a primitive. *mesh is the previous primitive's if that has the same bufferView and claim, else
    NULL. */
 static ffd_status decode_primitive(gltf_document *d, const packed_primitive *packed, const draco_claim *claim,
                                    draco_mesh **mesh, ffd_error *error)
@@ -206,7 +207,7 @@ static int compare_packed(const void *a, const void *b)
     return (x->primitive > y->primitive) - (x->primitive < y->primitive);
 }
 
-/* The compressed primitives, those of one bufferView together. */
+/* Lists the compressed primitives, those of one bufferView together. */
 static size_t list_packed(const gltf_document *d, packed_primitive *list)
 {
     size_t count = 0;
@@ -229,7 +230,7 @@ static void forget(gltf_document *d, size_t accessor)
         d->layouts[accessor].readable = false;
 }
 
-/* What could not be decoded is nothing to show; without bytes of its own it would be zeros. */
+/* Marks the accessors of a primitive that could not be decoded as unreadable, instead of zeros. */
 static void forget_primitive(gltf_document *d, const packed_primitive *packed)
 {
     const uint32_t value = ffd_gltf_primitive_value(d, packed->mesh, packed->primitive);
@@ -245,7 +246,7 @@ static void forget_primitive(gltf_document *d, const packed_primitive *packed)
         forget(d, (size_t)primitive_of(d, packed)->indices);
 }
 
-/* What is not supported is a problem only where it is used (gltf_refuse.c): its words are kept until then. */
+/* Unsupported data is a failure only where it is used (gltf_refuse.c): its message is kept until then. */
 static ffd_status keep_problem(gltf_document *d, const packed_primitive *packed, ffd_status status,
                                const ffd_error *problem, ffd_error *error)
 {
@@ -282,14 +283,14 @@ static ffd_status decode_all(gltf_document *d, const packed_primitive *list, siz
     return status;
 }
 
-/* Whether a primitive takes the accessor of an attribute from its compressed data. */
+/* Whether a primitive reads the accessor of an attribute from its compressed data. */
 static bool takes_from_draco(const gltf_document *d, uint32_t draco, uint32_t attribute)
 {
     return draco != JSON_NONE &&
            find_accessor(d, ffd_json_span_member(&d->tree, draco, "attributes"), attribute) != GLTF_NONE;
 }
 
-/* Whether the elements out of the compressed data are those that the accessor has itself. */
+/* Whether the elements decoded from the compressed data equal the accessor's own. */
 static bool equals_fallback(const gltf_document *d, size_t a)
 {
     const gltf_unpacked *unpacked = &d->unpacked[a];
@@ -301,7 +302,7 @@ static bool equals_fallback(const gltf_document *d, size_t a)
     return unpacked->fallback;
 }
 
-/* Notes accessors that a primitive does not take from compressed data. */
+/* Marks the accessors that a primitive does not read from compressed data. */
 static void mark_plain_uses(gltf_document *d, size_t m, size_t p, bool *plain)
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
@@ -317,7 +318,7 @@ static void mark_plain_uses(gltf_document *d, size_t m, size_t p, bool *plain)
         plain[primitive->indices] = true;
 }
 
-/* Finds accessors for which one primitive takes other values than another. */
+/* Marks accessors for which one primitive reads different values than another. */
 static ffd_status mark_clashes(gltf_document *d, ffd_error *error)
 {
     bool *plain = ffd_alloc_zero(d->model.accessor_count, sizeof *plain);

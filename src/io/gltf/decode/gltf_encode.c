@@ -35,7 +35,7 @@ float ffd_gltf_round(const gltf_accessor *accessor, double value)
     return (float)(rint(value * scale) / scale + 0.0); /* integers have no -0 */
 }
 
-/* A float of q/s leads back to q: it is off by 2^-24 of at most 65535. */
+/* The float nearest to q/s gives q back: its error is 2^-24 of at most 65535. */
 static double integer_of(const gltf_accessor *accessor, float value)
 {
     return rint((double)value * scale_of(accessor));

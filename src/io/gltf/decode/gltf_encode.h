@@ -1,5 +1,6 @@
-/* gltf_encode.h - numbers of a component type: rounding to its steps, its range, an element's bytes. A
-   normalized integer q of scale s stands for q/s (glTF 2.0, 3.11), other integers for themselves. */
+/* gltf_encode.h - numbers of a component type: rounding to what it represents, its range, an element's
+   bytes. A normalized integer q of scale s encodes q/s (glTF 2.0, 3.11), other integers encode
+   themselves. */
 #ifndef FFD_IO_GLTF_DECODE_GLTF_ENCODE_H
 #define FFD_IO_GLTF_DECODE_GLTF_ENCODE_H
 
@@ -7,15 +8,16 @@
 
 #define GLTF_LARGEST_VECTOR 16 /* bytes of a VEC4 of floats */
 
-/* The number nearest to value that the type has, or would have with a larger range; of two as near the one
-   whose integer is even. It depends on nothing but value and type. */
+/* Returns the number nearest to value that the type represents, or would with a larger range; ties go
+   to the even integer. The result depends only on value and type. */
 float ffd_gltf_round(const gltf_accessor *accessor, double value);
 
-/* Whether the accessor's type holds all of these results exactly. */
+/* Whether the accessor's type represents all of these results exactly. */
 bool ffd_gltf_fits(const gltf_accessor *accessor, const float *values, size_t count);
 
-/* The bytes of an element whose first 3 components become values, in the accessor's type or as GLTF_FLOAT;
-   the others stay, and in its own type so does each component that equals what it was. */
+/* Writes the bytes of an element with values as its first 3 components, in the accessor's type or as
+   GLTF_FLOAT. Other components stay, and in the accessor's type so do the bytes of a component whose
+   value is unchanged. */
 void ffd_gltf_encode(const gltf_accessor *accessor, int component, const unsigned char *original,
                      const float values[3], unsigned char *element);
 

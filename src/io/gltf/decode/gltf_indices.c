@@ -4,14 +4,14 @@
 #include "base/system/thread.h"
 #include "io/gltf/decode/gltf_read.h"
 
-/* Elements that are read at a time. */
+/* Elements that are read at once. */
 #define BLOCK ((size_t)256)
 
-/* Threads share that many tiles at most, of that many elements at least. */
+/* The most tiles that threads share, and the fewest elements of a tile. */
 #define TILES 64
 #define SMALLEST_TILE ((size_t)1 << 16)
 
-/* Of indices that stand one behind the other: loops that a compiler turns into vectors. */
+/* Finds the largest of contiguous indices, in loops that compilers turn into SIMD. */
 static uint32_t largest_packed(const unsigned char *at, size_t count, int component)
 {
     uint32_t largest = 0;
@@ -35,7 +35,7 @@ static uint32_t largest_packed(const unsigned char *at, size_t count, int compon
     return largest;
 }
 
-/* The largest of an accessor's values, tile by tile. */
+/* Searches the largest of an accessor's values, tile by tile. */
 typedef struct index_search {
     const gltf_document *document;
     size_t accessor;
@@ -96,7 +96,7 @@ static ffd_status check_primitive(const gltf_document *d, size_t m, size_t p, ui
     const int position = primitive->accessor[GLTF_POSITION], indices = primitive->indices;
     if (position < 0 || indices < 0 || !d->layouts[indices].readable)
         return FFD_OK;
-    /* Found once: many primitives can share the indices. */
+    /* Searched once: many primitives can share the indices. */
     if (largest[indices] == UINT64_MAX)
         largest[indices] = largest_of(d, (size_t)indices);
     const uint64_t vertices = d->model.accessors[position].count;

@@ -37,7 +37,7 @@ static double read_float(const unsigned char *at)
     return value;
 }
 
-/* Normalized integers as glTF 2.0, 3.11 has them. */
+/* Normalized integers are decoded as in glTF 2.0, 3.11. */
 double ffd_gltf_read_number(const unsigned char *at, int component, bool normalized)
 {
     double value, scale;
@@ -76,7 +76,7 @@ static void read_element(const gltf_accessor *accessor, const unsigned char *at,
         values[c] = ffd_gltf_read_number(at + c * size, accessor->component, accessor->normalized);
 }
 
-/* The first of the sparse elements that is not before element `first`. */
+/* Returns the first sparse element whose index is not below `first`. */
 static uint64_t find_sparse(const gltf_sparse *sparse, const unsigned char *indices, size_t first)
 {
     const size_t size = ffd_gltf_component_size(sparse->indices_type);
@@ -165,7 +165,7 @@ static void read_sparse(const gltf_document *d, const gltf_accessor *accessor, s
     }
 }
 
-/* The commonest: vectors of floats. */
+/* The fast path: vectors of floats. */
 static void read_vectors(const unsigned char *at, size_t stride, size_t count, double *xyz)
 {
     if (stride == 3 * sizeof(float)) {

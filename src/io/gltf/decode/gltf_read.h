@@ -4,12 +4,13 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Reads elements [first, first + count) of a readable accessor as double: the first `components` values of
-   each. */
+/* Reads elements [first, first + count) of a readable accessor as double: the first `components` values
+   of each. */
 void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first, size_t count,
                    size_t components, double *values);
 
-/* Returns the bytes of element i of a readable accessor: of its sparse value, of its bufferView, or zeros. */
+/* Returns the bytes of element i of a readable accessor: of its sparse value, of its bufferView, or
+   zeros. */
 const unsigned char *ffd_gltf_element(const gltf_document *document, size_t accessor, size_t i);
 
 /* Reads the first 3 components of an element as results hold them (gltf_stream): floats bit for bit. */

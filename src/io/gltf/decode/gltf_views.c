@@ -3,7 +3,7 @@
 #include "io/gltf/decode/meshopt_view.h"
 #include <string.h>
 
-/* A view may be longer than its elements by what aligns the next one. */
+/* A view may be longer than its elements by the padding before the next view. */
 #define ALIGNMENT 4
 
 uint32_t ffd_gltf_meshopt_value(const gltf_document *d, size_t view)
@@ -28,7 +28,7 @@ static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *erro
     return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error, "%s", what);
 }
 
-/* A member that the schema found to be an integer; 0 where it is absent. */
+/* Returns a member that the schema checked to be an integer; 0 if it is absent. */
 static uint64_t integer(const gltf_document *d, uint32_t object, const char *key)
 {
     double number = 0;
@@ -36,7 +36,7 @@ static uint64_t integer(const gltf_document *d, uint32_t object, const char *key
     return (uint64_t)number;
 }
 
-/* Finds a string member among `count` names; false: it is none of them. */
+/* Finds a string among `count` names; false: it is not one of them. */
 static bool find_name(const gltf_document *d, uint32_t value, const char *const *names, size_t count,
                       size_t *found)
 {
@@ -93,7 +93,7 @@ const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *d, size_t vi
     return found.bytes;
 }
 
-/* Reads the extension of view i and says what it cannot be. */
+/* Reads the extension of view i and checks it. */
 static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_view *view, ffd_error *error)
 {
     const uint32_t value = ffd_gltf_meshopt_value(d, i);
@@ -145,7 +145,7 @@ ffd_status ffd_gltf_decode_views(gltf_document *d, ffd_error *error)
         if (ffd_gltf_meshopt_value(d, i) == JSON_NONE)
             continue;
         const ffd_status status = decode_view(d, i, error);
-        /* What is not supported is a problem only where it is used (gltf_refuse.c). */
+        /* Unsupported data is a failure only where it is used (gltf_refuse.c). */
         if (status != FFD_OK && status != FFD_E_UNSUPPORTED)
             return status;
     }

@@ -14,8 +14,8 @@ uint32_t ffd_gltf_meshopt_value(const gltf_document *document, size_t view);
 /* Returns the decoded bytes of a view, owned by the document; NULL if it has none. */
 const unsigned char *ffd_gltf_view_bytes(const gltf_document *document, size_t view);
 
-/* Returns the compressed bytes of a view and sets *size; NULL if the view is not compressed or its bytes are
-   missing. */
+/* Returns the compressed bytes of a view and sets *size; NULL if the view is not compressed or its
+   bytes are missing. */
 const unsigned char *ffd_gltf_compressed_bytes(const gltf_document *document, size_t view, size_t *size);
 
 /* Fails with the reason why ffd_gltf_decode_views left a view out; FFD_OK if it did not. */

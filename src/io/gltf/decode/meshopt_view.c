@@ -2,12 +2,12 @@
 #include <meshoptimizer.h>
 #include <stdbool.h>
 
-/* The first byte of a stream: its kind, and in the low half the version of its kind. */
+/* The first byte of a stream: its kind in the high half, the version of the kind in the low half. */
 #define KIND_MASK 0xf0u
 #define VERSION_MASK 0x0fu
 
-/* A stream of attributes has, for each byte of an element and each 64 elements, at least one byte; behind
-   them one element, or this many bytes. */
+/* A stream of attributes has at least one byte for each byte of an element and each 64 elements,
+   followed by one element or by this many bytes, whichever is more. */
 #define ELEMENTS_PER_BYTE 64
 #define ATTRIBUTES_TAIL 32
 #define LARGEST_STRIDE 256
@@ -42,7 +42,7 @@ static bool is_filter(const meshopt_view *view)
     }
 }
 
-/* The least number of bytes that hold so many elements. */
+/* Returns the smallest size that can hold the view's elements. */
 static uint64_t least_size(const meshopt_view *view)
 {
     switch (view->mode) {

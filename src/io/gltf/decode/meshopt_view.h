@@ -23,13 +23,13 @@ typedef struct meshopt_view {
     size_t size;
 } meshopt_view;
 
-/* Says what the data cannot be, from its first byte and the numbers alone; after it count * stride is no more
-   than 64 times the size. Errors, without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version).
- */
+/* Refuses what cannot be valid, from the data's first byte and the numbers alone; afterwards count *
+   stride is at most 64 times the size. Errors, without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED
+   (another version). */
 ffd_status ffd_meshopt_check(const meshopt_view *view, ffd_error *error);
 
-/* Decodes a view that was checked into count * stride bytes, aligned as of ffd_alloc. Errors:
-   FFD_E_INVALID; the bytes are then of no use. */
+/* Decodes a view that was checked into count * stride bytes, aligned as by ffd_alloc. Errors:
+   FFD_E_INVALID; the bytes are then undefined. */
 ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* gltf_document.h - an open glTF file: its bytes, its model, and the parts that it shows. */
+/* gltf_document.h - an open glTF file: its bytes, its model, and the parts of its scene. */
 #ifndef FFD_IO_GLTF_DOCUMENT_GLTF_DOCUMENT_H
 #define FFD_IO_GLTF_DOCUMENT_GLTF_DOCUMENT_H
 
@@ -10,28 +10,28 @@
 
 #define GLTF_NONE SIZE_MAX
 
-/* The values in the JSON of an array at its top. */
+/* The JSON values of the elements of an array at the top of the file. */
 typedef struct gltf_values {
     uint32_t *values;
     size_t count;
 } gltf_values;
 
-/* Compression that the elements of an accessor come out of. */
+/* How the elements of an accessor are compressed. */
 typedef enum gltf_packing { GLTF_PLAIN, GLTF_MESHOPT, GLTF_DRACO } gltf_packing;
 
-/* Elements of an accessor out of KHR_draco_mesh_compression. */
+/* Elements of an accessor, decoded from KHR_draco_mesh_compression. */
 typedef struct gltf_unpacked {
-    unsigned char *bytes; /* owned; NULL: the accessor does not come out of it */
+    unsigned char *bytes; /* owned; NULL: the accessor is not compressed by it */
     size_t size, view;    /* view: the compressed data */
     uint64_t source;      /* the attribute's id, UINT64_MAX: the indices */
     /* The accessor's own elements, for readers that do not know Draco; NULL: none. */
     const unsigned char *fallback;
     size_t fallback_stride;
-    bool clash; /* primitives take different values for the accessor */
+    bool clash; /* primitives read different values for the accessor */
 } gltf_unpacked;
 
-/* How an accessor's elements lie; made by ffd_gltf_check, and by ffd_gltf_decode_draco where they are
-   compressed. */
+/* The memory layout of an accessor's elements; made by ffd_gltf_check, and by ffd_gltf_decode_draco if
+   they are compressed. */
 typedef struct gltf_layout {
     const unsigned char *data; /* its first element, decoded; NULL: no bytes, or all zeros */
     size_t element_size, stride;
@@ -40,63 +40,64 @@ typedef struct gltf_layout {
     gltf_packing packing;
 } gltf_layout;
 
-/* Of numbers; infinite the wrong way round where there is none. */
+/* The bounds of vectors; least is +infinity and largest -infinity if there are none. */
 typedef struct gltf_tile_bounds {
     float least[3], largest[3];
 } gltf_tile_bounds;
 
-/* One attribute that is deformed, under one node: a result of 3 components an element, as float whatever the
-   accessor's type, rounded to the steps of that. */
+/* One deformed attribute under one node. Its result has 3 components per element, as float whatever the
+   accessor's type is, rounded to what that type can represent. */
 typedef struct gltf_stream {
     size_t accessor; /* GLTF_NONE: the part has none */
-    float *result;   /* 3 * count; NULL before begin_results, and where a part repeats */
-    /* One for each MESH_RANGE_STEP vectors of the result: 0 where nothing has been handed back, and so
-       nothing stands in it yet. NULL: all of it stands there. */
+    float *result;   /* 3 * count; NULL before begin_results, and in a part that repeats another */
+    /* One for each tile of MESH_RANGE_STEP vectors of the result; 0: the tile is not written yet. NULL: all
+       tiles are written. */
     uint8_t *filled;
-    gltf_tile_bounds *bounds; /* of positions, one for each of these tiles; NULL: not known */
+    gltf_tile_bounds *bounds; /* of positions, one per tile; NULL: not known */
 } gltf_stream;
 
 typedef struct gltf_skin {
     size_t *joints; /* nodes */
     size_t joint_count;
     int inverse_bind; /* accessor; -1: absent */
-    double *matrices; /* 12 a joint: world matrix * inverse bind matrix; NULL until a shown node needs them */
+    double *matrices; /* 12 per joint: world matrix * inverse bind matrix; NULL: not needed */
 } gltf_skin;
 
 typedef struct gltf_part {
     size_t node;                      /* GLTF_NONE in mesh space */
-    const gltf_skin *skin;            /* NULL: none, or not looked at */
+    const gltf_skin *skin;            /* NULL: no skin, or in mesh space */
     const gltf_influence *influences; /* lent by the model; with a skin */
     size_t influence_count;
     gltf_stream streams[GLTF_DEFORMED];
-    uint8_t *selected;  /* the mesh_part's; NULL: see there */
+    uint8_t *selected;  /* the mesh_part's selected */
     size_t first_shape; /* document->shapes holds the part's morph targets from here */
 } gltf_part;
 
-/* The instances of a node with EXT_mesh_gpu_instancing. */
+/* A node with EXT_mesh_gpu_instancing, and its instances. */
 typedef struct gltf_instanced_node {
     size_t node;
     size_t translation, rotation, scale; /* accessors; GLTF_NONE: absent */
     uint64_t count;
-    ffd_bounds mesh; /* of the mesh in its own space; min > max: no vertices */
-    bool everywhere; /* nothing more is known of their places */
-    bool idle;       /* not selected */
+    ffd_bounds mesh_bounds; /* in the mesh's own space; min > max: no vertices */
+    bool unknown_bounds;    /* of the instances */
+    bool deselected;
 } gltf_instanced_node;
 
-/* A primitive under a node that shows it (or by itself, in mesh space). */
+/* A primitive under a node that uses its mesh (in mesh space, the primitive by itself). */
 typedef struct gltf_instance {
-    size_t part[GLTF_DEFORMED]; /* where its attribute is deformed; GLTF_NONE: has none, or cannot be read */
+    size_t part[GLTF_DEFORMED]; /* that deforms its attribute; GLTF_NONE: it has none, or cannot be read */
     size_t first_target;        /* its morph targets in document->targets */
-    bool selected;              /* false: it shows what it showed before */
+    bool selected;              /* false: it keeps its original content */
 } gltf_instance;
 
-/* The instances of a mesh: for each primitive, for each node. */
+/* The uses of a mesh by the nodes of the scene. A use is an index into nodes. document->instances has,
+   from first_instance on, node_count instances for each primitive. */
 typedef struct gltf_mesh_uses {
     size_t first_instance;
     size_t *nodes;           /* lent by document->scene_nodes; ascending */
-    size_t node_count;       /* in mesh space 1, nodes is NULL */
-    bool is_used;            /* by a node */
-    bool used_outside_scene; /* some node outside the shown scene uses it, or none at all */
+    size_t node_count;       /* in mesh space 1, and nodes is NULL */
+    bool is_used;            /* some node of the file has the mesh */
+    bool used_outside_scene; /* a node outside the scene has it, or none does */
 } gltf_mesh_uses;
 
 typedef struct gltf_document {
@@ -115,57 +116,59 @@ typedef struct gltf_document {
     size_t *first_primitive;      /* of a mesh, in them */
     gltf_model model;
     gltf_skin *skins; /* skin_values.count */
-    /* What keeps the skins from placing their vertices: such a document can only be described. */
+    /* Why the skins' transforms are unknown, if they are: such a document can only be described. */
     ffd_status skins_status;
     ffd_error skins_error;
     gltf_buffer *buffers; /* buffer_values.count */
     gltf_layout *layouts; /* model.accessor_count */
 
-    /* What compressed data becomes. */
+    /* Decoded data. */
     unsigned char **decoded_views; /* model.view_count; NULL: not compressed, or not supported */
     gltf_unpacked *unpacked;       /* model.accessor_count */
     char **draco_problems;         /* primitive_values.count; NULL: none */
     uint64_t draco_decoded;        /* points and corners of all decodings */
 
-    double *world;  /* 12 a node: linear row by row, offset */
-    bool *in_scene; /* a node */
+    double *world;  /* world matrices, 12 per node: linear row by row, offset */
+    bool *in_scene; /* per node: it is in the scene that is displayed */
     size_t *scene_nodes;
-    size_t nodes_outside_scene; /* with a mesh, not shown */
-    /* A node below two parents: not valid, but described as if it had the first; GLTF_NONE: none. */
+    size_t nodes_outside_scene; /* nodes with a mesh */
+    /* A node with two parents, which is not valid but is described as if it had the first only; GLTF_NONE:
+       none. */
     size_t shared_child, shared_by[2];
     gltf_mesh_uses *mesh_uses; /* model.mesh_count */
     gltf_instance *instances;
-    /* base.part_count, and behind them one for each shape, whose streams are its offsets: results of both go
-       the same way. */
+    /* base.part_count, then one for each shape, whose streams are its offsets: the results of both are
+       handled alike. */
     gltf_part *parts;
     mesh_part *mesh_parts;
-    mesh_shape *shapes; /* morph targets of all parts, those of a part one behind the other */
+    mesh_shape *shapes; /* morph targets of all parts, those of one part consecutive */
     size_t shape_count;
     char *morph_name;     /* results are offsets of a further morph target of this name; NULL: they are not */
     bool morph_normals;   /* of normals and tangents too */
-    size_t own_accessors; /* at the end of the list, that the file did not have: zeros without bytes */
+    size_t own_accessors; /* the last ones, which the file did not have: zeros without bytes */
     gltf_instanced_node *instanced_nodes; /* by node */
     size_t instanced_node_count;
-    /* What keeps their places from being known: such a document can only be described. */
+    /* Why their transforms are unknown, if they are: such a document can only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
-    size_t *targets; /* of the instances' morph targets: the part that holds the offsets; GLTF_NONE: nothing
-                        that is deformed */
+    size_t *targets; /* per morph target of an instance: the part that holds its offsets; GLTF_NONE: none is
+                        deformed */
 } gltf_document;
 
-/* Gives back the memory of the files' bytes, which are read again when they are needed. */
+/* Releases the pages of the files' mmap; they are read again when they are needed. */
 void ffd_gltf_forget(const gltf_document *document);
 
-/* The same for those of one buffer's bytes [offset, offset + size) that it has. */
+/* Releases only those of bytes [offset, offset + size) of one buffer, as far as it has them. */
 void ffd_gltf_forget_bytes(const gltf_document *document, const gltf_buffer *buffer, size_t offset,
                            size_t size);
 
+/* Returns the document as what it is; it must be of glTF. */
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
 {
     return (const gltf_document *)document;
 }
 
-/* Parts and shapes. */
+/* Returns the number of parts and shapes together. */
 static inline size_t ffd_gltf_part_count(const gltf_document *document)
 {
     return document->base.part_count + document->shape_count;

@@ -3,7 +3,7 @@
 
 #define NONE 64
 
-/* 6 bits of each character; NONE for what is no digit. */
+/* The 6 bits that each character encodes; NONE: the character is not a digit of base64. */
 static const uint8_t values[256] = {
     NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
     NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
@@ -23,7 +23,7 @@ static const uint8_t values[256] = {
     NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE, NONE,
 };
 
-/* Up to four digits, count of them, as the highest bits of 24. False where one is none. */
+/* Reads count (up to 4) digits into the highest of 24 bits. False: one of them is not a digit. */
 static bool read_digits(const char *text, size_t count, uint32_t *bits)
 {
     uint32_t all = 0;

@@ -14,7 +14,7 @@
 #define GLB_CHUNK_JSON 0x4e4f534au
 #define GLB_CHUNK_BIN 0x004e4942u
 
-/* Where the chunks stand; sizes are without headers, as the headers state them. */
+/* Offsets of the chunks; sizes are without headers, as the headers state them. */
 typedef struct glb_layout {
     size_t json_begin, json_size;
     bool has_bin; /* the second chunk is BIN */
@@ -22,9 +22,11 @@ typedef struct glb_layout {
     size_t rest_begin, end; /* further chunks, up to the length that the file states */
 } glb_layout;
 
+/* Whether the data starts with the magic number of a GLB. */
 bool ffd_glb_is(const unsigned char *data, size_t size);
 
-/* Reads header and chunk headers. Bytes behind the stated length are tolerated. Errors: FFD_E_INVALID. */
+/* Reads the header and the chunk headers. Bytes past the stated length are allowed. Errors:
+   FFD_E_INVALID, FFD_E_UNSUPPORTED (another version). */
 ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *name, glb_layout *layout,
                          ffd_error *error);
 

@@ -1,5 +1,5 @@
-/* gltf_model.h - what we use of a glTF file, in plain C. Filled by gltf_tinygltf.cpp; indices are -1 where
- * absent. */
+/* gltf_model.h - what we use of a glTF file, in plain C. Filled by gltf_tinygltf.cpp; indices are -1
+   where absent. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_MODEL_H
 #define FFD_IO_GLTF_MODEL_GLTF_MODEL_H
 
@@ -17,7 +17,7 @@ typedef enum gltf_component {
     GLTF_FLOAT = 5126
 } gltf_component;
 
-/* The attributes that a deformation changes; all others are equal to us. */
+/* The attributes that a deformation changes; all others are GLTF_OTHER. */
 typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER } gltf_semantic;
 #define GLTF_DEFORMED 3 /* of them */
 
@@ -69,8 +69,8 @@ typedef struct gltf_primitive {
     int indices, mode;
 } gltf_primitive;
 
-/* The deformed attributes of a primitive are numbered: slot s is its own one of semantic s, slot
-   GLTF_DEFORMED * (t + 1) + s that of its morph target t. */
+/* The deformed attributes of a primitive are numbered by slots: slot s is its own attribute of semantic
+   s, slot GLTF_DEFORMED * (t + 1) + s is that of its morph target t. */
 static inline size_t gltf_slot_count(const gltf_primitive *primitive)
 {
     return GLTF_DEFORMED * (1 + primitive->target_count);
@@ -119,10 +119,13 @@ typedef struct gltf_model {
 extern "C" {
 #endif
 
-/* Reads JSON text (with stubs for buffers, without images) by tinygltf, which touches no file. On failure
- *model is empty. Errors: FFD_E_INVALID in tinygltf's words, FFD_E_MEMORY. No exception leaves. */
+/* Parses JSON text (with stubs for buffers, without images) by tinygltf, which opens no file. On
+   failure the model is empty. Errors: FFD_E_INVALID with tinygltf's message, FFD_E_MEMORY. Throws no
+   exception. */
 ffd_status ffd_gltf_parse_model(const char *text, size_t size, const char *name, gltf_model *model,
                                 ffd_error *error);
+
+/* Frees the model's arrays and empties it. */
 void ffd_gltf_free_model(gltf_model *model);
 
 #ifdef __cplusplus

@@ -26,7 +26,7 @@ typedef struct rule {
     rule_kind kind;
     bool required;
     size_t count;
-    const struct rule *inner; /* ended by a rule without key; NULL: anything goes */
+    const struct rule *inner; /* ends with a rule without a key; NULL: any members are allowed */
 } rule;
 
 typedef struct checker {
@@ -132,7 +132,7 @@ static bool is_kind(const checker *c, uint32_t value, json_kind kind)
     return c->tree->values[value].kind == kind;
 }
 
-/* An integer of [0, largest]; one that is not plain digits is noted. */
+/* Reads an integer of [0, largest]. One that is not written as plain digits is rewritten in c->plain. */
 static bool read_integer(const checker *c, uint32_t value, double largest, double *number)
 {
     if (!ffd_json_span_number(c->tree, value, number) || !(*number >= 0 && *number <= largest) ||
@@ -266,7 +266,7 @@ static ffd_status check_value(const checker *c, uint32_t value, const rule *r)
     return FFD_OK;
 }
 
-/* Whether text is two whole numbers with a point between. */
+/* Whether the text is two whole numbers with a point between them. */
 static bool is_version(const char *text)
 {
     static const char digits[] = "0123456789";

@@ -1,13 +1,14 @@
-/* gltf_schema.h - kinds and ranges of the values of a glTF file that we use (glTF 2.0, 5). tinygltf takes a
-   default where a value is of the wrong kind, and cuts large integers: nothing of that may happen unseen. */
+/* gltf_schema.h - checks the types and ranges of the values of a glTF file that we use (glTF 2.0, 5).
+   tinygltf silently uses a default for a value of the wrong type, and truncates large integers: such
+   files are refused here. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_SCHEMA_H
 #define FFD_IO_GLTF_MODEL_GLTF_SCHEMA_H
 
 #include "json/json_edit.h"
 #include "json/json_span.h"
 
-/* Checks them. An integer that is not written as plain digits ("12.0" is allowed) is added to plain,
-   rewritten. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version of glTF). */
+/* Checks them. For an integer that is not written as plain digits ("12.0" is allowed), an edit to plain
+   digits is added to plain. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version of glTF). */
 ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *plain,
                                  ffd_error *error);
 

@@ -1,10 +1,11 @@
-/* The only place that sees tinygltf. It is compiled here with our own macros: no image codec, no files. */
+/* gltf_tinygltf.cpp - the only source that includes tinygltf. It is compiled here with our own macros: no
+   image codecs, no file access. */
 #include "base/memory/memory.h"
 #include "io/gltf/model/gltf_model.h"
 #include <cstring>
 #include <new>
 
-/* Under a name of our own: a program that links the static library may have its own tinygltf. */
+/* Renamed: a program that links the static library may have its own tinygltf. */
 #define tinygltf ffd_tinygltf
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
@@ -17,7 +18,7 @@
 namespace
 {
 
-/* Room for count elements of a C array that ffd_gltf_free_model frees. */
+/* Allocates a C array of count elements, to be freed by ffd_gltf_free_model. */
 template <typename T> T *make_array(size_t count)
 {
     T *array = static_cast<T *>(ffd_alloc_zero(count, sizeof(T)));
@@ -201,7 +202,7 @@ bool never_written(std::string *, const std::string &, const std::vector<unsigne
     return false;
 }
 
-/* No less than the JSON has values. */
+/* An upper bound of the number of values in the JSON. */
 size_t count_values(const char *text, size_t size)
 {
     size_t count = 1;
@@ -210,8 +211,8 @@ size_t count_values(const char *text, size_t size)
     return count;
 }
 
-/* Vectors that double hold at most twice what they had to, and all their blocks together twice that: once for
-   the arrays that are read and once for their end. */
+/* A vector that doubles its capacity has at most twice what it needs, and all its blocks together at most
+   twice that; once for parsing and once for destruction. */
 size_t reserve_size(const char *text, size_t size)
 {
     return 8 * sizeof(nlohmann::json) * count_values(text, size);
@@ -228,7 +229,7 @@ ffd_status parse(const char *text, size_t size, const char *name, gltf_model *mo
     if (!reader.LoadASCIIFromString(&read, &problems, &warnings, text, static_cast<unsigned int>(size), "",
                                     tinygltf::REQUIRE_VERSION)) {
         const std::string first = problems.substr(0, problems.find('\n'));
-        /* Of an exception it keeps the words only. */
+        /* tinygltf keeps only the message of an exception. */
         if (first == std::bad_alloc().what())
             throw std::bad_alloc();
         return ffd_fail_file(error, FFD_E_INVALID, name, "is not valid glTF: %s",

@@ -1,6 +1,6 @@
-/* json_reserve.h - nlohmann's JSON with memory to be destroyed in. Its destructor moves the values below an
-   array or object to a vector, and where there is no memory for that, the program ends. Here such vectors
-   take from a reserve when all other memory has gone. C++; for gltf_tinygltf.cpp only. */
+/* json_reserve.h - nlohmann's JSON with memory that its destructor can use. The destructor moves the
+   values of an array or object to a vector, and terminates the program if memory runs out. Here such
+   vectors are allocated from a reserve when no other memory is left. C++; for gltf_tinygltf.cpp only. */
 #ifndef FFD_IO_GLTF_MODEL_JSON_RESERVE_H
 #define FFD_IO_GLTF_MODEL_JSON_RESERVE_H
 
@@ -13,12 +13,12 @@
 #include <type_traits>
 #include <utility>
 
-/* Under a name of our own: only here is its std::allocator another one. */
+/* Renamed: only here does the library have another std::allocator. */
 #define nlohmann ffd_nlohmann
 #include <nlohmann/json_fwd.hpp>
 
-/* Memory that the calling thread's vectors of JSON values can fall back on while the object is there. Blocks
-   of it are not used twice. */
+/* Memory that the calling thread's vectors of JSON values fall back on during the object's lifetime. Its
+   blocks are not reused. */
 class json_reserve
 {
   public:
@@ -79,7 +79,7 @@ class json_reserve
     size_t left;
 };
 
-/* What the standard says of std::allocator, but for where memory comes from. */
+/* std::allocator as the standard describes it, but for the source of its memory. */
 template <> class std::allocator<nlohmann::json>
 {
   public:

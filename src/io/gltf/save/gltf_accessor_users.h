@@ -4,8 +4,8 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Sets used[a] for each accessor a that something other than a deformed attribute uses: animations, skins,
-   instancing, other attributes, indices. */
+/* Sets used[a] for each accessor a that something other than a deformed attribute uses: animations,
+   skins, instancing, other attributes, indices. */
 void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
 
 #endif

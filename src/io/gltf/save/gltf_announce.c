@@ -2,7 +2,7 @@
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_unpack.h"
 
-/* One line of what was left alone or stored otherwise; all the single ones are told where they are made. */
+/* Logs one line with a count. The single cases are logged as FFD_LOG_INFO where they are handled. */
 static void warn(const gltf_saver *saver, size_t count, const char *one, const char *many)
 {
     if (count == 1)
@@ -11,7 +11,7 @@ static void warn(const gltf_saver *saver, size_t count, const char *one, const c
         ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s", count, many);
 }
 
-/* What the scene shows otherwise than the parts do, or does not show at all. */
+/* Logs what no part covers. */
 static void warn_of_rest(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;

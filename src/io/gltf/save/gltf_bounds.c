@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-/* Bounds are numbers as they are stored: of normalized integers too, the integers (glTF 2.0, 3.6.2.5). */
+/* Bounds are stored numbers: for normalized integers, the integers (glTF 2.0, 3.6.2.5). */
 typedef struct stored_bounds {
     double least[4], largest[4];
 } stored_bounds;
@@ -20,7 +20,7 @@ static void widen(stored_bounds *bounds, double least, double largest, size_t c)
         bounds->largest[c] = largest;
 }
 
-/* Floats go to the file as they are. tiles: theirs, found before, or NULL. */
+/* Finds the bounds of floats, which are stored as they are. tiles: the bounds of their tiles, or NULL. */
 static stored_bounds find_float_bounds(const float *xyz, size_t count, const gltf_tile_bounds *tiles)
 {
     stored_bounds bounds = {{0}, {0}};
@@ -36,13 +36,13 @@ static stored_bounds find_float_bounds(const float *xyz, size_t count, const glt
     return bounds;
 }
 
-/* Those of the tiles of a version's values, where they are known. */
+/* Returns the bounds of the tiles of a version's values; NULL if they are not known. */
 static const gltf_tile_bounds *tiles_of(const gltf_document *d, const gltf_version *version)
 {
     return d->parts[version->order / GLTF_DEFORMED].streams[version->order % GLTF_DEFORMED].bounds;
 }
 
-/* version NULL: those of the original content. */
+/* Finds the bounds of a version, or of the original content if version is NULL. */
 static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[a];
@@ -69,8 +69,8 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
     return bounds;
 }
 
-/* Whether the file's number, read in the accessor's type, is the wanted one, or the wanted one is none that
-   JSON can hold (a normal or tangent of an input that is not valid). */
+/* Whether the file's number, rounded to the accessor's type, is the wanted one; or JSON cannot
+   represent the wanted one (infinity or NaN in normals of an invalid input). */
 static bool says(double number, double wanted, int component)
 {
     if (!isfinite(wanted))
@@ -79,7 +79,7 @@ static bool says(double number, double wanted, int component)
     return !(read < wanted) && !(read > wanted);
 }
 
-/* Writes the least or largest stored values into a "min" or "max", where they are not what it says. */
+/* Edits a "min" or "max" where it differs from the stored values. */
 static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[4], int component,
                        json_edits *edits)
 {

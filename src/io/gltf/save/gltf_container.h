@@ -4,9 +4,9 @@
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Chooses the kind of each new buffer. A .gltf that becomes a GLB has its first buffer in the BIN chunk and
-   the other files as data URIs, so that it is one file; a GLB that becomes a .gltf has its BIN chunk in a
-   file beside it, on standard output in a data URI. */
+/* Chooses the kind of each new buffer. A .gltf that becomes a GLB has its first buffer in the BIN chunk
+   and the other files as data URIs, so that it is one file; a GLB that becomes a .gltf has its BIN
+   chunk in a file beside it, on standard output in a data URI. */
 void ffd_gltf_choose_buffer_kinds(gltf_saver *saver);
 
 /* Edits the JSON of the buffers whose kind changed, but for the names of files. */

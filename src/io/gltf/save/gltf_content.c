@@ -25,7 +25,7 @@ size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
     return b;
 }
 
-/* Where the elements of an accessor stand that changes in its place. */
+/* Where the elements of an accessor are that is overwritten in place. */
 typedef struct new_location {
     size_t buffer, begin;
 } new_location;
@@ -58,7 +58,7 @@ static bool needs_buffer(const gltf_saver *saver)
     return false;
 }
 
-/* A GLB's first buffer may be its BIN chunk; every other one has a URI. */
+/* Only the first buffer of a GLB can be its BIN chunk; every other one has a URI. */
 static gltf_buffer_kind kind_of_added(const gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
@@ -112,12 +112,12 @@ static void list_overwrites(gltf_saver *saver)
             continue;
         const gltf_layout *layout = &d->layouts[a];
         const size_t count = (size_t)d->model.accessors[a].count;
-        const new_location place = location_of(saver, a);
-        gltf_new_buffer *buffer = &saver->buffers[place.buffer];
+        const new_location location = location_of(saver, a);
+        gltf_new_buffer *buffer = &saver->buffers[location.buffer];
         buffer->overwrites[buffer->overwrite_count++] =
             (gltf_overwrite){.accessor = a,
-                             .begin = place.begin,
-                             .end = place.begin + (count - 1) * layout->stride + layout->element_size,
+                             .begin = location.begin,
+                             .end = location.begin + (count - 1) * layout->stride + layout->element_size,
                              .stride = layout->stride,
                              .values = saver->plan.versions[version].values};
     }
@@ -214,7 +214,7 @@ size_t ffd_gltf_content_size(const gltf_saver *saver, size_t buffer)
     return made->append_count > 0 || made->kind != made->old->kind ? made->length : made->old->size;
 }
 
-/* Copies what `size` bytes at `at` and the range [offset, offset + length) have in common. */
+/* Copies the intersection of the `size` bytes at `at` and the range [offset, offset + length). */
 static void copy_common(const unsigned char *from, size_t at, size_t size, size_t offset, size_t length,
                         unsigned char *bytes)
 {
@@ -245,7 +245,7 @@ static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwr
          i++, at += overwrite->stride) {
         unsigned char encoded[GLTF_LARGEST_VECTOR];
         if (is_vector && at >= offset && at + element <= offset + size) {
-            /* Those that stand one behind the other at once. */
+            /* Contiguous elements are copied at once. */
             const size_t end = overwrite->end < offset + size ? overwrite->end : offset + size;
             const size_t count = overwrite->stride == element ? (end - at) / element : 1;
             put_vectors(overwrite->values + 3 * i, count, bytes + (at - offset));
@@ -259,7 +259,7 @@ static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwr
     }
 }
 
-/* The first overwrite from which on some end behind offset. */
+/* Returns the first overwrite from which on any may end past offset. */
 static size_t find_overwrite(const gltf_new_buffer *buffer, size_t offset)
 {
     size_t low = 0, high = buffer->overwrite_count;
@@ -317,7 +317,7 @@ static void apply_appends(const gltf_saver *saver, const gltf_new_buffer *buffer
         apply_append(saver, &buffer->appends[i], offset, size, bytes);
 }
 
-/* Bytes behind the old byteLength are no content: a buffer that grows does so from there. */
+/* Bytes past the old byteLength are not content: a buffer grows from there. */
 static size_t size_of_old(const gltf_new_buffer *made)
 {
     return made->append_count > 0 ? made->old->length : made->old->size;
@@ -332,11 +332,12 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, siz
     copy_common(made->old->data, 0, kept, offset, size, bytes);
     memset(bytes + held, 0, size - held);
     apply_appends(saver, made, offset, size, bytes);
-    /* Last: what was compressed is appended as it was and changed there. */
+    /* Last, since data that was compressed is appended unchanged and then overwritten. */
     apply_overwrites(saver->document, made, offset, size, bytes);
 }
 
-/* Where the values of an overwrite stand as the file is to have them. */
+/* Returns the values of an overwrite if they are in memory exactly as they are to be written, else
+   NULL. */
 static const unsigned char *values_in_place(const gltf_document *d, const gltf_overwrite *overwrite)
 {
     const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];

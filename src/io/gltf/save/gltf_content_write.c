@@ -1,5 +1,5 @@
-/* gltf_content_write.c - writes the new content of a buffer: threads make its pieces ready, in order they are
-   written. */
+/* gltf_content_write.c - writes the new content of a buffer: threads prepare its pieces, which are
+   written in order. */
 #include "io/gltf/save/gltf_content_write.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
@@ -7,21 +7,21 @@
 #include "io/gltf/save/gltf_content.h"
 #include <stdatomic.h>
 
-/* Bytes of a piece, multiples of 3, so that pieces of base64 join: many, for each changes hands; fewer where
-   so many threads have one each that all of them would take more than MOST_HELD. */
+/* Bytes of a piece, multiples of 3 so that pieces of base64 join. Pieces are large, since each passes
+   from thread to thread, but smaller if the pieces of all threads would take more than MOST_HELD. */
 #define MOST_PIECE ((size_t)3 << 18)
 #define LEAST_PIECE ((size_t)3 << 16)
 #define MOST_HELD ((size_t)3 << 22)
 
-/* Bytes written, a multiple of a piece, until all files are given back, where what is appended may stand
-   anywhere in them. */
+/* Bytes that are written, a multiple of a piece, until the memory of all files is released: appended
+   data may be anywhere in them. */
 #define MOST_WRITTEN ((size_t)3 << 21)
 
 /* A piece until it is written. */
 typedef struct content_piece {
-    unsigned char *block; /* NULL until one needs it: bytes that had to be put together */
-    char *text;           /* likewise: in base64 */
-    const void *bytes;    /* to be written; NULL: there was no memory */
+    unsigned char *block; /* bytes that had to be put together; NULL until a piece needs it */
+    char *text;           /* base64; NULL until a piece needs it */
+    const void *bytes;    /* to be written; NULL: memory ran out */
     size_t size;
 } content_piece;
 
@@ -30,13 +30,13 @@ typedef struct content_writer {
     size_t buffer;
     bool base64;
     size_t piece_size;
-    content_piece *pieces; /* one a slot */
+    content_piece *pieces; /* one per slot */
     ffd_status status;
     ffd_error *error;
     atomic_bool is_over; /* after a failure */
 } content_writer;
 
-/* What stands in memory as it is to be is not copied. */
+/* Bytes that are in memory as they are to be written are not copied. */
 static const unsigned char *find_content(const content_writer *w, size_t offset, size_t size,
                                          content_piece *piece)
 {
@@ -63,7 +63,7 @@ static void encode(const content_writer *w, content_piece *piece)
 static void make_piece(void *context, size_t tile, size_t first, size_t last, int slot)
 {
     const content_writer *w = context;
-    content_piece piece = w->pieces[slot]; /* the thread's own: the list's share lines of the cache */
+    content_piece piece = w->pieces[slot]; /* a copy: pieces of the array share cache lines */
     (void)tile;
     if (atomic_load(&w->is_over))
         return;

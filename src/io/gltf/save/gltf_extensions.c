@@ -7,7 +7,7 @@
 
 #define TEXCOORD "TEXCOORD_"
 
-/* Whether glTF 2.0 alone (3.7.2.1) does not know an attribute in this type. */
+/* Whether glTF 2.0 itself (3.7.2.1) does not allow the attribute in this type. */
 static bool needs_quantization(const char *attribute, int component, bool normalized)
 {
     if (component == GLTF_FLOAT)
@@ -19,14 +19,14 @@ static bool needs_quantization(const char *attribute, int component, bool normal
            !(normalized && (component == GLTF_U8 || component == GLTF_U16));
 }
 
-/* The attributes of a primitive at a use of its mesh's uses, or those of one of its morph targets. */
+/* The attributes of a primitive for one use of its mesh, or those of one of its morph targets. */
 typedef struct attribute_set {
     size_t mesh, p, use;
     size_t first_slot;
     uint32_t attributes; /* in the JSON */
 } attribute_set;
 
-/* The type in which the output holds an attribute whose accessor is the given one. */
+/* Returns the type of an attribute in the output; accessor: its accessor in the input. */
 static int output_component(const gltf_saver *saver, const attribute_set *set, const char *attribute,
                             const gltf_accessor *accessor)
 {
@@ -81,7 +81,7 @@ static bool is_quantized_mesh(gltf_saver *saver, size_t mesh, size_t use)
     return false;
 }
 
-/* Some accessor became floats, and no other is left that needs the extension. */
+/* Whether some accessor became floats and no other needs the extension. */
 static bool lost_quantization(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
@@ -97,7 +97,8 @@ static bool lost_quantization(gltf_saver *saver)
     return lost;
 }
 
-/* Takes the names out of a list; a list without names is not valid glTF and is added to empty. */
+/* Removes the names from a list. A list that becomes empty is not valid glTF: it is added to `empty`
+   instead. Returns how many were added. */
 static size_t take_out(gltf_saver *saver, const char *key, const char *const *names, size_t name_count,
                        uint32_t *empty)
 {

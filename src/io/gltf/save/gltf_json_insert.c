@@ -1,6 +1,7 @@
 #include "io/gltf/save/gltf_json_insert.h"
 
-/* Where the elements of a list at the top of the JSON end, or the top itself if it lacks the list. */
+/* Returns where the elements of a list at the top of the JSON end; if the list is missing, where the
+   top's members end. */
 static uint32_t find_end(const gltf_document *d, const gltf_values *list, uint32_t array)
 {
     const json_span *tree = &d->tree;
@@ -8,13 +9,13 @@ static uint32_t find_end(const gltf_document *d, const gltf_values *list, uint32
         return tree->values[list->values[list->count - 1]].end;
     if (array != JSON_NONE)
         return tree->values[array].begin + 1;
-    uint32_t last = JSON_NONE; /* there is one: "asset" */
+    uint32_t last = JSON_NONE; /* "asset" always exists */
     for (uint32_t v = ffd_json_span_first(tree, 0); v != JSON_NONE; v = ffd_json_span_after(tree, v))
         last = v;
     return tree->values[last].end;
 }
 
-/* A list that gets elements. What comes between opening and closing is inserted at `at`. */
+/* A list that gets elements: what is inserted between begin_list and end_list goes to `at`. */
 typedef struct open_list {
     uint32_t at;
     bool is_new;

@@ -27,7 +27,7 @@ static bool is_changed(const gltf_document *d, size_t part, const gltf_stream *s
     return false;
 }
 
-/* FNV-1a over whole words. */
+/* FNV-1a over 32-bit words. */
 static uint64_t hash_words(const float *values, size_t count)
 {
     uint64_t hash = 0xcbf29ce484222325u;
@@ -74,7 +74,7 @@ static size_t list_candidates(const gltf_document *d, candidate *candidates)
         }
     if (count == 0)
         return 0;
-    /* Most accessors have one, which needs no hash. */
+    /* Most accessors have one candidate, which needs no hash. */
     qsort(candidates, count, sizeof *candidates, compare_candidates);
     for (size_t i = 0; i < count; i++)
         if ((i > 0 && candidates[i - 1].accessor == candidates[i].accessor) ||
@@ -85,7 +85,7 @@ static size_t list_candidates(const gltf_document *d, candidate *candidates)
     return count;
 }
 
-/* Gives candidates of equal content one version; first_orders[i] is the order of version i's first. */
+/* Gives candidates of equal content one version. */
 static void join_candidates(const candidate *candidates, size_t count, gltf_plan *plan)
 {
     for (size_t i = 0; i < count; i++) {
@@ -96,7 +96,7 @@ static void join_candidates(const candidate *candidates, size_t count, gltf_plan
         if (!same)
             plan->versions[plan->version_count++] = (gltf_version){
                 .accessor = c->accessor, .values = c->values, .order = c->order, .output = GLTF_NONE};
-        /* For now by the order that its version has, which sorting does not change. */
+        /* The order of its version stands for the version until these are sorted. */
         plan->part_versions[c->order] = plan->versions[plan->version_count - 1].order;
     }
 }
@@ -176,7 +176,7 @@ static int compare_changes(const void *a, const void *b)
     return compare_sizes(((const gltf_node_change *)a)->node, ((const gltf_node_change *)b)->node);
 }
 
-/* Finds which nodes of a mesh need copies of it; variants has room for its nodes. */
+/* Finds which nodes of a mesh need copies of it; variants can hold all its nodes. */
 static void split_mesh(const gltf_document *d, size_t mesh, variant *variants, gltf_plan *plan)
 {
     const gltf_mesh_uses *uses = &d->mesh_uses[mesh];
@@ -204,7 +204,7 @@ static int compare_copies(const void *a, const void *b)
     return compare_sizes(((const gltf_mesh_copy *)a)->use, ((const gltf_mesh_copy *)b)->use);
 }
 
-/* Puts a mesh's copies in the order of their first nodes, whatever their hashes. */
+/* Sorts a mesh's copies by their first nodes, so that hashes do not matter. */
 static void order_copies(gltf_plan *plan, size_t first_copy, size_t first_change)
 {
     if (plan->copy_count == first_copy)
@@ -244,8 +244,8 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
     return status;
 }
 
-/* Notes what the original meshes and their copies show; original[a]: accessor a's own content is still
- * wanted. */
+/* Marks what one use of a mesh, or of its copy, needs: versions, or in original[a] the original content
+   of accessor a. */
 static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size_t use, bool *original)
 {
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
@@ -259,8 +259,8 @@ static void mark_mesh(const gltf_document *d, gltf_plan *plan, size_t mesh, size
         }
 }
 
-/* Whether the accessor's own bytes, decoded where they are compressed, can hold the version. Sparse ones are
-   only the exceptions. */
+/* Whether the version can overwrite the accessor's bytes, decoded if they are compressed. Sparse
+   accessors do not have bytes for all elements. */
 static bool can_overwrite(const gltf_document *d, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];
@@ -268,7 +268,8 @@ static bool can_overwrite(const gltf_document *d, const gltf_version *version)
     return has_bytes && !accessor->sparse.present && version->component == accessor->component;
 }
 
-/* Whether the accessor is one of our own, of zeros without bytes, that can get bytes for the version. */
+/* Whether the accessor is one that we added, of zeros without bytes, which can get bytes for the
+   version. */
 static bool can_rebind(const gltf_document *d, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];
@@ -297,7 +298,8 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
         if (can_overwrite(d, version))
             plan->in_place[version->accessor] = v;
         version->rebinds = can_rebind(d, version);
-        original[version->accessor] = original[version->accessor] || version->rebinds; /* one of them */
+        original[version->accessor] =
+            original[version->accessor] || version->rebinds; /* only for one version */
     }
     ffd_free(original);
     return FFD_OK;

@@ -11,7 +11,7 @@
 typedef struct morph_writer {
     gltf_saver saver;
     const bool *meshes;
-    size_t *zeros[2]; /* of an accessor: the new one of zeros of as many elements; 1: with bounds */
+    size_t *zeros[2]; /* per accessor: the new one of as many zeros; [1]: with bounds */
     morph_data data;
 } morph_writer;
 
@@ -20,7 +20,7 @@ static bool is_array(const gltf_saver *saver, uint32_t value)
     return value != JSON_NONE && saver->document->tree.values[value].kind == JSON_ARRAY;
 }
 
-/* The new accessor of zeros for offsets to an accessor. */
+/* Returns the new accessor of zeros for offsets of an accessor. */
 static size_t zeros_for(morph_writer *w, size_t accessor, bool bounds)
 {
     const gltf_document *d = w->saver.document;
@@ -35,7 +35,7 @@ static size_t zeros_for(morph_writer *w, size_t accessor, bool bounds)
     return *number;
 }
 
-/* Offsets to normals and tangents where these are deformed. */
+/* Writes a target. It has normals and tangents only if these are deformed. */
 static void write_target(morph_writer *w, const gltf_primitive *primitive, byte_buffer *text)
 {
     const gltf_document *d = w->saver.document;
@@ -67,7 +67,7 @@ static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
     ffd_buffer_free(&text);
 }
 
-/* A name as JSON has it. */
+/* Writes a name as a JSON string. */
 static void write_name(const char *name, byte_buffer *text)
 {
     json_text json;
@@ -75,7 +75,7 @@ static void write_name(const char *name, byte_buffer *text)
     ffd_json_string(&json, NULL, name);
 }
 
-/* Names for the targets from `first` on, made up but for the last, the new one. */
+/* Writes names for the targets from `first` on: made up, but for the new one, which is the last. */
 static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte_buffer *text)
 {
     const size_t count = ffd_gltf_target_count(saver->document, mesh);
@@ -88,7 +88,7 @@ static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte
                      first, count - 1);
 }
 
-/* A list that names more than there are has a place for the new one. */
+/* Adds the new target's name; if the list has more names than targets, it replaces the next one. */
 static void edit_names(gltf_saver *saver, size_t mesh, uint32_t names)
 {
     const json_span *tree = &saver->document->tree;
@@ -133,7 +133,7 @@ static void add_names(gltf_saver *saver, size_t mesh)
     ffd_buffer_free(&text);
 }
 
-/* A mesh without weights gets them; a node only where it has some of its own. */
+/* Adds a weight 0. make: also if there are no weights yet, as for a mesh; a node needs none of its own. */
 static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool make)
 {
     const uint32_t weights = ffd_json_span_member(&saver->document->tree, value, "weights");
@@ -172,7 +172,7 @@ static bool extends_bin(const gltf_document *d)
     return d->buffer_values.count > 0 && d->buffers[0].kind == BUFFER_BIN;
 }
 
-/* Where the BIN chunk's own bytes end and new ones begin. */
+/* Returns where the BIN chunk's old bytes end and new ones begin. */
 static size_t bin_end(const gltf_document *d)
 {
     return (d->buffers[0].length + 3) / 4 * 4;
@@ -193,7 +193,8 @@ static void write_buffer(morph_writer *w, byte_buffer *text)
     ffd_free(encoded);
 }
 
-/* The bufferView of the new bytes, in the BIN chunk where that is, else in a buffer of their own. */
+/* Adds the bufferView of the new bytes, in the BIN chunk if there is one, else in a buffer of their
+   own. */
 static void add_bytes(morph_writer *w)
 {
     gltf_saver *saver = &w->saver;
@@ -230,7 +231,7 @@ static void pad(byte_buffer *out, const char *with)
         ffd_buffer_append(out, with, 1);
 }
 
-/* The container round a new JSON text. */
+/* Writes the container around a new JSON text. */
 static void write_glb(const morph_writer *w, byte_buffer *json, byte_buffer *out)
 {
     const gltf_document *d = w->saver.document;

@@ -6,14 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-/* An animation whose samplers are looked at. */
+/* An animation whose samplers are extended. */
 typedef struct animation {
     uint32_t samplers, channels;
     size_t sampler_count;
     uint32_t *sampler_values;
-    size_t *targets; /* of a sampler: 1 + the targets of a mesh whose weights it drives; 0: of none */
+    size_t *targets; /* per sampler: 1 + the targets of a mesh whose weights it drives; 0: it drives none */
     bool *others;    /* it drives something else too */
-    size_t *copies;  /* the number of its copy; GLTF_NONE */
+    size_t *copies;  /* the number of its copy; GLTF_NONE: none */
     size_t copy_count;
 } animation;
 
@@ -37,7 +37,7 @@ static bool read_index(const gltf_saver *saver, uint32_t object, const char *key
     return true;
 }
 
-/* The mesh whose weights a channel drives, if it is a marked one; else GLTF_NONE. */
+/* Returns the marked mesh whose weights a channel drives; GLTF_NONE: it drives none. */
 static size_t driven_mesh(const gltf_saver *saver, const bool *meshes, uint32_t channel)
 {
     const gltf_document *d = saver->document;
@@ -105,8 +105,8 @@ static void put_float(float value, byte_buffer *out)
     ffd_buffer_append(out, bytes, sizeof bytes);
 }
 
-/* The accessor with a 0 behind every `targets` values; GLTF_NONE where it does not hold whole rows of them.
- */
+/* Makes a copy of the accessor with a 0 after every `targets` values; GLTF_NONE if it does not hold whole
+   rows. */
 static size_t extend_output(gltf_saver *saver, size_t accessor, size_t targets, bool cubic, morph_data *data)
 {
     const gltf_document *d = saver->document;
@@ -131,7 +131,7 @@ static size_t extend_output(gltf_saver *saver, size_t accessor, size_t targets, 
     return d->model.accessor_count + data->accessor_count++;
 }
 
-/* Text between begin and end of a value, with one number in it replaced. */
+/* Appends the text of a value with one number in it replaced. */
 static void copy_with_number(const gltf_saver *saver, uint32_t value, uint32_t number, size_t with,
                              byte_buffer *text)
 {
@@ -142,7 +142,7 @@ static void copy_with_number(const gltf_saver *saver, uint32_t value, uint32_t n
     ffd_buffer_append(text, tree->text + part->end, whole->end - part->end);
 }
 
-/* New outputs, in the sampler itself or, where something else uses it, in a copy of it. */
+/* Gives samplers their new outputs; one that something else uses too gets a copy. */
 static void extend_samplers(gltf_saver *saver, animation *a, morph_data *data)
 {
     const gltf_document *d = saver->document;

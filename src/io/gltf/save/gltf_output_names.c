@@ -5,7 +5,7 @@
 #include "io/gltf/save/gltf_container.h"
 #include <string.h>
 
-/* "OUT-stem.bin" for the first external buffer, "OUT-stem-1.bin" for the next. */
+/* Returns "OUT-stem.bin" for the first external buffer, "OUT-stem-1.bin" for the next, and so on. */
 static char *make_name(const char *path, size_t number)
 {
     char *stem = ffd_path_stem(path);
@@ -20,7 +20,7 @@ static char *make_name(const char *path, size_t number)
     return ffd_buffer_finish(&name);
 }
 
-/* The output must not take the place of a file that the input consists of. */
+/* The output must not replace a file of the input. */
 static ffd_status refuse_own_file(const gltf_saver *saver, const char *target, ffd_error *error)
 {
     const gltf_document *d = saver->document;
@@ -76,7 +76,7 @@ static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_erro
     return status;
 }
 
-/* Whether a file is that of buffer b, and of no other buffer of the model. */
+/* Whether the file is that of buffer b and of no other buffer of the model. */
 static ffd_status is_own_file(const gltf_document *d, size_t b, const char *target, bool *own,
                               ffd_error *error)
 {
@@ -98,8 +98,9 @@ static ffd_status is_own_file(const gltf_document *d, size_t b, const char *targ
     return FFD_OK;
 }
 
-/* In place a buffer whose bytes stay keeps its file. A changed one is named after the output like any other,
-   so that a file which other models may use is not touched; of existing files only its own is replaced. */
+/* When the output is the input, an unchanged buffer keeps its file. A changed one is named after the
+   output as usual, since other models may use the old file; the only existing file that may be replaced
+   is its own. */
 static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number, ffd_error *error)
 {
     const gltf_document *d = saver->document;

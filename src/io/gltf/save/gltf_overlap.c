@@ -4,13 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* More pairs than real files ever have: past it, everything is taken to overlap. */
+/* More pairs than real files have: beyond it, everything is taken to overlap. */
 #define MOST_PAIRS ((size_t)1 << 24)
 
-/* Something that reads bytes of a buffer: elements of `size` bytes every `stride`. */
+/* A reader of bytes of a buffer: elements of `size` bytes every `stride`. */
 typedef struct byte_user {
     size_t buffer, begin, end, stride, size;
-    size_t accessor; /* GLTF_NONE: an image, sparse or compressed data, something unknown */
+    size_t accessor; /* GLTF_NONE: an image, sparse or compressed data, or unknown */
 } byte_user;
 
 typedef struct user_list {
@@ -30,7 +30,7 @@ static void add_user(user_list *list, byte_user user)
     list->users[list->count++] = user;
 }
 
-/* The uncompressed elements that stand in for Draco data, for readers that do not know it. */
+/* Adds the uncompressed elements that replace Draco data in readers that do not support it. */
 static void add_fallback(const gltf_view *view, user_list *list)
 {
     const size_t begin = (size_t)view->offset, length = (size_t)view->length;
@@ -61,7 +61,8 @@ static size_t size_member(const gltf_document *d, uint32_t object, const char *k
     return (size_t)number;
 }
 
-/* The compressed bytes of EXT_meshopt_compression and its like: extensions of a view that name a buffer. */
+/* Adds the compressed bytes of EXT_meshopt_compression and of any extension of a view that names a
+   buffer. */
 static void add_compressed(const gltf_document *d, uint32_t view, user_list *list)
 {
     const json_span *tree = &d->tree;
@@ -75,8 +76,8 @@ static void add_compressed(const gltf_document *d, uint32_t view, user_list *lis
     }
 }
 
-/* Keys of numbers of bufferViews: of images, sparse and compressed data; of property tables in
-   EXT_structural_metadata. */
+/* Whether the value is the index of a bufferView, by its key: of images, sparse and compressed data,
+   and of property tables in EXT_structural_metadata. */
 static bool names_view(const json_span *tree, uint32_t value)
 {
     static const char *const keys[] = {"bufferView", "values", "arrayOffsets", "stringOffsets"};
@@ -86,7 +87,7 @@ static bool names_view(const json_span *tree, uint32_t value)
     return false;
 }
 
-/* Marks the views that something else than an accessor names. */
+/* Marks the views that something other than an accessor names. */
 static void mark_other_views(const gltf_document *d, bool *others)
 {
     const json_span *tree = &d->tree;
@@ -123,7 +124,7 @@ static int compare_users(const void *a, const void *b)
     return (x->begin > y->begin) - (x->begin < y->begin);
 }
 
-/* Whether two users whose ranges overlap share a byte; x begins first. Interleaved ones do not. */
+/* Whether two users whose ranges overlap share a byte, where x begins first. Interleaved ones do not. */
 static bool share_bytes(const byte_user *x, const byte_user *y)
 {
     if (x->stride == 0 || x->stride != y->stride)
@@ -137,7 +138,7 @@ static bool is_candidate(const gltf_plan *plan, const byte_user *user)
     return user->accessor != GLTF_NONE && plan->in_place[user->accessor] != GLTF_NONE;
 }
 
-/* Two accessors that are one in all but name, with the same new content. */
+/* Whether two accessors are the same but for their numbers, and get the same new content. */
 static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user *x, const byte_user *y)
 {
     if (!is_candidate(plan, x) || !is_candidate(plan, y) || x->begin != y->begin || x->end != y->end ||
@@ -152,7 +153,7 @@ static bool agree(const gltf_document *d, const gltf_plan *plan, const byte_user
            memcmp(a->values, b->values, values * sizeof *a->values) == 0;
 }
 
-/* Walks over all pairs that share bytes; returns whether one was taken back. */
+/* Visits all pairs that share bytes; returns whether any version was taken back. */
 static bool take_back(const gltf_document *d, const user_list *list, gltf_plan *plan, size_t *pairs)
 {
     bool changed = false;
@@ -193,7 +194,7 @@ ffd_status ffd_gltf_resolve_overlaps(const gltf_document *d, gltf_plan *plan, ff
     }
     if (list.count > 0)
         qsort(list.users, list.count, sizeof *list.users, compare_users);
-    /* What is taken back can break an agreement made before it. */
+    /* A version that is taken back can end an agreement found before. */
     size_t pairs = 0;
     while (take_back(d, &list, plan, &pairs) && pairs <= MOST_PAIRS)
         ;

@@ -14,8 +14,8 @@ static const json_value *value_of(const gltf_saver *saver, uint32_t value)
     return &saver->document->tree.values[value];
 }
 
-/* Lets the members of an object, "attributes" or a morph target, name the accessors of the slots from `first`
-   on that hold what the primitive shows at a use. */
+/* Edits the members of an object, "attributes" or a morph target, to name the accessors of the slots from
+   `first` on that hold the primitive's content for a use. */
 static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t object, size_t first,
                        size_t use, json_edits *edits)
 {
@@ -31,7 +31,7 @@ static void edit_slots(const gltf_saver *saver, size_t mesh, size_t p, uint32_t 
     }
 }
 
-/* Lets a mesh name the accessors that hold what it shows at a use. */
+/* Edits a mesh to name the accessors that hold its content for a use. */
 static void edit_attributes(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits)
 {
     const gltf_document *d = saver->document;
@@ -57,7 +57,7 @@ static void replace_number(const gltf_saver *saver, uint32_t object, const char 
         ffd_edits_format(edits, value_of(saver, member)->begin, value_of(saver, member)->end, "%zu", number);
 }
 
-/* Adds a copy of an element to its list, changed by edits of its own. */
+/* Adds a copy of an element, with edits of its own, to its list. */
 static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key, size_t i, json_edits *edits)
 {
     const json_value *value = value_of(saver, list->values[i]);
@@ -70,7 +70,7 @@ static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key
     ffd_edits_free(edits);
 }
 
-/* What the bufferView of the accessor says of its use; one that had none held an attribute all the same. */
+/* Copies the "target" of the accessor's bufferView; if it had no bufferView, it still is an attribute. */
 static void write_target(const gltf_saver *saver, size_t accessor, byte_buffer *text)
 {
     const gltf_document *d = saver->document;
@@ -119,7 +119,7 @@ static void add_views(gltf_saver *saver)
     ffd_free(next);
 }
 
-/* Lets an accessor's copy name its own bufferView, which holds all elements, and their type. */
+/* Edits an accessor's copy to name its own bufferView, which holds all elements, and their type. */
 static void edit_storage(const gltf_saver *saver, const gltf_version *version, size_t view, json_edits *edits)
 {
     const gltf_document *d = saver->document;
@@ -190,7 +190,7 @@ static void add_meshes(gltf_saver *saver)
     }
 }
 
-/* A data URI keeps its head; one that is not plain base64 becomes so. */
+/* Replaces the data of a data URI. Its head stays if it says base64, else it is replaced too. */
 static void edit_data_uri(gltf_saver *saver, size_t buffer)
 {
     const gltf_document *d = saver->document;

@@ -6,13 +6,13 @@
 #include "io/gltf/file/uri.h"
 #include <string.h>
 
-/* An image that is to be copied. */
+/* An image to be copied. */
 typedef struct image_copy {
-    char *path; /* relative */
+    char *path; /* relative to the model */
     size_t image;
 } image_copy;
 
-/* The folders of input and output, and what is to be copied from one to the other. */
+/* The folders of input and output, and the images to be copied. */
 typedef struct resources {
     gltf_saver *saver;
     char *from, *to;
@@ -20,8 +20,8 @@ typedef struct resources {
     size_t copy_count, copy_capacity;
 } resources;
 
-/* The path that an image's URI names relative to the model, normalized; NULL with FFD_OK: not a file beside
- * it. */
+/* Finds the normalized path, relative to the model, that an image's URI names; NULL with FFD_OK: not a
+   file beside the model. */
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
 {
     *path = NULL;
@@ -65,13 +65,13 @@ ffd_status ffd_gltf_list_images(const mesh_document *document, path_list *files,
     return status;
 }
 
-/* Longest wait for others, and how long between looks, in seconds. */
+/* The longest wait for other processes, and the time between checks, in seconds. */
 #define MOST_WAITING 60.0
 #define LOOK 0.002
 
-/* Begins the image's file, unless it is there. Other models that are written at the same time may have the
-   same image, and be about to write it: that is waited for. They do not wait for this one in turn, since all
-   go through their images in the order of their paths. */
+/* Begins the image's file, unless it exists. Another model that is saved at the same time may be
+   writing the same image: this waits for it. There is no deadlock, since all write their images in the
+   order of their paths. */
 static ffd_status begin_image(const resources *r, const char *target, bool *exists, ffd_error *error)
 {
     const double begin = ffd_clock_seconds();
@@ -80,7 +80,7 @@ static ffd_status begin_image(const resources *r, const char *target, bool *exis
         if (*exists)
             return FFD_OK;
         const ffd_status status = ffd_output_begin(r->saver->output, target, false, error);
-        /* It may also have come between these two. */
+        /* It may also have been created between these two calls. */
         const bool waits = status && (ffd_output_was_busy(r->saver->output) || status == FFD_E_EXISTS);
         if (!waits || ffd_clock_seconds() - begin > MOST_WAITING)
             return status;
@@ -170,7 +170,8 @@ static ffd_status refer_to_image(const resources *r, size_t image, const char *p
     return status;
 }
 
-/* Two images may be one file: it is copied once. Takes the path over. */
+/* Adds an image to be copied. Two images may be one file, which is copied once. Takes ownership of the
+   path. */
 static ffd_status add_copy(resources *r, char *path, size_t image, ffd_error *error)
 {
     size_t i = r->copy_count;
@@ -200,10 +201,10 @@ static ffd_status bring_image(resources *r, size_t image, ffd_error *error)
     return status;
 }
 
-/* An image's file and, where the output looks for it in its own folder, its place there. */
+/* An image's file and, if the output refers to a copy in its own folder, the path of that. */
 typedef struct image_paths {
     const char *path;
-    char *source, *copy; /* copy: NULL where the output refers to the source */
+    char *source, *copy; /* copy: NULL if the output refers to the source */
 } image_paths;
 
 static ffd_status refuse_clash(const image_paths *image, const char *target, ffd_error *error)
@@ -216,7 +217,7 @@ static ffd_status refuse_clash(const image_paths *image, const char *target, ffd
                          "is also the path of the image \"%s\": give the output another name", image->path);
 }
 
-/* None of the files that are written for the model itself may be one of its images. */
+/* Refuses to overwrite one of the model's images by a file of the model itself. */
 static ffd_status refuse_image_name(const resources *r, size_t number, bool own_copy, ffd_error *error)
 {
     const gltf_saver *saver = r->saver;

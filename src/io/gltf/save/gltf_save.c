@@ -36,13 +36,13 @@ static size_t edit_size(const gltf_saver *saver, const json_edit *edit)
                : ffd_base64_length(ffd_gltf_content_size(saver, (size_t)edit->buffer));
 }
 
-/* Where the JSON begins: a byte order mark has no place in a GLB. */
+/* Returns where the JSON begins: a GLB must not have a byte order mark. */
 static size_t json_begin(const gltf_saver *saver)
 {
     return saver->binary == saver->document->binary ? 0 : saver->document->tree.values[0].begin;
 }
 
-/* The size of the JSON up to `end` with its edits. */
+/* Returns the size of the JSON up to `end` with its edits. */
 static size_t json_size(const gltf_saver *saver, size_t end)
 {
     size_t size = end - json_begin(saver);
@@ -72,7 +72,8 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
     return status ? status : put(saver, text + at, end - at, error);
 }
 
-/* Where a GLB's JSON ends without its padding, if its size changes and it so needs a new one. */
+/* Returns where a GLB's JSON ends; without its padding if its size changes, since it then needs another
+   one. */
 static size_t json_end(const gltf_saver *saver)
 {
     const json_span *tree = &saver->document->tree;
@@ -156,7 +157,7 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
         status = put_bin(saver, &sizes, error);
     if (status == FFD_OK && d->binary)
         status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
-    /* Bytes behind the stated length belong to nobody; they stay only where all else does too. */
+    /* Bytes past the stated length are kept only if nothing else changed. */
     if (status == FFD_OK && d->binary && saver->plan.version_count == 0)
         status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);
     return status;

@@ -5,7 +5,7 @@
 #include "io/gltf/save/gltf_plan.h"
 #include "json/json_edit.h"
 
-/* An accessor whose content changes where it stands. */
+/* An accessor that is overwritten in place. */
 typedef struct gltf_overwrite {
     size_t accessor;
     size_t begin, end, stride; /* in its buffer */
@@ -13,16 +13,16 @@ typedef struct gltf_overwrite {
     const float *values;
 } gltf_overwrite;
 
-/* Compressed data that the output holds decoded: a whole bufferView, or the elements of one accessor. */
+/* Compressed data that is written decoded: a whole bufferView, or the elements of one accessor. */
 typedef struct gltf_unpacking {
     size_t view, accessor;      /* the other one is GLTF_NONE */
     bool indices;               /* the accessor's elements are indices */
-    const unsigned char *bytes; /* before any change; lent by the document */
+    const unsigned char *bytes; /* before any change; owned by the document */
     size_t size;
     size_t buffer, offset; /* where it goes */
 } gltf_unpacking;
 
-/* A new accessor's content, or what was compressed, behind the old end of its buffer. */
+/* A new accessor's content, or decoded data, past the old end of a buffer. */
 typedef struct gltf_append {
     size_t offset, size, stride; /* size: all of it; stride: a multiple of 4, as attributes need */
     size_t version;              /* GLTF_NONE: unpacked data */
@@ -30,9 +30,9 @@ typedef struct gltf_append {
 } gltf_append;
 
 typedef struct gltf_new_buffer {
-    const gltf_buffer *old;     /* lent; of kind BUFFER_EMPTY and of no length for one that is added */
+    const gltf_buffer *old;     /* the document's; an empty one if the buffer is added */
     size_t length;              /* its new byteLength */
-    bool changed;               /* its bytes are not those of before */
+    bool changed;               /* its bytes differ from the old ones */
     gltf_buffer_kind kind;      /* how the output holds it */
     gltf_overwrite *overwrites; /* by begin */
     size_t overwrite_count;
@@ -49,13 +49,13 @@ typedef struct gltf_saver {
     gltf_plan plan;
     gltf_unpacking *unpackings; /* those of accessors come first */
     size_t unpacking_count, unpacked_accessor_count;
-    size_t *view_unpackings, *accessor_unpackings; /* numbers in them, GLTF_NONE */
-    gltf_new_buffer *buffers;                      /* those of the document, then an added one */
-    size_t buffer_count; /* one more than the document has where none of those takes bytes */
+    size_t *view_unpackings, *accessor_unpackings; /* numbers in it; GLTF_NONE: none */
+    gltf_new_buffer *buffers;                      /* those of the document, then possibly an added one */
+    size_t buffer_count; /* one more than the document has if none of those can grow */
     json_edits edits;
     bool binary;   /* the output is a GLB */
     bool in_place; /* the output is the input */
-    bool replaces; /* some buffer file that exists is replaced */
+    bool replaces; /* an existing buffer file is replaced */
 } gltf_saver;
 
 #endif

@@ -10,11 +10,11 @@ ffd_status ffd_gltf_list_unpackings(gltf_saver *saver, ffd_error *error);
 /* Frees the lists of unpackings. */
 void ffd_gltf_free_unpackings(gltf_saver *saver);
 
-/* Whether primitive p of a mesh, as it is shown at a use of its uses, is written uncompressed. */
+/* Whether primitive p is written uncompressed for a use of its mesh. */
 bool ffd_gltf_is_unpacked(const gltf_saver *saver, size_t mesh, size_t p, size_t use);
 
-/* Removes the compression of a mesh's primitives where they are written uncompressed, as the mesh is shown at
-   a use of its uses, and logs it. */
+/* Removes the compression of the primitives that are written uncompressed for a use of their mesh, and
+   logs it. */
 void ffd_gltf_edit_compression(const gltf_saver *saver, size_t mesh, size_t use, json_edits *edits);
 
 /* Edits the views and accessors so that they name the decoded data. */

@@ -5,9 +5,9 @@
 
 #define MOST_TRIANGLES INT32_MAX
 
-/* What a primitive of a mesh draws, whatever shows it. */
+/* What one use of a primitive draws. */
 typedef struct drawing {
-    size_t corners; /* indices, or vertices where it has none */
+    size_t corners; /* indices, or vertices if it has no indices */
     size_t triangles, lines, points;
 } drawing;
 
@@ -87,7 +87,7 @@ static ffd_status count_all(const gltf_document *d, mesh_faces *faces, ffd_error
     return FFD_OK;
 }
 
-/* Positions of all parts in order; base[i] is the first vertex of part i. */
+/* Fills in the positions of all parts in order; base[i] becomes the first vertex of part i. */
 static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *base)
 {
     size_t at = 0;
@@ -189,7 +189,7 @@ uint64_t ffd_gltf_most_corners(const gltf_document *d)
     return most;
 }
 
-/* For the faces, beside the corners of one primitive. */
+/* Checks the memory for the faces together with the corners of one primitive. */
 static ffd_status check_budget(const gltf_document *d, const mesh_faces *faces, ffd_error *error)
 {
     mesh_room room = d->base.room;
@@ -229,7 +229,7 @@ ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_
     return status;
 }
 
-/* The normals of one instance's corners: vertex i of its positions has normal i of its normals. */
+/* Numbers the normals of one instance's corners: vertex i of its positions has normal i of its normals. */
 static void number_corners(const gltf_instance *instance, const size_t *first_vertices,
                            const size_t *first_normals, const uint32_t *corners, size_t count,
                            uint32_t *normals)

@@ -9,7 +9,7 @@ void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *
                             size_t *points);
 
 /* Lists the vertices (0, 1, ..) that a primitive with positions draws, in order, for the caller to free;
- *corners is NULL after a failure. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
+   corners is NULL after a failure. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,
                                  uint32_t **corners, size_t *count, ffd_error *error);
 

@@ -1,5 +1,6 @@
-/* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh in many places, which cannot get results
-   of their own. Their vertices stay, and boxes tell where these stand. */
+/* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh under many transforms, which cannot
+   have results of their own. Their vertices stay, and their bounds tell whether the lattice reaches
+   them. */
 #include "io/gltf/scene/gltf_instancing.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
@@ -9,15 +10,15 @@
 #include <string.h>
 
 #define EXTENSION "EXT_mesh_gpu_instancing"
-/* Of all nodes. Beyond it they are taken to be everywhere. */
+/* The most instances of all nodes whose bounds are computed. */
 #define MOST_INSTANCES ((uint64_t)1 << 24)
-/* Of a box's sides: more than the rounding of its corners. */
+/* Relative to a box's sides: more than the rounding errors of its corners. */
 #define SLACK 1e-9
 
-/* What is known so far. */
+/* What is known while the nodes are surveyed. */
 typedef struct survey {
     gltf_document *document;
-    ffd_bounds *accessors; /* bounds of POSITION accessors, min > max: not looked at */
+    ffd_bounds *accessors; /* bounds of POSITION accessors; min > max: not known yet */
     uint64_t instances;
 } survey;
 
@@ -82,7 +83,7 @@ static ffd_status find_instances(const gltf_document *d, size_t node, gltf_insta
             find_attribute(d, attributes, "ROTATION", 4, is_rotation, &found->rotation, &found->count, error);
     if (status == FFD_OK)
         status = find_attribute(d, attributes, "SCALE", 3, is_float, &found->scale, &found->count, error);
-    /* Other attributes do not move anything; without these the mesh is shown once. */
+    /* Other attributes move nothing; without these there is one instance. */
     if (found->count == UINT64_MAX)
         found->count = 1;
     return status;
@@ -107,7 +108,7 @@ static bool is_finite(const ffd_bounds *box)
     return vec_is_finite(box->min) && vec_is_finite(box->max);
 }
 
-/* The bounds of a mesh in its own space; false where it cannot be read. */
+/* Finds the bounds of a mesh in its own space; false if it cannot be read. */
 static bool find_mesh_bounds(survey *s, size_t mesh, ffd_bounds *box)
 {
     *box = empty_bounds;
@@ -136,14 +137,15 @@ static ffd_status describe_instanced_node(survey *s, size_t node, gltf_instanced
     if (status)
         return status;
     s->instances += instanced->count;
-    instanced->everywhere = !find_mesh_bounds(s, (size_t)d->model.nodes[node].mesh, &instanced->mesh) ||
-                            d->model.nodes[node].skin >= 0 || s->instances > MOST_INSTANCES ||
-                            !can_read(d, instanced->translation) || !can_read(d, instanced->rotation) ||
-                            !can_read(d, instanced->scale);
+    instanced->unknown_bounds =
+        !find_mesh_bounds(s, (size_t)d->model.nodes[node].mesh, &instanced->mesh_bounds) ||
+        d->model.nodes[node].skin >= 0 || s->instances > MOST_INSTANCES ||
+        !can_read(d, instanced->translation) || !can_read(d, instanced->rotation) ||
+        !can_read(d, instanced->scale);
     return FFD_OK;
 }
 
-/* The node's vertices stay, whatever is asked for. */
+/* Deselects what the node uses, so that its vertices stay. */
 static void skip_node(gltf_document *d, size_t node)
 {
     gltf_mesh_uses *uses = &d->mesh_uses[d->model.nodes[node].mesh];
@@ -152,7 +154,7 @@ static void skip_node(gltf_document *d, size_t node)
         const size_t middle = low + (high - low) / 2;
         *(uses->nodes[middle] <= node ? &low : &high) = middle;
     }
-    uses->used_outside_scene = true; /* so that the node keeps its mesh */
+    uses->used_outside_scene = true; /* the node keeps its mesh */
     for (size_t p = 0; p < d->model.meshes[d->model.nodes[node].mesh].primitive_count; p++)
         d->instances[uses->first_instance + p * uses->node_count + low].selected = false;
 }
@@ -210,7 +212,7 @@ gltf_instanced_node *ffd_gltf_instanced_node(const gltf_document *d, size_t node
     return NULL;
 }
 
-/* Whether the box that holds linear box + offset meets the reach, or may do so by rounding. */
+/* Whether the transformed box meets the reach, or may do so but for rounding. */
 static bool meets(const ffd_bounds *box, const double world[12], const ffd_bounds *reach)
 {
     double middle[3], half[3];
@@ -227,7 +229,7 @@ static bool meets(const ffd_bounds *box, const double world[12], const ffd_bound
         if (least > reach->max[r] || largest < reach->min[r])
             return false;
     }
-    return true; /* also what is not a number */
+    return true; /* NaN too */
 }
 
 static void instance_matrix(const gltf_document *d, const gltf_instanced_node *instanced, size_t i,
@@ -247,14 +249,15 @@ static void instance_matrix(const gltf_document *d, const gltf_instanced_node *i
 
 static bool is_reached(const gltf_document *d, const gltf_instanced_node *instanced, const ffd_bounds *reach)
 {
-    if (instanced->idle || instanced->everywhere)
-        return !instanced->idle;
+    if (instanced->deselected || instanced->unknown_bounds)
+        return !instanced->deselected;
     bool met = false;
-    for (size_t i = 0; i < instanced->count && instanced->mesh.min[0] <= instanced->mesh.max[0] && !met;
+    for (size_t i = 0;
+         i < instanced->count && instanced->mesh_bounds.min[0] <= instanced->mesh_bounds.max[0] && !met;
          i++) {
         double world[12];
         instance_matrix(d, instanced, i, world);
-        met = meets(&instanced->mesh, world, reach);
+        met = meets(&instanced->mesh_bounds, world, reach);
     }
     return met;
 }

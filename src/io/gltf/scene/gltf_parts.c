@@ -6,17 +6,17 @@
 
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
 
-/* What is kept of a primitive under a node, and made for it while the parts are made and the file is saved.
- */
+/* Memory that is kept for a primitive under a node, and that making the parts and saving the file need
+   for it. */
 #define INSTANCE_BYTES                                                                                       \
     (sizeof(gltf_instance) + sizeof(gltf_part) + sizeof(mesh_part) + 4 * sizeof(size_t) + SAVED_BYTES)
 #define SAVED_BYTES 400
 
-/* Finds the parts of one POSITION accessor under one node and, with a skin, of the same influences. */
+/* A hash table of the parts by POSITION accessor, node and, with a skin, influences. */
 typedef struct part_table {
-    size_t *heads; /* first part of a slot's key, GLTF_NONE: free */
+    size_t *heads; /* first part of a slot's key; GLTF_NONE: free */
     size_t mask;
-    size_t *next; /* the part's next one with the same positions */
+    size_t *next; /* the next part with the same key */
 } part_table;
 
 static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *error)
@@ -24,16 +24,16 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
     ffd_status status = FFD_OK;
     *total = 0;
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
-        const uint64_t shown =
+        const uint64_t instances =
             (uint64_t)d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count; /* below 2^31 each */
         d->mesh_uses[m].first_instance = *total;
-        status = ffd_room_take(&d->base.room, shown, INSTANCE_BYTES, error);
-        *total += (size_t)shown;
+        status = ffd_room_take(&d->base.room, instances, INSTANCE_BYTES, error);
+        *total += (size_t)instances;
     }
     return status;
 }
 
-/* Whether two parts of one node are moved by the same joints. */
+/* Whether two parts of one node have the same joints and weights. */
 static bool same_influences(const gltf_part *a, const gltf_part *b)
 {
     if (a->influence_count != b->influence_count)
@@ -69,7 +69,7 @@ static size_t readable_accessor(const gltf_document *d, const gltf_primitive *pr
     return accessor >= 0 && d->layouts[accessor].readable ? (size_t)accessor : GLTF_NONE;
 }
 
-/* Whether the part deforms what a primitive with these attributes shows. A tangent depends on its normal. */
+/* Whether the part deforms a primitive with these attributes. A tangent depends on its normal. */
 static bool serves(const gltf_part *part, size_t normal, size_t tangent)
 {
     return (normal == GLTF_NONE || part->streams[GLTF_NORMAL].accessor == normal) &&
@@ -94,25 +94,25 @@ static void set_part_transform(const gltf_document *d, const gltf_part *from, me
 static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
 {
     const size_t index = d->base.part_count++;
-    mesh_part *shown = &d->mesh_parts[index];
+    mesh_part *made = &d->mesh_parts[index];
     d->parts[index] = *part;
-    shown->vertex_count = (size_t)d->model.accessors[part->streams[GLTF_POSITION].accessor].count;
-    shown->normal_count = part->streams[GLTF_NORMAL].accessor == GLTF_NONE ? 0 : shown->vertex_count;
-    shown->has_tangents = part->streams[GLTF_TANGENT].accessor != GLTF_NONE;
-    shown->repeats_positions = repeated != GLTF_NONE;
-    shown->repeats = repeated;
-    set_part_transform(d, part, shown);
+    made->vertex_count = (size_t)d->model.accessors[part->streams[GLTF_POSITION].accessor].count;
+    made->normal_count = part->streams[GLTF_NORMAL].accessor == GLTF_NONE ? 0 : made->vertex_count;
+    made->has_tangents = part->streams[GLTF_TANGENT].accessor != GLTF_NONE;
+    made->repeats_positions = repeated != GLTF_NONE;
+    made->repeats = repeated;
+    set_part_transform(d, part, made);
     return index;
 }
 
-/* The part that a primitive under a node wants. */
+/* Returns the part that a primitive under a node needs. */
 static gltf_part describe_part(const gltf_document *d, const gltf_primitive *primitive, size_t node)
 {
     gltf_part part = {.node = node};
     for (int s = 0; s < GLTF_DEFORMED; s++)
         part.streams[s].accessor = readable_accessor(d, primitive, (gltf_semantic)s);
     if (part.streams[GLTF_NORMAL].accessor == GLTF_NONE)
-        part.streams[GLTF_TANGENT].accessor = GLTF_NONE; /* to be ignored without (glTF 2.0, 3.7.2.1) */
+        part.streams[GLTF_TANGENT].accessor = GLTF_NONE; /* ignored without normals (glTF 2.0, 3.7.2.1) */
     if (node != GLTF_NONE && d->model.nodes[node].skin >= 0) {
         part.skin = &d->skins[d->model.nodes[node].skin];
         part.influences = primitive->influences;
@@ -161,7 +161,7 @@ static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
             return ffd_fail_file(error, FFD_E_LIMIT, d->name, "its scene has more than %llu vertices",
                                  (unsigned long long)MOST_VERTICES);
     }
-    /* Whoever goes over all of them keeps this of each at the least. */
+    /* Any pass over all vertices keeps at least this for each. */
     return ffd_room_check(&d->base.room, vertices, sizeof(float[3]), error);
 }
 

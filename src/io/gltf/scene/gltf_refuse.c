@@ -9,7 +9,7 @@ static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *erro
     return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error, "%s", what);
 }
 
-/* Extensions that a file may require and that leave the vertices as they are, or are looked at where they are
+/* Whether a file may require the extension: it does not change vertices, or is handled where it is
    used. */
 static bool is_harmless(const char *extension)
 {
@@ -158,7 +158,7 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
     return status;
 }
 
-/* What keeps results from being written in the accessor's place, or beside it. */
+/* Refuses accessors that cannot be read: their results could be written neither in place nor as a copy. */
 ffd_status ffd_gltf_refuse_store(const gltf_document *d, bool normals, bool tangents, ffd_error *error)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++) {

@@ -8,8 +8,8 @@
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_refuse_read(const gltf_document *document, ffd_error *error);
 
-/* Refuses what cannot be written back: positions, and normals and tangents where these are wanted. Errors:
-   FFD_E_UNSUPPORTED. */
+/* Refuses what cannot be written back: positions, and normals and tangents where these are wanted.
+   Errors: FFD_E_UNSUPPORTED. */
 ffd_status ffd_gltf_refuse_store(const gltf_document *document, bool normals, bool tangents,
                                  ffd_error *error);
 

@@ -17,7 +17,7 @@ static size_t tile_end(const gltf_document *d, size_t part, size_t tile)
     return count - tile * MESH_RANGE_STEP < MESH_RANGE_STEP ? count : (tile + 1) * MESH_RANGE_STEP;
 }
 
-/* The originals go to a tile where nothing stands yet. */
+/* Copies the originals to a tile that is not filled yet. */
 static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
 {
     const size_t first = tile * MESH_RANGE_STEP;
@@ -26,7 +26,8 @@ static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *s
     stream->filled[tile] = 1;
 }
 
-/* Before vectors [first, last) get their results. whole: each of them does. */
+/* Fills the tiles of vectors [first, last) before their results are written. whole: all of them will
+   be. */
 static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *stream, size_t first,
                         size_t last, bool whole)
 {
@@ -37,7 +38,7 @@ static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *
             begin_tile(d, part, stream, t);
 }
 
-/* So many vectors at a time, of which compilers make vectors of their own. */
+/* Vectors per step: compilers turn these loops into SIMD. */
 #define GROUP 4
 
 gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count)
@@ -65,7 +66,7 @@ gltf_tile_bounds ffd_gltf_find_bounds(const float *xyz, size_t count)
     return (gltf_tile_bounds){{least[0], least[1], least[2]}, {largest[0], largest[1], largest[2]}};
 }
 
-/* What a tile that is at hand has now. */
+/* Updates the bounds of a tile that is in the cache. */
 static void note_bounds(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
 {
     const size_t first = tile * MESH_RANGE_STEP;
@@ -101,8 +102,9 @@ void ffd_gltf_free_result(gltf_stream *stream)
     stream->bounds = NULL;
 }
 
-/* Of a deformation into a morph target, zeros; else what stands in the file, but that only when it is needed:
-   the pass hands nearly everything back, and what has just been read for it is then at hand. */
+/* Makes the result of a stream. For a morph target it is zeros. Else it is the file's content, but a
+   tile of it is copied only when it is needed: most tiles are overwritten whole, and the rest was just
+   read and is in the cache. */
 static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic semantic, ffd_error *error)
 {
     gltf_stream *stream = &d->parts[part].streams[semantic];
@@ -119,7 +121,7 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
         if (d->morph_name)
             memset(stream->result, 0, count * 3 * sizeof *stream->result);
     }
-    ffd_free(stream->filled); /* of an earlier deformation */
+    ffd_free(stream->filled); /* from an earlier deformation */
     stream->filled = NULL;
     if (d->morph_name)
         return FFD_OK;
@@ -129,7 +131,7 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     return stream->filled && (stream->bounds || semantic != GLTF_POSITION) ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* Of an earlier deformation that wanted it. */
+/* Drops the result of an earlier deformation. */
 static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
 {
     gltf_stream *stream = &d->parts[part].streams[semantic];
@@ -155,8 +157,8 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     return status;
 }
 
-/* Whether results are rounded to the type's steps. Directions in integers that are not normalized or have no
-   sign are not valid, and a unit vector would not survive their steps: such become floats. */
+/* Whether results are rounded to the accessor's type. Directions in integers that are not normalized or
+   not signed are not valid, and cannot represent unit vectors: they become floats. */
 static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
 {
     if (accessor->component == GLTF_FLOAT)
@@ -165,7 +167,7 @@ static bool has_steps(const gltf_accessor *accessor, gltf_semantic semantic)
            (accessor->normalized && (accessor->component == GLTF_I8 || accessor->component == GLTF_I16));
 }
 
-/* Results that are offsets to what the file has. */
+/* Writes a result as an offset from the file's value. */
 static void write_offset(const gltf_document *d, const gltf_stream *stream, size_t i, const double *value)
 {
     double original[3];
@@ -174,7 +176,7 @@ static void write_offset(const gltf_document *d, const gltf_stream *stream, size
         stream->result[3 * i + c] = (float)(value[c] - original[c]);
 }
 
-/* Whether results go to the file as they are, but for being rounded to float. */
+/* Whether results are only rounded to float. */
 static bool is_plain(const gltf_document *d, const gltf_stream *stream, gltf_semantic semantic)
 {
     return !d->morph_name &&
@@ -207,7 +209,7 @@ static void write_result(mesh_document *document, size_t part, gltf_semantic sem
     const bool plain = is_plain(d, stream, semantic), whole = !memchr(changed, 0, count);
     if (stream->filled)
         begin_tiles(d, part, stream, first, first + count, whole);
-    if (whole && plain && components == 3) /* nearly always */
+    if (whole && plain && components == 3) /* the usual case */
         ffd_array_kernel(FFD_ISA_AUTO)->round(values, 3 * count, stream->result + 3 * first);
     else
         write_changed(d, stream, plain, first, count, values, components, changed);

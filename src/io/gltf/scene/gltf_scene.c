@@ -4,8 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The node's own matrix, linear row by row and offset; T R S with the quaternion x,y,z,w (glTF 2.0, 3.5.3).
- */
+/* T R S with the quaternion x,y,z,w (glTF 2.0, 3.5.3). */
 void ffd_gltf_local_matrix(const gltf_node *node, double linear[9], double offset[3])
 {
     if (node->has_matrix) {
@@ -67,8 +66,8 @@ static void find_parents(gltf_document *d, size_t *parents)
         }
 }
 
-/* With one parent each, a node is in a cycle or below one exactly if no root reaches it. order: all nodes,
-   parents first. */
+/* Since each node has one parent, a node is in a cycle or below one exactly if it is not reached from a
+   root. order becomes all nodes, parents first. */
 static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, size_t *order,
                                 ffd_error *error)
 {
@@ -100,7 +99,7 @@ static ffd_status refuse_cycles(const gltf_document *d, const size_t *parents, s
     return status;
 }
 
-/* Joints may stand outside the shown scene: all nodes get their place. */
+/* All nodes get a world matrix: joints may be outside the scene. */
 static void set_world_matrices(gltf_document *d, const size_t *parents, const size_t *order)
 {
     for (size_t i = 0; i < d->model.node_count; i++) {
@@ -109,7 +108,7 @@ static void set_world_matrices(gltf_document *d, const size_t *parents, const si
     }
 }
 
-/* Shows a root and all nodes below it. */
+/* Adds a root and all nodes below it to the scene. */
 static void add_subtree(gltf_document *d, size_t root, const size_t *parents, size_t *pending)
 {
     size_t waiting = 0;
@@ -155,7 +154,7 @@ static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* Lists the shown nodes of each mesh. */
+/* Lists the nodes of the scene that use each mesh. */
 static ffd_status list_nodes(gltf_document *d, ffd_error *error)
 {
     const gltf_model *model = &d->model;
@@ -173,10 +172,10 @@ static ffd_status list_nodes(gltf_document *d, ffd_error *error)
     d->scene_nodes = ffd_alloc(total, sizeof *d->scene_nodes);
     if (!d->scene_nodes)
         return ffd_fail_memory(error);
-    size_t *room = d->scene_nodes;
+    size_t *next = d->scene_nodes;
     for (size_t m = 0; m < model->mesh_count; m++) {
-        d->mesh_uses[m].nodes = room;
-        room += d->mesh_uses[m].node_count;
+        d->mesh_uses[m].nodes = next;
+        next += d->mesh_uses[m].node_count;
         d->mesh_uses[m].used_outside_scene =
             d->mesh_uses[m].used_outside_scene || d->mesh_uses[m].node_count == 0;
         d->mesh_uses[m].node_count = 0;

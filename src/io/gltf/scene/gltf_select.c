@@ -1,4 +1,4 @@
-/* gltf_select.c - which primitives under which nodes `--only` leaves, and which vertices these draw. */
+/* gltf_select.c - which primitives under which nodes `--only` selects, and which vertices these draw. */
 #include "io/gltf/scene/gltf_select.h"
 #include "base/memory/memory.h"
 #include "io/gltf/scene/gltf_faces.h"
@@ -10,7 +10,7 @@ typedef struct selecting {
     const mesh_selector *selectors;
     size_t count;
     bool *nodes, *meshes, *materials; /* is selected */
-    size_t *pending;                  /* room for all nodes */
+    size_t *pending;                  /* a stack, of the size of all nodes */
     size_t material_count;
 } selecting;
 
@@ -70,7 +70,7 @@ static void mark(const selecting *s, selector_kind kind, size_t number)
         s->materials[number] = true;
 }
 
-/* All that have the name. */
+/* Marks all that have the selector's name. */
 static ffd_status mark_named(const selecting *s, const mesh_selector *selector, ffd_error *error)
 {
     const gltf_document *d = s->document;
@@ -88,7 +88,7 @@ static ffd_status mark_named(const selecting *s, const mesh_selector *selector, 
     return found ? FFD_OK : refuse_unknown(d, selector, error);
 }
 
-/* In mesh space a node stands for the mesh that it shows. */
+/* In mesh space, a node selects its mesh. */
 static void mark_meshes_of_nodes(const selecting *s)
 {
     const gltf_model *model = &s->document->model;
@@ -107,7 +107,7 @@ static bool has_material(const selecting *s, size_t m, size_t p)
            number >= 0 && number < (double)s->material_count && s->materials[(size_t)number];
 }
 
-/* A part's bytes, all 0 at first. */
+/* Makes a part's selection, with nothing selected yet. */
 static ffd_status open_part(gltf_document *d, size_t part, ffd_error *error)
 {
     if (d->parts[part].selected)
@@ -151,7 +151,7 @@ static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_e
         gltf_instanced_node *instanced = uses->nodes ? ffd_gltf_instanced_node(d, uses->nodes[n]) : NULL;
         instances[n].selected = wanted && !instanced;
         if (wanted && instanced)
-            instanced->idle = false;
+            instanced->deselected = false;
         any = any || (instances[n].selected && instances[n].part[GLTF_POSITION] != GLTF_NONE);
     }
     if (!any)
@@ -178,7 +178,7 @@ static ffd_status select_all(selecting *s, ffd_error *error)
     for (size_t i = 0; i < d->base.part_count; i++)
         d->mesh_parts[i].skipped = true;
     for (size_t i = 0; i < d->instanced_node_count; i++)
-        d->instanced_nodes[i].idle = true;
+        d->instanced_nodes[i].deselected = true;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
             status = select_primitive(s, m, p, error);
@@ -196,8 +196,8 @@ ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selecto
     s.pending = ffd_alloc(d->model.node_count, sizeof *s.pending);
     s.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *s.meshes);
     s.materials = ffd_alloc_zero(s.material_count, sizeof *s.materials);
-    const bool room = s.nodes && s.pending && s.meshes && s.materials;
-    const ffd_status status = room ? select_all(&s, error) : ffd_fail_memory(error);
+    const bool allocated = s.nodes && s.pending && s.meshes && s.materials;
+    const ffd_status status = allocated ? select_all(&s, error) : ffd_fail_memory(error);
     ffd_free(s.nodes);
     ffd_free(s.pending);
     ffd_free(s.meshes);

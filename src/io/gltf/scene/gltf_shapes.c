@@ -1,4 +1,5 @@
-/* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives name it. */
+/* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives use
+   it. */
 #include "io/gltf/scene/gltf_shapes.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
@@ -10,11 +11,12 @@ typedef struct target {
     size_t accessors[GLTF_DEFORMED]; /* GLTF_NONE: absent */
 } target;
 
-/* What is kept of a target under a node, and made for it on the way (with a table half empty). */
+/* Memory that is kept for a target under a node, and that is needed meanwhile (with a hash table half
+   full). */
 #define TARGET_BYTES                                                                                         \
     (sizeof(gltf_part) + sizeof(mesh_part) + sizeof(mesh_shape) + sizeof(target) + 5 * sizeof(size_t))
 
-/* The targets found so far, by content. */
+/* A hash table of the targets found so far, by content. */
 typedef struct target_table {
     size_t *slots; /* GLTF_NONE: free */
     size_t mask;
@@ -59,7 +61,8 @@ static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *erro
     return FFD_OK;
 }
 
-/* Offsets to what the primitive does not have mean nothing; GLTF_NONE if no others are left. */
+/* Returns the target's number. Offsets of attributes that the primitive lacks are ignored; GLTF_NONE if
+   no others are left. */
 static size_t add_target(const gltf_document *d, target_table *table, const gltf_primitive *primitive,
                          const gltf_instance *instance, const int *accessors)
 {
@@ -88,8 +91,8 @@ static void find_targets(gltf_document *d, target_table *table)
         }
 }
 
-/* Gives each part its targets one behind the other: places[i] is the new number of target i. */
-static void sort_targets(gltf_document *d, const target_table *table, size_t *places)
+/* Sorts the targets by part: numbers[i] becomes the new number of target i. */
+static void sort_targets(gltf_document *d, const target_table *table, size_t *numbers)
 {
     for (size_t i = 0; i < table->count; i++)
         d->mesh_parts[table->targets[i].part].shape_count++;
@@ -102,22 +105,22 @@ static void sort_targets(gltf_document *d, const target_table *table, size_t *pl
     }
     for (size_t i = 0; i < table->count; i++) {
         const size_t part = table->targets[i].part;
-        places[i] = d->parts[part].first_shape + d->mesh_parts[part].shape_count++;
+        numbers[i] = d->parts[part].first_shape + d->mesh_parts[part].shape_count++;
     }
 }
 
-static void fill_shape(gltf_document *d, const target *from, size_t place)
+static void fill_shape(gltf_document *d, const target *from, size_t number)
 {
-    const size_t index = d->base.part_count + place;
+    const size_t index = d->base.part_count + number;
     d->parts[index] = (gltf_part){.node = d->parts[from->part].node};
     d->mesh_parts[index] = (mesh_part){.vertex_count = d->mesh_parts[from->part].vertex_count};
     for (int s = 0; s < GLTF_DEFORMED; s++) {
         d->parts[index].streams[s].accessor = from->accessors[s];
-        d->shapes[place].has[s] = from->accessors[s] != GLTF_NONE;
+        d->shapes[number].has[s] = from->accessors[s] != GLTF_NONE;
     }
 }
 
-/* Room behind the parts for what holds the targets' results. */
+/* Grows the parts by count, which hold the results of targets. */
 static bool grow_parts(gltf_document *d, size_t count)
 {
     const size_t all = d->base.part_count + count;
@@ -125,30 +128,30 @@ static bool grow_parts(gltf_document *d, size_t count)
     if (!parts)
         return false;
     d->parts = parts;
-    mesh_part *shown = ffd_realloc(d->mesh_parts, all, sizeof *shown);
-    if (!shown)
+    mesh_part *mesh_parts = ffd_realloc(d->mesh_parts, all, sizeof *mesh_parts);
+    if (!mesh_parts)
         return false;
-    d->mesh_parts = shown;
-    d->base.parts = shown;
+    d->mesh_parts = mesh_parts;
+    d->base.parts = mesh_parts;
     d->shapes = ffd_alloc_zero(count, sizeof *d->shapes);
     return d->shapes;
 }
 
 static ffd_status add_shapes(gltf_document *d, const target_table *table, size_t total, ffd_error *error)
 {
-    size_t *places = ffd_alloc(table->count, sizeof *places);
-    if (!places || !grow_parts(d, table->count)) {
-        ffd_free(places);
+    size_t *numbers = ffd_alloc(table->count, sizeof *numbers);
+    if (!numbers || !grow_parts(d, table->count)) {
+        ffd_free(numbers);
         return ffd_fail_memory(error);
     }
-    sort_targets(d, table, places);
+    sort_targets(d, table, numbers);
     for (size_t i = 0; i < table->count; i++)
-        fill_shape(d, &table->targets[i], places[i]);
+        fill_shape(d, &table->targets[i], numbers[i]);
     d->shape_count = table->count;
     for (size_t i = 0; i < total; i++)
         if (d->targets[i] != GLTF_NONE)
-            d->targets[i] = d->base.part_count + places[d->targets[i]];
-    ffd_free(places);
+            d->targets[i] = d->base.part_count + numbers[d->targets[i]];
+    ffd_free(numbers);
     return FFD_OK;
 }
 

@@ -8,9 +8,9 @@
 #include <string.h>
 
 #define MOST_SETS ((size_t)16) /* JOINTS_0 to JOINTS_15 */
-#define BLOCK ((size_t)32)     /* vertices read at once */
+#define BLOCK ((size_t)32)     /* vertices that are read at once */
 
-/* An exporter's last row may be off by the rounding of floats. */
+/* The last row of an exporter's matrix may have rounding errors of floats. */
 #define LAST_ROW_TOLERANCE 1e-5
 
 static ffd_status list_joints(const gltf_document *d, uint32_t value, gltf_skin *skin, ffd_error *error)
@@ -83,7 +83,7 @@ void ffd_gltf_free_skins(gltf_document *d)
     ffd_free(d->skins);
 }
 
-/* Joint j's inverse bind matrix; the file has it column by column. */
+/* Reads joint j's inverse bind matrix, which the file stores column by column. */
 static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *skin, size_t j,
                                     double matrix[12], ffd_error *error)
 {
@@ -159,7 +159,7 @@ static bool has_shape(const gltf_accessor *accessor, bool weights)
                    : small && !accessor->normalized;
 }
 
-/* One more than the greatest joint that an accessor names; largest remembers it (0: not looked for yet). */
+/* Returns one more than the largest joint index of an accessor; largest caches it (0: not known yet). */
 static size_t count_joints(const gltf_document *d, size_t accessor, size_t *largest)
 {
     const size_t count = (size_t)d->model.accessors[accessor].count;
@@ -242,13 +242,13 @@ ffd_status ffd_gltf_prepare_skins(gltf_document *d, ffd_error *error)
     return status;
 }
 
-/* One joint's part in a vertex. */
+/* One joint's influence on a vertex. */
 typedef struct joint_weight {
     size_t joint;
     double weight;
 } joint_weight;
 
-/* The same joints give the same sum in whatever order the file has them. */
+/* Sorts the terms, so that the sum does not depend on their order in the file. */
 static void sort_joint_weights(joint_weight *terms, size_t count)
 {
     for (size_t i = 1; i < count; i++)
@@ -262,8 +262,8 @@ static void sort_joint_weights(joint_weight *terms, size_t count)
         }
 }
 
-/* sum of weight * matrix, divided by the sum of the weights: these are to be 1 in sum, and viewers make them
-   so where a file's are not. Without any weight: zeros, which have no inverse. */
+/* The sum of weight * matrix, divided by the sum of the weights. That should be 1, and viewers
+   normalize it if it is not. If all weights are 0, the result is zeros, which have no inverse. */
 static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, double transform[12])
 {
     double total = 0;
