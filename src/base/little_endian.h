@@ -31,6 +31,13 @@ static inline void store_u64(unsigned char bytes[8], uint64_t value)
             bytes[i] = (unsigned char)(value >> (8 * i));
 }
 
+static inline void store_float(unsigned char bytes[4], float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    store_u32(bytes, bits);
+}
+
 static inline void store_double(unsigned char bytes[8], double value)
 {
     uint64_t bits;
@@ -46,6 +53,14 @@ static inline uint32_t load_u32(const unsigned char bytes[4])
     else
         for (int i = 0; i < 4; i++)
             value |= (uint32_t)bytes[i] << (8 * i);
+    return value;
+}
+
+static inline float load_float(const unsigned char bytes[4])
+{
+    const uint32_t bits = load_u32(bytes);
+    float value;
+    memcpy(&value, &bits, sizeof value);
     return value;
 }
 

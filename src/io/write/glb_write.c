@@ -28,7 +28,7 @@ static void measure(gltf_writer *w)
         w->begins[v] = w->total;
         w->numbers[v] = number;
         number += w->sizes[v] > 0;
-        w->total += (w->sizes[v] + 3) / 4 * 4;
+        w->total += ffd_gltf_align(w->sizes[v]);
     }
 }
 
@@ -57,7 +57,7 @@ static ffd_status put_glb(gltf_writer *w, const char *path)
     if (w->text.failed)
         return ffd_fail_memory(w->error);
     const size_t json = w->text.size - 1; /* without the line's end */
-    const size_t padded = (json + 3) / 4 * 4;
+    const size_t padded = ffd_gltf_align(json);
     const size_t bin = w->total > 0 ? GLB_CHUNK_HEADER_SIZE + w->total : 0;
     const size_t total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + padded + bin;
     if (total > UINT32_MAX)

@@ -54,7 +54,7 @@ static ffd_status check_view(const gltf_document *d, size_t i, ffd_error *error)
 static void measure(const gltf_accessor *accessor, gltf_layout *layout)
 {
     const size_t column = (size_t)accessor->rows * ffd_gltf_component_size(accessor->component);
-    const size_t padded = accessor->columns > 1 ? (column + 3) / 4 * 4 : column;
+    const size_t padded = accessor->columns > 1 ? ffd_gltf_align(column) : column;
     layout->element_size = padded * (size_t)(accessor->columns - 1) + column;
     layout->stride = padded * (size_t)accessor->columns;
 }

@@ -83,7 +83,7 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
     const gltf_unpacked *unpacked = &d->unpacked[a];
     /* Elements of a vertex attribute start at multiples of 4 bytes (glTF 2.0, 3.6.2.4). */
     const size_t element = d->layouts[a].element_size;
-    const size_t stride = source == INDICES_SOURCE ? element : (element + 3) / 4 * 4;
+    const size_t stride = source == INDICES_SOURCE ? element : ffd_gltf_align(element);
     if (accessor->columns > 1 || accessor->sparse.present)
         return fail(d, value, FFD_E_UNSUPPORTED, u->error,
                     "a matrix or a sparse accessor compressed by Draco is not supported");

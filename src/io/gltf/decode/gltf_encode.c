@@ -56,13 +56,6 @@ bool ffd_gltf_fits(const gltf_accessor *accessor, const float *values, size_t co
     return true;
 }
 
-static void put_float(float value, unsigned char *bytes)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    store_u32(bytes, bits);
-}
-
 static void put_integer(double integer, size_t size, unsigned char *bytes)
 {
     const uint32_t bits = (uint32_t)(int32_t)integer;
@@ -81,7 +74,7 @@ void ffd_gltf_encode(const gltf_accessor *accessor, int component, const unsigne
         const double old = ffd_gltf_read_number(at, accessor->component, accessor->normalized);
         const float wanted = c < 3 ? values[c] : (float)old;
         if (component == GLTF_FLOAT)
-            put_float(wanted, element + 4 * c);
+            store_float(element + 4 * c, wanted);
         else if (wanted < (float)old || wanted > (float)old)
             put_integer(integer_of(accessor, wanted), size, element + c * size);
     }

@@ -29,14 +29,6 @@ uint32_t ffd_gltf_read_index(const unsigned char *at, int component)
     return load_u32(at);
 }
 
-static double read_float(const unsigned char *at)
-{
-    const uint32_t bits = load_u32(at);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 /* Normalized integers are decoded as in glTF 2.0, 3.11. */
 double ffd_gltf_read_number(const unsigned char *at, int component, bool normalized)
 {
@@ -61,7 +53,7 @@ double ffd_gltf_read_number(const unsigned char *at, int component, bool normali
     case GLTF_U32:
         return load_u32(at);
     default:
-        return read_float(at);
+        return load_float(at);
     }
     if (!normalized)
         return value;
@@ -173,9 +165,9 @@ static void read_vectors(const unsigned char *at, size_t stride, size_t count, d
         return;
     }
     for (size_t i = 0; i < count; i++, at += stride, xyz += 3) {
-        xyz[0] = read_float(at);
-        xyz[1] = read_float(at + 4);
-        xyz[2] = read_float(at + 8);
+        xyz[0] = load_float(at);
+        xyz[1] = load_float(at + 4);
+        xyz[2] = load_float(at + 8);
     }
 }
 
@@ -191,7 +183,7 @@ void ffd_gltf_read(const gltf_document *d, size_t a, size_t first, size_t count,
     } else if (accessor->component == GLTF_FLOAT) {
         for (size_t i = 0; i < count; i++)
             for (size_t c = 0; c < components; c++)
-                values[i * components + c] = read_float(layout->data + (first + i) * layout->stride + 4 * c);
+                values[i * components + c] = load_float(layout->data + (first + i) * layout->stride + 4 * c);
     } else {
         for (size_t i = 0; i < count; i++)
             read_element(accessor, layout->data + (first + i) * layout->stride, components,

@@ -14,6 +14,13 @@
 #define GLB_CHUNK_JSON 0x4e4f534au
 #define GLB_CHUNK_BIN 0x004e4942u
 
+/* Returns size rounded up to a multiple of 4: chunks, columns of matrices and vertex attributes are aligned
+   so (glTF 2.0, 3.6.2.4 and 4.4.3.1). */
+static inline size_t ffd_gltf_align(size_t size)
+{
+    return (size + 3) / 4 * 4;
+}
+
 /* Offsets of the chunks; sizes are without headers, as the headers state them. */
 typedef struct glb_layout {
     size_t json_begin, json_size;

@@ -4,7 +4,7 @@
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Logs what was left alone, copied or stored in another way. Comes when all edits are made. */
+/* Logs what was left alone, copied or stored in another way. To be called after all edits are made. */
 void ffd_gltf_announce(const gltf_saver *saver);
 
 #endif

@@ -134,11 +134,6 @@ static void list_overwrites(gltf_saver *saver)
     }
 }
 
-static size_t padded(size_t size)
-{
-    return (size + 3) / 4 * 4;
-}
-
 static size_t element_size(const gltf_document *d, const gltf_version *version)
 {
     return (size_t)d->model.accessors[version->accessor].rows * ffd_gltf_component_size(version->component);
@@ -147,7 +142,7 @@ static size_t element_size(const gltf_document *d, const gltf_version *version)
 static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append append, ffd_error *error)
 {
     gltf_new_buffer *buffer = &saver->buffers[b];
-    append.offset = padded(buffer->length);
+    append.offset = ffd_gltf_align(buffer->length);
     if (append.size > LARGEST_BUFFER || append.offset > LARGEST_BUFFER - append.size)
         return ffd_fail_file(error, FFD_E_LIMIT, saver->options->path,
                              "a buffer would have more than 2^53 bytes");
@@ -176,7 +171,7 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
     for (size_t i = 0; i < saver->plan.appended_count && status == FFD_OK; i++) {
         const size_t number = saver->plan.appended[i];
         const gltf_version *version = &saver->plan.versions[number];
-        const size_t stride = padded(element_size(d, version));
+        const size_t stride = ffd_gltf_align(element_size(d, version));
         const size_t size = (size_t)d->model.accessors[version->accessor].count * stride;
         const gltf_append append = {.size = size, .stride = stride, .version = number};
         status = add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error);
@@ -226,11 +221,8 @@ static void copy_common(const unsigned char *from, size_t at, size_t size, size_
 
 static void put_vectors(const float *xyz, size_t count, unsigned char *bytes)
 {
-    for (size_t c = 0; c < 3 * count; c++) {
-        uint32_t bits;
-        memcpy(&bits, xyz + c, sizeof bits);
-        store_u32(bytes + 4 * c, bits);
-    }
+    for (size_t c = 0; c < 3 * count; c++)
+        store_float(bytes + 4 * c, xyz[c]);
 }
 
 static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwrite, size_t offset,

@@ -12,7 +12,7 @@ void ffd_gltf_add_elements(gltf_saver *saver, const gltf_values *list, const cha
 /* Adds the buffer that the saver adds, if there is one, to "buffers". */
 void ffd_gltf_add_buffer(gltf_saver *saver);
 
-/* Inserts a text behind the last member of an array or object, with a comma where it is needed. Can be
+/* Inserts a text after the last member of an array or object, with a comma where it is needed. Can be
    called once for each. */
 void ffd_gltf_insert_last(gltf_saver *saver, uint32_t container, const byte_buffer *text);
 

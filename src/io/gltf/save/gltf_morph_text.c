@@ -175,7 +175,7 @@ static bool extends_bin(const gltf_document *d)
 /* Returns where the BIN chunk's old bytes end and new ones begin. */
 static size_t bin_end(const gltf_document *d)
 {
-    return (d->buffers[0].length + 3) / 4 * 4;
+    return ffd_gltf_align(d->buffers[0].length);
 }
 
 static void write_buffer(morph_writer *w, byte_buffer *text)
@@ -245,7 +245,7 @@ static void write_glb(const morph_writer *w, byte_buffer *json, byte_buffer *out
     ffd_buffer_append(out, json->data, json->size);
     if (d->glb.has_bin) {
         const size_t kept = grows ? d->buffers[0].length : d->glb.bin_size;
-        put_u32(out, grows ? (bin_end(d) + w->data.bytes.size + 3) / 4 * 4 : kept);
+        put_u32(out, grows ? ffd_gltf_align(bin_end(d) + w->data.bytes.size) : kept);
         put_u32(out, GLB_CHUNK_BIN);
         ffd_buffer_append(out, d->input.data + d->glb.bin_begin, kept);
         if (grows) {

@@ -99,9 +99,7 @@ static void find_drivers(const gltf_saver *saver, const bool *meshes, animation 
 static void put_float(float value, byte_buffer *out)
 {
     unsigned char bytes[4];
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    store_u32(bytes, bits);
+    store_float(bytes, value);
     ffd_buffer_append(out, bytes, sizeof bytes);
 }
 

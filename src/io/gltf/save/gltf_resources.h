@@ -5,7 +5,7 @@
 #include "io/gltf/save/gltf_saver.h"
 
 /* Copies the images beside the output, or edits their URIs. Refuses an image that has the name of a
-   file of the model itself. Begins and writes files of saver->output; comes after
+   file of the model itself. Begins and writes files of saver->output; to be called after
    ffd_gltf_name_buffers. Errors: FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
 

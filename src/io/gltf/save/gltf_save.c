@@ -88,11 +88,6 @@ static size_t json_end(const gltf_saver *saver)
     return value_end;
 }
 
-static size_t padded(size_t size)
-{
-    return (size + 3) / 4 * 4;
-}
-
 static ffd_status put_chunk_header(const gltf_saver *saver, size_t size, uint32_t type, ffd_error *error)
 {
     unsigned char header[GLB_CHUNK_HEADER_SIZE];
@@ -113,11 +108,11 @@ static glb_sizes measure_glb(const gltf_saver *saver)
     const gltf_document *d = saver->document;
     glb_sizes sizes = {.json_end = json_end(saver), .rest = d->glb.end - d->glb.rest_begin};
     sizes.json = json_size(saver, sizes.json_end);
-    sizes.json_chunk = d->binary && sizes.json == d->tree.size ? sizes.json : padded(sizes.json);
+    sizes.json_chunk = d->binary && sizes.json == d->tree.size ? sizes.json : ffd_gltf_align(sizes.json);
     sizes.own_bin = saver->buffer_count > 0 && saver->buffers[0].kind == BUFFER_BIN;
     sizes.has_bin = sizes.own_bin || d->glb.has_bin;
     sizes.bin = sizes.own_bin ? ffd_gltf_content_size(saver, 0) : d->glb.bin_size;
-    sizes.bin_chunk = d->binary && sizes.bin == d->glb.bin_size ? sizes.bin : padded(sizes.bin);
+    sizes.bin_chunk = d->binary && sizes.bin == d->glb.bin_size ? sizes.bin : ffd_gltf_align(sizes.bin);
     sizes.total = GLB_HEADER_SIZE + GLB_CHUNK_HEADER_SIZE + sizes.json_chunk + sizes.rest +
                   (sizes.has_bin ? GLB_CHUNK_HEADER_SIZE + sizes.bin_chunk : 0);
     return sizes;

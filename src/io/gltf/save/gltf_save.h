@@ -4,7 +4,7 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Saves the results of a document where they belong, as mesh_format's save says. */
+/* Saves a document with its results in place of its deformed attributes; else as mesh_format's save. */
 mesh_save_function ffd_gltf_save_results;
 
 #endif

@@ -23,9 +23,13 @@ void ffd_gltf_edit_unpackings(gltf_saver *saver);
 /* Appends the bufferViews of unpacked accessors to a list's text. */
 void ffd_gltf_write_unpacked_views(const gltf_saver *saver, byte_buffer *text);
 
-/* Whether something was unpacked and nothing in the output has this compression any more. */
+/* Whether primitives were unpacked and none in the output has Draco compression any more. */
 bool ffd_gltf_lost_draco(gltf_saver *saver);
+
+/* Whether views were unpacked and nothing in the output has EXT_meshopt_compression any more. */
 bool ffd_gltf_lost_ext_meshopt(gltf_saver *saver);
+
+/* Whether views were unpacked and nothing in the output has KHR_meshopt_compression any more. */
 bool ffd_gltf_lost_khr_meshopt(gltf_saver *saver);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Finds these nodes and deselects what they show; comes after ffd_gltf_make_parts. Errors: FFD_E_INVALID,
+/* Finds these nodes and deselects their parts; to be called after ffd_gltf_make_parts. Errors: FFD_E_INVALID,
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_find_instanced_nodes(gltf_document *document, ffd_error *error);
 

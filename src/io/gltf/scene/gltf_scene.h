@@ -1,4 +1,4 @@
-/* gltf_scene.h - which nodes the scene shows, and their matrices. */
+/* gltf_scene.h - which nodes are in the displayed scene, and their matrices. */
 #ifndef FFD_IO_GLTF_SCENE_GLTF_SCENE_H
 #define FFD_IO_GLTF_SCENE_GLTF_SCENE_H
 

@@ -4,7 +4,7 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Makes document->shapes and targets; comes after ffd_gltf_make_parts. Errors: FFD_E_LIMIT,
+/* Makes document->shapes and targets; to be called after ffd_gltf_make_parts. Errors: FFD_E_LIMIT,
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_shapes(gltf_document *document, ffd_error *error);
 

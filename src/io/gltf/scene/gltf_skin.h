@@ -7,7 +7,7 @@
 /* Reads document->skins, without their matrices. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
 
-/* Computes the joint matrices of the skins that shown nodes have, and checks the joints and weights of
+/* Computes the joint matrices of the skins that nodes of the scene have, and checks the joints and weights of
    their meshes. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_prepare_skins(gltf_document *document, ffd_error *error);
 
