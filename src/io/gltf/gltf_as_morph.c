@@ -24,7 +24,7 @@ ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_err
 
 static bool is_moved(const gltf_document *d, size_t part, size_t semantic)
 {
-    const float *result = part == GLTF_NONE ? NULL : d->parts[part].streams[semantic].result;
+    const float *result = d->parts[part].streams[semantic].result;
     for (size_t i = 0; result && i < 3 * d->mesh_parts[part].vertex_count; i++)
         if (result[i] < 0 || result[i] > 0)
             return true;

@@ -270,7 +270,7 @@ static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
 {
     const gltf_document *d = e->document;
     const gltf_mesh_uses *uses = uses_of(e, m);
-    const gltf_instance *instance = &d->instances[uses->first_instance + p * uses->node_count + n];
+    const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
     const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
     const size_t texcoords = find_texcoords(d, m, p);
     if (part == GLTF_NONE)

@@ -5,9 +5,8 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Elements that are zeros need no bytes in the file: without a limit, a few characters could ask for any
-   amount of memory. */
-/* What an element without bytes counts in the memory budget. */
+/* What an element without bytes counts in the memory budget: without a limit, a few characters of the file
+   could ask for any amount of zeros. */
 #define ZERO_BYTES 4
 
 /* Fails at a member of a value, or at the value if the member is absent. */

@@ -174,6 +174,13 @@ static inline size_t ffd_gltf_part_count(const gltf_document *document)
     return document->base.part_count + document->shape_count;
 }
 
+/* Returns the instances of a primitive of a mesh, one for each use of the mesh. */
+static inline gltf_instance *ffd_gltf_instances(const gltf_document *document, size_t mesh, size_t primitive)
+{
+    const gltf_mesh_uses *uses = &document->mesh_uses[mesh];
+    return document->instances + uses->first_instance + primitive * uses->node_count;
+}
+
 /* Returns the JSON value of a primitive of a mesh. */
 uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
 

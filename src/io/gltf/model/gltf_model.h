@@ -63,7 +63,7 @@ typedef struct gltf_primitive {
     size_t attribute_count;
     gltf_attribute *targets; /* the attributes of all morph targets */
     size_t target_attribute_count, target_count;
-    int *target_accessors;      /* GLTF_DEFORMED a target */
+    int *target_accessors;      /* GLTF_DEFORMED per target */
     gltf_influence *influences; /* n from 0 until neither is there */
     size_t influence_count;
     int indices, mode;

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define EMPTY_HASH 0xcbf29ce484222325u
+
 /* A part's attribute whose content changed. */
 typedef struct candidate {
     size_t accessor, order;
@@ -27,15 +29,20 @@ static bool is_changed(const gltf_document *d, size_t part, const gltf_stream *s
     return false;
 }
 
-/* FNV-1a over 32-bit words. */
+/* Adds a word to a hash like FNV-1a. */
+static uint64_t mix(uint64_t hash, uint64_t word)
+{
+    hash = (hash ^ word) * 0x100000001b3u;
+    return hash ^ hash >> 29;
+}
+
 static uint64_t hash_words(const float *values, size_t count)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
+    uint64_t hash = EMPTY_HASH;
     for (size_t i = 0; i < count; i++) {
         uint32_t bits;
         memcpy(&bits, values + i, sizeof bits);
-        hash = (hash ^ bits) * 0x100000001b3u;
-        hash ^= hash >> 29;
+        hash = mix(hash, bits);
     }
     return hash;
 }
@@ -154,12 +161,10 @@ typedef struct variant {
 
 static uint64_t hash_mesh(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t use)
 {
-    uint64_t hash = 0xcbf29ce484222325u;
+    uint64_t hash = EMPTY_HASH;
     for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
-        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++) {
-            hash = (hash ^ ffd_gltf_version_at(d, plan, mesh, p, s, use)) * 0x100000001b3u;
-            hash ^= hash >> 29;
-        }
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++)
+            hash = mix(hash, ffd_gltf_version_at(d, plan, mesh, p, s, use));
     return hash;
 }
 

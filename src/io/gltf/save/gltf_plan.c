@@ -6,8 +6,7 @@ size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t
 {
     if (use == GLTF_NONE)
         return GLTF_NONE;
-    const gltf_mesh_uses *uses = &d->mesh_uses[mesh];
-    const gltf_instance *instance = &d->instances[uses->first_instance + p * uses->node_count + use];
+    const gltf_instance *instance = &ffd_gltf_instances(d, mesh, p)[use];
     if (!instance->selected)
         return GLTF_NONE;
     const size_t part = slot < GLTF_DEFORMED ? instance->part[slot]

@@ -28,7 +28,7 @@ typedef struct gltf_node_change {
 typedef struct gltf_plan {
     gltf_version *versions;
     size_t version_count;
-    size_t *part_versions; /* GLTF_DEFORMED a part, shapes too */
+    size_t *part_versions; /* GLTF_DEFORMED per part, shapes too */
     size_t
         *base_uses; /* per mesh: the use whose content the original mesh gets; GLTF_NONE: its old content */
     gltf_mesh_copy *copies;

@@ -166,7 +166,7 @@ static ffd_status add_primitive(const gltf_document *d, size_t m, size_t p, cons
     size_t count;
     const ffd_status status = ffd_gltf_read_corners(d, m, p, &corners, &count, error);
     for (size_t n = 0; n < uses->node_count && status == FFD_OK; n++) {
-        const gltf_instance *instance = &d->instances[uses->first_instance + p * uses->node_count + n];
+        const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
         for (size_t t = 0; t < counted.triangles; t++) {
             uint32_t *triangle = to + 3 * (*added)++;
             ffd_gltf_triangle(primitive->mode, t, corners, triangle);
@@ -261,7 +261,7 @@ ffd_status ffd_gltf_corner_normals(const mesh_document *document, const mesh_fac
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
             const size_t count = 3 * count_drawing(d, &d->model.meshes[m].primitives[p]).triangles;
             const gltf_mesh_uses *uses = &d->mesh_uses[m];
-            const gltf_instance *instances = d->instances + uses->first_instance + p * uses->node_count;
+            const gltf_instance *instances = ffd_gltf_instances(d, m, p);
             for (size_t n = 0; n < uses->node_count && count > 0; n++, corner += count)
                 number_corners(&instances[n], first_vertices, first_normals, faces->corners + corner, count,
                                normals + corner);

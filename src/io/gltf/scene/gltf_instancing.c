@@ -148,15 +148,16 @@ static ffd_status describe_instanced_node(survey *s, size_t node, gltf_instanced
 /* Deselects what the node uses, so that its vertices stay. */
 static void skip_node(gltf_document *d, size_t node)
 {
-    gltf_mesh_uses *uses = &d->mesh_uses[d->model.nodes[node].mesh];
+    const size_t mesh = (size_t)d->model.nodes[node].mesh;
+    gltf_mesh_uses *uses = &d->mesh_uses[mesh];
     size_t low = 0, high = uses->node_count;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
         *(uses->nodes[middle] <= node ? &low : &high) = middle;
     }
     uses->used_outside_scene = true; /* the node keeps its mesh */
-    for (size_t p = 0; p < d->model.meshes[d->model.nodes[node].mesh].primitive_count; p++)
-        d->instances[uses->first_instance + p * uses->node_count + low].selected = false;
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        ffd_gltf_instances(d, mesh, p)[low].selected = false;
 }
 
 static bool is_instanced(const gltf_document *d, size_t node)

@@ -143,7 +143,7 @@ static ffd_status select_primitive(const selecting *s, size_t m, size_t p, ffd_e
 {
     gltf_document *d = s->document;
     const gltf_mesh_uses *uses = &d->mesh_uses[m];
-    gltf_instance *instances = d->instances + uses->first_instance + p * uses->node_count;
+    gltf_instance *instances = ffd_gltf_instances(d, m, p);
     const bool everywhere = s->meshes[m] || has_material(s, m, p);
     bool any = false;
     for (size_t n = 0; n < uses->node_count; n++) {
