@@ -4,13 +4,15 @@ of the checks is there for, and that check has to say so.
 
     test_blind.py FFD"""
 
+import dataclasses
 import os
 import re
+import shutil
 import struct
 import sys
 import tempfile
 
-from test_corpus import Corpus, requirements
+from test_corpus import Corpus, Row, requirements
 
 # Positions, texture coordinates, normals, indices at 0, 288, 480, 768 of the .bin.
 CUBES = "gltf/draco/two_objects_inverse_materials.gltf"
@@ -92,31 +94,43 @@ CASES = {
 }
 
 
-class Damaged(Corpus):
-    """Lets one check have what the program did not write."""
+class Outputs:
+    """What the program makes of a model in scene space, by the lattices of the cases, and what the checks find in it."""
 
-    def judge_case(self, model, lattice, damage):
-        self.lattices = () if lattice == "still" else (lattice,)
-        self.damage = (lattice, damage)
-        return self.model(model)
+    def __init__(self, corpus, model):
+        self.corpus, self.model = corpus, model
+        self.jobs = {job.lattice: job for job in corpus.jobs(Row(model), "scene")}
+        for job in self.jobs.values():
+            corpus.run(job)
+            shutil.copytree(os.path.dirname(job.target), self.sound(job))
 
-    def run(self, model, space, lattice, target):
-        done = super().run(model, space, lattice, target)
-        if done[0] == 0 and self.damage[0] == lattice:
-            self.damage[1](target)
-        return done
+    @staticmethod
+    def sound(job):
+        return os.path.dirname(job.target) + ".sound"
+
+    def findings(self, lattice, damage):
+        """The row of the model where this has been done to one output of the program."""
+        job = dataclasses.replace(self.jobs[lattice], row=Row(self.model))
+        folder = os.path.dirname(job.target)
+        shutil.rmtree(folder)
+        shutil.copytree(self.sound(job), folder)
+        damage(job.target)
+        self.corpus.look(job)
+        self.corpus.settle()
+        return job.row
 
 
 def main():
     root, node_folder = requirements()
     blind = []
     with tempfile.TemporaryDirectory() as folder:
-        corpus = Damaged(sys.argv[1], root, folder, (), node_folder)
-        for model in sorted({case[0] for case in CASES.values()}):
-            sound = corpus.judge_case(model, "twist", lambda path: None)
+        corpus = Corpus(sys.argv[1], root, folder, ("twist", "part"), node_folder)
+        outputs = {model: Outputs(corpus, model) for model in {case[0] for case in CASES.values()}}
+        for model, lattice in sorted({case[:2] for case in CASES.values()}):
+            sound = outputs[model].findings(lattice, lambda path: None)
             blind += [f"{model}, undamaged: {line}" for line in sound.failures()]
         for name, (model, lattice, damage, check) in CASES.items():
-            row = corpus.judge_case(model, lattice, damage)
+            row = outputs[model].findings(lattice, damage)
             if not row.wrong[check]:
                 blind.append(f"{name}: '{check}' does not see it; others: {row.failures()}")
         corpus.close()
