@@ -28,7 +28,8 @@ import text_change
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.dirname(HERE))
-import validate  # noqa: E402 (a neighbour of this folder)
+import validate  # noqa: E402 (neighbours of this folder)
+from jobs import SECONDS, deform_all  # noqa: E402
 
 GLTF = (".gltf", ".glb")
 ENDINGS = (*GLTF, ".obj", ".ply", ".off", ".stl")
@@ -36,7 +37,6 @@ PACKAGES = ("@gltf-transform/core", "@gltf-transform/extensions", "draco3dgltf",
 CHECKS = ("same", "only", "values", "valid", "equal")
 UNMOVING = ("still", "beside")
 LATTICES = ("twist", "bend", "part", "shared")
-SECONDS = 120
 SHOWN = 3
 
 
@@ -222,22 +222,11 @@ class Corpus:
         self.ran(job, done.returncode, done.stderr.strip())
 
     def run_batch(self, jobs):
-        if not jobs:
-            return
-        manifest, report = (os.path.join(self.folder, name) for name in ("jobs.jsonl", "report.json"))
-        with open(manifest, "w", encoding="utf-8") as file:
-            for job in jobs:
-                file.write(json.dumps({"in": self.source(job.row.model), "out": job.target, "lattice": job.lattice_file,
-                                       "options": {"space": job.space}}) + "\n")
-        command = [self.ffd, "batch", manifest, "--quiet", "--timeout", str(SECONDS), "--report", report]
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=SECONDS * len(jobs),
-                              env=dict(os.environ, XDG_CACHE_HOME=self.folder))
-        with open(report, encoding="utf-8") as file:
-            entries = json.load(file)["jobs"]
-        if [entry["output"] for entry in entries] != [job.target for job in jobs]:
-            sys.exit(f"ffd batch ended with {done.returncode}; its report names other jobs than the manifest: {done.stderr}")
-        for job, entry in zip(jobs, entries):
-            self.ran(job, entry["exit"], entry["error"] or "")
+        ended = deform_all(self.ffd, self.folder, [
+            {"in": self.source(job.row.model), "out": job.target, "lattice": job.lattice_file,
+             "options": {"space": job.space}} for job in jobs])
+        for job, (code, message) in zip(jobs, ended):
+            self.ran(job, code, message)
 
     def ran(self, job, code, message):
         job.code, job.message = code, message.replace(self.source(job.row.model), job.row.model)

@@ -177,8 +177,11 @@ class Obj(Shape):
     def __init__(self, data, like=None):
         super().__init__(DOUBLE)
         self.whole = ObjText(data.decode("latin-1"))
-        numbers = like is not None and self.whole.same_but_numbers(like.whole)
-        self.as_before = numbers or (like is not None and self.whole.has_more_normals(like.whole) and
+        # All coordinates must be in plain lines.
+        plain = like is not None and self.whole.cut.kinds.count("v") == len(like.positions)
+        numbers = plain and self.whole.same_but_numbers(like.whole) and \
+            self.whole.cut.kinds.count("vn") == len(like.normals)
+        self.as_before = numbers or (plain and self.whole.has_more_normals(like.whole) and
                                      len(self.whole.face_words) == len(like.named))
         if self.as_before:
             self.read_numbers()
