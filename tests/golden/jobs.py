@@ -8,7 +8,7 @@ import sys
 SECONDS = 120
 
 
-def deform_all(ffd, folder, jobs):
+def deform_all(ffd, folder, jobs, *options):
     """Does jobs, as members of a manifest's line, and tells of each, in their order: exit code and message. Files of its
     own go into the folder."""
     if not jobs:
@@ -17,7 +17,7 @@ def deform_all(ffd, folder, jobs):
     with open(manifest, "w", encoding="utf-8") as file:
         file.writelines(json.dumps(job) + "\n" for job in jobs)
     done = subprocess.run([ffd, "batch", manifest, "--quiet", "--timeout", str(SECONDS), "--report", report, "--journal",
-                           os.path.join(folder, "journal")], capture_output=True, text=True, check=False,
+                           os.path.join(folder, "journal"), *options], capture_output=True, text=True, check=False,
                           timeout=SECONDS * len(jobs))
     if done.returncode not in (0, 1):
         sys.exit(f"ffd batch ended with {done.returncode}: {done.stderr}")
