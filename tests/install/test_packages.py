@@ -84,8 +84,9 @@ def readme_build(source, environment, findings):
     # A machine with cmocka builds the tests too; they are what this is a part of.
     stage.run(["meson", "configure", "build", "-Dtests=disabled"], cwd=source, env=environment)
     stage.run("".join(others), cwd=source, env=environment)
-    ffd, pc, library = (next(os.path.join(path, name) for path, _, names in os.walk(root) if name in names)
-                        for name in ("ffd", "ffd.pc", "libffd.so"))
+    ffd, pc, library = (next(os.path.join(path, os.path.basename(name)) for path, _, names in os.walk(root)
+                             if os.path.basename(name) in names and path.endswith(os.path.dirname(name)))
+                        for name in ("bin/ffd", "ffd.pc", "libffd.so"))
     environment = dict(os.environ, PKG_CONFIG_PATH=os.path.dirname(pc), PKG_CONFIG_SYSROOT_DIR=root,
                        LD_LIBRARY_PATH=os.path.dirname(library))
     version = stage.run([ffd, "--version"], env=environment).strip()
