@@ -18,6 +18,7 @@ from test_corpus import Corpus, Row, requirements
 CUBES = "gltf/draco/two_objects_inverse_materials.gltf"
 SPHERE = "gltf/draco/sphere_lights.gltf"  # tangents at 8064
 BEVEL = "obj/ufbx/max7_cube_normals.obj"
+SPLIT = "obj/ufbx/blender_279_default.obj"  # normals shared by corners: some are added
 PLY = "other/draco/cube_att.ply"
 OFF = "other/assimp/OFF/Cube.off"
 STL = "other/pmp/stl/icosahedron_binary.stl"
@@ -84,6 +85,12 @@ CASES = {
     "a face of an OBJ": (BEVEL, "twist", text(rb"\nf +(\d+)", rb"\nf \g<1>0"), "only"),
     "a group of an OBJ": (BEVEL, "twist", text(rb"\ng ", b"\ng x"), "only"),
     "a longer number": (BEVEL, "twist", text(rb"(\nv +\S+\.\d+)", rb"\g<1>00000000000000001"), "only"),
+    "a normal of a face that was split": (SPLIT, "twist", text(rb"//\d\d", b"//1"), "values"),
+    "a vertex of a face that was split": (SPLIT, "twist", text(rb"\nf 5//", b"\nf 1//"), "only"),
+    "a lost normal": (SPLIT, "twist", text(rb"\nvn [^\n]*\nvn", b"\nvn"), "values"),
+    "a coordinate of an OBJ with more normals": (SPLIT, "twist", text(rb"\nv +(-?)\d", rb"\nv \g<1>9"), "values"),
+    "a longer number beside more normals": (SPLIT, "twist", text(rb"(\nv +\S+\.\d+)", rb"\g<1>00000000000000001"), "only"),
+    "a group of an OBJ with more normals": (SPLIT, "twist", text(rb"\ng ", b"\ng x"), "only"),
     "a line end": (BEVEL, "still", text(rb"\r?\n", b"\r"), "same"),
     "a texture coordinate of a PLY": (PLY, "twist", text(rb"\n3 0", b"\n3 1"), "only"),
     "a number of a PLY": (PLY, "twist", text(rb"(end_header\r?\n\S+ +-?0\.)\d", rb"\g<1>9"), "values"),
