@@ -70,6 +70,8 @@ def compiler_environment(source):
     # -O3 stands in all flags, at the end: that a build type brings another makes no difference.
     environment.update(CCACHE_BASEDIR=source, CCACHE_IGNOREOPTIONS="-O3", CCACHE_NOHASHDIR="1")
     environment.setdefault("CCACHE_DIR", os.path.join(os.path.dirname(source), "ccache"))
+    # No one is going to debug what is built here.
+    environment.update(DEB_CFLAGS_STRIP="-g", DEB_CXXFLAGS_STRIP="-g")
     flags = stage.run(["dpkg-buildflags"], cwd=source, env={**environment, **options})
     return environment, dict(line.split("=", 1) for line in flags.splitlines())
 
@@ -156,7 +158,7 @@ def run_in_clean_root(folder, packages):
     with open(os.path.join(given, "check.sh"), "w", encoding="ascii") as file:
         file.write(CHECK)
     release = re.search(r"^VERSION_CODENAME=(\w+)$", open("/etc/os-release", encoding="utf-8").read(), re.M)[1]
-    stage.run(["mmdebstrap", "--variant=apt", "--format=null", *proxies(),
+    stage.run(["mmdebstrap", "--variant=apt", "--format=null", "--dpkgopt=force-unsafe-io", *proxies(),
                f"--customize-hook=copy-in {given} /",
                "--customize-hook=chroot \"$1\" sh /check/check.sh",
                f"--customize-hook=sync-out /check {result}",

@@ -131,7 +131,7 @@ def main():
     root, node_folder = requirements()
     blind = []
     with tempfile.TemporaryDirectory() as folder:
-        corpus = Corpus(sys.argv[1], root, folder, ("twist", "part"), node_folder)
+        corpus = Corpus(sys.argv[1], root, folder, {"scene": ("twist", "part")}, node_folder)
         outputs = {model: Outputs(corpus, model) for model in {case[0] for case in CASES.values()}}
         for model, lattice in sorted({case[:2] for case in CASES.values()}):
             sound = outputs[model].findings(lattice, lambda path: None)
