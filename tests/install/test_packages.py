@@ -67,8 +67,10 @@ def compiler_environment(source):
     options = dict(re.findall(r"^export (DEB_\w+) = (.*)$", stage.read("data/packaging/debian/rules"), re.M))
     environment = {name: value for name, value in os.environ.items()
                    if name not in ("CFLAGS", "CXXFLAGS", "LDFLAGS", "DESTDIR")}
-    # -O3 stands in all flags, at the end: that a build type brings another makes no difference.
-    environment.update(CCACHE_BASEDIR=source, CCACHE_IGNOREOPTIONS="-O3", CCACHE_NOHASHDIR="1")
+    # -O3 stands in all flags, at the end: that a build type brings another makes no difference. Nor does it that
+    # debhelper has a locale of its own.
+    environment.update(CCACHE_BASEDIR=source, CCACHE_IGNOREOPTIONS="-O3", CCACHE_NOHASHDIR="1",
+                       CCACHE_SLOPPINESS=",".join(filter(None, [environment.get("CCACHE_SLOPPINESS"), "locale"])))
     environment.setdefault("CCACHE_DIR", os.path.join(os.path.dirname(source), "ccache"))
     # No one is going to debug what is built here.
     environment.update(DEB_CFLAGS_STRIP="-g", DEB_CXXFLAGS_STRIP="-g")
