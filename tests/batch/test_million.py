@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
-"""A batch of a million jobs takes no more memory than one of a thousand: a dry run of them all from a pipe, and a
-real run of some with the report and the journal.
+"""A batch of very many jobs takes no more memory than one of some, and no more time for each: a dry run of them all
+from a pipe, and a real run of some with the report and the journal.
 
-    test_million.py FFD"""
+    test_million.py FFD [JOBS REAL-JOBS]       default: as few as show a leak of four bytes a job, or a time for each
+                                               that grows by half a nanosecond with each job before it"""
 
+import concurrent.futures
 import json
 import os
 import re
+import resource
 import subprocess
 import sys
 import tempfile
@@ -18,15 +21,22 @@ os.environ["FFD"] = FFD
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from harness import CUBE, check, equal, lattice  # noqa: E402
 
-MILLION, THOUSAND, SOME = 1000000, 1000, 20000
+FEW, FEW_REAL = 5000, 500
+MANY, REAL = map(int, sys.argv[2:4]) if len(sys.argv) > 2 else (150000, 6000)
 SECONDS = 800
-MORE = 1e6  # that the larger batch may take
+# Bytes that the larger batch may take more: what one run takes more than the next is no more than 0.2 MB. A real job
+# may leave 50 bytes of a part of its path.
+MORE, MORE_REAL = 5e5, 3e5
 
 
 def feed(pipe, jobs):
     with pipe:
         for i in range(jobs):
-            pipe.write(b'{"in": "a.obj", "lattice": "l.json", "out": "out/%d.obj"}\n' % i)
+            pipe.write(line(i))
+
+
+def line(i):
+    return b'{"in": "a.obj", "lattice": "l.json", "out": "out/%d.obj"}\n' % i
 
 
 def peak_of(pid):
@@ -56,8 +66,9 @@ def check_lines(said, jobs, seconds):
 
 
 def run(folder, jobs, *arguments, count=None):
-    """Runs a batch, and returns the peaks of its first process and of the largest of its workers."""
-    begun = time.monotonic()
+    """Runs a batch, and returns the peaks of its first process and of the largest of its workers, and the seconds of
+    the processor that it took."""
+    begun, used = time.monotonic(), resource.getrusage(resource.RUSAGE_CHILDREN)
     said = open(os.path.join(folder, "..", os.path.basename(folder) + ".said"), "w+b")
     process = subprocess.Popen([FFD, "batch", "-", "-j", "2", *arguments], cwd=folder, stdin=subprocess.PIPE,
                                stdout=subprocess.PIPE, stderr=said, env={**os.environ, "XDG_CACHE_HOME": os.path.join(folder, "cache")})
@@ -86,12 +97,35 @@ def run(folder, jobs, *arguments, count=None):
     os.remove(said.name)
     if count is not None:
         equal(lines[0], count, "lines of the dry run")
-    return most, largest
+    now = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return most, largest, now.ru_utime + now.ru_stime - used.ru_utime - used.ru_stime
 
 
-def compare(what, few, many):
-    print(f"{what}: {few[0] / 1e6:.1f} and {many[0] / 1e6:.1f} MB; workers {few[1] / 1e6:.1f} and {many[1] / 1e6:.1f} MB", flush=True)
-    check(few[0] > 0 and many[0] < few[0] + MORE and many[1] < few[1] + 4 * MORE, f"{what}: more jobs take more memory")
+def compare(what, few, many, more):
+    print(f"{what}: {few[0] / 1e6:.2f} and {many[0] / 1e6:.2f} MB; workers {few[1] / 1e6:.2f} and {many[1] / 1e6:.2f} MB", flush=True)
+    check(few[0] > 0 and many[0] < few[0] + more and many[1] < few[1] + more, f"{what}: more jobs take more memory")
+
+
+def lines_come(folder):
+    """Of a batch whose jobs come slowly: where standard error is no terminal, a line after ten seconds."""
+    begun = time.monotonic()
+    path = os.path.join(folder, "..", "slow.said")
+    with open(path, "w+b") as said, subprocess.Popen(
+            [FFD, "batch", "-", "-j", "1", "--dry-run", "--force"], cwd=folder, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL,
+            stderr=said, bufsize=0, env={**os.environ, "XDG_CACHE_HOME": os.path.join(folder, "cache")}) as process:
+        jobs = 0
+        with process.stdin:
+            while os.path.getsize(path) == 0 and time.monotonic() < begun + 60:
+                process.stdin.write(line(jobs))
+                jobs += 1
+                time.sleep(0.05)
+        equal(process.wait(), 0)
+        seconds = time.monotonic() - begun
+        said.seek(0)
+        content = said.read()
+    os.remove(path)
+    check(content.count(b"\n") >= 2, "no line while it ran, only:", content)
+    check_lines(content, jobs, seconds)
 
 
 def main():
@@ -101,15 +135,21 @@ def main():
         with open(os.path.join(folder, "l.json"), "w", encoding="ascii") as file:
             json.dump(lattice(moves=[{"by": [1, 0, 0]}]), file)
         os.mkdir(os.path.join(folder, "out"))
-        compare("dry runs", run(folder, THOUSAND, "--dry-run", count=THOUSAND), run(folder, MILLION, "--dry-run", count=MILLION))
+        few, many = run(folder, FEW, "--dry-run", count=FEW), run(folder, MANY, "--dry-run", count=MANY)
+        compare("dry runs", few, many, MORE)
+        print(f"microseconds of a job: {few[2] / FEW * 1e6:.1f} and {many[2] / MANY * 1e6:.1f}", flush=True)
+        check(many[2] / MANY < 2 * few[2] / FEW, "each of more jobs takes longer")
         equal(sorted(os.listdir(folder)), ["a.obj", "l.json", "out"], "a dry run wrote")
-        few = run(folder, THOUSAND, "--force", "--report", "r.json")
-        compare("runs", few, run(folder, SOME, "--force", "--report", "r.json"))
-        equal(len(os.listdir(os.path.join(folder, "out"))), SOME)
-        compare("resumed runs", few, run(folder, SOME, "--resume", "--report", "r.json"))
+        with concurrent.futures.ThreadPoolExecutor() as pool:
+            lines = pool.submit(lines_come, folder)
+            few = run(folder, FEW_REAL, "--force", "--report", "r.json")
+            compare("runs", few, run(folder, REAL, "--force", "--report", "r.json"), MORE_REAL)
+            lines.result()
+        equal(len(os.listdir(os.path.join(folder, "out"))), REAL)
+        compare("resumed runs", few, run(folder, REAL, "--resume", "--report", "r.json"), MORE_REAL)
         with open(os.path.join(folder, "r.json"), encoding="utf-8") as file:
-            equal([job["status"] for job in json.load(file)["jobs"]], ["skipped"] * SOME)
-    print("3 cases, 0 failed")
+            equal([job["status"] for job in json.load(file)["jobs"]], ["skipped"] * REAL)
+    print("4 cases, 0 failed")
 
 
 main()

@@ -1,4 +1,5 @@
 """A manifest of many jobs, what they give in one run, and the commands of the README's section on many machines."""
+import functools
 import json
 import os
 import re
@@ -53,12 +54,17 @@ def shell(run, folder, script, environment, code=0):
     check(done.returncode == code, f"{script}\nended with {done.returncode}: {done.stdout}{logs}")
 
 
-def sheet(count, height):
-    """A square of count x count vertices."""
-    rows = [f"v {2 * x / count - 1:.6f} {2 * y / count - 1:.6f} {height:.6f}" for y in range(count) for x in range(count)]
+@functools.cache
+def sheet_at(count):
+    """A square of count x count vertices at the height HEIGHT."""
+    rows = [f"v {2 * x / count - 1:.6f} {2 * y / count - 1:.6f} HEIGHT" for y in range(count) for x in range(count)]
     faces = [f"f {i} {i + 1} {i + count + 1} {i + count}"
              for y in range(count - 1) for i in range(y * count + 1, y * count + count)]
     return "\n".join(rows + faces) + "\n"
+
+
+def sheet(count, height):
+    return sheet_at(count).replace("HEIGHT", f"{height:.6f}")
 
 
 def manifest(run, folder, jobs, size):

@@ -7,7 +7,7 @@ import socket
 import subprocess
 import time
 
-from harness import check
+from harness import FFD, check
 
 NODES = ("node1", "node2")
 SECONDS = 90
@@ -37,10 +37,13 @@ MpiDefault=none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core
 SlurmdParameters=config_overrides
-# A node that does not answer is given up soon, and taken back when it does; its jobs are submitted again by the test.
-SlurmdTimeout=5
+# A node that was given up is taken back when it answers; its jobs are submitted again by the test.
 ReturnToService=2
 JobRequeue=0
+# Nothing waits for company: a job is begun when it comes, and sbatch --wait asks every two seconds. (It asks the less
+# often the longer a job that has ended is remembered.)
+SchedulerParameters=batch_sched_delay=0,sched_min_interval=0,sched_interval=1
+MinJobAge=5
 NodeName=node1 NodeHostname=localhost NodeAddr=127.0.0.1 Port={ports[1]} CPUs=2
 NodeName=node2 NodeHostname=localhost NodeAddr=127.0.0.1 Port={ports[2]} CPUs=2
 PartitionName=all Nodes=ALL Default=YES State=UP
@@ -76,16 +79,17 @@ def process(pid):
 
 
 class Slurm:
-    def __init__(self, folder, tools):
-        """tools: the folder that has ffd."""
+    def __init__(self, folder):
+        """The folder must be within everyone's reach: munge wants that of its socket."""
         self.folder = folder
         self.daemons = {}
-        os.makedirs(folder)
+        os.mkdir(self.path("bin"))
+        os.symlink(FFD, self.path("bin/ffd"))
         for name in ("state", "cache", *(f"spool-{node}" for node in NODES)):
             os.mkdir(self.path(name))
         with open(self.path("slurm.conf"), "w", encoding="ascii") as file:
             file.write(CONFIGURATION.format(folder=folder, ports=free_ports(3), user=pwd.getpwuid(os.geteuid()).pw_name))
-        self.environment = {"PATH": tools + os.pathsep + PATH, "SLURM_CONF": self.path("slurm.conf"), "HOME": folder,
+        self.environment = {"PATH": self.path("bin") + os.pathsep + PATH, "SLURM_CONF": self.path("slurm.conf"), "HOME": folder,
                             "XDG_CACHE_HOME": self.path("cache")}
 
     def path(self, name):
@@ -137,9 +141,13 @@ class Slurm:
         self.start(node, "slurmd", "-D", "-N", node)
         wait_until(lambda: self.ask("sinfo", "-h", "-N", "-n", node, "-o", "%T") in (["idle"], ["mixed"]), f"{node} is up")
 
+    def run(self, *command):
+        """Runs a command of Slurm's."""
+        return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=SECONDS, check=False)
+
     def ask(self, *command):
         """The lines that a command of Slurm's prints; none while nobody answers."""
-        done = subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=SECONDS, check=False)
+        done = self.run(*command)
         return done.stdout.split("\n")[:-1] if done.returncode == 0 else []
 
     def running(self):
@@ -165,6 +173,10 @@ class Slurm:
         while pids := self.processes([node]):
             for pid in pids:
                 kill(pid)
+
+    def give_up(self, node):
+        """Tells the controller that a node is dead, which it would find by itself half a minute later."""
+        self.run("scontrol", "update", f"nodename={node}", "state=down", "reason=killed")
 
 
 def kill(pid):

@@ -4,9 +4,10 @@ node dies amid its jobs and the array is submitted again."""
 import json
 import os
 import subprocess
+import tempfile
 
 from harness import case, check, equal, main
-from many import (check_report, contents, manifest, one_run, readme_commands, readme_folder, shell, tools)
+from many import (check_report, contents, manifest, one_run, readme_commands, readme_folder, shell)
 from slurm import Slurm, wait_until
 
 JOBS, SHARDS = 60, 4
@@ -17,16 +18,13 @@ SECONDS = 120
 ARRAY = readme_commands("slurm").replace("many.jsonl", "jobs.jsonl")
 
 
-def cluster(run):
-    os.chmod(run.path(""), 0o755)  # munge wants its socket to be within everyone's reach
-    return Slurm(run.path("slurm"), tools(run))
+slurm = None  # one for all cases
 
 
 @case
 def the_readme_s_commands(run):
     folder = readme_folder(run, "data")
-    with cluster(run) as slurm:
-        shell(run, folder, readme_commands("slurm"), slurm.environment)
+    shell(run, folder, readme_commands("slurm"), slurm.environment)
     shards = contents(run, "data/many")
     readme_folder(run, "one")
     run.folder_of("one/many")
@@ -40,8 +38,7 @@ def an_array_gives_what_one_run_gives(run):
     manifest(run, "one", JOBS, SMALL)
     manifest(run, "many", JOBS, SMALL)
     entries = one_run(run, "one")
-    with cluster(run) as slurm:
-        shell(run, "many", ARRAY, slurm.environment)
+    shell(run, "many", ARRAY, slurm.environment)
     equal(contents(run, "many/out"), contents(run, "one/out"))
     equal(len(contents(run, "one/out")), JOBS)
     check_report(run, "many/report.json", entries)
@@ -51,7 +48,7 @@ def reports(run):
     return [json.loads(run.read(f"many/report.{shard}.json"))["jobs"] for shard in range(SHARDS)]
 
 
-def kill_amid(run, slurm, node):
+def kill_amid(run, node):
     """Submits the array, and kills the node when one of its shards has done some jobs, not all. Returns the shards that
     it was running."""
     def done(shard):
@@ -67,6 +64,7 @@ def kill_amid(run, slurm, node):
         slurm.kill_node(node)
         lost = [shard for shard in range(SHARDS) if 3 < done(shard) < JOBS // SHARDS and slurm.running().get(shard) == node]
         check(lost, f"the jobs were over before {node} could be killed")
+        slurm.give_up(node)
         submitted.wait(SECONDS)
     check(submitted.returncode != 0, "sbatch --wait has not told of the dead node")
     return lost
@@ -77,11 +75,10 @@ def a_killed_node_is_repaired_by_submitting_again(run):
     manifest(run, "one", JOBS, LARGE)
     manifest(run, "many", JOBS, LARGE)
     entries = one_run(run, "one")
-    with cluster(run) as slurm:
-        lost = kill_amid(run, slurm, "node2")
-        check(contents(run, "many/out") != contents(run, "one/out"), "nothing was lost")
-        slurm.start_node("node2")
-        shell(run, "many", ARRAY, slurm.environment)
+    lost = kill_amid(run, "node2")
+    check(contents(run, "many/out") != contents(run, "one/out"), "nothing was lost")
+    slurm.start_node("node2")
+    shell(run, "many", ARRAY, slurm.environment)
     equal(contents(run, "many/out"), contents(run, "one/out"))
     check_report(run, "many/report.json", entries, ("ok", "skipped"))
     for shard, jobs in enumerate(reports(run)):
@@ -91,4 +88,7 @@ def a_killed_node_is_repaired_by_submitting_again(run):
     check({"skipped"} in [{job["status"] for job in jobs} for jobs in reports(run)], "no shard was left as it was")
 
 
-main()
+with tempfile.TemporaryDirectory(prefix="ffd-test-") as folder:
+    os.chmod(folder, 0o755)
+    with Slurm(os.path.realpath(folder)) as slurm:
+        main()

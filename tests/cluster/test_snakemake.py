@@ -1,12 +1,35 @@
 #!/usr/bin/env python3
 """The Snakefile of data/: every mesh of a folder is deformed, and again those that have changed, no others."""
+import functools
+import json
 import os
 import shutil
+import subprocess
 
 from harness import CUBE, case, check, equal, gltf_json, lattice, main
 from many import SOURCE, contents, environment, readme_commands, readme_folder, shell
 
-COMMAND = "snakemake --snakefile ../Snakefile --cores 2 --nocolor --config meshes=in lattice=l.json out=out"
+ARGUMENTS = ["--snakefile", "../Snakefile", "--cores", "2", "--nocolor", "--config", "meshes=in", "lattice=l.json", "out=out"]
+# Python needs a second to read Snakemake: it is read once, and each run of it is a copy of that process. Answers each
+# line (folder, environment, arguments) with a line (status, what was said).
+SERVER = """
+import json, os, sys, tempfile
+from snakemake import main
+for line in sys.stdin:
+    folder, environment, arguments = json.loads(line)
+    with tempfile.TemporaryFile() as said:
+        pid = os.fork()
+        if pid == 0:
+            os.chdir(folder)
+            os.environ.clear()
+            os.environ.update(environment)
+            for number in (1, 2):
+                os.dup2(said.fileno(), number)
+            main(arguments)  # which exits
+        status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+        said.seek(0)
+        print(json.dumps([status, said.read().decode("utf-8", "replace")]), flush=True)
+"""
 
 
 @case
@@ -29,13 +52,29 @@ def work(run):
     run.write("w/l.json", lattice(moves=[{"by": [1, 0, 0]}]))
 
 
+@functools.cache
+def server():
+    with open(shutil.which("snakemake"), encoding="utf-8") as file:
+        interpreter = file.readline().removeprefix("#!").split()
+    return subprocess.Popen([*interpreter, "-c", SERVER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+def snakemake(run, *more, code=0):
+    """Runs Snakemake in the folder w."""
+    request = [run.path("w"), environment(run), [*ARGUMENTS, *more]]
+    server().stdin.write(json.dumps(request) + "\n")
+    server().stdin.flush()
+    found, said = json.loads(server().stdout.readline())
+    check(found == code, f"snakemake ended with {found}: {said}")
+
+
 def build(run):
     """Runs Snakemake; returns which outputs are new since the last time."""
     def stamps():
         return {name: os.stat(run.path(f"w/out/{name}")).st_mtime_ns for name in run.names("w/out")} if run.exists("w/out") else {}
 
     before = stamps()
-    shell(run, "w", COMMAND, environment(run))
+    snakemake(run)
     return sorted(name for name, stamp in stamps().items() if before.get(name) != stamp)
 
 
@@ -66,7 +105,7 @@ def only_what_has_changed_is_deformed_again(run):
 def a_failing_mesh_leaves_no_output(run):
     work(run)
     run.write("w/in/b c.obj", "v 1 2\n")
-    shell(run, "w", COMMAND + " --keep-going", environment(run), code=1)
+    snakemake(run, "--keep-going", code=1)
     equal(run.names("w/out"), [name for name in ALL if name != "b c.obj"])
 
 

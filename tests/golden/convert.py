@@ -12,22 +12,27 @@ import os
 import sys
 import tempfile
 
-from validate import INVALID, UNSUPPORTED, deform, find_packages, model_roots, models, validate
+from jobs import deform_all
+from validate import INVALID, UNSUPPORTED, find_packages, job, model_roots, models, validate
 
 OTHERS = (".obj", ".ply", ".off", ".stl")
 EMBEDDING = 5
 
 
-def conversions(folder, root, number):
-    """(source, target) pairs, each target in a folder of its own."""
-    for model in models(root, (".gltf", ".glb")):
-        for ending in OTHERS:
-            base = os.path.join(folder, str(number), model + ending)
-            yield os.path.join(root, model), base + ending
-            yield base + ending, base + ".glb"
-    for model in models(root, OTHERS):
-        for ending in (".glb", ".gltf"):
-            yield os.path.join(root, model), os.path.join(folder, str(number), model + ending)
+def conversions(folder):
+    """(source, target) pairs, each target in a folder of its own: those that begin with a model, and those that go on
+    with what these have made."""
+    first, then = [], []
+    for number, root in enumerate(model_roots()):
+        for model in models(root, (".gltf", ".glb")):
+            for ending in OTHERS:
+                base = os.path.join(folder, str(number), model + ending)
+                first.append((os.path.join(root, model), base + ending))
+                then.append((base + ending, base + ".glb"))
+        for model in models(root, OTHERS):
+            for ending in (".glb", ".gltf"):
+                first.append((os.path.join(root, model), os.path.join(folder, str(number), model + ending)))
+    return first, then
 
 
 def main():
@@ -35,12 +40,10 @@ def main():
     node_folder = find_packages("gltf-validator")
     written, failed, refused = [], [], 0
     with tempfile.TemporaryDirectory() as folder:
-        for number, root in enumerate(model_roots()):
-            for source, target in conversions(folder, root, number):
-                if not os.path.exists(source):  # it was refused
-                    continue
-                os.makedirs(os.path.dirname(target), exist_ok=True)
-                code, message = deform(ffd, "twist", source, target)
+        for pairs in conversions(folder):
+            pairs = [(source, target) for source, target in pairs if os.path.exists(source)]  # else it was refused
+            ended = deform_all(ffd, folder, [job("twist", source, target) for source, target in pairs])
+            for (source, target), (code, message) in zip(pairs, ended):
                 refused += code in (INVALID, EMBEDDING, UNSUPPORTED)
                 if code == 0:
                     written.append(target)

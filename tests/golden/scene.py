@@ -10,13 +10,15 @@ those of the input, deformed; with --as-morph the base stays and a further targe
 import base64
 import json
 import math
+import operator
 import os
 import random
 import struct
-import subprocess
 import sys
 import tempfile
 import urllib.parse
+
+from jobs import deform_all
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(os.path.dirname(os.path.dirname(HERE)), "data")
@@ -28,6 +30,22 @@ COMPONENTS = {5120: ("b", 127), 5121: ("B", 255), 5122: ("h", 32767), 5123: ("H"
               5126: ("f", 1)}
 SHAPES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 UNIT = [[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0]]
+
+
+class Elements:
+    """The elements of an accessor, each decoded when it is asked for."""
+
+    def __init__(self, count, width, element):
+        self.count, self.width, self.element = count, width, element
+        self.known = {}  # those that are sparse, and those that were asked for
+
+    def __len__(self):
+        return self.count
+
+    def __getitem__(self, i):
+        if i not in self.known:
+            self.known[i] = self.element(i) if self.element else [0.0] * self.width
+        return self.known[i]
 
 
 class Asset:
@@ -72,16 +90,14 @@ class Asset:
         return element
 
     def accessor(self, number):
-        """All elements of an accessor, decoded."""
+        """The elements of an accessor."""
         if number in self.read_before:
             return self.read_before[number]
         a = self.json["accessors"][number]
         code, scale = COMPONENTS[a["componentType"]]
         width, scale = SHAPES[a["type"]], scale if a.get("normalized") else 0
-        values = [[0.0] * width for _ in range(a["count"])]
-        if "bufferView" in a:
-            element = self.elements(a["bufferView"], a.get("byteOffset", 0), 0, code, width, scale)
-            values = [element(i) for i in range(a["count"])]
+        plain = self.elements(a["bufferView"], a.get("byteOffset", 0), 0, code, width, scale) if "bufferView" in a else None
+        values = Elements(a["count"], width, plain)
         if "sparse" in a:
             indices, content = a["sparse"]["indices"], a["sparse"]["values"]
             index = self.elements(indices["bufferView"], indices.get("byteOffset", 0), 0,
@@ -89,7 +105,7 @@ class Asset:
             size = struct.calcsize("<" + code) * width
             element = self.elements(content["bufferView"], content.get("byteOffset", 0), size, code, width, scale)
             for i in range(a["sparse"]["count"]):
-                values[int(index(i)[0])] = element(i)
+                values.known[int(index(i)[0])] = element(i)
         self.read_before[number] = values
         return values
 
@@ -202,6 +218,7 @@ class Volume:
         draw = random.Random(seed)
         self.low, self.side = low, [b - a for a, b in zip(low, high)]
         self.moves = [[draw.uniform(-0.15, 0.15) * s for s in self.side] for _ in range(64)]
+        self.along = list(zip(*self.moves))
 
     def file(self, path):
         points = [[self.low[a] + self.side[a] * n / 3 + move[a] for a, n in enumerate((i, j, k))]
@@ -218,18 +235,14 @@ class Volume:
         if not all(0 <= t <= 1 for t in u):
             return delta, gradient
         basis = [[(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3] for t in u]
-        slope = [[-3 * (1 - t) ** 2, 3 * (1 - t) * (1 - 3 * t), 3 * t * (2 - 3 * t), 3 * t * t] for t in u]
-        for n, move in enumerate(self.moves):
-            i, j, k = n % 4, n // 4 % 4, n // 16
-            b = basis[0][i] * basis[1][j] * basis[2][k]
-            d = (slope[0][i] * basis[1][j] * basis[2][k] / self.side[0],
-                 basis[0][i] * slope[1][j] * basis[2][k] / self.side[1],
-                 basis[0][i] * basis[1][j] * slope[2][k] / self.side[2])
-            for r in range(3):
-                delta[r] += b * move[r]
-                for c in range(3):
-                    gradient[r][c] += d[c] * move[r]
-        return delta, gradient
+        slope = [[-3 * (1 - t) ** 2 / s, 3 * (1 - t) * (1 - 3 * t) / s, 3 * t * (2 - 3 * t) / s, 3 * t * t / s]
+                 for t, s in zip(u, self.side)]
+        yz = [b * c for c in basis[2] for b in basis[1]]
+        tables = [[row * x for row in yz for x in basis[0]], [row * x for row in yz for x in slope[0]],
+                  [b * c * x for c in basis[2] for b in slope[1] for x in basis[0]],
+                  [b * c * x for c in slope[2] for b in basis[1] for x in basis[0]]]
+        sums = [[sum(map(operator.mul, table, moves)) for table in tables] for moves in self.along]
+        return [row[0] for row in sums], [row[1:] for row in sums]
 
     def near_border(self, x):
         """A point that rounding may put on either side."""
@@ -351,14 +364,19 @@ class Comparison:
                 self.skinned += 1
             for k, (old, new) in enumerate(zip(mesh["primitives"], copy["primitives"])):
                 count = len(self.before.accessor(old["attributes"]["POSITION"]))
-                for i in range(0, count, max(1, count // MOST)):
+                for i in looked_at(count):
                     matrix = vertex_matrix(self.before, old["attributes"], matrices, i) if matrices else world[number]
                     look_at = self.added_target if added else self.vertex
                     look_at(old, new, matrix, i, f"node {number} primitive {k}")
 
 
+def looked_at(count):
+    """The vertices of a primitive that are looked at, MOST and some."""
+    return range(0, count, max(1, count // MOST))
+
+
 def bounds(asset):
-    """Of all that the scene shows, targets included."""
+    """Of all that is looked at in the scene, targets included."""
     world, shown = worlds(asset)
     low, high = [math.inf] * 3, [-math.inf] * 3
     for number in shown:
@@ -369,7 +387,9 @@ def bounds(asset):
         for primitive in asset.list("meshes")[node["mesh"]]["primitives"]:
             attributes = primitive["attributes"]
             targets = [asset.accessor(t["POSITION"]) for t in primitive.get("targets", []) if "POSITION" in t]
-            for i, p in enumerate(asset.accessor(attributes["POSITION"])):
+            positions = asset.accessor(attributes["POSITION"])
+            for i in looked_at(len(positions)):
+                p = positions[i]
                 matrix = vertex_matrix(asset, attributes, matrices, i) if matrices else world[number]
                 for q in [p] + [add(p, t[i]) for t in targets]:
                     x = apply(matrix, q)
@@ -396,44 +416,63 @@ def models():
                     yield os.path.join(folder, name), os.path.relpath(os.path.join(folder, name), root)
 
 
-def look(ffd, folder, path, name):
-    """Rows of the table: model, lattice, outcome, figures."""
-    with open(path, "rb") as file:
-        if any(extension.encode() in file.read() for extension in COMPRESSED):
-            return [(name, "", "skipped", "compressed")]
-    try:
-        before = Asset(path)
-        low, high = bounds(before)
-    except (OSError, KeyError, IndexError, TypeError, struct.error) as problem:
-        return [(name, "", "skipped", f"not read: {type(problem).__name__}")]
-    if not all(math.isfinite(v) for v in low + high):
-        return [(name, "", "skipped", "nothing finite is shown")]
-    rows = []
-    around = volumes(low, high)
-    for kind, volume, options in ((("all", around["all"], []), ("part", around["part"], []),
-                                   ("morph", around["part"], ["--as-morph", "bent"]))):
-        target = os.path.join(folder, "out" + os.path.splitext(name)[1])
-        volume.file(os.path.join(folder, "lattice.json"))
-        done = subprocess.run([ffd, "deform", path, target, "--force", "--quiet", "--resources", "reference", "-l",
-                               os.path.join(folder, "lattice.json"), *options], capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            outcome = {UNSUPPORTED: "refused", INVALID: "invalid"}.get(done.returncode, "FAILED")
-            rows.append((name, kind, outcome, done.stderr.strip().replace(path, name)))
-            continue
-        comparison = Comparison(before, Asset(target), volume)
+class Model:
+    """A model, the volumes that it is deformed by, and what is known of it: rows of the table."""
+
+    def __init__(self, path, name):
+        self.path, self.name, self.rows, self.runs = path, name, [], []
+        with open(path, "rb") as file:
+            content = file.read()
+        if any(extension.encode() in content for extension in COMPRESSED):
+            self.skip("compressed")
+            return
+        try:
+            self.before = Asset(path)
+            low, high = bounds(self.before)
+        except (OSError, KeyError, IndexError, TypeError, struct.error) as problem:
+            self.skip(f"not read: {type(problem).__name__}")
+            return
+        if not all(math.isfinite(v) for v in low + high):
+            self.skip("nothing finite is shown")
+            return
+        around = volumes(low, high)
+        self.runs = [("all", around["all"], {}), ("part", around["part"], {}), ("morph", around["part"], {"as-morph": "bent"})]
+
+    def skip(self, why):
+        self.rows = [(self.name, "", "skipped", why)]
+
+    def jobs(self, folder):
+        """Writes lattices into the folder; the jobs go on with files there."""
+        os.makedirs(folder)
+        for kind, volume, options in self.runs:
+            volume.file(os.path.join(folder, f"{kind}.json"))
+            yield {"in": self.path, "out": os.path.join(folder, kind + os.path.splitext(self.name)[1]),
+                   "lattice": os.path.join(folder, f"{kind}.json"), "options": options}
+
+    def look(self, kind, volume, options, target, code, message):
+        if code != 0:
+            outcome = {UNSUPPORTED: "refused", INVALID: "invalid"}.get(code, "FAILED")
+            self.rows.append((self.name, kind, outcome, message.replace(self.path, self.name)))
+            return
+        comparison = Comparison(self.before, Asset(target), volume)
         comparison.run(bool(options))
         # Floats are rounded to 2^-24 of the largest coordinate, which M^-1 F M's own rounding can add to.
         right = comparison.worst <= 2e-6
-        rows.append((name, kind, "right" if right else "FAILED",
-                     f"{comparison.vertices} vertices, {comparison.moved} moved, {comparison.offsets} offsets, "
-                     f"{comparison.skinned} skinned nodes" + ("" if right else "; " + comparison.where)))
-    return rows
+        self.rows.append((self.name, kind, "right" if right else "FAILED",
+                          f"{comparison.vertices} vertices, {comparison.moved} moved, {comparison.offsets} offsets, "
+                          f"{comparison.skinned} skinned nodes" + ("" if right else "; " + comparison.where)))
 
 
 def main():
     ffd, table = sys.argv[1:]
     with tempfile.TemporaryDirectory() as folder:
-        rows = [row for path, name in models() for row in look(os.path.abspath(ffd), folder, path, name)]
+        found = [Model(path, name) for path, name in models()]
+        jobs = [(model, run, job) for number, model in enumerate(found)
+                for run, job in zip(model.runs, list(model.jobs(os.path.join(folder, str(number)))))]
+        ended = deform_all(os.path.abspath(ffd), folder, [job for _, _, job in jobs], "--resources", "reference")
+        for (model, run, job), (code, message) in zip(jobs, ended):
+            model.look(*run, job["out"], code, message)
+    rows = [row for model in found for row in model.rows]
     with open(table, "w", encoding="utf-8") as file:
         file.writelines("\t".join(row) + "\n" for row in rows)
     failed = [row for row in rows if row[2] == "FAILED"]

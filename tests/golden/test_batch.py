@@ -5,6 +5,7 @@ the same bytes, the same figures, the same failures.
     test_batch.py FFD SOURCE [SEED]
 """
 
+import concurrent.futures
 import glob
 import json
 import os
@@ -105,8 +106,9 @@ def main():
         entries = run_batch(ffd, folder, jobs)
         if len(entries) != len(jobs):
             findings.append(f"{len(entries)} entries of {len(jobs)} jobs")
-        for number, (job, entry) in enumerate(zip(jobs, entries)):
-            alone = run_alone(ffd, folder, job)
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            runs = list(pool.map(lambda job: run_alone(ffd, folder, job), jobs))
+        for number, (job, entry, alone) in enumerate(zip(jobs, entries, runs)):
             if entry.pop("line") != number + 1 or entry.pop("output") != "batch/" + job[1]:
                 findings.append(f"{job}: the entry of another job")
             alone.pop("output")

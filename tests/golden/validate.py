@@ -16,6 +16,8 @@ import subprocess
 import sys
 import tempfile
 
+from jobs import deform_all
+
 SKIPPED = 77
 HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(os.path.dirname(os.path.dirname(HERE)), "data")
@@ -75,13 +77,10 @@ def model_roots():
     return roots
 
 
-def deform(ffd, lattice, source, target):
-    command = [ffd, "deform", source, target, "--quiet", "-l", os.path.join(DATA, "lattices", lattice + ".json")]
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
-    except subprocess.TimeoutExpired:
-        return None, "no end after 120 s"
-    return done.returncode, done.stderr.strip()
+def job(lattice, source, target):
+    """A job of a manifest; the target's folder is made."""
+    os.makedirs(os.path.dirname(target), exist_ok=True)
+    return {"in": source, "out": target, "lattice": os.path.join(DATA, "lattices", lattice + ".json")}
 
 
 def judge(before, after):
@@ -99,15 +98,10 @@ def main():
     node_folder = find_packages("gltf-validator")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        runs = []
-        for number, root in enumerate(model_roots()):
-            for model in models(root):
-                for lattice in LATTICES:
-                    target = os.path.join(folder, str(number), lattice, model)
-                    os.makedirs(os.path.dirname(target), exist_ok=True)
-                    source = os.path.join(root, model)
-                    code, message = deform(ffd, lattice, source, target)
-                    runs.append((model, lattice, source, target, code, message))
+        chosen = [(model, lattice, os.path.join(root, model), os.path.join(folder, str(number), lattice, model))
+                  for number, root in enumerate(model_roots()) for model in models(root) for lattice in LATTICES]
+        ended = deform_all(ffd, folder, [job(lattice, source, target) for _, lattice, source, target in chosen])
+        runs = [(*one, *end) for one, end in zip(chosen, ended)]
         paths = sorted({source for _, _, source, _, _, _ in runs} |
                        {target for _, _, _, target, code, _ in runs if code == 0})
         found = validate(node_folder, paths)

@@ -8,7 +8,7 @@ import sys
 
 for other in ("rules", "readme"):
     sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), other))
-from test_readme import block
+from test_readme import block, blocks
 from tree import ROOT, files, finish, read, skip
 
 

@@ -2,8 +2,8 @@
 """Runs every command of README.md.
 
     test_readme.py tutorial FFD SOURCE     the tutorial, in a copy of data/, with the program FFD
-    test_readme.py build SOURCE            the build and the C example, in a copy of the source
 
+The build and the C example are run by tests/install/test_packages.py, in the source that a release is packed into.
 Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```ninja NAME,
 ```make NAME and ```c NAME (files). ```sh package and ```sh library are run by tests of tests/install,
 ```sh slurm, parallel and snakemake by those of tests/cluster.
@@ -18,7 +18,7 @@ import tempfile
 INDENTED = {
     "sh data/demo.sh": "tests/golden (demo)",
     "sh tests/run.sh": "this run",
-    "cc example.c $(pkg-config --cflags --libs ffd)": "below",
+    "cc example.c $(pkg-config --cflags --libs ffd)": "tests/install/test_packages.py",
 }
 
 
@@ -72,44 +72,11 @@ def tutorial(text, ffd, source):
     return count
 
 
-def build(text, source):
-    count = 0
-    with tempfile.TemporaryDirectory() as folder:
-        copy, root = os.path.join(folder, "source"), os.path.join(folder, "root")
-        shutil.copytree(source, copy, ignore=lambda path, names: [
-            name for name in names if path == source and (name == ".git" or name.lstrip(".").startswith("build"))])
-        environment = dict(os.environ, DESTDIR=root)
-        for language, name, content in blocks(text):
-            if language == "sh" and name == "build":
-                run(content, copy, environment)
-                count += len(content.strip().splitlines())
-        example = next(content for language, name, content in blocks(text) if name == "example.c")
-        with open(os.path.join(folder, "example.c"), "w", encoding="utf-8") as file:
-            file.write(example)
-        pc = next(os.path.join(path, "ffd.pc") for path, _, files in os.walk(root) if "ffd.pc" in files)
-        environment = dict(os.environ, PKG_CONFIG_PATH=os.path.dirname(pc), PKG_CONFIG_SYSROOT_DIR=root)
-        library = next(path for path, _, files in os.walk(root) if "libffd.so" in files)
-        run("cc example.c $(pkg-config --cflags --libs ffd)", folder, environment)
-        environment["LD_LIBRARY_PATH"] = library
-        box = '{"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"box": {"min": [-1, -1, -1], ' \
-              '"max": [1, 1, 1]}}, "moves": [{"by": [0.5, 0, 0]}]}'
-        with open(os.path.join(folder, "box.json"), "w", encoding="utf-8") as file:
-            file.write(box)
-        output = run("./a.out box.json", folder, environment)
-        if output != "moves by 0.5 0 0\n":
-            sys.exit(f"the C example printed {output!r}")
-        count += 2
-    return count
-
-
 def main():
     source = os.path.abspath(sys.argv[-1])
     with open(os.path.join(source, "README.md"), encoding="utf-8") as file:
         text = file.read()
-    if sys.argv[1] == "tutorial":
-        count = check_indented(text) + tutorial(text, sys.argv[2], source)
-    else:
-        count = build(text, source)
+    count = check_indented(text) + tutorial(text, sys.argv[2], source)
     if count == 0:
         sys.exit("README.md has no command")
     print(f"{count} commands of README.md run")

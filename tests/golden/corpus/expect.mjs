@@ -6,24 +6,27 @@ import * as matrix from './matrix.mjs';
 const PARALLEL = 1e-7;
 const UNIT = matrix.IDENTITY.linear;
 
-// A placement M with what is needed of it again and again. key: equal for equal placements.
+// A placement M with what is needed of it again and again. magnified: the most that M_lin^-1 makes of a length in one
+// coordinate; key: equal for equal placements.
 export function placementOf({ linear, offset }) {
     const determinant = matrix.determinant(linear);
-    return { linear, offset, determinant, cofactor: matrix.cofactor(linear), transposed: matrix.transposed(linear),
-        back: determinant === 0 ? null : matrix.inverse(linear), key: `${linear} ${offset}` };
+    const back = determinant === 0 ? null : matrix.inverse(linear);
+    return { linear, offset, determinant, back, cofactor: matrix.cofactor(linear), transposed: matrix.transposed(linear),
+        magnified: back ? Math.max(...back.map(matrix.length)) : 0, key: `${linear} ${offset}` };
 }
 
 // The field at p under the placement M. moved: false where all bits have to stay.
 export function fieldAt(volume, placement, p) {
-    const { back } = placement;
+    const { back, magnified } = placement;
     const x = matrix.apply(placement, p);
     const at = volume.at(x);
-    if (!back || !at.touched) return { moved: false, border: at.border, delta: [0, 0, 0], gradient: UNIT, slack: 0 };
+    if (!back || !at.touched)
+        return { moved: false, border: at.border, placement, slack: 0, delta: [0, 0, 0], gradient: UNIT };
     const size = matrix.largest(x) + matrix.largest(volume.low) + matrix.largest(volume.high);
     return {
-        moved: true, border: at.border, placement, slack: size * Math.max(...back.map(matrix.length)),
-        delta: matrix.times(back, at.delta),
-        gradient: UNIT.map((row, i) => matrix.add(row, at.gradient[i])),
+        moved: true, border: at.border, placement, slack: size * magnified, delta: matrix.times(back, at.delta),
+        gradient: [matrix.add(UNIT[0], at.gradient[0]), matrix.add(UNIT[1], at.gradient[1]),
+            matrix.add(UNIT[2], at.gradient[2])],
     };
 }
 
@@ -39,7 +42,7 @@ export function normalAt(field, normal) {
 // normal: the deformed one in the mesh's own space, or null. There the tangent is made orthogonal to it. slack: what
 // rounding is magnified by where the tangent lies almost along the normal; null where nothing is left of it.
 export function tangentAt(field, tangent, normal) {
-    const t = tangent.slice(0, 3);
+    const t = matrix.first(tangent);
     if (!field.moved || matrix.length(t) === 0) return { value: t, slack: 0 };
     const { linear, back } = field.placement;
     const carried = matrix.times(back, matrix.times(field.gradient, matrix.times(linear, t)));

@@ -5,6 +5,7 @@ appended bufferViews, accessors, meshes, buffers, and the references to them; by
 where geometry was compressed, what its decoding takes away."""
 
 import base64
+import functools
 import json
 import os
 import re
@@ -19,21 +20,24 @@ DECODED = {DRACO, QUANTIZED, *MESHOPT}
 
 SIZES = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT2": 4, "MAT3": 9, "MAT4": 16}
-# Bytes that are compared at once.
-BLOCK = 4096
 
+WORD = re.compile(r'"(?:[^"\\]|\\.)*"|[^\s"{}\[\],:]+')
+SIGNS = str.maketrans("{}[],:", "xxxxxx")
 
-class Number(str):
-    """A number as the file writes it: compared by its text."""
+# A number as the file writes it, compared by its text; and no string.
+Number = bytes
+# The members of an object in the order of the file: (key, value) pairs.
+Object = tuple
 
 
 class Gltf:
-    """A glTF file: text (of the JSON), json (with numbers as text), buffers (bytes), chunks (kinds of a GLB)."""
+    """A glTF file: text (of the JSON), json (of Numbers and Objects), plain (as json has it), buffers (bytes), chunks
+    (kinds of a GLB)."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
             data = file.read()
-        self.path = path
+        self.path, self.data, self.kept = path, data, {}
         self.chunks = []
         binary = None
         if data[:4] == b"glTF":
@@ -49,7 +53,7 @@ class Gltf:
         else:
             text = data
         self.text = text.decode("utf-8-sig")
-        self.json = json.loads(self.text, parse_int=Number, parse_float=Number)
+        self.json = json.loads(self.text, parse_int=str.encode, parse_float=str.encode, object_pairs_hook=Object)
         self.plain = json.loads(self.text)
         self.buffers = [self.content(buffer, binary if i == 0 else None)
                         for i, buffer in enumerate(self.plain.get("buffers", []))]
@@ -63,6 +67,22 @@ class Gltf:
             return base64.b64decode(uri.split(",", 1)[1] + "==")
         with open(self.beside(uri), "rb") as file:
             return file.read()
+
+    def kept_bytes(self, number, length, deformed):
+        """A byte for each of a buffer's: 0 where elements of the accessors that are deformed lie, else 255."""
+        if (number, length) not in self.kept:
+            self.kept[number, length] = kept = bytearray(b"\xff" * length)
+            count = len(self.plain.get("accessors", []))
+            for index in sorted(range(count), key=lambda i: i not in deformed):
+                for buffer, start, end in element_ranges(self.plain, index):
+                    if buffer == number:
+                        kept[start:end] = (b"\0" if index in deformed else b"\xff") * (end - start)
+        return self.kept[number, length]
+
+    @functools.cached_property
+    def layout(self):
+        """The JSON's white space, with an x for every word and sign."""
+        return WORD.sub("x", self.text.rstrip("\0").rstrip()).translate(SIGNS)
 
     def beside(self, uri):
         return os.path.join(os.path.dirname(self.path), urllib.parse.unquote(uri))
@@ -127,7 +147,8 @@ class Change:
         self.found.append(f"{pointer}: {str(old)[:60]} became {str(new)[:60]}")
 
     def walk(self, pointer, old, new):
-        if isinstance(old, dict) and isinstance(new, dict):
+        if isinstance(old, Object) and isinstance(new, Object):
+            old, new = dict(old), dict(new)
             common = [key for key in old if key in new]
             if common != [key for key in new if key in old]:
                 self.note(pointer, "the order of keys", "another")
@@ -136,13 +157,11 @@ class Change:
         elif isinstance(old, list) and isinstance(new, list):
             for i in range(max(len(old), len(new))):
                 self.step(f"{pointer}/{i}", old[i] if i < len(old) else None, new[i] if i < len(new) else None)
-        elif type(old) is not type(new) or old != new:
+        else:
             self.note(pointer, old, new)
 
     def step(self, pointer, old, new):
-        if old == new and type(old) is type(new) and not isinstance(old, (dict, list)):
-            return
-        if not self.allowed(pointer, old, new):
+        if old != new and not self.allowed(pointer, old, new):
             self.walk(pointer, old, new)
 
     def allowed(self, pointer, old, new):
@@ -200,7 +219,7 @@ class Change:
             case ["indices"]:
                 return appended and compressed
             case ["extensions"] if compressed:
-                return {k: v for k, v in old.items() if k != DRACO} == (new or {})
+                return tuple(member for member in old if member[0] != DRACO) == (new or ())
         return False
 
     def copied_mesh(self, old, new):
@@ -220,15 +239,11 @@ class Change:
                 self.inside_elements(number, old, new)
 
     def inside_elements(self, number, old, new):
-        may = bytearray(len(old))
-        count = len(self.before.plain.get("accessors", []))
-        for index in sorted(range(count), key=lambda i: i not in self.deformed):
-            for buffer, start, end in element_ranges(self.before.plain, index):
-                if buffer == number:
-                    may[start:end] = (b"\1" if index in self.deformed else b"\0") * (end - start)
-        wrong = [i for first in range(0, len(old), BLOCK) if old[first:first + BLOCK] != new[first:first + BLOCK]
-                 for i in range(first, min(first + BLOCK, len(old))) if old[i] != new[i] and not may[i]]
-        if wrong:
+        keep = self.before.kept_bytes(number, len(old), self.deformed)
+        bits = [int.from_bytes(data, "little") for data in (old, new, keep)]
+        different = (bits[0] ^ bits[1]) & bits[2]
+        if different:
+            wrong = [i for i, byte in enumerate(different.to_bytes(len(old), "little")) if byte]
             self.note(f"buffer {number} byte {wrong[0]}", old[wrong[0]], f"{new[wrong[0]]} ({len(wrong)} such bytes)")
 
     def container(self):
@@ -241,8 +256,8 @@ class Change:
 
     def white_space(self):
         """Where no value came or went, the JSON's own layout is as it was."""
-        (old, old_gaps), (new, new_gaps) = layout(self.before.text), layout(self.after.text)
-        if len(old) == len(new) and old_gaps != new_gaps:
+        old, new = self.before.layout, self.after.layout
+        if old != new and len("".join(old.split())) == len("".join(new.split())):
             self.note("JSON", "its white space", "another")
 
 
@@ -259,18 +274,9 @@ def plain_mesh(mesh):
     return copy
 
 
-TOKEN = re.compile(r'(\s*)("(?:[^"\\]|\\.)*"|[{}\[\],:]|[^\s"{}\[\],:]+)')
-
-
-def layout(text):
-    """The words and signs of a JSON text, and the white space before each."""
-    found = TOKEN.findall(text.rstrip("\0"))
-    return [word for _, word in found], [gap for gap, _ in found]
-
-
-def changes(source, target):
-    """What is different and may not be: a list of lines."""
-    change = Change(Gltf(source), Gltf(target))
+def changes(before, target):
+    """What is different in the file target and may not be: a list of lines. before: a Gltf."""
+    change = Change(before, Gltf(target))
     change.walk("", change.before.json, change.after.json)
     change.container()
     change.white_space()
@@ -283,9 +289,9 @@ def own_names(target, count):
     return [f"{stem}.bin" if i == 0 else f"{stem}-{i}.bin" for i in range(count)]
 
 
-def not_same(source, target):
-    """Why target is not source, byte for byte, but for the names of external buffers: a list of lines."""
-    before, after = Gltf(source), Gltf(target)
+def not_same(before, target):
+    """Why the file target is not that of before, byte for byte, but for the names of external buffers: a list of lines."""
+    after = Gltf(target)
     files = before.external()
     names = [urllib.parse.unquote(after.plain["buffers"][i]["uri"]) for i in files]
     found = []
@@ -293,8 +299,7 @@ def not_same(source, target):
         found.append(f"buffers are named {names}")
     if before.buffers != after.buffers:
         found.append("a buffer differs")
-    with open(source, "rb") as one, open(target, "rb") as two:
-        old, new = one.read(), two.read()
+    old, new = before.data, after.data
     for i in files:
         if before.chunks:
             continue

@@ -18,12 +18,30 @@ const io = new NodeIO().setLogger(new Logger(Logger.Verbosity.SILENT)).registerE
 const GEOMETRY = ['KHR_draco_mesh_compression', 'EXT_meshopt_compression', 'KHR_meshopt_compression',
     'KHR_mesh_quantization'];
 
+// Of animations there are many.
+function leaveOutAccessors(json) {
+    const used = new Map();
+    const renumber = (owner, key) => {
+        const index = owner[key];
+        if (index === undefined) return;
+        if (!used.has(index)) used.set(index, used.size);
+        owner[key] = used.get(index);
+    };
+    for (const mesh of json.meshes ?? [])
+        for (const primitive of mesh.primitives) {
+            renumber(primitive, 'indices');
+            for (const attributes of [primitive.attributes, ...primitive.targets ?? []])
+                for (const name of Object.keys(attributes)) renumber(attributes, name);
+        }
+    for (const skin of json.skins ?? []) renumber(skin, 'inverseBindMatrices');
+    if (json.accessors) json.accessors = [...used.keys()].map((index) => json.accessors[index]);
+}
+
 // Everything that is not geometry leaves the JSON: pictures may be missing, extensions unknown.
 function onlyGeometry(json) {
-    const kept = structuredClone(json);
+    const { images, textures, samplers, materials, animations, cameras, extensions, ...rest } = json;
+    const kept = structuredClone(rest);
     kept.asset = { version: '2.0' };
-    for (const key of ['images', 'textures', 'samplers', 'materials', 'animations', 'cameras', 'extensions'])
-        delete kept[key];
     for (const key of ['extensionsUsed', 'extensionsRequired'])
         if (kept[key]) kept[key] = kept[key].filter((name) => GEOMETRY.includes(name));
     for (const node of kept.nodes ?? []) {
@@ -36,6 +54,7 @@ function onlyGeometry(json) {
             for (const name of Object.keys(primitive.extensions ?? {}))
                 if (!GEOMETRY.includes(name)) delete primitive.extensions[name];
         }
+    leaveOutAccessors(kept);
     return kept;
 }
 
@@ -69,8 +88,9 @@ const STEPS = { 5120: 127, 5121: 255, 5122: 32767, 5123: 65535 };
 // Values as doubles, one array an element; step: the distance of two values where they are quantized, else 0.
 function decoded(accessor) {
     if (!accessor) return null;
+    const size = accessor.getElementSize();
     const values = [];
-    for (let i = 0; i < accessor.getCount(); i++) values.push(accessor.getElement(i, []));
+    for (let i = 0; i < accessor.getCount(); i++) values.push(accessor.getElement(i, new Array(size).fill(0)));
     const type = accessor.getComponentType();
     return { values, step: type === 5126 ? 0 : accessor.getNormalized() ? 1 / STEPS[type] : 1 };
 }
@@ -83,15 +103,15 @@ function streams(owner) {
     return found;
 }
 
-// What must come through unchanged: other attributes and indices, as bytes.
+// What must come through unchanged: mode, other attributes and indices, as names with bytes.
 function rest(primitive) {
     const bytes = (accessor) => {
         const array = accessor?.getArray();
-        return array ? Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString('latin1') : '';
+        return array ? Buffer.from(array.buffer, array.byteOffset, array.byteLength) : Buffer.alloc(0);
     };
     const names = primitive.listSemantics().filter((name) => !DEFORMED.includes(name)).sort();
-    return [`mode ${primitive.getMode()}`, `indices ${bytes(primitive.getIndices())}`,
-        ...names.map((name) => `${name} ${bytes(primitive.getAttribute(name))}`)];
+    return [['mode', Buffer.from([primitive.getMode()])], ['indices', bytes(primitive.getIndices())],
+        ...names.map((name) => [name, bytes(primitive.getAttribute(name))])];
 }
 
 // Elements of JOINTS_0, JOINTS_1 ... one after the other.

@@ -34,41 +34,66 @@ export class Tally {
     }
 
     // slack: the size that double rounding is measured by.
-    near(kind, where, found, expected, { step = 0, precision = 'float', slack }) {
+    near(kind, where, v, found, expected, step, precision, slack) {
         this.count[kind] = (this.count[kind] ?? 0) + 1;
         for (let i = 0; i < expected.length; i++) {
-            const allowed = roundingOf(expected[i], step, precision) + DOUBLE * slack;
             const error = Math.abs(found[i] - expected[i]);
+            if (error === 0) continue;
+            const allowed = roundingOf(expected[i], step, precision) + DOUBLE * slack;
             this.worst = Math.max(this.worst, error / allowed);
             if (!(error <= allowed))
-                return this.fail(`${kind} ${where}: found ${found}, expected ${expected} to ${allowed.toExponential(2)}`);
+                return this.fail(`${kind} ${where} ${v}: found ${found}, expected ${expected} to ${allowed.toExponential(2)}`);
         }
     }
 
-    kept(kind, where, found, before) {
+    kept(kind, where, v, found, before) {
         this.count[kind] = (this.count[kind] ?? 0) + 1;
-        if (!before.every((value, i) => Object.is(found[i], value)))
-            this.fail(`${kind} ${where}: found ${found}, was ${before} and had to stay`);
+        for (let i = 0; i < found.length; i++)
+            if (!Object.is(found[i], before[i]))
+                return this.fail(`${kind} ${where} ${v}: found ${found}, was ${before} and had to stay`);
+    }
+}
+
+// Numbers for texts, counted from 0: equal for equal texts.
+export class Numbers {
+    constructor() {
+        this.numbers = new Map();
+    }
+
+    of(text) {
+        const known = this.numbers.get(text);
+        if (known !== undefined) return known;
+        this.numbers.set(text, this.numbers.size);
+        return this.numbers.size - 1;
     }
 }
 
 // 0 and -0 are equal positions.
 const equal = (a, b) => a === b || (Number.isNaN(a) && Number.isNaN(b));
 
-// Equal inputs have equal outputs: remembers the first output of every input.
+// Equal inputs have equal outputs: remembers the first output of every input, and where it is: a name and a vertex.
 export class Groups {
     constructor() {
-        this.outputs = new Map();
+        this.outputs = [];
+        this.where = [];
+        this.vertex = [];
         this.failures = [];
         this.failed = 0;
         this.compared = 0;
     }
 
-    add(key, output, where) {
-        const first = this.outputs.get(key);
-        if (!first) return void this.outputs.set(key, { output, where });
+    // input: a number of its own for each input.
+    add(input, output, where, v) {
+        const first = this.outputs[input];
+        if (!first) {
+            this.outputs[input] = output;
+            this.where[input] = where;
+            this.vertex[input] = v;
+            return;
+        }
         this.compared++;
-        if (!output.every((x, i) => equal(x, first.output[i])) && this.failed++ < SHOWN)
-            this.failures.push(`${key}: ${first.where} has ${first.output}, ${where} has ${output}`);
+        if (equal(output[0], first[0]) && equal(output[1], first[1]) && equal(output[2], first[2])) return;
+        if (this.failed++ < SHOWN)
+            this.failures.push(`${this.where[input]} ${this.vertex[input]} has ${first}, ${where} ${v} has ${output}`);
     }
 }

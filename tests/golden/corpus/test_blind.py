@@ -4,18 +4,21 @@ of the checks is there for, and that check has to say so.
 
     test_blind.py FFD"""
 
+import dataclasses
 import os
 import re
+import shutil
 import struct
 import sys
 import tempfile
 
-from test_corpus import Corpus, requirements
+from test_corpus import Corpus, Row, requirements
 
 # Positions, texture coordinates, normals, indices at 0, 288, 480, 768 of the .bin.
 CUBES = "gltf/draco/two_objects_inverse_materials.gltf"
 SPHERE = "gltf/draco/sphere_lights.gltf"  # tangents at 8064
 BEVEL = "obj/ufbx/max7_cube_normals.obj"
+SPLIT = "obj/ufbx/blender_279_default.obj"  # normals shared by corners: some are added
 PLY = "other/draco/cube_att.ply"
 OFF = "other/assimp/OFF/Cube.off"
 STL = "other/pmp/stl/icosahedron_binary.stl"
@@ -82,6 +85,12 @@ CASES = {
     "a face of an OBJ": (BEVEL, "twist", text(rb"\nf +(\d+)", rb"\nf \g<1>0"), "only"),
     "a group of an OBJ": (BEVEL, "twist", text(rb"\ng ", b"\ng x"), "only"),
     "a longer number": (BEVEL, "twist", text(rb"(\nv +\S+\.\d+)", rb"\g<1>00000000000000001"), "only"),
+    "a normal of a face that was split": (SPLIT, "twist", text(rb"//\d\d", b"//1"), "values"),
+    "a vertex of a face that was split": (SPLIT, "twist", text(rb"\nf 5//", b"\nf 1//"), "only"),
+    "a lost normal": (SPLIT, "twist", text(rb"\nvn [^\n]*\nvn", b"\nvn"), "values"),
+    "a coordinate of an OBJ with more normals": (SPLIT, "twist", text(rb"\nv +(-?)\d", rb"\nv \g<1>9"), "values"),
+    "a longer number beside more normals": (SPLIT, "twist", text(rb"(\nv +\S+\.\d+)", rb"\g<1>00000000000000001"), "only"),
+    "a group of an OBJ with more normals": (SPLIT, "twist", text(rb"\ng ", b"\ng x"), "only"),
     "a line end": (BEVEL, "still", text(rb"\r?\n", b"\r"), "same"),
     "a texture coordinate of a PLY": (PLY, "twist", text(rb"\n3 0", b"\n3 1"), "only"),
     "a number of a PLY": (PLY, "twist", text(rb"(end_header\r?\n\S+ +-?0\.)\d", rb"\g<1>9"), "values"),
@@ -92,31 +101,43 @@ CASES = {
 }
 
 
-class Damaged(Corpus):
-    """Lets one check have what the program did not write."""
+class Outputs:
+    """What the program makes of a model in scene space, by the lattices of the cases, and what the checks find in it."""
 
-    def judge_case(self, model, lattice, damage):
-        self.lattices = () if lattice == "still" else (lattice,)
-        self.damage = (lattice, damage)
-        return self.model(model)
+    def __init__(self, corpus, model):
+        self.corpus, self.model = corpus, model
+        self.jobs = {job.lattice: job for job in corpus.jobs(Row(model), "scene")}
+        for job in self.jobs.values():
+            corpus.run(job)
+            shutil.copytree(os.path.dirname(job.target), self.sound(job))
 
-    def run(self, model, space, lattice, target):
-        done = super().run(model, space, lattice, target)
-        if done[0] == 0 and self.damage[0] == lattice:
-            self.damage[1](target)
-        return done
+    @staticmethod
+    def sound(job):
+        return os.path.dirname(job.target) + ".sound"
+
+    def findings(self, lattice, damage):
+        """The row of the model where this has been done to one output of the program."""
+        job = dataclasses.replace(self.jobs[lattice], row=Row(self.model))
+        folder = os.path.dirname(job.target)
+        shutil.rmtree(folder)
+        shutil.copytree(self.sound(job), folder)
+        damage(job.target)
+        self.corpus.look(job)
+        self.corpus.settle()
+        return job.row
 
 
 def main():
     root, node_folder = requirements()
     blind = []
     with tempfile.TemporaryDirectory() as folder:
-        corpus = Damaged(sys.argv[1], root, folder, (), node_folder)
-        for model in sorted({case[0] for case in CASES.values()}):
-            sound = corpus.judge_case(model, "twist", lambda path: None)
+        corpus = Corpus(sys.argv[1], root, folder, {"scene": ("twist", "part")}, node_folder)
+        outputs = {model: Outputs(corpus, model) for model in {case[0] for case in CASES.values()}}
+        for model, lattice in sorted({case[:2] for case in CASES.values()}):
+            sound = outputs[model].findings(lattice, lambda path: None)
             blind += [f"{model}, undamaged: {line}" for line in sound.failures()]
         for name, (model, lattice, damage, check) in CASES.items():
-            row = corpus.judge_case(model, lattice, damage)
+            row = outputs[model].findings(lattice, damage)
             if not row.wrong[check]:
                 blind.append(f"{name}: '{check}' does not see it; others: {row.failures()}")
         corpus.close()

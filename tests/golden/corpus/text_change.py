@@ -2,6 +2,9 @@
 
 read(path) gives a Shape: positions and corners for the judge, and pieces for the comparison."""
 
+import array
+import functools
+import itertools
 import math
 import os
 import re
@@ -26,13 +29,20 @@ class Shape:
         self.rest, self.numbers = [], []
 
     def points(self):
-        return {"positions": self.positions, "precision": self.precision, "corners": self.corners}
+        """For the judge: the positions, then each corner as the vertex and the normal."""
+        numbers = array.array("d", itertools.chain.from_iterable(self.positions))
+        for vertex, normal in self.corners:
+            numbers.append(vertex)
+            numbers.extend(normal)
+        return numbers
 
 
-def shortest(text):
+def shortest(text, number):
     """Whether a number's text has no digit more than reading it back needs."""
+    if repr(number) == text:
+        return True
     digits = lambda t: re.sub(r"[^0-9]", "", re.split("[eE]", t)[0]).strip("0")
-    return len(digits(text)) <= len(digits(repr(float(text))))
+    return len(digits(text)) <= len(digits(repr(number)))
 
 
 # ---- OBJ --------------------------------------------------------------------------------------------------------
@@ -91,11 +101,109 @@ class ObjLine:
         return "".join("<>" if i in words else piece for i, piece in enumerate(self.pieces)) + self.end
 
 
+# Where a line v or vn is as plain as most are, its numbers, and what stands before each; what follows them is left.
+PLAIN = re.compile(r"^(vn?)([ \t]+)(#)([ \t]+)(#)([ \t]+)(#)(?=[ \t\r\n]|\Z)".replace(
+    "#", NUMBER.pattern.replace("(", "(?:")), re.M)
+# Lines of normals and of faces; a word of a face that names a normal, as what stands before it and the normal.
+NORMAL_LINE = re.compile(r"^vn[ \t].*(?:\n|\Z)", re.M)
+FACE_LINE = re.compile(r"^f[ \t].*", re.M)
+FACE_WORD = re.compile(r"(?<=[ \t])(\d+/\d*)/(\d+)(?=[ \t\r\n]|\Z)")
+
+
+class Cut:
+    """A text cut by PLAIN: the numbers, and all the rest."""
+
+    def __init__(self, text):
+        pieces = PLAIN.split(text)
+        self.kinds = pieces[1::8]
+        self.between, self.blanks = pieces[0::8], [pieces[at::8] for at in (2, 4, 6)]
+        self.vectors = list(zip(*(pieces[at::8] for at in (3, 5, 7))))
+
+    def same_but_numbers(self, other):
+        return self.kinds == other.kinds and self.between == other.between and self.blanks == other.blanks
+
+    def same_but_normals(self, other):
+        """Whether all is the same but numbers and the normals that faces name."""
+        if self.kinds != other.kinds or self.blanks != other.blanks:
+            return False
+        mine, others = (FACE_WORD.split("\0".join(cut.between)) for cut in (self, other))
+        return mine[::3] == others[::3] and mine[1::3] == others[1::3]
+
+    def words(self, kind):
+        return [word for found, vector in zip(self.kinds, self.vectors) if found == kind for word in vector]
+
+
+class ObjText:
+    """An OBJ as text, to tell by few operations on all of it that another is the same but for numbers."""
+
+    def __init__(self, text):
+        self.text = text
+        # One line after the other, each as it is: nothing that is continued, ends of one kind.
+        self.simple = "\\" not in text and text.count("\r") == text.count("\r\n")
+
+    @functools.cached_property
+    def cut(self):
+        return Cut(self.text)
+
+    @functools.cached_property
+    def without_normals(self):
+        return Cut(NORMAL_LINE.sub("", self.text))
+
+    @functools.cached_property
+    def gaps(self):
+        """How many lines vn there are between other lines."""
+        return [len(run) for run in "".join(
+            "n" if line.startswith(("vn ", "vn\t")) else "|" for line in self.text.split("\n")).split("|")]
+
+    @functools.cached_property
+    def face_words(self):
+        return FACE_WORD.findall("\n".join(FACE_LINE.findall(self.text)))
+
+    def same_but_numbers(self, other):
+        return self.simple and other.simple and self.cut.same_but_numbers(other.cut)
+
+    def has_more_normals(self, other):
+        """Whether it is the other but for numbers, more lines vn, and the normals that faces name."""
+        return self.simple and other.simple and self.without_normals.same_but_normals(other.without_normals) and \
+            self.cut.kinds.count("vn") == sum(self.gaps) > sum(other.gaps) and \
+            all(a >= b for a, b in zip(self.gaps, other.gaps)) and \
+            len(self.face_words) == len(FACE_WORD.findall(self.text))
+
+
 class Obj(Shape):
-    def __init__(self, data):
+    """like: another, which is not read again line by line where all that this one has otherwise is numbers, or normals
+    that were added; then as_before."""
+
+    def __init__(self, data, like=None):
         super().__init__(DOUBLE)
-        self.lines = [ObjLine(line) for line in logical_lines(data.decode("latin-1").removeprefix("\xef\xbb\xbf"))]
-        self.bom = data.startswith(b"\xef\xbb\xbf")
+        self.whole = ObjText(data.decode("latin-1"))
+        # All coordinates must be in plain lines.
+        plain = like is not None and self.whole.cut.kinds.count("v") == len(like.positions)
+        numbers = plain and self.whole.same_but_numbers(like.whole) and \
+            self.whole.cut.kinds.count("vn") == len(like.normals)
+        self.as_before = numbers or (plain and self.whole.has_more_normals(like.whole) and
+                                     len(self.whole.face_words) == len(like.named))
+        if self.as_before:
+            self.read_numbers()
+            self.corners = self.same_corners(like) if numbers else self.named_corners(like)
+        else:
+            self.read_lines()
+
+    def read_numbers(self):
+        self.numbers, self.normal_numbers = (self.whole.cut.words(kind) for kind in ("v", "vn"))
+        self.positions, self.normals = (vectors(words) for words in (self.numbers, self.normal_numbers))
+
+    def same_corners(self, like):
+        return [[v, self.normals[n]] for v, n in like.named if n < len(self.normals)]
+
+    def named_corners(self, like):
+        return [[v, self.normals[int(n) - 1]] for (v, _), (_, n) in zip(like.named, self.whole.face_words)
+                if int(n) <= len(self.normals)]
+
+    def read_lines(self):
+        text = self.whole.text
+        self.lines = [ObjLine(line) for line in logical_lines(text.removeprefix("\xef\xbb\xbf"))]
+        self.bom = text.startswith("\xef\xbb\xbf")
         self.normals = []
         self.faces = []
         for line in self.lines:
@@ -106,10 +214,10 @@ class Obj(Shape):
                 self.normals.append(line.vector())
             elif line.kind == "f":
                 self.face(line)
-        # Some files name normals that they have not.
-        self.corners = [[v, self.normals[n]] for face in self.faces for v, n in face
-                        if n is not None and n < len(self.normals)]
         self.normal_numbers = [line.word(n) for line in self.lines if line.kind == "vn" for n in (1, 2, 3)]
+        # What names a normal. Some files name normals that they have not.
+        self.named = [(v, n) for face in self.faces for v, n in face if n is not None]
+        self.corners = self.same_corners(self)
 
     def face(self, line):
         face = []
@@ -124,8 +232,15 @@ class Obj(Shape):
         return int(text) - 1 if int(text) > 0 else len(counted) + int(text)
 
 
+def vectors(words):
+    numbers = iter(map(float, words))
+    return [list(vector) for vector in zip(numbers, numbers, numbers)]
+
+
 def obj_changes(before, after):
     """Lines other than v and vn are as they were, but for the normals of faces where normals were added."""
+    if after.as_before:
+        return []
     found = [] if before.bom == after.bom else ["the byte order mark changed"]
     more = len(after.normals) - len(before.normals)
     if more < 0:
@@ -354,9 +469,12 @@ def facet_changes(before, after):
 READERS = {".obj": Obj, ".ply": Ply, ".off": Off, ".stl": Stl}
 
 
-def read(path):
+def read(path, before=None):
+    """before: what the file was made from."""
     with open(path, "rb") as file:
-        return READERS[path[path.rindex("."):].lower()](file.read())
+        data = file.read()
+    reader = READERS[path[path.rindex("."):].lower()]
+    return reader(data, before) if reader is Obj else reader(data)
 
 
 def same_bits(a, b):
@@ -381,8 +499,9 @@ def changes(before, after):
     for old, new in [*zip(before.numbers, after.numbers), *normal_numbers(before, after)]:
         if old == new:
             continue
-        if same_bits(number(old), number(new)):
+        now = number(new)
+        if same_bits(number(old), now):
             found.append(f"the number {old} is the same and became {new}")
-        elif before.precision == DOUBLE and not shortest(new):
+        elif before.precision == DOUBLE and not shortest(new, now):
             found.append(f"the number {new} is longer than it needs to be")
     return found

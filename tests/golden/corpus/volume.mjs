@@ -36,6 +36,9 @@ export class Volume {
     constructor(spec, move) {
         Object.assign(this, spec);
         this.t = this.knots.map((kind, a) => knotVector(kind, this.size[a], this.degree[a]));
+        // Where at() works.
+        this.u = [0, 0, 0];
+        this.functions = this.degree.map((d) => ({ value: new Float64Array(d + 1), derivative: new Float64Array(d + 1) }));
         this.points = [];
         for (let k = 0; k < this.size[2]; k++)
             for (let j = 0; j < this.size[1]; j++)
@@ -53,41 +56,54 @@ export class Volume {
     // The displacement C_Q - C_P at x and its derivative E (rows), so that F = I + E. touched: a moved control
     // point has x in its support; border: x lies on the border of the box, as far as doubles can tell.
     at(x) {
-        const side = subtract(this.high, this.low);
-        const u = x.map((value, a) => (value - this.low[a]) / side[a]);
-        const border = u.some((value) => Math.abs(value) < BORDER || Math.abs(value - 1) < BORDER) &&
-            u.every((value) => value > -BORDER && value < 1 + BORDER);
-        if (!u.every((value) => value >= 0 && value <= 1)) return { border, inside: false, touched: false };
-        const functions = u.map((value, a) => this.#functions(a, value, side[a]));
-        return { ...this.#sum(functions), border, inside: true };
+        const { low, high, u } = this;
+        let near = false, reached = true, inside = true;
+        for (let a = 0; a < 3; a++) {
+            const value = u[a] = (x[a] - low[a]) / (high[a] - low[a]);
+            near ||= Math.abs(value) < BORDER || Math.abs(value - 1) < BORDER;
+            reached &&= value > -BORDER && value < 1 + BORDER;
+            inside &&= value >= 0 && value <= 1;
+        }
+        const border = near && reached;
+        return inside ? this.#sum(border) : { border, inside, touched: false };
     }
 
-    // [i, N_i, dN_i/dx] of the functions along a direction that are not zero.
-    #functions(a, u, side) {
-        const [t, n, d] = [this.t[a], this.size[a], this.degree[a]];
-        const span = spanOf(t, n, d, u);
-        const found = [];
-        for (let i = span - d; i <= span; i++) found.push([i, basis(t, i, d, u, span), slope(t, i, d, u, span) / side]);
-        return found;
+    // The functions along a direction that are not zero at u: the first one's number; N_i and dN_i/dx of them all.
+    #functions(a) {
+        const t = this.t[a], d = this.degree[a], u = this.u[a];
+        const span = spanOf(t, this.size[a], d, u);
+        const { value, derivative } = this.functions[a];
+        for (let i = 0; i <= d; i++) {
+            value[i] = basis(t, span - d + i, d, u, span);
+            derivative[i] = slope(t, span - d + i, d, u, span) / (this.high[a] - this.low[a]);
+        }
+        return span - d;
     }
 
-    #sum([along, across, up]) {
+    #sum(border) {
+        const i0 = this.#functions(0), j0 = this.#functions(1), k0 = this.#functions(2);
+        const [along, across, up] = this.functions;
         const delta = [0, 0, 0], gradient = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
         let touched = false;
-        for (const [k, nw, dw] of up)
-            for (const [j, nv, dv] of across)
-                for (const [i, nu, du] of along) {
-                    const move = this.moves[i + this.size[0] * (j + this.size[1] * k)];
+        for (let k = 0; k <= this.degree[2]; k++)
+            for (let j = 0; j <= this.degree[1]; j++)
+                for (let i = 0; i <= this.degree[0]; i++) {
+                    const move = this.moves[i0 + i + this.size[0] * (j0 + j + this.size[1] * (k0 + k))];
                     if (move[0] === 0 && move[1] === 0 && move[2] === 0) continue;
                     touched = true;
+                    const nu = along.value[i], nv = across.value[j], nw = up.value[k];
+                    const n = nu * nv * nw;
+                    const du = along.derivative[i] * nv * nw;
+                    const dv = nu * across.derivative[j] * nw;
+                    const dw = nu * nv * up.derivative[k];
                     for (let a = 0; a < 3; a++) {
-                        delta[a] += nu * nv * nw * move[a];
-                        gradient[a][0] += du * nv * nw * move[a];
-                        gradient[a][1] += nu * dv * nw * move[a];
-                        gradient[a][2] += nu * nv * dw * move[a];
+                        delta[a] += n * move[a];
+                        gradient[a][0] += du * move[a];
+                        gradient[a][1] += dv * move[a];
+                        gradient[a][2] += dw * move[a];
                     }
                 }
-        return { delta, gradient, touched };
+        return { delta, gradient, touched, border, inside: true };
     }
 
     // What a lattice file holds of it; moves: its "moves", or none to give the moved points themselves.
