@@ -62,7 +62,7 @@ export PYTHONDONTWRITEBYTECODE=1
 ccache=
 if command -v ccache >/dev/null 2>&1; then
     ccache='ccache '
-    export CCACHE_DIR="$work/ccache" CCACHE_MAXSIZE=2G
+    export CCACHE_DIR="${CCACHE_DIR-$work/ccache}"
 fi
 
 passed=0
