@@ -2,23 +2,26 @@
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
 #     sh tests/run.sh                 the gcc build, every quick suite
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules bench slow)
-#     sh tests/run.sh --all           and: slow suites, clang, release, sanitizers, valgrind, the demo, the wraps
+#     sh tests/run.sh --all           and: slow suites, release, clang with sanitizers, valgrind, fuzzing, the demo, the wraps
+#     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
 #     --keep                          keeps the build folders of the stages that only --all has
 # FFD_MODELS names a folder of sample models (default: shared/models beside the checkout); without it the tests
 # that need it are skipped. One line a stage, then what failed; the last line: N passed, N failed[, N skipped].
 set -u
 
 usage() {
-    echo "usage: sh tests/run.sh [--all | --suite NAME] [--keep]" >&2
+    echo "usage: sh tests/run.sh [--all | --soak | --suite NAME] [--keep]" >&2
     exit 2
 }
 
 all=
+soak=
 suite=
 keep=
 while [ $# -gt 0 ]; do
     case "$1" in
     --all) all=1 ;;
+    --soak) soak=1 ;;
     --keep) keep=1 ;;
     --suite)
         [ $# -ge 2 ] || usage
@@ -29,7 +32,7 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
-[ -z "$all" ] || [ -z "$suite" ] || usage
+[ "$all$soak" != 11 ] && { [ -z "$all$soak" ] || [ -z "$suite" ]; } || usage
 
 root=$(cd "$(dirname "$0")/.." && pwd) || exit 1
 work=$root/.build-test
@@ -54,6 +57,13 @@ export ASAN_OPTIONS="halt_on_error=1:exitcode=99:detect_leaks=1:allocator_may_re
 export UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1"
 export TSAN_OPTIONS="halt_on_error=1:exitcode=99"
 export PYTHONDONTWRITEBYTECODE=1
+
+# Builds share what they compile, those that tests make included (meson finds ccache by itself); so does the next run.
+ccache=
+if command -v ccache >/dev/null 2>&1; then
+    ccache='ccache '
+    export CCACHE_DIR="${CCACHE_DIR-$work/ccache}"
+fi
 
 passed=0
 failed=0
@@ -96,18 +106,23 @@ case_of() {
     fi
 }
 
-# build STAGE C-COMPILER C++-COMPILER OPTIONS...
+# build STAGE "SUITES" C-COMPILER C++-COMPILER OPTIONS...: builds what these suites need, everything for none
 build() {
     stage=$1
-    c=$2
-    cxx=$3
-    shift 3
+    chosen=$2
+    c=$3
+    cxx=$4
+    shift 4
+    began=$(date +%s)
     if [ ! -f "$work/$stage/build.ninja" ]; then
         rm -rf "${work:?}/$stage"
-        step "$stage" setup env CC="$c" CXX="$cxx" meson setup -Dwerror=true -Dtests=enabled "$@" \
+        step "$stage" setup env CC="$ccache$c" CXX="$ccache$cxx" meson setup -Dwerror=true -Dtests=enabled "$@" \
             "$work/$stage" "$root" || return 1
     fi
-    step "$stage" build ninja -C "$work/$stage" || return 1
+    # shellcheck disable=SC2086 # words
+    step "$stage" build sh -c 'targets=$(python3 "$1/tests/targets.py" "$2" $3) && ninja -C "$2" $targets' sh \
+        "$root" "$work/$stage" "$chosen" || return 1
+    clock=$began
     say "$stage" built
 }
 
@@ -160,52 +175,66 @@ build_from_wraps() {
 export FFD_NODE="$work/node"
 step node npm install_node_packages
 
-if build gcc gcc g++ -Dbuildtype=debugoptimized; then
+if build gcc '' gcc g++ -Dbuildtype=debugoptimized; then
     if [ -n "$suite" ]; then
-        suites gcc gcc --suite "$suite"
+        suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
-        suites gcc gcc
+        suites gcc gcc --no-suite soak
+    elif [ -n "$soak" ]; then
+        FFD_SEED=${FFD_SEED-$started}
+        export FFD_SEED
+        echo "FFD_SEED=$FFD_SEED"
+        suites soak gcc --suite soak --timeout-multiplier 0
     else
-        suites gcc gcc --no-suite slow
+        suites gcc gcc --no-suite slow --no-suite soak
     fi
 fi
 
 if [ -n "$all" ]; then
-    # The program by its command line: with assertions by gcc above, with clang and its sanitizers below.
-    if build clang clang clang++ -Dbuildtype=debugoptimized; then
-        suites clang clang --suite unit --suite property --suite oracle --suite fuzz --suite golden --no-suite slow
-    fi
-    drop clang
-
-    if build release gcc g++ -Dbuildtype=release; then
-        suites release release --suite golden --suite rules --suite property --no-suite slow
+    # As it is delivered: without assertions, with every optimization. A rule on the text of the sources says nothing new.
+    if build release 'golden rules property compilers' gcc g++ -Dbuildtype=release; then
+        suites release release --suite golden --suite rules --suite property --suite compilers \
+            --no-suite text --no-suite slow --no-suite soak
     fi
     drop release
 
-    # gcc needs minutes for this one.
-    if build asan clang clang++ -Dbuildtype=debug -Doptimization=1 -Db_sanitize=address,undefined \
-        -Db_lundef=false; then
-        suites asan asan --no-suite rules --no-suite bench --no-suite slow --timeout-multiplier 6
+    # The address and undefined-behaviour sanitizers find something wherever a pointer goes: all suites but those that
+    # measure or look at what is installed. clang, for gcc needs minutes to build this. The fuzz targets come from the
+    # same build.
+    coverage='-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp'
+    fuzzed='lattice manifest report obj gltf glb ply off stl'
+    if build asan 'unit property oracle fuzz golden cli' clang clang++ -Dbuildtype=debug -Doptimization=1 \
+        -Db_sanitize=address,undefined -Db_lundef=false -Dfuzzers=true -Dc_args="$coverage" -Dcpp_args="$coverage"; then
+        suites asan asan --no-suite rules --no-suite bench --no-suite slow --no-suite soak --timeout-multiplier 6
+
+        # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
+        # is not what a change is judged by. Their corpus was replayed by every suite `fuzz` above.
+        # shellcheck disable=SC2086 # words
+        printf '%s\n' $fuzzed | xargs -P "$(nproc)" -I '{}' sh -c '
+            sh "$1/tests/fuzz/run.sh" -t {} -n 3000 15 "$2" >"$3/fuzz-{}.out" 2>&1
+            echo $? >"$3/fuzz-{}.status"' sh "$root" "$work/asan" "$logs"
+        for target in $fuzzed; do
+            case_of fuzz "$target" sh -c 'cat "$1.out"; exit "$(cat "$1.status")"' sh "$logs/fuzz-$target"
+        done
     fi
     drop asan
 
+    # What is only to be found with clang and optimization: other code for the kernels and what is around them (suite
+    # compilers; the same bytes are promised). The thread sanitizer adds its checks after the optimizer, so that one build
+    # serves for both. It finds something only where there are threads. All else of clang is in the build above.
     # The address space must not be shuffled more than the thread sanitizer of Debian 12 copes with.
-    if build tsan gcc g++ -Dbuildtype=debugoptimized -Db_sanitize=thread -Db_lundef=false; then
-        suites tsan tsan --suite unit --suite property --suite threads --no-suite slow --wrap "setarch -R" --timeout-multiplier 10
+    if build clang 'threads compilers property' clang clang++ -Dbuildtype=debugoptimized -Db_sanitize=thread \
+        -Db_lundef=false; then
+        suites clang clang --suite threads --suite compilers --suite property --no-suite slow --no-suite soak \
+            --wrap "setarch -R" --timeout-multiplier 10
     fi
-    drop tsan
+    drop clang
 
+    # What the sanitizers do not see: memory that is read before it is written. The unit tests reach all of the library.
     if [ -f "$work/gcc/build.ninja" ]; then
-        suites valgrind gcc --suite unit --no-suite slow --timeout-multiplier 30 \
+        suites valgrind gcc --suite unit --no-suite slow --no-suite soak --timeout-multiplier 30 \
             --wrap "valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite"
     fi
-
-    # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
-    # is not what a change is judged by. Their corpus was replayed by every build above.
-    for target in lattice manifest report obj gltf glb ply off stl; do
-        case_of fuzz "$target" sh "$root/tests/fuzz/run.sh" -t "$target" -n 3000 15 "$work/fuzz"
-    done
-    drop fuzz
 
     case_of demo run sh "$root/data/demo.sh" "$work/demo"
 

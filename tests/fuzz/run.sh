@@ -55,8 +55,9 @@ obj | gltf | glb | ply | off | stl) has_models=${FFD_MODELS-} ;;
 *) has_models= ;;
 esac
 if [ -n "$has_models" ]; then
-    python3 "$here/make_corpus.py" "$work/seeds" "$FFD_MODELS"
-    [ ! -d "$work/seeds/$target" ] || seeds=$work/seeds/$target
+    # A folder of its own: several targets may run at a time.
+    python3 "$here/make_corpus.py" "$work/$target/seeds" "$FFD_MODELS"
+    [ ! -d "$work/$target/seeds/$target" ] || seeds=$work/$target/seeds/$target
 fi
 # Outputs are written for every input: in memory, where there is such a folder.
 if [ -z "${TMPDIR-}" ] && [ -w /dev/shm ]; then

@@ -145,15 +145,42 @@ long double oracle_wrap(const oracle_axis *axis, long double u)
     return fminl(fmaxl(u, first), last);
 }
 
-/* The factors of all control points in three directions, and a visit of the points that count. */
+/* The factors of all control points in three directions. Those outside of first[a] .. last[a] are 0: a sum
+   need not visit their control points. */
 typedef struct factors {
     long double value[3][ORACLE_MAX_POINTS], derivative[3][ORACLE_MAX_POINTS];
+    int first[3], last[3];
 } factors;
 
 static void make_factors(const oracle_volume *volume, const long double uvw[3], factors *f)
 {
-    for (int a = 0; a < 3; a++)
+    for (int a = 0; a < 3; a++) {
+        const int n = volume->axis[a].n;
         oracle_factors(&volume->axis[a], uvw[a], f->value[a], f->derivative[a]);
+        f->first[a] = 0;
+        f->last[a] = n - 1;
+        while (f->first[a] < n - 1 && f->value[a][f->first[a]] == 0 && f->derivative[a][f->first[a]] == 0)
+            f->first[a]++;
+        while (f->last[a] > 0 && f->value[a][f->last[a]] == 0 && f->derivative[a][f->last[a]] == 0)
+            f->last[a]--;
+    }
+}
+
+/* Steps i to the next control point that counts. False after the last. */
+static bool next_point(const factors *f, int i[3])
+{
+    for (int a = 0; a < 3; a++) {
+        if (++i[a] <= f->last[a])
+            return true;
+        i[a] = f->first[a];
+    }
+    return false;
+}
+
+static size_t index_of(const oracle_volume *volume, const int i[3])
+{
+    return (size_t)i[0] +
+           (size_t)volume->axis[0].n * ((size_t)i[1] + (size_t)volume->axis[1].n * (size_t)i[2]);
 }
 
 /* gradient[0]: N N N; gradient[1+a]: its derivative in direction a. */
@@ -169,18 +196,16 @@ static void product(const factors *f, const int i[3], long double gradient[4])
 static void point_at(const oracle_volume *volume, const factors *f, long double point[3], long double *total)
 {
     long double weight_sum = 0, sum[3] = {0, 0, 0};
-    size_t at = 0;
-    int i[3];
-    for (i[2] = 0; i[2] < volume->axis[2].n; i[2]++)
-        for (i[1] = 0; i[1] < volume->axis[1].n; i[1]++)
-            for (i[0] = 0; i[0] < volume->axis[0].n; i[0]++, at++) {
-                long double n = f->value[0][i[0]] * f->value[1][i[1]] * f->value[2][i[2]];
-                if (volume->weights)
-                    n *= volume->weights[at];
-                weight_sum += n;
-                for (int a = 0; a < 3; a++)
-                    sum[a] += n * volume->points[3 * at + (size_t)a];
-            }
+    int i[3] = {f->first[0], f->first[1], f->first[2]};
+    do {
+        const size_t at = index_of(volume, i);
+        long double n = f->value[0][i[0]] * f->value[1][i[1]] * f->value[2][i[2]];
+        if (volume->weights)
+            n *= volume->weights[at];
+        weight_sum += n;
+        for (int a = 0; a < 3; a++)
+            sum[a] += n * volume->points[3 * at + (size_t)a];
+    } while (next_point(f, i));
     for (int a = 0; a < 3; a++)
         point[a] = sum[a] / weight_sum;
     *total = weight_sum;
@@ -198,19 +223,16 @@ void oracle_evaluate(const oracle_volume *volume, const long double uvw[3], long
     /* C_u = sum h N_u (P - C) / W, which is the quotient rule with C moved to the origin. */
     for (int e = 0; e < 9; e++)
         jacobian[e] = 0;
-    size_t at = 0;
-    int i[3];
-    for (i[2] = 0; i[2] < volume->axis[2].n; i[2]++)
-        for (i[1] = 0; i[1] < volume->axis[1].n; i[1]++)
-            for (i[0] = 0; i[0] < volume->axis[0].n; i[0]++, at++) {
-                long double g[4];
-                product(&f, i, g);
-                const long double h = volume->weights ? volume->weights[at] : 1;
-                for (int r = 0; r < 3; r++)
-                    for (int c = 0; c < 3; c++)
-                        jacobian[3 * r + c] +=
-                            h * g[1 + c] * (volume->points[3 * at + (size_t)r] - point[r]) / total;
-            }
+    int i[3] = {f.first[0], f.first[1], f.first[2]};
+    do {
+        const size_t at = index_of(volume, i);
+        long double g[4];
+        product(&f, i, g);
+        const long double h = volume->weights ? volume->weights[at] : 1;
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++)
+                jacobian[3 * r + c] += h * g[1 + c] * (volume->points[3 * at + (size_t)r] - point[r]) / total;
+    } while (next_point(&f, i));
 }
 
 void oracle_magnitude(const oracle_volume *volume, const long double uvw[3], long double point[3],
@@ -224,21 +246,19 @@ void oracle_magnitude(const oracle_volume *volume, const long double uvw[3], lon
         point[a] = 0;
     for (int e = 0; e < 9; e++)
         jacobian[e] = 0;
-    size_t at = 0;
-    int i[3];
-    for (i[2] = 0; i[2] < volume->axis[2].n; i[2]++)
-        for (i[1] = 0; i[1] < volume->axis[1].n; i[1]++)
-            for (i[0] = 0; i[0] < volume->axis[0].n; i[0]++, at++) {
-                long double g[4];
-                product(&f, i, g);
-                const long double h = volume->weights ? volume->weights[at] : 1;
-                for (int r = 0; r < 3; r++) {
-                    const long double size = fabsl(volume->points[3 * at + (size_t)r]);
-                    point[r] += h * g[0] * size / total;
-                    for (int c = 0; c < 3; c++)
-                        jacobian[3 * r + c] += h * fabsl(g[1 + c]) * (size + fabsl(centre[r])) / total;
-                }
-            }
+    int i[3] = {f.first[0], f.first[1], f.first[2]};
+    do {
+        const size_t at = index_of(volume, i);
+        long double g[4];
+        product(&f, i, g);
+        const long double h = volume->weights ? volume->weights[at] : 1;
+        for (int r = 0; r < 3; r++) {
+            const long double size = fabsl(volume->points[3 * at + (size_t)r]);
+            point[r] += h * g[0] * size / total;
+            for (int c = 0; c < 3; c++)
+                jacobian[3 * r + c] += h * fabsl(g[1 + c]) * (size + fabsl(centre[r])) / total;
+        }
+    } while (next_point(&f, i));
 }
 
 long double oracle_determinant(const long double m[9])

@@ -106,7 +106,18 @@ typedef struct trial {
     const char *name;
     long cases, checks, failures;
     uint64_t printed_seed;
+    double began; /* processor seconds at the first case */
 } trial;
+
+/* A trial that has fewer cases by itself makes all of them, on every machine. */
+#define TRIAL_LEAST 24
+
+/* The first seed: FFD_SEED, else 1. */
+uint64_t trial_seed(void);
+/* Whether a trial that has t->cases makes another. It always makes a quarter of `most`, and TRIAL_LEAST; then
+   it goes on up to `most` for one second of processor time, so that a slow build makes fewer and not later.
+   FFD_CASES=N: exactly N. FFD_SECONDS=N: for so long, whatever `most` is. */
+bool trial_next(trial *t, long most);
 
 void trial_check(trial *t, const sample *s, bool ok, const char *format, ...)
 #if defined(__GNUC__)
@@ -115,10 +126,6 @@ void trial_check(trial *t, const sample *s, bool ok, const char *format, ...)
     ;
 /* Prints the counts; no case or a failure fails the cmocka test. */
 void trial_end(const trial *t);
-
-/* The first seed (FFD_SEED, else 1) and the number of cases (FFD_CASES, else count). */
-uint64_t trial_seed(void);
-long trial_cases(long count);
 
 /* Parses s->json; NULL (and a failed check) when the library refuses it. */
 ffd_lattice *trial_parse(trial *t, const sample *s);

@@ -355,7 +355,7 @@ static void displacements(void **state)
 {
     (void)state;
     trial t = {.name = "displacements"};
-    for (long k = 0; k < trial_cases(300); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 300); k++, t.cases++) {
         sample s;
         edited x;
         sample_init(&s, trial_seed() + (uint64_t)k);
@@ -377,7 +377,7 @@ static void nothing_moved(void **state)
 {
     (void)state;
     trial t = {.name = "nothing_moved"};
-    for (long k = 0; k < trial_cases(40); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 40); k++, t.cases++) {
         sample s;
         edited x;
         sample_init(&s, trial_seed() + (uint64_t)k);
@@ -398,7 +398,7 @@ static void directions(void **state)
 {
     (void)state;
     trial t = {.name = "directions"};
-    for (long k = 0; k < trial_cases(2000); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 2000); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};

@@ -331,7 +331,7 @@ static bool make_far_knots(sample *s, random_source *random, const char **method
 static void run(const char *name, make_function make, long cases)
 {
     trial t = {.name = name};
-    for (uint64_t seed = trial_seed(); t.cases < cases; seed++) {
+    for (uint64_t seed = trial_seed(); trial_next(&t, cases); seed++) {
         sample s;
         const char *method = NULL;
         sample_init(&s, seed);
@@ -490,49 +490,49 @@ static bool make_part_cylinder(sample *s, random_source *random, const char **me
 static void box_lattices(void **state)
 {
     (void)state;
-    run("box_lattices", make_box, trial_cases(150));
+    run("box_lattices", make_box, 150);
 }
 
 static void affine_points(void **state)
 {
     (void)state;
-    run("affine_points", make_affine_points, trial_cases(60));
+    run("affine_points", make_affine_points, 60);
 }
 
 static void uniform_boxes(void **state)
 {
     (void)state;
-    run("uniform_boxes", make_uniform_box, trial_cases(60));
+    run("uniform_boxes", make_uniform_box, 60);
 }
 
 static void separable_points(void **state)
 {
     (void)state;
-    run("separable_points", make_separable, trial_cases(100));
+    run("separable_points", make_separable, 100);
 }
 
 static void warped_points(void **state)
 {
     (void)state;
-    run("warped_points", make_warped, trial_cases(100));
+    run("warped_points", make_warped, 100);
 }
 
 static void high_degrees(void **state)
 {
     (void)state;
-    run("high_degrees", make_high_degree, trial_cases(8));
+    run("high_degrees", make_high_degree, 8);
 }
 
 static void rational_points(void **state)
 {
     (void)state;
-    run("rational_points", make_rational, trial_cases(40));
+    run("rational_points", make_rational, 40);
 }
 
 static void rational_boxes(void **state)
 {
     (void)state;
-    run("rational_boxes", make_rational_box, trial_cases(20));
+    run("rational_boxes", make_rational_box, 20);
 }
 
 /* Knots far from 0: the distance of two doubles there moves C by more than the tolerance, but a point does
@@ -552,25 +552,25 @@ static bool make_far_knots(sample *s, random_source *random, const char **method
 static void far_knots(void **state)
 {
     (void)state;
-    run("far_knots", make_far_knots, trial_cases(40));
+    run("far_knots", make_far_knots, 40);
 }
 
 static void closed_rings(void **state)
 {
     (void)state;
-    run("closed_rings", make_ring, trial_cases(40));
+    run("closed_rings", make_ring, 40);
 }
 
 static void full_cylinders(void **state)
 {
     (void)state;
-    run("full_cylinders", make_full_cylinder, trial_cases(30));
+    run("full_cylinders", make_full_cylinder, 30);
 }
 
 static void part_cylinders(void **state)
 {
     (void)state;
-    run("part_cylinders", make_part_cylinder, trial_cases(30));
+    run("part_cylinders", make_part_cylinder, 30);
 }
 
 /* Judges a point by all its roots. Where there are several, det J > 0 in all of them, so the least is
@@ -606,7 +606,7 @@ static void bent_bars(void **state)
     (void)state;
     trial t = {.name = "bent_bars"};
     int seen[5] = {0};
-    for (long k = 0; k < trial_cases(20); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 20); k++, t.cases++) {
         sample s;
         subject x;
         sample_init(&s, trial_seed() + (uint64_t)k);
@@ -637,7 +637,7 @@ static void near_faces(void **state)
 {
     (void)state;
     trial t = {.name = "near_faces"};
-    for (uint64_t seed = trial_seed(); t.cases < trial_cases(30); seed++) {
+    for (uint64_t seed = trial_seed(); trial_next(&t, 30); seed++) {
         static const make_function makes[] = {make_full_cylinder, make_warped, make_rational, make_ring};
         sample s;
         subject x;
@@ -680,7 +680,7 @@ static void collapsed_axes(void **state)
 {
     (void)state;
     trial t = {.name = "collapsed_axes"};
-    for (uint64_t seed = trial_seed(); t.cases < trial_cases(15); seed++) {
+    for (uint64_t seed = trial_seed(); trial_next(&t, 15); seed++) {
         sample s;
         subject x;
         const char *method;

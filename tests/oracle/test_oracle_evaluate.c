@@ -151,7 +151,7 @@ static void every_kind_of_lattice(void **state)
 {
     (void)state;
     trial t = {.name = "every_kind_of_lattice"};
-    for (long k = 0; k < trial_cases(400); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 400); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};
@@ -184,7 +184,7 @@ static void given_numbers_are_kept(void **state)
     (void)state;
     trial t = {.name = "given_numbers_are_kept"};
     const sample_limits limits = {.max_degree = 3, .max_extra = 2, .closed = {true, true, true}};
-    for (long k = 0; k < trial_cases(50); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 50); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};
@@ -225,7 +225,7 @@ static void outside_comes_back(void **state)
 {
     (void)state;
     trial t = {.name = "outside_comes_back"};
-    for (long k = 0; k < trial_cases(50); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 50); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};

@@ -330,7 +330,7 @@ static void run(const char *name, make_function make, long cases, long least_non
 {
     trial t = {.name = name};
     tally sum = {0};
-    for (; t.cases < cases; t.cases++) {
+    for (; trial_next(&t, cases); t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)t.cases);
         random_source random = {s.seed};
@@ -342,11 +342,11 @@ static void run(const char *name, make_function make, long cases, long least_non
     printf("%s: none %ld, some %ld, unknown %ld; %ld of %ld lower bounds within 2 %%\n", name, sum.none,
            sum.some, sum.unknown, sum.near, sum.bounds);
     trial_end(&t);
-    if (cases < 20) /* too few for shares */
+    if (t.cases < TRIAL_LEAST) /* too few for shares */
         return;
-    assert_true(sum.none * 100 >= least_none * cases);
-    assert_true(sum.some * 100 >= least_some * cases);
-    assert_true(sum.unknown * 100 <= most_unknown * cases);
+    assert_true(sum.none * 100 >= least_none * t.cases);
+    assert_true(sum.some * 100 >= least_some * t.cases);
+    assert_true(sum.unknown * 100 <= most_unknown * t.cases);
     assert_true(sum.near * 100 >= 90 * sum.bounds);
 }
 
@@ -515,7 +515,7 @@ static void edge(void **state)
 {
     (void)state;
     trial t = {.name = "edge"};
-    for (; t.cases < trial_cases(12); t.cases++) {
+    for (; trial_next(&t, 12); t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)t.cases);
         random_source random = {s.seed};
@@ -543,37 +543,37 @@ static void edge(void **state)
 static void boxes(void **state)
 {
     (void)state;
-    run("boxes", make_box, trial_cases(60), 20, 20, 5);
+    run("boxes", make_box, 60, 20, 20, 5);
 }
 
 static void warped(void **state)
 {
     (void)state;
-    run("warped", make_warped, trial_cases(60), 20, 20, 5);
+    run("warped", make_warped, 60, 20, 20, 5);
 }
 
 static void rational(void **state)
 {
     (void)state;
-    run("rational", make_rational, trial_cases(40), 20, 20, 5);
+    run("rational", make_rational, 40, 20, 20, 5);
 }
 
 static void high_degrees(void **state)
 {
     (void)state;
-    run("high degrees", make_high_degree, trial_cases(24), 20, 10, 5);
+    run("high degrees", make_high_degree, 24, 20, 10, 5);
 }
 
 static void closed(void **state)
 {
     (void)state;
-    run("closed", make_closed, trial_cases(40), 20, 10, 5);
+    run("closed", make_closed, 40, 20, 10, 5);
 }
 
 static void collapsed(void **state)
 {
     (void)state;
-    run("collapsed", make_collapsed, trial_cases(40), 20, 10, 10);
+    run("collapsed", make_collapsed, 40, 20, 10, 10);
 }
 
 int main(void)

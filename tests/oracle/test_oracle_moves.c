@@ -33,7 +33,7 @@ static void random_moves(void **state)
 {
     (void)state;
     trial t = {.name = "random_moves"};
-    for (long k = 0; k < trial_cases(1000); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 1000); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};
@@ -200,7 +200,7 @@ static void cylinders(bool full, bool wide, const char *name)
     trial t = {.name = name};
     int refused = 0;
     const sample_limits limits = {.max_degree = 4, .max_extra = 6, .always_closed = {false, full, false}};
-    for (uint64_t seed = trial_seed(); t.cases < trial_cases(150); seed++) {
+    for (uint64_t seed = trial_seed(); trial_next(&t, 150); seed++) {
         sample s;
         sample_init(&s, seed);
         random_source random = {seed};

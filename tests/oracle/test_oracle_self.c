@@ -23,7 +23,7 @@ static void partition_of_unity(void **state)
     (void)state;
     trial t = {.name = "partition_of_unity"};
     const sample_limits limits = {.max_degree = 9, .max_extra = 6, .closed = {true, true, true}};
-    for (long k = 0; k < trial_cases(300); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 300); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};
@@ -74,7 +74,7 @@ static void jacobian_is_the_slope(void **state)
     (void)state;
     trial t = {.name = "jacobian_is_the_slope"};
     const sample_limits limits = {.max_degree = 5, .max_extra = 4, .closed = {true, true, true}};
-    for (long k = 0; k < trial_cases(60); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 60); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};
@@ -198,7 +198,7 @@ static void finds_what_was_put_in(void **state)
     (void)state;
     trial t = {.name = "finds_what_was_put_in"};
     const sample_limits limits = {.max_degree = 4, .max_extra = 3};
-    for (long k = 0; k < trial_cases(20); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 20); k++, t.cases++) {
         sample s;
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};

@@ -77,7 +77,7 @@ static void run(const char *name, shape_kind kind, long cases, double share)
 {
     trial t = {.name = name};
     judge totals = {.count = 0};
-    for (long k = 0; k < cases; k++, t.cases++) {
+    for (long k = 0; trial_next(&t, cases); k++, t.cases++) {
         sample s;
         shape x;
         judge j;
@@ -103,49 +103,49 @@ static void run(const char *name, shape_kind kind, long cases, double share)
 static void c_shapes(void **state)
 {
     (void)state;
-    run("c_shapes", SHAPE_C, trial_cases(7), 0.3);
+    run("c_shapes", SHAPE_C, 7, 0.3);
 }
 
 static void spirals(void **state)
 {
     (void)state;
-    run("spirals", SHAPE_SPIRAL, trial_cases(5), 0.3);
+    run("spirals", SHAPE_SPIRAL, 5, 0.3);
 }
 
 static void twisted_boxes(void **state)
 {
     (void)state;
-    run("twisted_boxes", SHAPE_TWIST, trial_cases(7), 0.3);
+    run("twisted_boxes", SHAPE_TWIST, 7, 0.3);
 }
 
 static void half_tori(void **state)
 {
     (void)state;
-    run("half_tori", SHAPE_HALF_TORUS, trial_cases(7), 0.3);
+    run("half_tori", SHAPE_HALF_TORUS, 7, 0.3);
 }
 
 static void tori(void **state)
 {
     (void)state;
-    run("tori", SHAPE_TORUS, trial_cases(4), 0.3);
+    run("tori", SHAPE_TORUS, 4, 0.3);
 }
 
 static void kinks(void **state)
 {
     (void)state;
-    run("kinks", SHAPE_KINKED, trial_cases(7), 0.3);
+    run("kinks", SHAPE_KINKED, 7, 0.3);
 }
 
 static void overlaps(void **state)
 {
     (void)state;
-    run("overlaps", SHAPE_OVERLAP, trial_cases(7), 0.3);
+    run("overlaps", SHAPE_OVERLAP, 7, 0.3);
 }
 
 static void folds(void **state)
 {
     (void)state;
-    run("folds", SHAPE_FOLD, trial_cases(7), 0.4);
+    run("folds", SHAPE_FOLD, 7, 0.4);
 }
 
 /* Known points only where the oracle's recursion would take minutes to look for all. */
@@ -226,7 +226,7 @@ static void faces(void **state)
                                        SHAPE_HALF_TORUS, SHAPE_TORUS,  SHAPE_KINKED};
     trial t = {.name = "faces"};
     judge totals = {.count = 0};
-    for (long k = 0; k < trial_cases(42); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 42); k++, t.cases++) {
         sample s;
         shape x;
         judge j;
@@ -308,7 +308,7 @@ static void quarter_tori(void **state)
     (void)state;
     trial t = {.name = "quarter_tori"};
     judge totals = {.count = 0};
-    for (long k = 0; k < trial_cases(20); k++, t.cases++) {
+    for (long k = 0; trial_next(&t, 20); k++, t.cases++) {
         sample s;
         shape x;
         judge j;
@@ -393,7 +393,7 @@ static void run_collapsed(const char *name, shape_kind kind, long cases)
 {
     trial t = {.name = name};
     judge totals = {.count = 0};
-    for (long k = 0; k < cases; k++, t.cases++) {
+    for (long k = 0; trial_next(&t, cases); k++, t.cases++) {
         sample s;
         shape x;
         judge j;
@@ -416,37 +416,37 @@ static void run_collapsed(const char *name, shape_kind kind, long cases)
 static void cylinders(void **state)
 {
     (void)state;
-    run_collapsed("cylinders", SHAPE_CYLINDER, trial_cases(7));
+    run_collapsed("cylinders", SHAPE_CYLINDER, 7);
 }
 
 static void sectors(void **state)
 {
     (void)state;
-    run_collapsed("sectors", SHAPE_SECTOR, trial_cases(7));
+    run_collapsed("sectors", SHAPE_SECTOR, 7);
 }
 
 static void balls(void **state)
 {
     (void)state;
-    run_collapsed("balls", SHAPE_BALL, trial_cases(3));
+    run_collapsed("balls", SHAPE_BALL, 3);
 }
 
 static void shells(void **state)
 {
     (void)state;
-    run_collapsed("shells", SHAPE_SHELL, trial_cases(3));
+    run_collapsed("shells", SHAPE_SHELL, 3);
 }
 
 static void pyramids(void **state)
 {
     (void)state;
-    run_collapsed("pyramids", SHAPE_PYRAMID, trial_cases(7));
+    run_collapsed("pyramids", SHAPE_PYRAMID, 7);
 }
 
 static void prisms(void **state)
 {
     (void)state;
-    run_collapsed("prisms", SHAPE_PRISM, trial_cases(7));
+    run_collapsed("prisms", SHAPE_PRISM, 7);
 }
 
 typedef enum ends_kind { ENDS_AT_REST, ENDS_ALIKE, ENDS_APART } ends_kind;
@@ -473,7 +473,7 @@ static void run_seams(const char *name, shape_kind kind, long cases)
 {
     trial t = {.name = name};
     judge totals = {.count = 0};
-    for (long k = 0; k < cases; k++, t.cases++) {
+    for (long k = 0; trial_next(&t, cases); k++, t.cases++) {
         static const volume_scale scales[] = {SCALE_PLAIN, SCALE_HUGE, SCALE_PLAIN, SCALE_TINY};
         enum { ON = 16, OFF = 8 };
         sample s;
@@ -512,13 +512,13 @@ static void run_seams(const char *name, shape_kind kind, long cases)
 static void full_turns(void **state)
 {
     (void)state;
-    run_seams("full_turns", SHAPE_OVERLAP, trial_cases(24));
+    run_seams("full_turns", SHAPE_OVERLAP, 24);
 }
 
 static void clamped_tori(void **state)
 {
     (void)state;
-    run_seams("clamped_tori", SHAPE_TORUS, trial_cases(6));
+    run_seams("clamped_tori", SHAPE_TORUS, 6);
 }
 
 int main(void)
