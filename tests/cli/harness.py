@@ -2,7 +2,11 @@
 
 A test file registers functions by @case; each gets a Run with a temporary folder of its own. The program is
 named by the environment variable FFD. Every run must end in time, print nothing but lines "ffd: ..." on stderr
-(a single one where it fails), and leave no temporary file."""
+(a single one where it fails), and leave no temporary file.
+
+Most runs are forked from a process that has the program loaded (driver.py, FFD_DRIVER). A process of its own is
+started for the first run of each command with each exit code in each test file, for ffd batch, whose workers are
+processes of the program, and where a run has options of its own: another environment, a limit, descriptors."""
 
 import json
 import math
@@ -15,6 +19,8 @@ import sys
 import tempfile
 import traceback
 
+from driver import Driver
+
 FFD = os.path.abspath(os.environ["FFD"])
 MODELS = os.environ.get("FFD_MODELS")
 SECONDS = 120
@@ -26,6 +32,8 @@ NOBODY = 65534
 OK, NO, USAGE, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT = range(8)
 
 _cases = []
+_driver = Driver(os.environ["FFD_DRIVER"]) if os.environ.get("FFD_DRIVER") else None
+_seen = set()  # commands with exit codes
 
 
 def case(function):
@@ -107,11 +115,8 @@ class Run:
         """Runs ffd in the folder. code: the exit code, or a tuple of those allowed. err: the lines of stderr without "ffd: " (a string: the only one; a compiled
         pattern: what the only one matches; a function: it judges them); out: the text of stdout; data: a failure too may print some; lines:
         how many lines stderr has where err does not say; neither counts what ANNOUNCED matches; options go to subprocess.run."""
-        command = [options.pop("program", FFD), *arguments]
-        options.setdefault("stdout", subprocess.PIPE)
-        options.setdefault("stderr", subprocess.PIPE)
         reports = self.reports(arguments)
-        done = subprocess.run(command, cwd=self.folder, input=stdin, timeout=SECONDS, check=False, **options)
+        done = self.done(arguments, code, stdin, options)
         shown = "ffd " + " ".join(arguments)
         told = (done.stderr or b"").decode("utf-8", "backslashreplace")
         allowed = code if isinstance(code, tuple) else (code,)
@@ -132,7 +137,7 @@ class Run:
             err(said)
         elif err is not None:
             check(len(said) == 1 and err.search(said[0]), f"{shown}: said {said}, expected {err.pattern}")
-        elif options["stderr"] == subprocess.PIPE:
+        elif options.get("stderr", subprocess.PIPE) == subprocess.PIPE:
             expected = lines if lines is not None else 0 if code in (OK, NO) else 1
             check(len(said) == expected, f"{shown}: said {said}, expected {expected} lines")
         if out is not None:
@@ -142,6 +147,18 @@ class Run:
         self.check_no_leftovers()
         self.check_reports(arguments, reports, done.stdout)
         return Done(done.returncode, done.stdout or b"", said, announced)
+
+    def done(self, arguments, code, stdin, options):
+        """A finished run: of a process of its own, or forked."""
+        kind = (*arguments[:2 if arguments[:1] in (("lattice",), ("report",)) else 1], code)
+        forked = _driver and not options and kind in _seen and arguments[:1] != ("batch",)
+        _seen.add(kind)
+        done = _driver.run([FFD, *arguments], self.folder, stdin, SECONDS) if forked else None
+        if done:
+            return done
+        options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
+        program = options.pop("program", FFD)
+        return subprocess.run([program, *arguments], cwd=self.folder, input=stdin, timeout=SECONDS, check=False, **options)
 
     def check_no_leftovers(self):
         for folder, _, names in os.walk(self.folder):
@@ -308,5 +325,8 @@ def main():
                 failed += 1
                 print(f"FAILED: {function.__name__}: {(function.__doc__ or '').strip()}")
                 traceback.print_exc(limit=-2, file=sys.stdout)
+    if _driver and _driver.close() != 0:
+        failed += 1
+        print("FAILED: the driver")
     print(f"{len(chosen)} cases, {failed} failed")
     sys.exit(1 if failed or not chosen else 0)

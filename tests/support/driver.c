@@ -1,0 +1,123 @@
+/* driver.c - a fork server for the program's command lines.
+
+   Starting the program costs more than most of what the tests ask of it: the dynamic linker, the C++ library
+   and, above all, a sanitizer. This process has all that behind it. It takes command lines from a socket and
+   runs each in a forked child, by the program's own main; so exit(), signals, globals and memory stay apart.
+
+   A packet holds three numbers (words, variables, umask) and then texts, each with its 0: the working folder,
+   the words with the program's name first, and the environment. Standard input, output and error go along as
+   descriptors. The answer is the child's status as of waitpid. */
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
+#include <errno.h>
+#include <signal.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+int ffd_main(int argc, char **argv);
+#define main ffd_main
+#include "cli/main.c"
+#undef main
+
+enum { STREAMS = 3, MOST_BYTES = 1 << 17, MOST_TEXTS = 4096 };
+
+typedef struct command_line {
+    uint32_t words, variables, umask;
+    char text[MOST_BYTES];
+} command_line;
+
+extern char **environ;
+void __lsan_do_leak_check(void) __attribute__((weak));
+static command_line line;
+static char *texts[MOST_TEXTS];
+
+static bool receive(int channel, int streams[STREAMS])
+{
+    union {
+        struct cmsghdr header;
+        char bytes[CMSG_SPACE(STREAMS * sizeof(int))];
+    } control;
+    struct iovec data = {&line, sizeof line};
+    struct msghdr message = {.msg_iov = &data,
+                             .msg_iovlen = 1,
+                             .msg_control = control.bytes,
+                             .msg_controllen = sizeof control.bytes};
+    ssize_t size;
+    do
+        size = recvmsg(channel, &message, 0);
+    while (size < 0 && errno == EINTR);
+    const struct cmsghdr *const found = size > 0 ? CMSG_FIRSTHDR(&message) : NULL;
+    if (!found || found->cmsg_len != CMSG_LEN(STREAMS * sizeof(int)) || message.msg_flags & MSG_TRUNC)
+        return false;
+    memcpy(streams, CMSG_DATA(found), STREAMS * sizeof(int));
+    return line.words + line.variables + 2 < MOST_TEXTS;
+}
+
+/* The texts, with a NULL behind the words and one behind the variables. Returns the folder. */
+static char *split(void)
+{
+    char *const folder = line.text, *at = folder + strlen(folder) + 1;
+    for (uint32_t i = 0; i < line.words + line.variables + 1; i++) {
+        if (i == line.words)
+            continue;
+        texts[i] = at;
+        at += strlen(at) + 1;
+    }
+    return folder;
+}
+
+static int run_line(int channel, const int streams[STREAMS])
+{
+    char *const folder = split();
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* who gives up on a run kills the driver */
+#endif
+    close(channel);
+    for (int i = 0; i < STREAMS; i++)
+        if (dup2(streams[i], i) < 0)
+            return 125;
+    for (int i = 0; i < STREAMS; i++)
+        close(streams[i]);
+    umask((mode_t)line.umask);
+    environ = texts + line.words + 1;
+    return chdir(folder) == 0 ? ffd_main((int)line.words, texts) : 125;
+}
+
+/* Leaks are looked for as at the end of the program. Its destructors are those of the libraries, and run
+   where the program itself does. */
+static _Noreturn void end(int code)
+{
+    fflush(NULL);
+    if (__lsan_do_leak_check)
+        __lsan_do_leak_check();
+    _exit(code);
+}
+
+int main(int argc, char **argv)
+{
+    int streams[STREAMS], status;
+    const int channel = argc == 2 ? atoi(argv[1]) : -1;
+    if (channel < STREAMS) {
+        fprintf(stderr, "usage: driver SOCKET (a descriptor above 2)\n");
+        return 2;
+    }
+    while (receive(channel, streams)) {
+        const pid_t child = fork();
+        if (child == 0)
+            end(run_line(channel, streams));
+        for (int i = 0; i < STREAMS; i++)
+            close(streams[i]);
+        while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+            continue;
+        if (child < 0 || send(channel, &status, sizeof status, MSG_NOSIGNAL) != sizeof status)
+            return 1;
+    }
+    return 0;
+}
