@@ -17,7 +17,8 @@ class Driver:
         here, there = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.channel = here
         self.process = subprocess.Popen([path, str(there.fileno())], pass_fds=[there.fileno()], stdin=subprocess.DEVNULL,
-                                        env={**os.environ, "LD_BIND_NOW": "1"})  # once, not in each copy
+                                        # Symbols are looked up once, and not in each copy.
+                                        env={**os.environ, "LD_BIND_NOW": "1", "MALLOC_PERTURB_": "0"})
         there.close()
         # At its end already: what reads from it gets nothing.
         self.nothing, end = os.pipe()
