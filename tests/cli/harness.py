@@ -53,7 +53,8 @@ def check(condition, *shown):
 
 
 def equal(found, expected, what=""):
-    check(found == expected, f"{what}: found {found!r}, expected {expected!r}")
+    if not found == expected:  # only then is it worth while to put megabytes into words
+        check(False, f"{what}: found {found!r}, expected {expected!r}")
 
 
 def near(found, expected, tolerance, what=""):
@@ -61,8 +62,8 @@ def near(found, expected, tolerance, what=""):
     for i, (a, b) in enumerate(zip(found, expected)):
         if isinstance(a, (list, tuple)):
             near(a, b, tolerance, f"{what}[{i}]")
-        else:
-            check(abs(a - b) <= tolerance, f"{what}[{i}]: {a!r} and {b!r} differ by more than {tolerance}")
+        elif not abs(a - b) <= tolerance:
+            check(False, f"{what}[{i}]: {a!r} and {b!r} differ by more than {tolerance}")
 
 
 class Done:
