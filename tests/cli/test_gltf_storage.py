@@ -272,8 +272,9 @@ def check_like_twin(file, twin, old):
                 continue
             half = old.step(was[name]) / 2
             found, wanted = file.decoded(a[name]), twin.decoded(b[name])
-            for p, q in zip(found, wanted, strict=True):
-                for x, y in zip(p, q, strict=True):
+            equal([len(found), {*map(len, found)}], [len(wanted), {*map(len, wanted)}], f"{name}: elements")
+            for x, y in zip(itertools.chain.from_iterable(found), itertools.chain.from_iterable(wanted)):
+                if x != y:
                     check(abs(x - y) <= half * 1.001 + 4 * SINGLE * max(abs(x), abs(y), 1),
                           f"{name}: {x!r} instead of {y!r}, half a step is {half!r}")
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Properties of the program on random meshes and on the sample meshes: what must hold whatever the input.
 
-    test_program.py FFD       the seed is printed; FFD_SEED repeats a run; FFD_MODELS names the sample models"""
+    test_program.py FFD DRIVER    the seed is printed; FFD_SEED repeats a run; FFD_MODELS names the sample models
+
+The first run of each property is a process of the program; the others are forked from one that has it loaded."""
 import json
 import math
 import os
@@ -11,15 +13,13 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
+from driver import Driver  # noqa: E402
+
+SECONDS = 120
 EPS = sys.float_info.epsilon
 # Sample models that are not valid: a node with two parents; faces with the indices 0, 100 and -100.
 BROKEN = {"unassigned-skeleton.gltf", "cube_att.gltf", "synthetic_partial_attrib_0_obj.obj"}
-
-
-def run(ffd, *arguments):
-    done = subprocess.run([ffd, *arguments], capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise AssertionError(f"ffd {' '.join(arguments)}: exit {done.returncode}: {done.stderr.strip()}")
 
 
 def read(path):
@@ -30,10 +30,19 @@ def read(path):
 class Work:
     """A folder with a random OBJ mesh and ways to deform it."""
 
-    def __init__(self, ffd, folder, draw):
-        self.ffd, self.folder, self.draw = ffd, folder, draw
+    def __init__(self, ffd, driver, folder, draw):
+        self.ffd, self.driver, self.folder, self.draw = ffd, driver, folder, draw
+        self.is_first = True  # of a property
         self.points = [[draw.uniform(-1, 1) for _ in range(3)] for _ in range(400)]
         self.mesh = self.write_obj("mesh.obj", self.points)
+
+    def run(self, *arguments):
+        command = [self.ffd, *arguments]
+        if not self.is_first:
+            return self.driver.run(command, self.folder, b"", SECONDS)
+        self.is_first = False
+        return subprocess.run(command, cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, check=False,
+                              timeout=SECONDS)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -69,7 +78,9 @@ class Work:
         arguments = ["deform", mesh or self.mesh, self.path(out), "--force", "--quiet", *options]
         for lattice in lattices:
             arguments += ["-l", lattice]
-        run(self.ffd, *arguments)
+        done = self.run(*arguments)
+        if done.returncode != 0:
+            raise AssertionError(f"ffd {' '.join(arguments)}: exit {done.returncode}: {done.stderr.decode().strip()}")
         return self.path(out)
 
 
@@ -195,8 +206,7 @@ def samples(work, models):
             source, own = os.path.join(folder, name), work.path(f"same{whole + refused}")
             os.mkdir(own)
             target = os.path.join(own, name)
-            done = subprocess.run([work.ffd, "deform", source, target, "-l", lattice, "--quiet"],
-                                  capture_output=True, text=True, check=False)
+            done = work.run("deform", source, target, "-l", lattice, "--quiet")
             # Refused, or not valid.
             if done.returncode == 6 or (done.returncode == 4 and name in BROKEN):
                 refused += 1
@@ -212,14 +222,15 @@ def samples(work, models):
 
 
 def main():
-    ffd = os.path.abspath(sys.argv[1])
+    ffd, driver = os.path.abspath(sys.argv[1]), Driver(os.path.abspath(sys.argv[2]))
     models = os.environ.get("FFD_MODELS")
     seed = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
     print(f"FFD_SEED={seed}")
     count = 0
     with tempfile.TemporaryDirectory() as folder:
-        work = Work(ffd, folder, random.Random(seed))
+        work = Work(ffd, driver, folder, random.Random(seed))
         for check in (identity, translation, affine, locality, order, threads, composition, equal_points, degenerate):
+            work.is_first = True
             check(work)
             print(f"{check.__name__}: holds")
             count += 1
@@ -227,6 +238,7 @@ def main():
             samples(work, models)
             print("samples: holds")
             count += 1
+    assert driver.close() == 0
     print(f"{count} properties hold")
 
 
