@@ -124,11 +124,11 @@ BROKEN = [
     ('{"jobs": [', 'all.json:1: not a report: an entry of "jobs" is expected, found the end'),
     ('{"jobs": [3]}', "all.json:1: not a report: an entry of \"jobs\" is expected, found '3'"),
     ('{"jobs": [\n{"input": "\\', 'all.json:2: not a report: this entry of "jobs" is not ended'),
-    ('{"jobs": [\n{"a": [1}]\n}]}', "all.json:2: JSON: ',' or ']' is expected, found '}'"),
+    ('{"jobs": [\n{"a": [1}]\n}]}', "all.json:2: not valid JSON: ',' or ']' is expected, found '}' (column 9)"),
     ('{"jobs": [%s %s]}', "all.json:1: not a report: ',' or ']' is expected behind an entry, found '{'"),
     ('{"jobs": [%s,]}', "all.json:1: not a report: an entry is expected behind ',', found ']'"),
-    ('{"jobs": [%s,\n\n{"input": "a",\n"input": "b"}]}', "all.json:/jobs/1/input: the key stands twice in its object"),
-    ('{"jobs": [%s, {"input": "\xff"}]}', "all.json:1: JSON: a string holds what is no UTF-8 character or escape, found byte 0xff"),
+    ('{"jobs": [%s,\n\n{"input": "a",\n"input": "b"}]}', 'all.json:4: not valid JSON: duplicate key "input" in an object (column 1)'),
+    ('{"jobs": [%s, {"input": "\xff"}]}', "all.json:1: not valid JSON: a string is not valid UTF-8, found byte 0xff (column 100)"),
     ('{"jobs": [{}]}', 'all.json:/jobs/0: "input" is missing'),
 ]
 

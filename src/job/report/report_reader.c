@@ -1,5 +1,5 @@
 #include "job/report/report_reader.h"
-#include "json/json_span.h"
+#include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -95,6 +95,9 @@ static ffd_status take_comma(report_reader *reader, ffd_error *error)
         reader, comma ? "an entry is expected behind ','" : "',' or ']' is expected behind an entry", error);
 }
 
+/* Bytes of a value in a message. */
+#define VALUE_SHOWN 200
+
 /* What every entry says. */
 static const struct {
     const char *key, *what;
@@ -118,6 +121,15 @@ static bool is_promised(const json_span *tree, uint32_t value, size_t which)
     return !ffd_json_span_number(tree, value, &code) || (code >= 0 && code <= 7 && code == (int)code);
 }
 
+static ffd_status refuse_value(const json_span *tree, uint32_t value, const char *what, const char *name,
+                               ffd_error *error)
+{
+    const json_value *const v = &tree->values[value];
+    const uint32_t length = v->end - v->begin;
+    return ffd_json_span_fail(tree, value, name, FFD_E_INVALID, error, "must be %s, not %.*s", what,
+                              (int)(length < VALUE_SHOWN ? length : VALUE_SHOWN), tree->text + v->begin);
+}
+
 static ffd_status check_members(const json_span *tree, const char *name, ffd_error *error)
 {
     for (size_t i = 0; i < sizeof promised / sizeof *promised; i++) {
@@ -126,35 +138,30 @@ static ffd_status check_members(const json_span *tree, const char *name, ffd_err
             return ffd_json_span_fail(tree, 0, name, FFD_E_INVALID, error, "\"%s\" is missing",
                                       promised[i].key);
         if (!is_promised(tree, value, i))
-            return ffd_json_span_fail(tree, value, name, FFD_E_INVALID, error, "must be %s, not %.*s",
-                                      promised[i].what,
-                                      (int)(tree->values[value].end - tree->values[value].begin),
-                                      tree->text + tree->values[value].begin);
+            return refuse_value(tree, value, promised[i].what, name, error);
     }
     return FFD_OK;
 }
 
-/* Errors of an entry are told as those of the whole report. */
-static void place_error(const report_reader *reader, const char *entry, ffd_error *error)
+/* Makes a pointer into an entry one into the report. */
+static void extend_pointer(const report_reader *reader, ffd_error *error)
 {
     char pointer[sizeof error->pointer];
-    if (error && error->line)
-        error->line += line_of(reader, entry) - 1;
-    else if (error && error->status == FFD_E_INVALID) {
-        snprintf(pointer, sizeof pointer, "/jobs/%llu%s", (unsigned long long)(reader->jobs - 1),
-                 error->pointer);
-        memcpy(error->pointer, pointer, sizeof pointer);
-    }
+    snprintf(pointer, sizeof pointer, "/jobs/%llu%s", (unsigned long long)(reader->jobs - 1), error->pointer);
+    memcpy(error->pointer, pointer, sizeof pointer);
 }
 
 static ffd_status check_entry(const report_reader *reader, const report_entry_text *entry, ffd_error *error)
 {
+    const json_input input = {
+        .text = entry->bytes, .size = entry->size, .name = reader->name, .whole = reader->begin};
     json_span tree;
-    ffd_status status = ffd_json_span_parse(entry->bytes, entry->size, reader->name, &tree, error);
+    ffd_status status = ffd_json_parse(&input, &tree, error);
+    const bool parsed = !status;
     if (!status)
         status = check_members(&tree, reader->name, error);
-    if (status)
-        place_error(reader, entry->bytes, error);
+    if (status == FFD_E_INVALID && error && (parsed || error->pointer[0]))
+        extend_pointer(reader, error);
     ffd_json_span_free(&tree);
     return status;
 }
