@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+#include "lattice/spec_parse.h"
 
 static ffd_status parse(const char *text, size_t size, const char *name, const spec_settings *settings,
                         ffd_lattice **lattice, ffd_error *error)

@@ -74,10 +74,6 @@ typedef struct spec_settings {
     size_t count;
 } spec_settings;
 
-/* Reads the JSON text of data/schema/lattice.md, with these values for placeholders (NULL: none). Errors as
-   ffd_lattice_parse. */
-ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
-                          lattice_spec **spec, ffd_error *error);
 #define SPEC_FORMAT "ffd-lattice"
 #define SPEC_VERSION 1
 

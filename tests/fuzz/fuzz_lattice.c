@@ -6,6 +6,7 @@
 #include "check_folds.h"
 #include "fuzz_target.h"
 #include "lattice/spec.h"
+#include "lattice/spec_parse.h"
 #include "promise.h"
 #include <math.h>
 #include <string.h>
