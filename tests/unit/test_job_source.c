@@ -9,6 +9,7 @@
 #include "../support/test_folder.h"
 #include "batch/job_source.h"
 #include "batch/lines.h"
+#include "batch/manifest.h"
 
 /* The words of a list, with bars between them. */
 static const char *joined(const byte_buffer *words)
