@@ -1,5 +1,6 @@
 #include "lattice/lattice.h"
 #include "spline/basis.h"
+#include "spline/knots.h"
 #include <math.h>
 #include <string.h>
 

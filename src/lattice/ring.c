@@ -3,6 +3,8 @@
 #include "base/vector/trig.h"
 #include "lattice/spec.h"
 #include "spline/basis.h"
+#include "spline/bezier.h"
+#include "spline/knots.h"
 #include <math.h>
 
 static bool is_rational(const knot_vector *knots, const ring_point *points)

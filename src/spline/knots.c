@@ -1,7 +1,7 @@
 #include "spline/knots.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
-#include "spline/basis.h"
+#include "spline/bezier.h"
 #include <limits.h>
 #include <math.h>
 #include <string.h>
