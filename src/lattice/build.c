@@ -1,6 +1,10 @@
+#include "lattice/build.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "lattice/cylinder.h"
 #include "lattice/lattice.h"
+#include "lattice/moves.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <stdio.h>
 #include <string.h>

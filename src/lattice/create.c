@@ -1,9 +1,11 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "lattice/build.h"
 #include "lattice/direction.h"
 #include "lattice/lattice.h"
 #include "lattice/principal.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 
 void ffd_lattice_desc_init(ffd_lattice_desc *desc)

@@ -1,7 +1,9 @@
+#include "lattice/cylinder.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
 #include "lattice/ring.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 
 /* The volume is C(u,v,w) = center + rho(u) c(v) + z(w) axis: c is a curve round the origin with control

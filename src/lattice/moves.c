@@ -1,7 +1,9 @@
+#include "lattice/moves.h"
 #include "base/memory/memory.h"
 #include "base/vector/trig.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <float.h>
 #include <math.h>

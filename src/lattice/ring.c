@@ -1,7 +1,7 @@
 #include "lattice/ring.h"
 #include "base/text/number.h"
 #include "base/vector/trig.h"
-#include "lattice/spec.h"
+#include "lattice/shapes.h"
 #include "spline/basis.h"
 #include "spline/bezier.h"
 #include "spline/knots.h"

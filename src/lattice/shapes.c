@@ -1,8 +1,8 @@
+#include "lattice/shapes.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
-#include "lattice/spec.h"
 
 /* A side shorter than this fraction of the diagonal counts as flat: it is the rounding of coordinates that
    were meant to be equal, or a volume too thin to be inverted well. It is widened, round its middle, to

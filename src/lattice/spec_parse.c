@@ -304,18 +304,3 @@ out:
     ffd_json_span_free(&tree);
     return status;
 }
-
-void ffd_spec_free(lattice_spec *spec)
-{
-    if (!spec)
-        return;
-    ffd_free(spec->name);
-    for (int a = 0; a < 3; a++)
-        ffd_free(spec->list[a]);
-    ffd_free(spec->points);
-    ffd_free(spec->weights);
-    ffd_free(spec->deformed_points);
-    ffd_free(spec->deformed_weights);
-    ffd_free(spec->moves);
-    ffd_free(spec);
-}

@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+#include "lattice/spec_text.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
