@@ -8,7 +8,7 @@
 #include "batch/manifest.h"
 #include "json/json_chars.h"
 #include "json/json_parse.h"
-#include "json/json_text.h"
+#include "json/json_setting.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,28 +111,15 @@ static bool is_text(const csv_row *row)
     return true;
 }
 
-/* Sets a placeholder to a cell: to what it says as JSON, or else to a text. */
+/* Sets a placeholder to a cell. */
 static void set_cell(job_description *job, const char *column, const char *cell)
 {
-    json_input input = {
-        .text = cell, .size = strlen(cell), .name = "", .rules = JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS};
-    json_span tree;
-    byte_buffer quoted = {0};
-    json_text writer;
-    ffd_status status = ffd_json_parse(&input, &tree, NULL);
-    if (status == FFD_E_INVALID) {
-        ffd_json_begin(&writer, &quoted);
-        ffd_json_string(&writer, NULL, cell);
-        input.text = quoted.data;
-        input.size = quoted.size;
-        status = quoted.failed ? FFD_E_MEMORY : ffd_json_parse(&input, &tree, NULL);
-    }
-    if (status)
+    json_setting value;
+    if (ffd_json_setting_parse(cell, JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS, &value))
         job->texts.failed = true;
     else
-        ffd_description_set(job, column, &tree, 0);
-    ffd_json_span_free(&tree);
-    ffd_buffer_free(&quoted);
+        ffd_description_set(job, column, &value.tree, 0);
+    ffd_json_setting_free(&value);
 }
 
 /* Adds a path, which is relative to folder ("": to the current one). */

@@ -2,8 +2,6 @@
 #include "base/memory/memory.h"
 #include "json/json_chars.h"
 #include "json/json_parse.h"
-#include "json/json_text.h"
-#include <string.h>
 
 /* The name, a string, in {"$": "NAME"}; JSON_NONE: it is not a placeholder. */
 static uint32_t placeholder_name(const json_span *tree, uint32_t value)
@@ -12,22 +10,6 @@ static uint32_t placeholder_name(const json_span *tree, uint32_t value)
         return JSON_NONE;
     const uint32_t name = ffd_json_span_member(tree, value, "$");
     return name != JSON_NONE && tree->values[name].kind == JSON_STRING ? name : JSON_NONE;
-}
-
-/* A value is what it says as JSON, or else a text. FFD_E_INVALID: it is neither. */
-static ffd_status parse_value(const char *text, spec_value *value)
-{
-    json_input input = {.text = text, .size = strlen(text), .name = "", .rules = JSON_NO_NUL | JSON_DOUBLES};
-    const ffd_status status = ffd_json_parse(&input, &value->tree, NULL);
-    if (status != FFD_E_INVALID || !ffd_utf8_is_valid(text, input.size))
-        return status;
-    byte_buffer quoted = {0};
-    json_text writer;
-    ffd_json_begin(&writer, &quoted);
-    ffd_json_string(&writer, NULL, text);
-    input.size = quoted.size;
-    input.text = value->quoted = ffd_buffer_finish(&quoted);
-    return value->quoted ? ffd_json_parse(&input, &value->tree, NULL) : FFD_E_MEMORY;
 }
 
 /* The value for the placeholder at the cursor. */
@@ -40,8 +22,10 @@ static ffd_status find_value(json_cursor cursor, uint32_t name, const spec_setti
     for (size_t i = 0; i < settings->count; i++) {
         if (!ffd_json_span_string_is(cursor.tree, name, settings->values[i].name))
             continue;
-        spec_value *const value = &values->values[i];
-        const ffd_status status = value->tree.values ? FFD_OK : parse_value(settings->values[i].value, value);
+        json_setting *const value = &values->values[i];
+        ffd_status status = FFD_OK;
+        if (!value->tree.values)
+            status = ffd_json_setting_parse(settings->values[i].value, JSON_NO_NUL | JSON_DOUBLES, value);
         settings->used[i] = true;
         *tree = &value->tree;
         if (status == FFD_E_INVALID)
@@ -87,10 +71,8 @@ ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *se
 
 void ffd_spec_values_free(spec_values *values)
 {
-    for (size_t i = 0; values->values && i < values->count; i++) {
-        ffd_json_span_free(&values->values[i].tree);
-        ffd_free(values->values[i].quoted);
-    }
+    for (size_t i = 0; values->values && i < values->count; i++)
+        ffd_json_setting_free(&values->values[i]);
     ffd_free(values->values);
     ffd_free(values->substitutes);
     *values = (spec_values){0};

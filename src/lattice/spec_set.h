@@ -4,16 +4,11 @@
 
 #include "lattice/spec.h"
 #include "json/json_reader.h"
-
-/* A value that is used: its text as JSON, parsed. */
-typedef struct spec_value {
-    char *quoted; /* its text as a JSON string, where it is not JSON itself; or NULL */
-    json_span tree;
-} spec_value;
+#include "json/json_setting.h"
 
 /* All zeros: empty. */
 typedef struct spec_values {
-    spec_value *values; /* one for each setting */
+    json_setting *values; /* one for each setting; parsed if it is used */
     size_t count;
     json_substitute *substitutes; /* one for each placeholder */
     size_t substitute_count, substitute_capacity;
