@@ -164,15 +164,19 @@ static size_t pointer_step(const json_span *tree, uint32_t value, char *text, si
     }
     text[length++] = '/';
     const char *c = tree->text + v->key_begin + 1, *const last = tree->text + v->key_end - 1;
-    while (c < last && length + 5 < capacity) {
+    while (c < last) {
         uint32_t code = 0;
+        char bytes[4] = "~0";
         c = ffd_json_char(c, last, &code);
-        if (code == '~' || code == '/') {
-            text[length++] = '~';
-            text[length++] = code == '~' ? '0' : '1';
-        } else {
-            length += ffd_utf8_write(code, text + length);
-        }
+        size_t size = 2;
+        if (code == '/')
+            bytes[1] = '1';
+        else if (code != '~')
+            size = ffd_utf8_write(code, bytes);
+        if (length + size >= capacity)
+            break;
+        memcpy(text + length, bytes, size);
+        length += size;
     }
     text[length] = 0;
     return length;
