@@ -30,7 +30,7 @@ struct job_source {
 
 /* Lines */
 
-/* Blank ones are no jobs. */
+/* Blank lines are not jobs. */
 static bool is_blank(const byte_buffer *line)
 {
     for (size_t i = 0; i < line->size; i++)
@@ -39,7 +39,7 @@ static bool is_blank(const byte_buffer *line)
     return true;
 }
 
-/* A byte order mark, which editors write, is let pass. */
+/* Skips a byte order mark, which some editors write. */
 static void skip_mark(line_reader *reader)
 {
     byte_buffer *const line = &reader->line;
@@ -143,7 +143,7 @@ static void add_lattices(job_description *job, const job_source_desc *desc)
         ffd_description_add(job, JOB_LATTICE, NULL, desc->lattices[i]);
 }
 
-/* Its output's name in the folder of outputs is that of its input. */
+/* In the folder of outputs, the output has the name of the input. */
 static void add_output(job_description *job, const char *folder, const char *input)
 {
     char *const name = ffd_text_copy(ffd_path_name(input));
@@ -186,7 +186,7 @@ static void describe_row(const job_source *source, job_description *job)
         add_lattices(job, desc);
 }
 
-/* What is wrong with a row; returns false. */
+/* Fails the job of a row; returns false. */
 static bool refuse_row(const job_source *source, batch_job *job, const char *format, ...) FFD_PRINTF(3, 4);
 
 static bool refuse_row(const job_source *source, batch_job *job, const char *format, ...)
@@ -208,10 +208,10 @@ static bool check_row(const job_source *source, bool valid, batch_job *job)
             "a row of more than %zu bytes, perhaps because a quote is missing: the rest is not read",
             LINE_MOST);
     if (!valid)
-        return refuse_row(source, job, "not a row of a CSV table");
+        return refuse_row(source, job, "not a valid CSV row");
     if (source->row.count != source->columns.count)
-        return refuse_row(source, job, "a row of %zu cells in a table of %zu columns", source->row.count,
-                          source->columns.count);
+        return refuse_row(source, job, "the row has %zu cells, but the table has %zu columns",
+                          source->row.count, source->columns.count);
     return is_text(&source->row) || refuse_row(source, job, "a cell is not text in UTF-8");
 }
 
@@ -248,7 +248,7 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
     return FFD_OK;
 }
 
-/* Waits for them: without them there is nothing to do. */
+/* Waits for the first row: without it there is nothing to do. */
 static ffd_status read_columns(job_source *source, ffd_error *error)
 {
     line_state state;
@@ -323,7 +323,7 @@ static ffd_status open_text(job_source *source, const char *path, ffd_error *err
         strcmp(path, "-") == 0 || ffd_path_name(path) == path ? ffd_text_copy("") : ffd_path_folder(path);
     if (!source->folder)
         return ffd_fail_memory(error);
-    /* What the command line names beside a table does not stand beside that. */
+    /* Files named on the command line are not relative to the table. */
     source->frame.folder = source->desc.table ? "" : source->folder;
     return ffd_lines_open(path, source->frame.name, &source->reader, error);
 }

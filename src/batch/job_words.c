@@ -44,7 +44,7 @@ static bool refuse(const job_maker *maker, const char *format, ...)
     return false;
 }
 
-/* A word with its end. */
+/* A word with its final 0. */
 static void add_word(byte_buffer *words, const char *word)
 {
     ffd_buffer_append(words, word, strlen(word) + 1);
@@ -68,7 +68,7 @@ static void add_argument(batch_job *job, const char *name, const char *value)
         add_option(&job->content, name, value);
 }
 
-/* From the manifest's folder, and so that it is no option; free with ffd_free. */
+/* Makes a path relative to the manifest's folder, and not look like an option. Free with ffd_free. */
 static char *resolve(const batch_frame *frame, const char *path)
 {
     if (ffd_path_is_absolute(path))
@@ -253,10 +253,9 @@ static bool add_files(job_maker *maker)
     if (!has_output && !in_place)
         return refuse(maker, "\"out\" is missing");
     if (has_output && in_place)
-        return refuse(maker, "\"out\" has no meaning with the option \"in-place\"");
+        return refuse(maker, "\"out\" cannot be used with the option \"in-place\"");
     if (in_place && maker->frame->resume)
-        return refuse(maker,
-                      "\"in-place\" has no meaning with --resume: what is done would be done once more");
+        return refuse(maker, "\"in-place\" cannot be used with --resume: what is done would be done again");
     if (wrong_output)
         return refuse(maker, "%s", wrong_output);
     if (output && (!check_path(maker, output, "out") || !keep_name(maker, output, &job->output)))

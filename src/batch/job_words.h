@@ -35,7 +35,7 @@ typedef struct batch_job {
 } batch_job;
 
 /* Makes an empty job, whose line is set, do what a description says. What is wrong with that comes into the
-   job's error; returns only FFD_E_MEMORY. */
+   job's error; returns FFD_OK or FFD_E_MEMORY. */
 ffd_status ffd_job_make(const batch_frame *frame, const job_description *description, batch_job *job);
 /* What its output is called: NULL where it has none. */
 const char *ffd_job_output_name(const batch_job *job);

@@ -99,7 +99,8 @@ static void read_option_value(line_parser *parser, const char *name, uint32_t va
     else {
         ffd_description_add(&parser->description, JOB_UNSET, name, NULL);
         refuse(parser, "options",
-               "option \"%s\" is neither a text, a number, true, false nor a list of these", name);
+               "option \"%s\" must be a string, a number, true, false or a list of strings and numbers",
+               name);
     }
 }
 

@@ -5,7 +5,7 @@
 #include "batch/job_words.h"
 
 /* Reads a line into an empty job whose line number is set. What is wrong with it comes into the job's error;
-   returns only FFD_E_MEMORY. */
+   returns FFD_OK or FFD_E_MEMORY. */
 ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size, batch_job *job);
 
 #endif

@@ -1,3 +1,4 @@
+/* info_text.c - the facts of `ffd info` as text for people. */
 #include "base/memory/memory.h"
 #include "job/info.h"
 #include "json/json_parse.h"

@@ -13,7 +13,7 @@ static int hex_value(char c)
     return -1;
 }
 
-/* The four digits behind \u. */
+/* The four digits after \u. */
 static const char *read_hex(const char *c, const char *last, uint32_t *code)
 {
     if (last - c < 4)

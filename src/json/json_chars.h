@@ -6,14 +6,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Reads the UTF-8 character at c (c < last). Returns the position behind it; NULL where it is not valid. */
+/* Reads the UTF-8 character at c (c < last). Returns the position after it; NULL if it is not valid. */
 const char *ffd_utf8_read(const char *c, const char *last, uint32_t *code);
 bool ffd_utf8_is_valid(const char *text, size_t size);
 /* Writes a character as UTF-8; returns its 1 to 4 bytes. */
 size_t ffd_utf8_write(uint32_t code, char bytes[4]);
 
 /* Reads one character of a string's inside at c: plain UTF-8 or an escape (a surrogate pair is one
-   character). Returns the position behind it; NULL for a control character, invalid UTF-8 or an invalid
+   character). Returns the position after it; NULL for a control character, invalid UTF-8 or an invalid
    escape. */
 const char *ffd_json_char(const char *c, const char *last, uint32_t *code);
 

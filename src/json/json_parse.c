@@ -25,7 +25,7 @@ typedef struct scanner {
     ffd_error *error;
 } scanner;
 
-/* Behind a byte order mark. */
+/* The position after a byte order mark, if there is one. */
 static const char *skip_mark(const char *text, const char *last)
 {
     return last - text >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
@@ -90,12 +90,12 @@ static ffd_status scan_string(scanner *s, const char *what)
     const char *c = ffd_json_pass_plain(opened + 1, s->last);
     while (c < s->last && *c != '"') {
         uint32_t code;
-        const char *behind = ffd_json_char(c, s->last, &code);
-        if (!behind)
+        const char *next = ffd_json_char(c, s->last, &code);
+        if (!next)
             return refuse_character(s, c);
         if (code == 0 && s->input->rules & JSON_NO_NUL)
             return refuse(s, c, "a string must not hold the character \\u0000");
-        c = ffd_json_pass_plain(behind, s->last);
+        c = ffd_json_pass_plain(next, s->last);
     }
     if (c == s->last)
         return refuse(s, opened, "this string has no closing quote");

@@ -25,7 +25,7 @@ typedef enum json_kind {
 typedef struct json_value {
     uint32_t begin, end;         /* the value with its quotes or brackets */
     uint32_t key_begin, key_end; /* its key with the quotes; equal where it has none */
-    uint32_t next;               /* number of the first value behind this one and all that it holds */
+    uint32_t next;               /* number of the first value after this one and all that it holds */
     uint32_t parent;             /* JSON_NONE: the top */
     uint32_t count;              /* members of a container */
     uint8_t kind;                /* json_kind */

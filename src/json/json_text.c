@@ -47,7 +47,7 @@ static void quoted(byte_buffer *out, const char *text)
     ffd_buffer_text(out, "\"");
 }
 
-/* What stands before a value: the comma, the place, the key. */
+/* What comes before a value: the comma, the line break, the key. */
 static void lead_in(json_text *json, const char *key)
 {
     const bool first = json->empty[json->depth];

@@ -1,3 +1,4 @@
+/* file.c - lattice files: load, save, and fit to a mesh. */
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"

@@ -38,7 +38,7 @@ static ffd_status read_version(json_cursor root)
                                   "version %.0f is newer than %d, the newest known here", version,
                                   SPEC_VERSION);
     if (version < SPEC_VERSION)
-        return ffd_cursor_fail(cursor, "there is no version %.0f, only %d", version, SPEC_VERSION);
+        return ffd_cursor_fail(cursor, "there is no version %.0f; the only one is %d", version, SPEC_VERSION);
     return FFD_OK;
 }
 
@@ -140,19 +140,19 @@ static ffd_status read_direction_knots(json_cursor cursor, lattice_spec *spec, s
     return status;
 }
 
-/* A closed direction needs rest points that go round. */
+/* A closed direction needs rest points that form a ring. */
 static ffd_status check_closed(json_cursor cursor, const lattice_spec *spec, size_t a)
 {
     if (spec->kind[a] != KNOTS_CLOSED && spec->kind[a] != KNOTS_CLOSED_LIST)
         return FFD_OK;
     if (spec->rest == SPEC_BOX || spec->rest == SPEC_BOX_MESH)
-        return ffd_cursor_fail(cursor, "direction %c of a box cannot be closed: its points do not go round",
-                               "uvw"[a]);
+        return ffd_cursor_fail(
+            cursor, "direction %c of a box cannot be closed: its points do not form a ring", "uvw"[a]);
     if (spec->rest == SPEC_CYLINDER && a != 1)
         return ffd_cursor_fail(cursor, "direction %c of a cylinder cannot be closed, only v can", "uvw"[a]);
     if (spec->rest == SPEC_CYLINDER && !ffd_spec_full_turn(spec))
         return ffd_cursor_fail(cursor,
-                               "a cylinder from %s to %s degrees cannot be closed: it is no full turn",
+                               "a cylinder from %s to %s degrees cannot be closed: it is not a full turn",
                                ffd_number_text(spec->angle[0]).text, ffd_number_text(spec->angle[1]).text);
     return FFD_OK;
 }

@@ -43,7 +43,7 @@ static ffd_status check_sides(json_cursor cursor, const lattice_spec *spec)
                                    ffd_number_text(spec->box_max[c]).text, "uvw"[c],
                                    ffd_number_text(spec->box_min[c]).text);
         if (!isfinite(spec->box_max[c] - spec->box_min[c]))
-            return ffd_cursor_fail(cursor, "the side from %s to %s is longer than numbers can hold",
+            return ffd_cursor_fail(cursor, "the side from %s to %s is too large for a double",
                                    ffd_number_text(spec->box_min[c]).text,
                                    ffd_number_text(spec->box_max[c]).text);
     }

@@ -30,7 +30,7 @@ static inline double ffd_knots_wrap(const knot_vector *knots, double u)
 /* The span s of the domain with t_s <= u < t_{s+1}, clipped to the first and last non-empty one (P&T A2.1).
  */
 int ffd_knots_span(const knot_vector *knots, double u);
-/* Its place among the non-empty ones. */
+/* Its index among the non-empty spans. */
 size_t ffd_knots_span_number(const knot_vector *knots, double u);
 
 /* g_i = (t_{i+1} + ... + t_{i+d})/d of function i. */

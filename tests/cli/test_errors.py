@@ -69,7 +69,7 @@ LATTICES = [
     (lattice(knots=["clampd", "open", "open"]), INVALID,
      ':/knots/0: unknown word "clampd"; the nearest known one is "clamped"'),
     (lattice(knots=["closed", "clamped", "clamped"]), INVALID,
-     ":/knots/0: direction u of a box cannot be closed: its points do not go round"),
+     ":/knots/0: direction u of a box cannot be closed: its points do not form a ring"),
     (lattice(knots=[[0, 0, 0, 0, 1, 1, 1], "clamped", "clamped"]), INVALID,
      ":/knots/0: has 7 knots where 8 are needed"),
     (lattice(knots=[[0, 0, 0, 0, 1, 1, 1, 0.5], "clamped", "clamped"]), INVALID,
@@ -152,11 +152,11 @@ LATTICES = [
     (lattice(moves=[{"at": [0.5, 0, 0], "by": [0, 0, 0]}]), INVALID,
      ":/moves/0/at/0: must be a whole number, not the number 0.5"),
     (lattice(moves=[{"by": [1e+308, 0, 0]}, {"by": [1e+308, 0, 0]}]), INVALID,
-     ":/moves/1: moves control point 0,0,0 to a place that is no finite number"),
+     ":/moves/1: moves control point 0,0,0 to a position that is not finite"),
     (lattice(moves=[{"within": {"min": [1, 1, 1], "max": [0, 0, 0]}, "by": [0, 0, 0]}]), INVALID,
      ":/moves/0/within: max 0 is less than min 1"),
     (lattice(moves=[{"within": {"min": [7, 7, 7], "max": [8, 8, 8]}, "by": [1, 0, 0]}]), INVALID,
-     ":/moves/0: selects no control point: none rests within these bounds"),
+     ":/moves/0: selects no control point: none is within these bounds at rest"),
 ]
 
 

@@ -218,7 +218,7 @@ static void test_refuses_frame(void **state)
         {"{\"format\":\"ffd-lattice\",\"version\":2,\"news\":1}", FFD_E_UNSUPPORTED,
          "f.json:/version: version 2 is newer than 1, the newest known here"},
         {"{\"format\":\"ffd-lattice\",\"version\":0}", FFD_E_INVALID,
-         "f.json:/version: there is no version 0, only 1"},
+         "f.json:/version: there is no version 0; the only one is 1"},
         {"{\"format\":\"ffd-lattice\",\"version\":\"1\"}", FFD_E_INVALID,
          "f.json:/version: must be a whole number, not the text \"1\""},
         {HEAD "\"sise\":[2,2,2]," UNIT "}", FFD_E_INVALID,
@@ -274,9 +274,9 @@ static void test_refuses_knots(void **state)
         {BOX ",\"knots\":[\"clamped\",\"clamp\",\"clamped\"]}", FFD_E_INVALID,
          "f.json:/knots/1: unknown word \"clamp\"; the nearest known one is \"clamped\""},
         {BOX ",\"knots\":[\"clamped\",\"closed\",\"clamped\"]}", FFD_E_INVALID,
-         "f.json:/knots/1: direction v of a box cannot be closed: its points do not go round"},
+         "f.json:/knots/1: direction v of a box cannot be closed: its points do not form a ring"},
         {BOX ",\"knots\":[{\"closed\":[0,1,2]},\"open\",\"clamped\"]}", FFD_E_INVALID,
-         "f.json:/knots/0: direction u of a box cannot be closed: its points do not go round"},
+         "f.json:/knots/0: direction u of a box cannot be closed: its points do not form a ring"},
         {BOX ",\"knots\":[{\"closd\":[0,1,2]},\"open\",\"clamped\"]}", FFD_E_INVALID,
          "f.json:/knots/0/closd: unknown key \"closd\"; the nearest known one is \"closed\""},
         {BOX ",\"knots\":[[0,0,1],\"open\",\"clamped\"]}", FFD_E_INVALID,
@@ -291,7 +291,7 @@ static void test_refuses_knots(void **state)
               "\"height\":1,"
               "\"angle\":[0,90]}},\"knots\":[\"open\",\"closed\",\"open\"]}",
          FFD_E_INVALID,
-         "f.json:/knots/1: a cylinder from 0 to 90 degrees cannot be closed: it is no full turn"},
+         "f.json:/knots/1: a cylinder from 0 to 90 degrees cannot be closed: it is not a full turn"},
         {HEAD "\"size\":[2,3,2],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],"
               "\"height\":1}},"
               "\"knots\":[\"closed\",\"closed\",\"open\"]}",
@@ -332,7 +332,7 @@ static void test_refuses_rest(void **state)
         {SIZE "\"rest\":{\"box\":{\"min\":[0,2,0],\"max\":[1,2,1]}}}", FFD_E_INVALID,
          "f.json:/rest/box: max 2 of direction v is not more than min 2"},
         {SIZE "\"rest\":{\"box\":{\"min\":[-1e308,0,0],\"max\":[1e308,1,1]}}}", FFD_E_INVALID,
-         "f.json:/rest/box: the side from -1e+308 to 1e+308 is longer than numbers can hold"},
+         "f.json:/rest/box: the side from -1e+308 to 1e+308 is too large for a double"},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"spacing\":\"even\"}}}", FFD_E_INVALID,
          "f.json:/rest/box/spacing: unknown word \"even\"; the nearest known one is \"greville\""},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"axes\":[[1,0,0],[0,2,0],[0,0,1]]}}}",
