@@ -253,17 +253,17 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     const batch_desc *const desc = run->desc;
     const job_source_desc *const jobs = &desc->jobs;
     const char *const origin = jobs->manifest ? jobs->manifest : jobs->table ? jobs->table : jobs->pattern;
-    char *const place =
-        desc->journal ? ffd_text_copy(desc->journal) : ffd_journal_place(origin, jobs->shard, jobs->shards);
+    char *const path = desc->journal ? ffd_text_copy(desc->journal)
+                                     : ffd_journal_default_path(origin, jobs->shard, jobs->shards);
     ffd_error reason;
-    if (place && desc->pool.dry && !(desc->pool.resume && ffd_file_exists(place))) {
-        ffd_free(place); /* nothing is written, not even there */
+    if (path && desc->pool.dry && !(desc->pool.resume && ffd_file_exists(path))) {
+        ffd_free(path); /* nothing is written, not even there */
         return FFD_OK;
     }
     ffd_status status =
-        place ? ffd_journal_open(place, &run->journal, &reason)
-              : ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal (--journal names one)");
-    ffd_free(place);
+        path ? ffd_journal_open(path, &run->journal, &reason)
+             : ffd_fail(&reason, FFD_E_IO, "there is no folder for the journal (--journal names one)");
+    ffd_free(path);
     if (!status)
         return FFD_OK;
     if (!desc->journal) { /* a journal only saves time */

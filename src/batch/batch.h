@@ -10,7 +10,7 @@ typedef struct batch_desc {
     pool_desc pool;      /* report, depfile and records are set by the batch */
     const char *report;  /* "-": standard output; or NULL */
     const char *depfile; /* with the rules of all outputs; or NULL */
-    const char *journal; /* or NULL: where ffd_journal_place says */
+    const char *journal; /* or NULL: where ffd_journal_default_path says */
     bool stop;           /* at the first failure */
     bool quiet;          /* only what went wrong */
 } batch_desc;

@@ -1,7 +1,8 @@
 #include "batch/csv.h"
 #include <string.h>
 
-/* From the quote at text[i] to behind the one that ends the cell: where that is, 0 for none. */
+/* Reads a quoted cell from the quote at text[i]. Returns the index after its closing quote; 0 if there is
+ * none. */
 static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *cell)
 {
     for (i++; i < size; i++) {
@@ -14,7 +15,7 @@ static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *
     return 0;
 }
 
-/* Where the cell at text[i] that is not within quotes ends. */
+/* The end of the cell at text[i], which is not quoted. */
 static size_t skip_plain(const char *text, size_t i, size_t size)
 {
     while (i < size && text[i] != ',' && text[i] != '"')
@@ -33,7 +34,7 @@ bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size)
         else if (c == ',' && scan->state != CSV_BROKEN)
             scan->state = CSV_CELL_BEGINS;
         else if (c == '"' || scan->state == CSV_QUOTE_ENDS)
-            scan->state = CSV_BROKEN; /* it is no row, whatever comes */
+            scan->state = CSV_BROKEN; /* it is not a row, whatever follows */
         else if (scan->state == CSV_CELL_BEGINS)
             scan->state = CSV_PLAIN;
     }

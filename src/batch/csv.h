@@ -11,19 +11,19 @@ typedef struct csv_row {
     size_t count;
 } csv_row;
 
-/* How far a text was looked at; all zeros before its beginning. */
+/* How far a text was scanned; all zeros at its beginning. */
 typedef struct csv_scan {
     size_t at;
     enum { CSV_CELL_BEGINS, CSV_PLAIN, CSV_QUOTED, CSV_QUOTE_ENDS, CSV_BROKEN } state;
 } csv_scan;
 
-/* Looks at what has been added to the text. Whether it ends within quotes: its row goes on in the next line.
- */
+/* Scans what has been added to the text. Returns whether it ends within quotes: its row goes on in the next
+   line. */
 bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size);
-/* Splits a row that is whole. False where a quote stands in the middle of a cell, or the cell goes on behind
-   one. */
+/* Splits a complete row. False if a quote is in the middle of a cell, or the cell goes on after its closing
+   quote. */
 bool ffd_csv_split(const char *text, size_t size, csv_row *row);
-/* The cell behind this one; the first for NULL. */
+/* The cell after this one; the first for NULL. */
 const char *ffd_csv_next(const csv_row *row, const char *cell);
 void ffd_csv_free(csv_row *row);
 

@@ -5,6 +5,13 @@
 #include "base/system/interrupt.h"
 #include "batch/csv.h"
 #include "batch/lines.h"
+#include "batch/manifest.h"
+#include "json/json_chars.h"
+#include "json/json_parse.h"
+#include "json/json_setting.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct job_source {
@@ -23,7 +30,7 @@ struct job_source {
 
 /* Lines */
 
-/* Blank ones are no jobs. */
+/* Blank lines are not jobs. */
 static bool is_blank(const byte_buffer *line)
 {
     for (size_t i = 0; i < line->size; i++)
@@ -32,7 +39,7 @@ static bool is_blank(const byte_buffer *line)
     return true;
 }
 
-/* A byte order mark, which editors write, is let pass. */
+/* Skips a byte order mark, which some editors write. */
 static void skip_mark(line_reader *reader)
 {
     byte_buffer *const line = &reader->line;
@@ -92,97 +99,130 @@ static ffd_status next_row(job_source *source, csv_row *row, line_state *state, 
     return row->text.failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
-/* Whether all cells are UTF-8, as JSON is. */
+/* Whether all cells are UTF-8. */
 static bool is_text(const csv_row *row)
 {
     const char *cell = NULL;
     for (size_t i = 0; i < row->count; i++) {
         cell = ffd_csv_next(row, cell);
-        json_t *const text = json_string(cell);
-        json_decref(text);
-        if (!text)
+        if (!ffd_utf8_is_valid(cell, strlen(cell)))
             return false;
     }
     return true;
 }
 
-/* A cell is what it says as JSON, or else a text. */
-static json_t *cell_value(const char *cell)
+/* Sets a placeholder to a cell. */
+static void set_cell(job_description *job, const char *column, const char *cell)
 {
-    json_t *const value = json_loads(cell, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES, NULL);
-    return value ? value : json_string(cell);
+    json_setting value;
+    if (ffd_json_setting_parse(cell, JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS, &value))
+        job->texts.failed = true;
+    else
+        ffd_description_set(job, column, &value.tree, 0);
+    ffd_json_setting_free(&value);
 }
 
-static json_t *list_lattices(const job_source_desc *desc)
+/* Adds a path, which is relative to folder ("": to the current one). */
+static void add_path(job_description *job, job_part part, const char *folder, const char *path)
 {
-    json_t *const list = json_array();
+    if (!*folder || ffd_path_is_absolute(path)) {
+        ffd_description_add(job, part, NULL, path);
+        return;
+    }
+    char *const joined = ffd_path_join(folder, path);
+    if (joined)
+        ffd_description_add(job, part, NULL, joined);
+    else
+        job->texts.failed = true;
+    ffd_free(joined);
+}
+
+static void add_lattices(job_description *job, const job_source_desc *desc)
+{
     for (size_t i = 0; i < desc->lattice_count; i++)
-        json_array_append_new(list, json_string(desc->lattices[i]));
-    return list;
+        ffd_description_add(job, JOB_LATTICE, NULL, desc->lattices[i]);
 }
 
-/* Sets a member to the path of a cell, which stands in folder ("": the current one). */
-static void set_path(json_t *job, const char *member, const char *folder, const char *cell)
+/* In the folder of outputs, the output has the name of the input. */
+static void add_output(job_description *job, const char *folder, const char *input)
 {
-    char *const path = *folder && !ffd_path_is_absolute(cell) ? ffd_path_join(folder, cell) : NULL;
-    json_object_set_new(job, member, json_string(path ? path : cell));
-    ffd_free(path);
+    char *const name = ffd_text_copy(ffd_path_name(input));
+    if (name)
+        add_path(job, JOB_OUTPUT, folder, name);
+    else
+        job->texts.failed = true;
+    ffd_free(name);
 }
 
-/* "in", "out", "lattice" are files, other columns numbers that are set. Files of the table stand beside it,
-   or go to the batch's folder. Free with json_decref. */
-static json_t *row_value(const job_source *source)
+/* "in", "out", "lattice" are files, other columns values of placeholders. Relative paths start at the table's
+   folder, those of outputs at the batch's. */
+static void describe_cell(const job_source *source, const char *column, const char *cell,
+                          job_description *job)
+{
+    const char *const out_dir = source->desc.out_dir;
+    if (strcmp(column, "in") != 0 && strcmp(column, "out") != 0 && strcmp(column, "lattice") != 0)
+        set_cell(job, column, cell);
+    else if (*cell && *column == 'o')
+        add_path(job, JOB_OUTPUT, out_dir ? out_dir : source->folder, cell);
+    else if (*cell)
+        add_path(job, *column == 'i' ? JOB_INPUT : JOB_LATTICE, source->folder, cell);
+}
+
+static void describe_row(const job_source *source, job_description *job)
 {
     const job_source_desc *const desc = &source->desc;
-    json_t *const job = json_object(), *const settings = json_object();
     const char *column = NULL, *cell = NULL;
     for (size_t i = 0; i < source->row.count; i++) {
         column = ffd_csv_next(&source->columns, column);
         cell = ffd_csv_next(&source->row, cell);
-        const bool is_file =
-            strcmp(column, "in") == 0 || strcmp(column, "out") == 0 || strcmp(column, "lattice") == 0;
-        if (is_file && *cell)
-            set_path(job, column, *column == 'o' && desc->out_dir ? desc->out_dir : source->folder, cell);
-        else if (!is_file)
-            json_object_set_new(settings, column, cell_value(cell));
+        describe_cell(source, column, cell, job);
     }
-    if (desc->pattern && !json_object_get(job, "in"))
-        json_object_set_new(job, "in", json_string(desc->pattern));
-    const char *const input = json_string_value(json_object_get(job, "in"));
-    if (desc->out_dir && input && !json_object_get(job, "out"))
-        set_path(job, "out", desc->out_dir, ffd_path_name(input));
-    if (desc->lattice_count && !json_object_get(job, "lattice"))
-        json_object_set_new(job, "lattice", list_lattices(desc));
-    json_object_set_new(job, "set", settings);
-    return job;
+    if (desc->pattern && !ffd_description_find(job, JOB_INPUT))
+        ffd_description_add(job, JOB_INPUT, NULL, desc->pattern);
+    const char *const input = ffd_description_find(job, JOB_INPUT);
+    if (desc->out_dir && input && !ffd_description_find(job, JOB_OUTPUT))
+        add_output(job, desc->out_dir, input);
+    if (!ffd_description_find(job, JOB_LATTICE))
+        add_lattices(job, desc);
+}
+
+/* Fails the job of a row; returns false. */
+static bool refuse_row(const job_source *source, batch_job *job, const char *format, ...) FFD_PRINTF(3, 4);
+
+static bool refuse_row(const job_source *source, batch_job *job, const char *format, ...)
+{
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, (size_t)job->line, "%s", text);
+    return false;
+}
+
+static bool check_row(const job_source *source, bool valid, batch_job *job)
+{
+    if (source->is_lost)
+        return refuse_row(
+            source, job,
+            "a row of more than %zu bytes, perhaps because a quote is missing: the rest is not read",
+            LINE_MOST);
+    if (!valid)
+        return refuse_row(source, job, "not a valid CSV row");
+    if (source->row.count != source->columns.count)
+        return refuse_row(source, job, "the row has %zu cells, but the table has %zu columns",
+                          source->row.count, source->columns.count);
+    return is_text(&source->row) || refuse_row(source, job, "a cell is not text in UTF-8");
 }
 
 static ffd_status read_row(job_source *source, bool valid, batch_job *job)
 {
-    const size_t line = (size_t)job->line;
-    if (source->is_lost) {
-        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line,
-                      "a row of more than %zu bytes, perhaps for want of a quote: the rest is not read",
-                      LINE_MOST);
+    job_description description = {0};
+    if (!check_row(source, valid, job))
         return FFD_OK;
-    }
-    if (!valid) {
-        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line, "not a row of a CSV table");
-        return FFD_OK;
-    }
-    if (source->row.count != source->columns.count) {
-        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line,
-                      "a row of %zu cells in a table of %zu columns", source->row.count,
-                      source->columns.count);
-        return FFD_OK;
-    }
-    if (!is_text(&source->row)) {
-        ffd_fail_line(&job->error, FFD_E_INVALID, source->frame.name, line, "a cell is not text in UTF-8");
-        return FFD_OK;
-    }
-    json_t *const value = row_value(source);
-    const ffd_status status = ffd_job_read(&source->frame, value, job);
-    json_decref(value);
+    describe_row(source, &description);
+    const ffd_status status = ffd_job_make(&source->frame, &description, job);
+    ffd_description_free(&description);
     return status;
 }
 
@@ -208,7 +248,7 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
     return FFD_OK;
 }
 
-/* Waits for them: without them there is nothing to do. */
+/* Waits for the first row: without it there is nothing to do. */
 static ffd_status read_columns(job_source *source, ffd_error *error)
 {
     line_state state;
@@ -231,15 +271,13 @@ static ffd_status read_columns(job_source *source, ffd_error *error)
 static ffd_status read_file(const job_source *source, const char *path, batch_job *job)
 {
     const job_source_desc *const desc = &source->desc;
-    json_t *const value = json_object();
-    char *const out = desc->out_dir ? ffd_path_join(desc->out_dir, ffd_path_name(path)) : NULL;
-    json_object_set_new(value, "in", json_string(path));
-    if (out)
-        json_object_set_new(value, "out", json_string(out));
-    json_object_set_new(value, "lattice", list_lattices(desc));
-    ffd_free(out);
-    const ffd_status status = ffd_job_read(&source->frame, value, job);
-    json_decref(value);
+    job_description description = {0};
+    ffd_description_add(&description, JOB_INPUT, NULL, path);
+    if (desc->out_dir)
+        add_path(&description, JOB_OUTPUT, desc->out_dir, ffd_path_name(path));
+    add_lattices(&description, desc);
+    const ffd_status status = ffd_job_make(&source->frame, &description, job);
+    ffd_description_free(&description);
     return status;
 }
 
@@ -285,7 +323,7 @@ static ffd_status open_text(job_source *source, const char *path, ffd_error *err
         strcmp(path, "-") == 0 || ffd_path_name(path) == path ? ffd_text_copy("") : ffd_path_folder(path);
     if (!source->folder)
         return ffd_fail_memory(error);
-    /* What the command line names beside a table does not stand beside that. */
+    /* Files named on the command line are not relative to the table. */
     source->frame.folder = source->desc.table ? "" : source->folder;
     return ffd_lines_open(path, source->frame.name, &source->reader, error);
 }

@@ -24,12 +24,12 @@ typedef struct job_source job_source;
 /* desc's texts must outlive the source. Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_ARGUMENT, FFD_E_MEMORY. */
 ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_error *error);
 /* Fills an empty job, to be freed by the caller in every case, with the next one, if *state becomes
-   LINE_READ: it does not wait for who writes the manifest. What is wrong with the job itself is no failure.
+   LINE_READ: it does not wait for who writes the manifest. An error in the job itself is not a failure.
    Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error);
 /* The part of the jobs that was handed out, by bytes or files: 0 to 1; negative where it is not known. */
 double ffd_jobs_fraction(const job_source *source);
-/* What the jobs stand in, for messages. */
+/* The name of the manifest, table or pattern, for messages. */
 const char *ffd_jobs_name(const job_source *source);
 void ffd_jobs_close(job_source **source);
 

@@ -1,22 +1,18 @@
 #include "batch/job_words.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "base/text/number.h"
 #include "base/text/words.h"
+#include "json/json_chars.h"
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-/* A job on its way from JSON to words. */
-typedef struct job_reader {
+/* A job on its way from its description to words. */
+typedef struct job_maker {
     const batch_frame *frame;
+    const job_description *description;
     batch_job *job;
-    const json_t *options, *settings; /* its own; NULL: none */
-} job_reader;
-
-static const char *const members[] = {"in", "out", "lattice", "options", "set"};
-enum { MEMBERS = sizeof members / sizeof *members };
+} job_maker;
 
 /* Options of `ffd deform` that are the batch's own business, or have a member of their own. */
 static const char *const reserved[] = {"jobs",    "shard",      "resume",  "journal", "timeout",
@@ -25,7 +21,7 @@ static const char *const reserved[] = {"jobs",    "shard",      "resume",  "jour
                                        "quiet",   "verbose",    "help",    "set"};
 enum { RESERVED = sizeof reserved / sizeof *reserved };
 
-/* Options whose values are files, which stand where the manifest says. */
+/* Options whose values are files, whose relative paths start where the manifest's do. */
 static const char *const files[] = {"embedding"};
 enum { FILES = sizeof files / sizeof *files };
 
@@ -33,43 +29,46 @@ enum { FILES = sizeof files / sizeof *files };
 static const char *const idle[] = {"threads", "isa", "memory", "force", "if-changed"};
 enum { IDLE = sizeof idle / sizeof *idle };
 
-static bool is_one_of(const char *word, const char *const *words, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(word, words[i]) == 0)
-            return true;
-    return false;
-}
-
 /* Fails the job; returns false. */
-static bool refuse(const job_reader *reader, const char *format, ...) FFD_PRINTF(2, 3);
+static bool refuse(const job_maker *maker, const char *format, ...) FFD_PRINTF(2, 3);
 
-static bool refuse(const job_reader *reader, const char *format, ...)
+static bool refuse(const job_maker *maker, const char *format, ...)
 {
     char text[256];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    ffd_fail_line(&reader->job->error, FFD_E_INVALID, reader->frame->name, (size_t)reader->job->line, "%s",
+    ffd_fail_line(&maker->job->error, FFD_E_INVALID, maker->frame->name, (size_t)maker->job->line, "%s",
                   text);
     return false;
 }
 
-/* A word with its end. */
-static void add_word(byte_buffer *words, const char *before, const char *word)
+/* A word with its final 0. */
+static void add_word(byte_buffer *words, const char *word)
 {
-    ffd_buffer_text(words, before);
     ffd_buffer_append(words, word, strlen(word) + 1);
 }
 
-static void add_argument(batch_job *job, const char *before, const char *word)
+/* An option with its value, or without one (NULL). */
+static void add_option(byte_buffer *words, const char *name, const char *value)
 {
-    add_word(&job->words, before, word);
-    job->word_count++;
+    ffd_buffer_text(words, "--");
+    ffd_buffer_text(words, name);
+    ffd_buffer_text(words, value ? "=" : "");
+    add_word(words, value ? value : "");
 }
 
-/* From the manifest's folder, and so that it is no option; free with ffd_free. */
+/* The same as an argument; and as content, if it can change the output. */
+static void add_argument(batch_job *job, const char *name, const char *value)
+{
+    add_option(&job->words, name, value);
+    job->word_count++;
+    if (!ffd_word_is_known(name, idle, IDLE))
+        add_option(&job->content, name, value);
+}
+
+/* Makes a path relative to the manifest's folder, and not look like an option. Free with ffd_free. */
 static char *resolve(const batch_frame *frame, const char *path)
 {
     if (ffd_path_is_absolute(path))
@@ -79,280 +78,219 @@ static char *resolve(const batch_frame *frame, const char *path)
     return *path == '-' ? ffd_path_join(".", path) : ffd_text_copy(path);
 }
 
-static bool add_file(job_reader *reader, const char *before, const char *path)
+/* A file as an argument: of an option (NULL: none). */
+static bool add_file(job_maker *maker, const char *option, const char *path)
 {
-    char *const resolved = resolve(reader->frame, path);
-    if (resolved)
-        add_argument(reader->job, before, resolved);
+    batch_job *const job = maker->job;
+    char *const resolved = resolve(maker->frame, path);
+    if (!resolved)
+        ffd_fail_memory(&job->error);
+    else if (option)
+        add_option(&job->words, option, resolved);
     else
-        ffd_fail_memory(&reader->job->error);
+        add_word(&job->words, resolved);
+    job->word_count++;
     ffd_free(resolved);
     return resolved;
 }
 
-/* The path that a member gives, or NULL. */
-static const char *read_path(job_reader *reader, const json_t *value, const char *key)
+/* Whether a member can be the path of a file of a job. */
+static bool check_path(const job_maker *maker, const char *path, const char *key)
 {
-    const char *const path = json_string_value(value);
-    if (!path)
-        refuse(reader, "\"%s\" is not the name of a file", key);
-    else if (!*path)
-        refuse(reader, "\"%s\" is empty", key);
-    else if (strcmp(path, "-") == 0)
-        refuse(reader, "\"%s\" is \"-\": jobs of a batch have no standard streams", key);
-    else
-        return path;
-    return NULL;
+    if (!*path)
+        return refuse(maker, "\"%s\" is empty", key);
+    if (strcmp(path, "-") == 0)
+        return refuse(maker, "\"%s\" is \"-\": jobs of a batch have no standard streams", key);
+    if (!ffd_utf8_is_valid(path, strlen(path)))
+        return refuse(maker, "\"%s\" is not a name in UTF-8", key);
+    return true;
 }
 
-static bool read_lattices(job_reader *reader, const json_t *value)
+static bool is_wrong(const job_description *description, const job_statement *statement, const char *member)
 {
-    const size_t count = json_is_array(value) ? json_array_size(value) : 1;
-    if (count == 0)
-        return refuse(reader, "\"lattice\" is an empty list");
-    for (size_t i = 0; i < count; i++) {
-        const json_t *const one = json_is_array(value) ? json_array_get(value, i) : value;
-        const char *const path = read_path(reader, one, "lattice");
-        if (!path || !add_file(reader, "--lattice=", path))
+    return statement->part == JOB_WRONG && strcmp(ffd_description_name(description, statement), member) == 0;
+}
+
+static bool add_lattices(job_maker *maker)
+{
+    const job_description *const description = maker->description;
+    for (size_t i = 0; i < description->count; i++) {
+        const job_statement *const statement = &description->statements[i];
+        const char *const value = ffd_description_value(description, statement);
+        if (is_wrong(description, statement, "lattice"))
+            return refuse(maker, "%s", value);
+        if (statement->part == JOB_LATTICE &&
+            !(check_path(maker, value, "lattice") && add_file(maker, "lattice", value)))
             return false;
     }
     return true;
 }
 
-/* "--name=value" of a text or number. */
-static bool add_option(job_reader *reader, const char *name, const json_t *value)
+static bool is_option(const job_statement *statement)
 {
-    byte_buffer before = {0}, text = {0};
-    ffd_buffer_format(&before, "--%s=", name);
-    if (json_is_string(value))
-        ffd_buffer_text(&text, json_string_value(value));
-    else if (json_is_integer(value))
-        ffd_buffer_format(&text, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
-    else if (json_is_real(value))
-        ffd_buffer_number(&text, json_real_value(value));
-    else
-        refuse(reader, "option \"%s\" is neither a text, a number, true, false nor a list of these", name);
-    char *const start = ffd_buffer_finish(&before), *const end = ffd_buffer_finish(&text);
-    bool added = start && end && !reader->job->error.status;
-    if (added && is_one_of(name, files, FILES))
-        added = add_file(reader, start, end);
-    else if (added)
-        add_argument(reader->job, start, end);
-    if (!start || !end)
-        ffd_fail_memory(&reader->job->error);
-    else if (added && !is_one_of(name, idle, IDLE))
-        add_word(&reader->job->content, start, end);
-    ffd_free(start);
-    ffd_free(end);
-    return added;
+    return statement->part == JOB_OPTION || statement->part == JOB_FLAG || statement->part == JOB_UNSET;
 }
 
-static bool read_option(job_reader *reader, const char *name, const json_t *value)
+static bool check_option_name(const job_maker *maker, const char *name)
 {
     if (!*name || strchr(name, '='))
-        return refuse(reader, "\"%.60s\" is not the name of an option", name);
-    if (is_one_of(name, reserved, RESERVED))
-        return refuse(reader, "\"%s\" is not an option of a job", name);
-    if (json_is_true(value)) {
-        add_argument(reader->job, "--", name);
-        if (!is_one_of(name, idle, IDLE))
-            add_word(&reader->job->content, "--", name);
-        return true;
-    }
-    if (json_is_false(value))
-        return true;
-    if (!json_is_array(value))
-        return add_option(reader, name, value);
-    for (size_t i = 0; i < json_array_size(value); i++)
-        if (!add_option(reader, name, json_array_get(value, i)))
-            return false;
-    return true;
+        return refuse(maker, "\"%.60s\" is not the name of an option", name);
+    return !ffd_word_is_known(name, reserved, RESERVED) ||
+           refuse(maker, "\"%s\" is not an option of a job", name);
 }
 
-static bool read_options(job_reader *reader, const json_t *value)
+static bool add_options(job_maker *maker)
 {
-    const char *name;
-    json_t *option;
-    if (!json_is_object(value))
-        return refuse(reader, "\"options\" is not an object");
-    json_object_foreach((json_t *)(uintptr_t)value, name, option)
-    {
-        if (!read_option(reader, name, option))
+    const job_description *const description = maker->description;
+    for (size_t i = 0; i < description->count; i++) {
+        const job_statement *const statement = &description->statements[i];
+        const char *const name = ffd_description_name(description, statement);
+        const char *const value = ffd_description_value(description, statement);
+        if (is_wrong(description, statement, "options"))
+            return refuse(maker, "%s", value);
+        if (is_option(statement) && !check_option_name(maker, name))
             return false;
+        if (statement->part == JOB_FLAG)
+            add_argument(maker->job, name, NULL);
+        else if (statement->part == JOB_OPTION && !ffd_word_is_known(name, files, FILES))
+            add_argument(maker->job, name, value);
+        else if (statement->part == JOB_OPTION && !add_file(maker, name, value))
+            return false;
+        else if (statement->part == JOB_OPTION)
+            add_option(&maker->job->content, name, value);
     }
     return true;
 }
 
-/* "--set=NAME=value", the value as JSON. */
-static bool read_settings(job_reader *reader, const json_t *value)
+/* A word "--set=NAME=value". */
+static void add_setting(byte_buffer *words, const char *name, const char *value)
 {
-    const char *name;
-    json_t *setting;
-    if (!json_is_object(value))
-        return refuse(reader, "\"set\" is not an object");
-    json_object_foreach((json_t *)(uintptr_t)value, name, setting)
-    {
-        char *const text = json_dumps(setting, JSON_COMPACT | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
-        byte_buffer before = {0};
-        ffd_buffer_format(&before, "--set=%s=", name);
-        char *const start = ffd_buffer_finish(&before);
-        if (text && start) {
-            add_argument(reader->job, start, text);
-            add_word(&reader->job->content, start, text);
-        } else {
-            ffd_fail_memory(&reader->job->error);
-        }
-        ffd_free(start);
-        free(text);
-        if (reader->job->error.status)
-            return false;
+    ffd_buffer_text(words, "--set=");
+    ffd_buffer_text(words, name);
+    ffd_buffer_text(words, "=");
+    add_word(words, value);
+}
+
+static bool add_settings(job_maker *maker)
+{
+    const job_description *const description = maker->description;
+    if (ffd_description_wrong(description, "set"))
+        return refuse(maker, "%s", ffd_description_wrong(description, "set"));
+    for (size_t i = 0; i < description->count; i++) {
+        const job_statement *const statement = &description->statements[i];
+        if (statement->part != JOB_SETTING)
+            continue;
+        const char *const name = ffd_description_name(description, statement);
+        const char *const value = ffd_description_value(description, statement);
+        add_setting(&maker->job->words, name, value);
+        maker->job->word_count++;
+        add_setting(&maker->job->content, name, value);
     }
     return true;
 }
 
-/* Whether the job says itself what an option of the batch says: of settings, by their names. */
-static bool overrides(const job_reader *reader, const batch_default *option)
+/* Whether a statement says what an option of the batch says: of settings, by their names. */
+static bool overrides(const job_description *description, const job_statement *statement,
+                      const batch_default *option)
 {
-    const char *name;
-    json_t *setting;
-    if (reader->options && json_object_get(reader->options, option->name))
-        return true;
-    if (strcmp(option->name, "set") != 0 || !reader->settings)
+    const char *const name = ffd_description_name(description, statement);
+    if (is_option(statement))
+        return strcmp(name, option->name) == 0;
+    if (statement->part != JOB_SETTING || strcmp(option->name, "set") != 0)
         return false;
-    json_object_foreach((json_t *)(uintptr_t)reader->settings, name, setting)
-    {
-        const size_t length = strlen(name);
-        if (strncmp(option->value, name, length) == 0 && option->value[length] == '=')
-            return true;
-    }
-    return false;
+    const size_t length = strlen(name);
+    return strncmp(option->value, name, length) == 0 && option->value[length] == '=';
 }
 
 /* Those of the batch that the job does not have. */
-static void add_defaults(job_reader *reader)
+static void add_defaults(job_maker *maker)
 {
-    for (size_t i = 0; i < reader->frame->default_count; i++) {
-        const batch_default *const option = &reader->frame->defaults[i];
-        byte_buffer before = {0};
-        if (overrides(reader, option))
-            continue;
-        ffd_buffer_format(&before, option->value ? "--%s=" : "--%s", option->name);
-        char *const start = ffd_buffer_finish(&before);
-        const char *const value = option->value ? option->value : "";
-        if (start)
-            add_argument(reader->job, start, value);
-        if (start && !is_one_of(option->name, idle, IDLE))
-            add_word(&reader->job->content, start, value);
-        reader->job->words.failed = reader->job->words.failed || !start;
-        ffd_free(start);
+    const job_description *const description = maker->description;
+    for (size_t i = 0; i < maker->frame->default_count; i++) {
+        const batch_default *const option = &maker->frame->defaults[i];
+        size_t k = 0;
+        while (k < description->count && !overrides(description, &description->statements[k], option))
+            k++;
+        if (k == description->count)
+            add_argument(maker->job, option->name, option->value);
     }
 }
 
-static bool keep_name(job_reader *reader, const char *path, char **name)
+/* Whether an option without a value is set, by the job or else by the batch. */
+static bool has_flag(const job_maker *maker, const char *name)
 {
-    *name = ffd_text_copy(path);
-    if (!*name)
-        ffd_fail_memory(&reader->job->error);
-    return *name;
-}
-
-static bool has_option(const job_reader *reader, const char *name)
-{
-    if (reader->options && json_object_get(reader->options, name))
-        return json_is_true(json_object_get(reader->options, name));
-    for (size_t i = 0; i < reader->frame->default_count; i++)
-        if (strcmp(reader->frame->defaults[i].name, name) == 0)
+    const job_description *const description = maker->description;
+    for (size_t i = 0; i < description->count; i++)
+        if (is_option(&description->statements[i]) &&
+            strcmp(ffd_description_name(description, &description->statements[i]), name) == 0)
+            return description->statements[i].part == JOB_FLAG;
+    for (size_t i = 0; i < maker->frame->default_count; i++)
+        if (strcmp(maker->frame->defaults[i].name, name) == 0)
             return true;
     return false;
 }
 
-static bool read_files(job_reader *reader, const json_t *value)
+static bool keep_name(job_maker *maker, const char *path, char **name)
 {
-    const json_t *const in = json_object_get(value, "in"), *const out = json_object_get(value, "out");
-    const json_t *const lattice = json_object_get(value, "lattice");
-    if (!in)
-        return refuse(reader, "\"in\" is missing");
-    const char *const input = read_path(reader, in, "in");
-    if (!input || !keep_name(reader, input, &reader->job->input))
-        return false;
-    const bool in_place = has_option(reader, "in-place");
-    if (!out && !in_place)
-        return refuse(reader, "\"out\" is missing");
-    if (out && in_place)
-        return refuse(reader, "\"out\" has no meaning with the option \"in-place\"");
-    if (in_place && reader->frame->resume)
-        return refuse(reader,
-                      "\"in-place\" has no meaning with --resume: what is done would be done once more");
-    const char *const output = out ? read_path(reader, out, "out") : NULL;
-    if (out && (!output || !keep_name(reader, output, &reader->job->output)))
-        return false;
-    if (!lattice)
-        return refuse(reader, "\"lattice\" is missing");
-    if (!add_file(reader, "", input) || (output && !add_file(reader, "", output)))
-        return false;
-    reader->job->target = resolve(reader->frame, output ? output : input);
-    add_word(&reader->job->content, "", input);
-    add_word(&reader->job->content, "", output ? output : "");
-    return read_lattices(reader, lattice);
+    *name = ffd_text_copy(path);
+    if (!*name)
+        ffd_fail_memory(&maker->job->error);
+    return *name;
 }
 
-static bool know_members(job_reader *reader, const json_t *value)
+static bool add_files(job_maker *maker)
 {
-    const char *name;
-    json_t *member;
-    if (!json_is_object(value))
-        return refuse(reader, "a job is an object: {\"in\": ..., \"lattice\": ..., \"out\": ...}");
-    json_object_foreach((json_t *)(uintptr_t)value, name, member)
-    {
-        if (!is_one_of(name, members, MEMBERS))
-            return refuse(reader, "unknown key \"%.60s\" (nearest: \"%s\")", name,
-                          ffd_nearest_word(name, members, MEMBERS));
-    }
-    return true;
+    batch_job *const job = maker->job;
+    const char *const input = ffd_description_find(maker->description, JOB_INPUT);
+    const char *const output = ffd_description_find(maker->description, JOB_OUTPUT);
+    const char *const wrong_input = ffd_description_wrong(maker->description, "in");
+    const char *const wrong_output = ffd_description_wrong(maker->description, "out");
+    const bool in_place = has_flag(maker, "in-place"), has_output = output || wrong_output;
+    if (!input)
+        return refuse(maker, "%s", wrong_input ? wrong_input : "\"in\" is missing");
+    if (!check_path(maker, input, "in") || !keep_name(maker, input, &job->input))
+        return false;
+    if (!has_output && !in_place)
+        return refuse(maker, "\"out\" is missing");
+    if (has_output && in_place)
+        return refuse(maker, "\"out\" cannot be used with the option \"in-place\"");
+    if (in_place && maker->frame->resume)
+        return refuse(maker, "\"in-place\" cannot be used with --resume: what is done would be done again");
+    if (wrong_output)
+        return refuse(maker, "%s", wrong_output);
+    if (output && (!check_path(maker, output, "out") || !keep_name(maker, output, &job->output)))
+        return false;
+    if (!ffd_description_find(maker->description, JOB_LATTICE) &&
+        !ffd_description_wrong(maker->description, "lattice"))
+        return refuse(maker, "\"lattice\" is missing");
+    if (!add_file(maker, NULL, input) || (output && !add_file(maker, NULL, output)))
+        return false;
+    job->target = resolve(maker->frame, output ? output : input);
+    job->words.failed = job->words.failed || !job->target;
+    add_word(&job->content, input);
+    add_word(&job->content, output ? output : "");
+    return add_lattices(maker);
 }
 
-ffd_status ffd_job_read(const batch_frame *frame, const json_t *value, batch_job *job)
+static bool make_words(job_maker *maker)
 {
-    job_reader reader = {frame, job, json_object_get(value, "options"), json_object_get(value, "set")};
-    if (know_members(&reader, value) &&
-        (!reader.options || json_is_object(reader.options) ||
-         refuse(&reader, "\"options\" is not an object")) &&
-        read_files(&reader, value)) {
-        add_defaults(&reader);
-        if ((!reader.options || read_options(&reader, reader.options)) && reader.settings)
-            read_settings(&reader, reader.settings);
-    }
-    if (job->words.failed || job->content.failed || job->error.status == FFD_E_MEMORY)
+    const char *const wrong = ffd_description_wrong(maker->description, "");
+    if (wrong)
+        return refuse(maker, "%s", wrong);
+    if (!add_files(maker))
+        return false;
+    add_defaults(maker);
+    return add_options(maker) && add_settings(maker);
+}
+
+ffd_status ffd_job_make(const batch_frame *frame, const job_description *description, batch_job *job)
+{
+    job_maker maker = {frame, description, job};
+    const bool made = !description->texts.failed && make_words(&maker);
+    const bool failed = job->words.failed || job->content.failed || job->error.status == FFD_E_MEMORY;
+    if (failed || (!made && !job->error.status))
         return ffd_fail_memory(&job->error);
     return FFD_OK;
-}
-
-/* jansson's words, where they do not speak of itself. */
-static const char *describe_syntax(const json_error_t *problem)
-{
-    switch (json_error_code(problem)) {
-    case json_error_null_character:
-    case json_error_null_byte_in_key:
-        return "a text with a \\u0000 in it";
-    case json_error_end_of_input_expected:
-        return "something follows the job on its line";
-    default:
-        return problem->text;
-    }
-}
-
-ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size, batch_job *job)
-{
-    json_error_t problem;
-    json_t *const value = json_loadb(text, size, JSON_REJECT_DUPLICATES, &problem);
-    if (!value) {
-        ffd_fail_line(&job->error, FFD_E_INVALID, frame->name, (size_t)job->line, "not valid JSON: %s",
-                      describe_syntax(&problem));
-        return FFD_OK;
-    }
-    const ffd_status status = ffd_job_read(frame, value, job);
-    json_decref(value);
-    return status;
 }
 
 const char *ffd_job_output_name(const batch_job *job)

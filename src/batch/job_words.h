@@ -1,11 +1,10 @@
-/* job_words.h - a job as a line of a manifest says it (data/schema/formats.md 3), and as the words of `ffd
-   deform` that do it. */
+/* job_words.h - a job as the words of `ffd deform` that do it. */
 #ifndef FFD_BATCH_JOB_WORDS_H
 #define FFD_BATCH_JOB_WORDS_H
 
 #include "base/fail.h"
 #include "base/text/buffer.h"
-#include <jansson.h>
+#include "batch/job_description.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -17,7 +16,7 @@ typedef struct batch_default {
 
 /* What all jobs of a batch have in common. */
 typedef struct batch_frame {
-    const char *name;   /* of the manifest, in messages; lent, as all here */
+    const char *name;   /* of the manifest, in messages; not owned, as all here */
     const char *folder; /* that relative paths start from; "" for the current one */
     const batch_default *defaults;
     size_t default_count;
@@ -35,11 +34,9 @@ typedef struct batch_job {
     ffd_error error;     /* what is wrong with the line; FFD_OK: nothing */
 } batch_job;
 
-/* Takes the members of value into an empty job whose line is set. What is wrong with them comes into its
-   error; returns only FFD_E_MEMORY. */
-ffd_status ffd_job_read(const batch_frame *frame, const json_t *value, batch_job *job);
-/* The same from a line of text. */
-ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size, batch_job *job);
+/* Makes an empty job, whose line is set, do what a description says. What is wrong with that comes into the
+   job's error; returns FFD_OK or FFD_E_MEMORY. */
+ffd_status ffd_job_make(const batch_frame *frame, const job_description *description, batch_job *job);
 /* What its output is called: NULL where it has none. */
 const char *ffd_job_output_name(const batch_job *job);
 void ffd_job_free(batch_job *job);

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The file: a head, then slots. A record stands in the slot that the hash of its output's path says, or in
+/* The file: a head, then slots. A record is in the slot that the hash of its output's path says, or in
    the next one that is free. */
 typedef struct journal_slot {
     hash128 target;
@@ -128,7 +128,7 @@ static ffd_status open_table(job_journal *journal, ffd_error *error)
         if (read_table(journal))
             return FFD_OK;
         if (!is_journal(journal->file))
-            return ffd_fail_file(error, FFD_E_INVALID, journal->path, "is no journal: it is not replaced");
+            return ffd_fail_file(error, FFD_E_INVALID, journal->path, "is not a journal; it is not replaced");
         fclose(journal->file);
     }
     errno = 0;
@@ -158,16 +158,16 @@ ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *
     return status;
 }
 
-/* Targets are told apart by where they are. */
+/* Targets are told apart by their full paths. */
 static hash128 hash_target(const char *target)
 {
     char *const folder = ffd_path_folder(target);
-    char *const place = folder ? ffd_path_resolve(folder) : NULL;
-    const char *const start = place ? place : target, *const name = ffd_path_name(target);
+    char *const resolved = folder ? ffd_path_resolve(folder) : NULL;
+    const char *const start = resolved ? resolved : target, *const name = ffd_path_name(target);
     const hash_block blocks[] = {{start, strlen(start) + 1}, {name, strlen(name)}};
     const hash128 hash = ffd_hash_blocks(blocks, 2);
     ffd_free(folder);
-    ffd_free(place);
+    ffd_free(resolved);
     return hash;
 }
 
@@ -182,7 +182,7 @@ bool ffd_journal_find(job_journal *journal, const char *target, job_record *reco
     return true;
 }
 
-/* Copies the whole records into a table of twice the size, which takes the old one's place. */
+/* Copies the whole records into a table of twice the size, which replaces the old one. */
 static bool grow(job_journal *journal)
 {
     const uint64_t slots = 2 * journal->slots;
@@ -253,7 +253,7 @@ static char *cache_folder(void)
     return local && *local ? ffd_path_join(local, "ffd") : NULL;
 }
 
-char *ffd_journal_place(const char *jobs, uint64_t shard, uint64_t shards)
+char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards)
 {
     const hash128 hash = hash_target(jobs);
     char name[80];

@@ -10,8 +10,8 @@
 
 typedef struct job_journal job_journal;
 
-/* Opens the journal of that name, made where it does not exist, with its folder; a file that is no journal is
-   refused. Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
+/* Opens the journal of that name, made where it does not exist, with its folder; a file that is not a journal
+   is refused. Errors: FFD_E_IO, FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *error);
 /* What is known of the output at target. */
 bool ffd_journal_find(job_journal *journal, const char *target, job_record *record);
@@ -19,9 +19,8 @@ bool ffd_journal_find(job_journal *journal, const char *target, job_record *reco
 bool ffd_journal_put(job_journal *journal, const char *target, const job_record *record);
 void ffd_journal_close(job_journal **journal);
 
-/* Where the journal of a batch stands that no other name is given for: in the user's cache (XDG_CACHE_HOME or
-   ~/.cache; LOCALAPPDATA), by what the jobs stand in and the shard. Free with ffd_free; NULL where there is
-   no such folder, or no memory. */
-char *ffd_journal_place(const char *jobs, uint64_t shard, uint64_t shards);
+/* The default path of a batch's journal: in the user's cache (XDG_CACHE_HOME or ~/.cache; LOCALAPPDATA),
+   named by the manifest and the shard. Free with ffd_free; NULL if there is no such folder, or no memory. */
+char *ffd_journal_default_path(const char *jobs, uint64_t shard, uint64_t shards);
 
 #endif

@@ -17,7 +17,7 @@ static void begin_line(line_reader *reader, bool append)
     }
 }
 
-/* Without what ends it, and with a 0 behind it. */
+/* Drops the line break, and ends the line by 0. */
 static ffd_status end_line(line_reader *reader, ffd_error *error)
 {
     if (reader->line.size > 0 && reader->line.data[reader->line.size - 1] == '\r')

@@ -13,7 +13,7 @@
 typedef struct line_reader {
     byte_stream *stream;
     uint64_t number;  /* of the line read last, from 1 */
-    byte_buffer line; /* the line read last, without its end, a 0 behind it */
+    byte_buffer line; /* the line read last, without its line break, with a 0 after it */
     bool is_partial;  /* the rest of it has not come yet */
     bool too_long;    /* only its first LINE_MOST bytes are there */
 } line_reader;
@@ -26,7 +26,7 @@ typedef enum line_state {
     LINE_LATER /* it has not come yet, or not all of it: to be asked for again, with the same append */
 } line_state;
 
-/* Reads the next line, as far as it has come. append: behind what is there, after a line break. Errors:
+/* Reads the next line, as far as it has come. append: to what is there, after a line break. Errors:
    FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, ffd_error *error);
 void ffd_lines_close(line_reader *reader);

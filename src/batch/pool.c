@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Seconds that jobs have to come to their end where all are to be stopped; and that a worker has for removing
+/* Seconds that running jobs have to finish when all are to be stopped; and that a worker has for removing
    what it was writing. */
 #define GRACE 0.5
 
@@ -183,7 +183,7 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
     worker->deadline = 0;
 }
 
-/* Takes the answer, once it is whole. False where it is none. */
+/* Takes the answer, once it is complete. False if it is not valid. */
 static bool take_answer(pool_worker *worker)
 {
     byte_buffer *const bytes = &worker->answer;
@@ -221,12 +221,12 @@ static void describe_failure(const worker_pool *pool, const pool_worker *worker,
         ffd_fail_file(error, FFD_E_LIMIT, name, "took longer than %g seconds (--timeout)",
                       pool->desc.timeout);
     else if (worker->stopped)
-        ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before its end");
+        ffd_fail_file(error, FFD_E_LIMIT, name, "was stopped before it ended");
     else if (!end->signal && end->code == ffd_status_exit_code(FFD_E_MEMORY))
         ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory");
     else if (end->killed)
-        ffd_fail_file(error, FFD_E_MEMORY, name, "was ended by the system (%s), probably for want of memory",
-                      end->text);
+        ffd_fail_file(error, FFD_E_MEMORY, name,
+                      "was ended by the system (%s), probably because memory ran out", end->text);
     else
         ffd_fail_file(error, FFD_E_LIMIT, name, "crashed: %s", end->text);
 }
@@ -259,7 +259,7 @@ static void receive(const worker_pool *pool, pool_worker *worker)
     if (understood && alive && !worker->retires)
         return;
     if (!understood && alive)
-        ffd_process_kill(worker->process); /* what it says is no answer */
+        ffd_process_kill(worker->process); /* its message is not valid */
     end_worker(pool, worker);
 }
 

@@ -9,7 +9,7 @@ typedef struct pool_desc {
     int workers;        /* jobs at once; 0: one a processor */
     int threads;        /* of a job; 0: what the others leave it */
     double timeout;     /* seconds that a job may take; 0: any */
-    const char *origin; /* what the jobs stand in, for messages */
+    const char *origin; /* the name of the manifest, for messages */
     bool records, resume, dry, depfile, report, stable, quiet, verbose; /* as in wire_task */
 } pool_desc;
 
@@ -35,8 +35,8 @@ typedef struct pool_task {
 typedef struct worker_pool worker_pool;
 
 ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error);
-/* Gives waiting tasks, which stand in their order in a list with gaps (NULL), to idle workers. Errors: no
-   worker can be started. */
+/* Gives waiting tasks, which are listed in their order with gaps (NULL), to idle workers. Errors: no worker
+   can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
 /* Waits until a task has ended, for so many seconds at most, and takes note of what has happened. */
 void ffd_pool_wait(worker_pool *pool, double seconds);

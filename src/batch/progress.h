@@ -12,7 +12,7 @@ typedef struct batch_counts {
 
 typedef struct batch_progress {
     bool quiet, bar; /* bar: it is a terminal */
-    bool drawn;      /* a bar stands there */
+    bool drawn;      /* a bar is on the screen */
     double begin, last;
 } batch_progress;
 

@@ -1,5 +1,5 @@
-/* wire.h - what a batch and its workers say to each other. Both are one program on one machine: numbers go as
-   they are in memory. */
+/* wire.h - the messages between a batch and its workers. Both are one program on one machine: numbers are
+   sent as they are in memory. */
 #ifndef FFD_BATCH_WIRE_H
 #define FFD_BATCH_WIRE_H
 
@@ -15,8 +15,8 @@ typedef struct job_record {
     hash128 inputs, outputs;
 } job_record;
 
-/* To a worker: a task, and its texts behind it, each ended by 0: words, content, what the jobs stand in, and
-   what input and output are called. */
+/* To a worker: a task, followed by its texts, each ended by 0: words, content, the name of the manifest, and
+   the names of input and output. */
 typedef struct wire_task {
     uint64_t line;     /* of the job */
     job_record record; /* of the last time, where has_record */
@@ -36,7 +36,7 @@ typedef struct wire_task {
 
 typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire_outcome;
 
-/* From a worker: an answer, and its texts behind it. */
+/* From a worker: an answer, followed by its texts. */
 typedef struct wire_answer {
     uint64_t log_size;   /* lines for people, each with its line break */
     uint64_t entry_size; /* of the report */
@@ -48,7 +48,7 @@ typedef struct wire_answer {
     bool out_of_memory; /* so that there are no texts, although the job failed */
 } wire_answer;
 
-/* Lengths beyond this are none. */
+/* A larger length is not valid. */
 #define WIRE_MOST ((uint64_t)1 << 28)
 
 #endif

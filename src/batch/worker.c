@@ -20,8 +20,8 @@ typedef struct batch_worker {
     byte_buffer log, entry, rule; /* of the answer */
 } batch_worker;
 
-/* The word behind this one. */
-static const char *behind(const char *word)
+/* The word after this one. */
+static const char *next_word(const char *word)
 {
     return word + strlen(word) + 1;
 }
@@ -81,7 +81,8 @@ static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, wi
            ffd_hash_equal(&answer->record.outputs, &task->record.outputs);
 }
 
-/* What is kept for the jobs behind is reckoned too: where there is no room, there may be without that. */
+/* What is kept for the next jobs counts as memory too: if there is too little, there may be enough without
+ * it. */
 static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
 {
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
@@ -125,7 +126,7 @@ static ffd_status do_job(const wire_task *task, ffd_deform_desc *desc, wire_answ
                    ? FFD_OK
                    : ffd_output_check(desc->output, desc->force || desc->if_changed, &result->error);
     const ffd_status status = deform(desc, result);
-    /* The output is there: who ends the worker now gets to know of it first. */
+    /* The output exists: a signal that ends the worker now is seen first. */
     ffd_process_defer_stop(true);
     if (!status && task->records)
         answer->has_record = ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK;
@@ -151,7 +152,7 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     const fingerprint_words words = {word, task->content_words};
     const char *origin = word;
     for (uint32_t i = 0; i < task->content_words; i++)
-        origin = behind(origin);
+        origin = next_word(origin);
     ffd_deform_desc desc;
     void *const opened = worker->program->open((int)task->word_count, worker->words, &desc, &result->error);
     if (!opened)
@@ -189,17 +190,17 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
         return;
     const char *name = worker->text.data;
     for (uint32_t i = 0; i < task->word_count + task->content_words + 1; i++)
-        name = behind(name);
+        name = next_word(name);
     const report_entry entry = {.line = task->line,
                                 .input = name,
-                                .output = behind(name),
+                                .output = next_word(name),
                                 .result = &result,
                                 .skipped = answer->outcome == OUTCOME_SKIPPED,
                                 .stable = task->stable};
     ffd_report_entry_text(&entry, &worker->entry);
 }
 
-/* Where there is no memory for what is to be said, that is said. */
+/* If there is no memory for the message, the answer says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
     byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule};

@@ -1,6 +1,6 @@
 #include "fold/plan.h"
 #include "base/memory/memory.h"
-#include "spline/basis.h"
+#include "spline/bezier.h"
 
 ffd_status ffd_fold_plan_make(const ffd_lattice *lattice, fold_plan *plan, ffd_error *error)
 {

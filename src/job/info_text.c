@@ -1,6 +1,7 @@
-#include "base/text/number.h"
+/* info_text.c - the facts of `ffd info` as text for people. */
+#include "base/memory/memory.h"
 #include "job/info.h"
-#include <jansson.h>
+#include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -9,8 +10,10 @@
 
 /* A walk over the facts: the first finds how wide the names are, the second writes. */
 typedef struct renderer {
+    const json_span *facts;
     byte_buffer *out; /* NULL in the first walk */
     size_t width;
+    bool failed; /* memory ran out */
 } renderer;
 
 /* Control characters would reach the terminal; the rest is UTF-8. */
@@ -29,41 +32,60 @@ static size_t text_width(const char *text)
     return width;
 }
 
-static void write_scalar(byte_buffer *out, const json_t *value)
+static void write_scalar(renderer *r, uint32_t value)
 {
-    if (json_is_string(value))
-        write_string(out, json_string_value(value));
-    else if (json_is_number(value))
-        ffd_buffer_number(out, json_number_value(value));
-    else if (json_is_boolean(value))
-        ffd_buffer_text(out, json_is_true(value) ? "yes" : "no");
-    else
-        ffd_buffer_text(out, "none");
+    double number;
+    switch ((json_kind)r->facts->values[value].kind) {
+    case JSON_STRING: {
+        char *const text = ffd_json_span_string(r->facts, value, NULL);
+        r->failed = r->failed || !text;
+        write_string(r->out, text ? text : "");
+        ffd_free(text);
+        break;
+    }
+    case JSON_NUMBER:
+        ffd_json_span_number(r->facts, value, &number);
+        ffd_buffer_number(r->out, number);
+        break;
+    case JSON_TRUE:
+        ffd_buffer_text(r->out, "yes");
+        break;
+    case JSON_FALSE:
+        ffd_buffer_text(r->out, "no");
+        break;
+    case JSON_NULL:
+    case JSON_ARRAY:
+    case JSON_OBJECT:
+        ffd_buffer_text(r->out, "none");
+    }
 }
 
-static bool has_inner_parts(const json_t *array)
+static bool is_kind(const renderer *r, uint32_t value, json_kind kind)
 {
-    for (size_t i = 0; i < json_array_size(array); i++) {
-        const json_t *value = json_array_get(array, i);
-        if (json_is_object(value) || json_is_array(value))
+    return r->facts->values[value].kind == kind;
+}
+
+static bool has_inner_parts(const renderer *r, uint32_t array)
+{
+    for (uint32_t v = ffd_json_span_first(r->facts, array); v != JSON_NONE;
+         v = ffd_json_span_after(r->facts, v))
+        if (is_kind(r, v, JSON_OBJECT) || is_kind(r, v, JSON_ARRAY))
             return true;
-    }
     return false;
 }
 
 /* Numbers are told apart by spaces, names (which may hold spaces) by commas. */
-static void write_value(byte_buffer *out, const json_t *value)
+static void write_value(renderer *r, uint32_t value)
 {
-    const size_t count = json_array_size(value); /* 0 where it is no array */
-    if (!json_is_array(value))
-        write_scalar(out, value);
-    else if (count == 0)
-        ffd_buffer_text(out, "none");
-    for (size_t i = 0; i < count; i++) {
-        const json_t *element = json_array_get(value, i);
-        if (i > 0)
-            ffd_buffer_text(out, json_is_string(element) ? ", " : " ");
-        write_scalar(out, element);
+    const uint32_t first = ffd_json_span_first(r->facts, value);
+    if (!is_kind(r, value, JSON_ARRAY) || first == JSON_NONE) {
+        write_scalar(r, value);
+        return;
+    }
+    for (uint32_t v = first; v != JSON_NONE; v = ffd_json_span_after(r->facts, v)) {
+        if (v != first)
+            ffd_buffer_text(r->out, is_kind(r, v, JSON_STRING) ? ", " : " ");
+        write_scalar(r, v);
     }
 }
 
@@ -73,70 +95,86 @@ static void write_spaces(byte_buffer *out, size_t count)
         ffd_buffer_text(out, " ");
 }
 
-/* "boundary_loops" stands as "boundary loops". */
+/* "boundary_loops" is written as "boundary loops". */
 static void write_name(byte_buffer *out, const char *name)
 {
     for (const char *c = name; *c; c++)
         ffd_buffer_append(out, *c == '_' || (unsigned char)*c < 0x20 ? " " : c, 1);
 }
 
-static void render_line(renderer *r, size_t depth, const char *name, const json_t *value)
+/* value JSON_NONE: the name alone. */
+static void render_line(renderer *r, size_t depth, const char *name, uint32_t value)
 {
     const size_t used = INDENT * depth + text_width(name);
     if (!r->out) {
-        if (value && used > r->width)
+        if (value != JSON_NONE && used > r->width)
             r->width = used;
         return;
     }
     write_spaces(r->out, INDENT * depth);
     write_name(r->out, name);
-    if (value) {
+    if (value != JSON_NONE) {
         write_spaces(r->out, r->width + GAP - used);
-        write_value(r->out, value);
+        write_value(r, value);
     }
     ffd_buffer_text(r->out, "\n");
 }
 
-/* Depth is bounded by FFD_JSON_DEPTH, with which the JSON was written. */
-static void render_member(renderer *r, size_t depth, const char *name, json_t *value)
+static void render_value(renderer *r, size_t depth, const char *name, uint32_t value);
+
+/* An element of an array has its number for a name. */
+static void render_elements(renderer *r, size_t depth, uint32_t array)
 {
-    if (json_is_object(value) && json_object_size(value) > 0) {
-        const char *key;
-        json_t *member;
-        render_line(r, depth, name, NULL);
-        json_object_foreach(value, key, member) render_member(r, depth + 1, key, member);
-    } else if (has_inner_parts(value)) {
-        render_line(r, depth, name, NULL);
-        for (size_t i = 0; i < json_array_size(value); i++) {
-            char number[32];
-            snprintf(number, sizeof number, "%zu", i);
-            render_member(r, depth + 1, number, json_array_get(value, i));
-        }
-    } else
-        render_line(r, depth, name, value);
+    size_t i = 0;
+    for (uint32_t v = ffd_json_span_first(r->facts, array); v != JSON_NONE;
+         v = ffd_json_span_after(r->facts, v)) {
+        char number[32];
+        snprintf(number, sizeof number, "%zu", i++);
+        render_value(r, depth, number, v);
+    }
 }
 
-static void render(renderer *r, json_t *facts)
+static void render_members(renderer *r, size_t depth, uint32_t object)
 {
-    const char *key;
-    json_t *member;
-    json_object_foreach(facts, key, member) if (strcmp(key, "format") != 0 && strcmp(key, "version") != 0)
-        render_member(r, 0, key, member);
+    for (uint32_t v = ffd_json_span_first(r->facts, object); v != JSON_NONE;
+         v = ffd_json_span_after(r->facts, v)) {
+        const bool hidden = depth == 0 && (ffd_json_span_key_is(r->facts, v, "format") ||
+                                           ffd_json_span_key_is(r->facts, v, "version"));
+        char *const key = hidden ? NULL : ffd_json_span_key(r->facts, v);
+        if (key)
+            render_value(r, depth, key, v);
+        r->failed = r->failed || (!hidden && !key);
+        ffd_free(key);
+    }
+}
+
+/* Depth is bounded by FFD_JSON_DEPTH, with which the JSON was written. */
+static void render_value(renderer *r, size_t depth, const char *name, uint32_t value)
+{
+    const bool is_object = is_kind(r, value, JSON_OBJECT) && r->facts->values[value].count > 0;
+    const bool is_list = is_kind(r, value, JSON_ARRAY) && has_inner_parts(r, value);
+    render_line(r, depth, name, is_object || is_list ? JSON_NONE : value);
+    if (is_object)
+        render_members(r, depth + 1, value);
+    else if (is_list)
+        render_elements(r, depth + 1, value);
 }
 
 ffd_status ffd_info_render(const char *json, size_t size, char **text, ffd_error *error)
 {
-    /* Whole numbers as doubles: ours can be larger than a JSON integer of the reader. The JSON is written by
-       ourselves: it lacks nothing but memory to be read in, whatever jansson calls that. */
-    json_t *facts = json_loadb(json, size, JSON_DECODE_INT_AS_REAL, NULL);
-    if (!facts)
-        return ffd_fail_memory(error);
+    const json_input input = {.text = json, .size = size, .name = ""};
+    json_span facts;
+    const ffd_status status = ffd_json_parse(&input, &facts, error);
+    if (status)
+        return status;
     byte_buffer out = {0};
-    renderer r = {0};
-    render(&r, facts);
+    renderer r = {.facts = &facts};
+    render_members(&r, 0, 0);
     r.out = &out;
-    render(&r, facts);
-    json_decref(facts);
+    render_members(&r, 0, 0);
+    ffd_json_span_free(&facts);
+    out.failed = out.failed || r.failed;
     *text = ffd_buffer_finish(&out);
+    ffd_buffer_free(&out);
     return *text ? FFD_OK : ffd_fail_memory(error);
 }

@@ -1,5 +1,6 @@
 #include "json/json_chars.h"
 #include "base/bytes.h"
+#include <string.h>
 
 static int hex_value(char c)
 {
@@ -12,7 +13,7 @@ static int hex_value(char c)
     return -1;
 }
 
-/* The four digits behind \u. */
+/* The four digits after \u. */
 static const char *read_hex(const char *c, const char *last, uint32_t *code)
 {
     if (last - c < 4)
@@ -74,7 +75,7 @@ static const char *read_escape(const char *c, const char *last, uint32_t *code)
     }
 }
 
-static const char *read_utf8(const char *c, const char *last, uint32_t *code)
+const char *ffd_utf8_read(const char *c, const char *last, uint32_t *code)
 {
     const unsigned char lead = (unsigned char)*c;
     const int more = lead < 0x80                   ? 0
@@ -101,7 +102,7 @@ const char *ffd_json_char(const char *c, const char *last, uint32_t *code)
 {
     if (c == last || (unsigned char)*c < 0x20)
         return NULL;
-    return *c == '\\' ? read_escape(c + 1, last, code) : read_utf8(c, last, code);
+    return *c == '\\' ? read_escape(c + 1, last, code) : ffd_utf8_read(c, last, code);
 }
 
 const char *ffd_json_pass_plain(const char *c, const char *last)
@@ -132,4 +133,37 @@ size_t ffd_utf8_write(uint32_t code, char bytes[4])
     }
     bytes[0] = (char)(lead[more] | code);
     return (size_t)more + 1;
+}
+
+bool ffd_utf8_is_valid(const char *text, size_t size)
+{
+    const char *const last = text + size;
+    uint32_t code;
+    for (const char *c = text; c < last;)
+        if (!(c = ffd_utf8_read(c, last, &code)))
+            return false;
+    return true;
+}
+
+size_t ffd_json_decode(const char *c, const char *last, char *text, size_t capacity)
+{
+    size_t length = 0;
+    while (c < last) {
+        const char *const plain = ffd_json_pass_plain(c, last);
+        const size_t found = (size_t)(plain - c), left = capacity - 1 - length;
+        memcpy(text + length, c, found < left ? found : left);
+        length += found < left ? found : left;
+        if (found > left || plain == last)
+            break;
+        uint32_t code = 0;
+        char bytes[4];
+        c = ffd_json_char(plain, last, &code);
+        const size_t size = ffd_utf8_write(code, bytes);
+        if (length + size >= capacity)
+            break;
+        memcpy(text + length, bytes, size);
+        length += size;
+    }
+    text[length] = 0;
+    return length;
 }

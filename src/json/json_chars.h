@@ -1,20 +1,27 @@
-/* json_chars.h - the characters inside a JSON string. */
+/* json_chars.h - UTF-8, and the characters inside a JSON string. */
 #ifndef FFD_JSON_JSON_CHARS_H
 #define FFD_JSON_JSON_CHARS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
+/* Reads the UTF-8 character at c (c < last). Returns the position after it; NULL if it is not valid. */
+const char *ffd_utf8_read(const char *c, const char *last, uint32_t *code);
+bool ffd_utf8_is_valid(const char *text, size_t size);
+/* Writes a character as UTF-8; returns its 1 to 4 bytes. */
+size_t ffd_utf8_write(uint32_t code, char bytes[4]);
+
 /* Reads one character of a string's inside at c: plain UTF-8 or an escape (a surrogate pair is one
-   character). Returns the place behind it; NULL where it is a control character, broken UTF-8 or a broken
+   character). Returns the position after it; NULL for a control character, invalid UTF-8 or an invalid
    escape. */
 const char *ffd_json_char(const char *c, const char *last, uint32_t *code);
 
-/* Goes on behind characters that stand for themselves in a string and in UTF-8, several at a time: perhaps
-   not behind all of them. */
+/* Skips ASCII characters that need no escape, several at a time: perhaps not all of them. */
 const char *ffd_json_pass_plain(const char *c, const char *last);
 
-/* Writes a character as UTF-8; returns its 1 to 4 bytes. */
-size_t ffd_utf8_write(uint32_t code, char bytes[4]);
+/* Writes the characters of a valid string's inside as UTF-8 with a final 0, cut to capacity at a character.
+   Returns their length. */
+size_t ffd_json_decode(const char *c, const char *last, char *text, size_t capacity);
 
 #endif

@@ -63,7 +63,7 @@ static uint32_t start_of(const json_value *value)
     return value->key_end > value->key_begin ? value->key_begin : value->begin;
 }
 
-/* What goes takes the comma before it along; where nothing before it stays, the one behind it. */
+/* A removed member takes the comma before it along; if no member before it is kept, the one after it. */
 void ffd_edits_remove(json_edits *edits, const json_span *tree, uint32_t container, const uint32_t *gone,
                       size_t gone_count)
 {

@@ -22,7 +22,7 @@ typedef struct json_edits {
     bool failed; /* memory ran out: some edits are lost */
 } json_edits;
 
-/* The spans of one list must not overlap; at one place, texts are inserted in the order of the calls. */
+/* The spans of one list must not overlap; at one offset, texts are inserted in the order of the calls. */
 void ffd_edits_replace(json_edits *edits, uint32_t begin, uint32_t end, const char *text, size_t size);
 void ffd_edits_format(json_edits *edits, uint32_t begin, uint32_t end, const char *format, ...)
     FFD_PRINTF(4, 5);

@@ -1,74 +1,137 @@
 #include "json/json_reader.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
+#include "json/json_chars.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-static void put(json_place *place, char c)
+static bool is_substitute(json_cursor cursor)
 {
-    if (place->length + 1 < sizeof place->pointer)
-        place->pointer[place->length++] = c;
-    place->pointer[place->length] = 0;
+    return cursor.tree != cursor.file->tree;
 }
 
-size_t ffd_place_enter(json_place *place, const char *key)
+/* Goes to the substitute of a value, where it has one. */
+static json_cursor resolve(json_cursor cursor)
 {
-    const size_t before = place->length;
-    put(place, '/');
-    for (; *key; key++) {
-        /* RFC 6901, 3: '~' and '/' are written "~0" and "~1". */
-        if (*key == '~' || *key == '/') {
-            put(place, '~');
-            put(place, *key == '~' ? '0' : '1');
-        } else {
-            put(place, *key);
-        }
+    const json_file *const file = cursor.file;
+    if (cursor.value == JSON_NONE || is_substitute(cursor))
+        return cursor;
+    size_t low = 0, high = file->substitute_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (file->substitutes[middle].value < cursor.value)
+            low = middle + 1;
+        else
+            high = middle;
     }
-    return before;
+    if (low < file->substitute_count && file->substitutes[low].value == cursor.value)
+        return (json_cursor){file, file->substitutes[low].tree, 0, cursor.value};
+    return cursor;
 }
 
-size_t ffd_place_enter_index(json_place *place, size_t index)
+static json_cursor move_to(json_cursor cursor, uint32_t value)
 {
-    char text[24];
-    snprintf(text, sizeof text, "%zu", index);
-    return ffd_place_enter(place, text);
+    cursor.value = value;
+    return resolve(cursor);
 }
 
-void ffd_place_leave(json_place *place, size_t before)
+json_cursor ffd_cursor_top(const json_file *file)
 {
-    place->length = before;
-    place->pointer[before] = 0;
+    return resolve((json_cursor){file, file->tree, 0, JSON_NONE});
 }
 
-ffd_status ffd_place_fail(const json_place *place, const char *format, ...)
+json_cursor ffd_cursor_member(json_cursor object, const char *key)
 {
-    char message[sizeof place->error->message];
+    return move_to(object, ffd_json_span_member(object.tree, object.value, key));
+}
+
+json_cursor ffd_cursor_first(json_cursor container)
+{
+    return move_to(container, ffd_json_span_first(container.tree, container.value));
+}
+
+json_cursor ffd_cursor_next(json_cursor element)
+{
+    /* What comes after a substitute's top comes after the value that it replaces. */
+    if (is_substitute(element) && element.value == 0)
+        element = (json_cursor){element.file, element.file->tree, element.replaced, JSON_NONE};
+    return move_to(element, ffd_json_span_after(element.tree, element.value));
+}
+
+void ffd_cursor_pointer(json_cursor cursor, char *text, size_t capacity)
+{
+    size_t length = 0;
+    if (is_substitute(cursor)) {
+        ffd_json_span_pointer(cursor.file->tree, cursor.replaced, text, capacity);
+        length = strlen(text);
+    }
+    ffd_json_span_pointer(cursor.tree, cursor.value, text + length, capacity - length);
+}
+
+static ffd_status fail(json_cursor cursor, ffd_status status, const char *format, va_list arguments)
+{
+    ffd_error *const error = cursor.file->error;
+    if (!error)
+        return status;
+    char pointer[sizeof error->pointer], message[sizeof error->message];
+    ffd_cursor_pointer(cursor, pointer, sizeof pointer);
+    vsnprintf(message, sizeof message, format, arguments);
+    return ffd_fail_at(error, status, cursor.file->name, pointer, "%s", message);
+}
+
+ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...)
+{
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
+    fail(cursor, FFD_E_INVALID, format, arguments);
     va_end(arguments);
-    return ffd_fail_at(place->error, FFD_E_INVALID, place->file, place->pointer, "%s", message);
+    return FFD_E_INVALID;
 }
 
-json_words ffd_json_describe(const json_t *value)
+ffd_status ffd_cursor_fail_as(json_cursor cursor, ffd_status status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    fail(cursor, status, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+/* The text of a string value as far as it fits. */
+static void read_text(json_cursor cursor, char *text, size_t capacity)
+{
+    const json_value *const v = &cursor.tree->values[cursor.value];
+    ffd_json_decode(cursor.tree->text + v->begin + 1, cursor.tree->text + v->end - 1, text, capacity);
+}
+
+/* The same of its key. */
+static void read_key(json_cursor cursor, char *text, size_t capacity)
+{
+    const json_value *const v = &cursor.tree->values[cursor.value];
+    ffd_json_decode(cursor.tree->text + v->key_begin + 1, cursor.tree->text + v->key_end - 1, text, capacity);
+}
+
+json_words ffd_json_describe(json_cursor cursor)
 {
     json_words words = {""};
-    switch (json_typeof(value)) {
+    char text[61];
+    double number;
+    switch ((json_kind)cursor.tree->values[cursor.value].kind) {
     case JSON_OBJECT:
         snprintf(words.text, sizeof words.text, "an object");
         break;
     case JSON_ARRAY:
-        snprintf(words.text, sizeof words.text, "an array of %zu", json_array_size(value));
+        snprintf(words.text, sizeof words.text, "an array of %zu", ffd_cursor_count(cursor));
         break;
     case JSON_STRING:
-        snprintf(words.text, sizeof words.text, "the text \"%.60s\"", json_string_value(value));
+        read_text(cursor, text, sizeof text);
+        snprintf(words.text, sizeof words.text, "the text \"%s\"", text);
         break;
-    case JSON_INTEGER:
-    case JSON_REAL:
-        snprintf(words.text, sizeof words.text, "the number %s",
-                 ffd_number_text(json_number_value(value)).text);
+    case JSON_NUMBER:
+        ffd_json_span_number(cursor.tree, cursor.value, &number);
+        snprintf(words.text, sizeof words.text, "the number %s", ffd_number_text(number).text);
         break;
     case JSON_TRUE:
         snprintf(words.text, sizeof words.text, "true");
@@ -83,113 +146,97 @@ json_words ffd_json_describe(const json_t *value)
     return words;
 }
 
-static bool is_known(const char *key, const char *const *known, size_t count)
+static bool is_known(json_cursor member, const char *const *known, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (strcmp(key, known[i]) == 0)
+        if (ffd_json_span_key_is(member.tree, member.value, known[i]))
             return true;
     return false;
 }
 
-ffd_status ffd_json_read_object(json_place *place, const json_t *value, const char *const *known,
-                                size_t count)
+/* The members as they are in the text: a key is the same whatever its value is replaced by. */
+ffd_status ffd_json_read_object(json_cursor cursor, const char *const *known, size_t count)
 {
-    if (!json_is_object(value))
-        return ffd_place_fail(place, "must be an object, not %s", ffd_json_describe(value).text);
-    const char *key;
-    json_t *member;
-    /* The iterators only read, but their type is not const. */
-    json_object_foreach((json_t *)value, key, member)
-    {
-        if (is_known(key, known, count))
+    if (!ffd_cursor_is(cursor, JSON_OBJECT))
+        return ffd_cursor_fail(cursor, "must be an object, not %s", ffd_json_describe(cursor).text);
+    json_cursor member = cursor;
+    for (member.value = ffd_json_span_first(cursor.tree, cursor.value); ffd_cursor_exists(member);
+         member.value = ffd_json_span_after(member.tree, member.value)) {
+        char key[81];
+        if (is_known(member, known, count))
             continue;
-        ffd_place_enter(place, key);
-        return ffd_place_fail(place, "unknown key \"%.80s\"; the nearest known one is \"%s\"", key,
-                              ffd_nearest_word(key, known, count));
+        read_key(member, key, sizeof key);
+        return ffd_cursor_fail(member, "unknown key \"%s\"; the nearest known one is \"%s\"", key,
+                               ffd_nearest_word(key, known, count));
     }
     return FFD_OK;
 }
 
-ffd_status ffd_json_read_array(json_place *place, const json_t *value, size_t count, const char *what)
+ffd_status ffd_json_read_array(json_cursor cursor, size_t count, const char *what)
 {
-    if (!json_is_array(value))
-        return ffd_place_fail(place, "must be an array of %zu %s, not %s", count, what,
-                              ffd_json_describe(value).text);
-    if (json_array_size(value) != count)
-        return ffd_place_fail(place, "has %zu %s where %zu are needed", json_array_size(value), what, count);
+    if (!ffd_cursor_is(cursor, JSON_ARRAY))
+        return ffd_cursor_fail(cursor, "must be an array of %zu %s, not %s", count, what,
+                               ffd_json_describe(cursor).text);
+    if (ffd_cursor_count(cursor) != count)
+        return ffd_cursor_fail(cursor, "has %zu %s where %zu are needed", ffd_cursor_count(cursor), what,
+                               count);
     return FFD_OK;
 }
 
-ffd_status ffd_json_read_double(json_place *place, const json_t *value, double *number)
+ffd_status ffd_json_read_double(json_cursor cursor, double *number)
 {
-    if (!json_is_number(value))
-        return ffd_place_fail(place, "must be a number, not %s", ffd_json_describe(value).text);
-    *number = json_number_value(value);
+    if (!ffd_json_span_number(cursor.tree, cursor.value, number))
+        return ffd_cursor_fail(cursor, "must be a number, not %s", ffd_json_describe(cursor).text);
     return FFD_OK;
 }
 
-ffd_status ffd_json_read_integer(json_place *place, const json_t *value, double *number)
+ffd_status ffd_json_read_integer(json_cursor cursor, double *number)
 {
-    if (json_is_number(value)) {
-        *number = json_number_value(value);
-        if (*number == floor(*number) && fabs(*number) <= 0x1p53)
+    if (ffd_json_span_number(cursor.tree, cursor.value, number) && *number == floor(*number) &&
+        fabs(*number) <= 0x1p53)
+        return FFD_OK;
+    return ffd_cursor_fail(cursor, "must be a whole number, not %s", ffd_json_describe(cursor).text);
+}
+
+ffd_status ffd_json_read_doubles(json_cursor cursor, size_t count, double *numbers)
+{
+    ffd_status status = ffd_json_read_array(cursor, count, "numbers");
+    json_cursor element = ffd_cursor_first(cursor);
+    for (size_t i = 0; i < count && !status; i++, element = ffd_cursor_next(element))
+        status = ffd_json_read_double(element, &numbers[i]);
+    return status;
+}
+
+ffd_status ffd_json_read_word(json_cursor cursor, const char *const *words, size_t count, size_t *index)
+{
+    for (*index = 0; *index < count; ++*index)
+        if (ffd_json_span_string_is(cursor.tree, cursor.value, words[*index]))
             return FFD_OK;
-    }
-    return ffd_place_fail(place, "must be a whole number, not %s", ffd_json_describe(value).text);
+    if (!ffd_cursor_is(cursor, JSON_STRING))
+        return ffd_cursor_fail(cursor, "must be a word like \"%s\", not %s", words[0],
+                               ffd_json_describe(cursor).text);
+    char text[81];
+    read_text(cursor, text, sizeof text);
+    return ffd_cursor_fail(cursor, "unknown word \"%s\"; the nearest known one is \"%s\"", text,
+                           ffd_nearest_word(text, words, count));
 }
 
-ffd_status ffd_json_read_doubles(json_place *place, const json_t *value, size_t count, double *numbers)
+ffd_status ffd_json_require(json_cursor object, const char *key, json_cursor *member)
 {
-    ffd_status status = ffd_json_read_array(place, value, count, "numbers");
-    for (size_t i = 0; i < count && !status; i++) {
-        const size_t before = ffd_place_enter_index(place, i);
-        status = ffd_json_read_double(place, json_array_get(value, i), &numbers[i]);
-        ffd_place_leave(place, before);
-    }
-    return status;
+    *member = ffd_cursor_member(object, key);
+    return ffd_cursor_exists(*member) ? FFD_OK : ffd_cursor_fail(object, "\"%s\" is missing", key);
 }
 
-ffd_status ffd_json_read_word(json_place *place, const json_t *value, const char *const *words, size_t count,
-                              size_t *index)
+ffd_status ffd_json_member_double(json_cursor object, const char *key, double *number)
 {
-    const char *const text = json_string_value(value);
-    for (*index = 0; text && *index < count; ++*index)
-        if (strcmp(text, words[*index]) == 0)
-            return FFD_OK;
-    if (text)
-        return ffd_place_fail(place, "unknown word \"%.80s\"; the nearest known one is \"%s\"", text,
-                              ffd_nearest_word(text, words, count));
-    return ffd_place_fail(place, "must be a word like \"%s\", not %s", words[0],
-                          ffd_json_describe(value).text);
+    json_cursor member;
+    const ffd_status status = ffd_json_require(object, key, &member);
+    return status ? status : ffd_json_read_double(member, number);
 }
 
-ffd_status ffd_json_require(json_place *place, const json_t *object, const char *key, const json_t **member)
+ffd_status ffd_json_member_doubles(json_cursor object, const char *key, size_t count, double *numbers)
 {
-    *member = json_object_get(object, key);
-    return *member ? FFD_OK : ffd_place_fail(place, "\"%s\" is missing", key);
-}
-
-ffd_status ffd_json_member_double(json_place *place, const json_t *object, const char *key, double *number)
-{
-    const json_t *member;
-    ffd_status status = ffd_json_require(place, object, key, &member);
-    if (status)
-        return status;
-    const size_t before = ffd_place_enter(place, key);
-    status = ffd_json_read_double(place, member, number);
-    ffd_place_leave(place, before);
-    return status;
-}
-
-ffd_status ffd_json_member_doubles(json_place *place, const json_t *object, const char *key, size_t count,
-                                   double *numbers)
-{
-    const json_t *member;
-    ffd_status status = ffd_json_require(place, object, key, &member);
-    if (status)
-        return status;
-    const size_t before = ffd_place_enter(place, key);
-    status = ffd_json_read_doubles(place, member, count, numbers);
-    ffd_place_leave(place, before);
-    return status;
+    json_cursor member;
+    const ffd_status status = ffd_json_require(object, key, &member);
+    return status ? status : ffd_json_read_doubles(member, count, numbers);
 }

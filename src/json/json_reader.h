@@ -1,51 +1,88 @@
-/* json_reader.h - reading parsed JSON with errors that say where (a JSON pointer) and what (the value). */
+/* json_reader.h - reads the values of a JSON file. Errors say where (a JSON pointer) and what was found. */
 #ifndef FFD_JSON_JSON_READER_H
 #define FFD_JSON_JSON_READER_H
 
-#include "base/fail.h"
-#include <jansson.h>
-#include <stdbool.h>
-#include <stddef.h>
+#include "json/json_span.h"
 
-/* Where the reader is. The schema's own depth bounds the pointer; a longer one is cut. */
-typedef struct json_place {
-    const char *file;
-    ffd_error *error;
-    char pointer[256];
-    size_t length;
-} json_place;
+/* A value that is read instead of one of the file's. */
+typedef struct json_substitute {
+    uint32_t value;        /* in the file's tree */
+    const json_span *tree; /* its top is read instead */
+} json_substitute;
 
-/* Goes into a member or an element; returns the place to go back to with ffd_place_leave. */
-size_t ffd_place_enter(json_place *place, const char *key);
-size_t ffd_place_enter_index(json_place *place, size_t index);
-void ffd_place_leave(json_place *place, size_t before);
+/* A parsed file. Its strings must not hold the character U+0000 (JSON_NO_NUL). */
+typedef struct json_file {
+    const char *name; /* in messages */
+    const json_span *tree;
+    const json_substitute *substitutes; /* by ascending value */
+    size_t substitute_count;
+    ffd_error *error; /* of the functions below; may be NULL */
+} json_file;
 
-/* FFD_E_INVALID at the place. */
-ffd_status ffd_place_fail(const json_place *place, const char *format, ...) FFD_PRINTF(2, 3);
+/* One value of the file. */
+typedef struct json_cursor {
+    const json_file *file;
+    const json_span *tree; /* the file's, or a substitute's */
+    uint32_t value;        /* in this tree; JSON_NONE: there is no value */
+    uint32_t replaced;     /* in the file's tree: the value that a substitute is read instead of */
+} json_cursor;
+
+/* The value at the top. */
+json_cursor ffd_cursor_top(const json_file *file);
+/* The member of an object; no value where it is missing or the cursor is not at an object. */
+json_cursor ffd_cursor_member(json_cursor object, const char *key);
+/* The first element or member of a container, and the one after this; no value at the end. */
+json_cursor ffd_cursor_first(json_cursor container);
+json_cursor ffd_cursor_next(json_cursor element);
+
+static inline bool ffd_cursor_exists(json_cursor cursor)
+{
+    return cursor.value != JSON_NONE;
+}
+
+static inline bool ffd_cursor_is(json_cursor cursor, json_kind kind)
+{
+    return cursor.value != JSON_NONE && cursor.tree->values[cursor.value].kind == kind;
+}
+
+/* The elements or members of a container. */
+static inline size_t ffd_cursor_count(json_cursor cursor)
+{
+    return cursor.tree->values[cursor.value].count;
+}
+
+/* The JSON pointer of the value, cut to capacity. */
+void ffd_cursor_pointer(json_cursor cursor, char *text, size_t capacity);
+/* A failure at the value: FFD_E_INVALID, or another status. Returns it. */
+ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...) FFD_PRINTF(2, 3);
+ffd_status ffd_cursor_fail_as(json_cursor cursor, ffd_status status, const char *format, ...)
+    FFD_PRINTF(3, 4);
 
 /* What a value is, in words with its article: "an object", "the number 3.5", "the text "abc"". */
 typedef struct json_words {
     char text[96];
 } json_words;
 
-json_words ffd_json_describe(const json_t *value);
+json_words ffd_json_describe(json_cursor cursor);
 
-/* Each reads value, which stands at place, or fails there. */
-ffd_status ffd_json_read_object(json_place *place, const json_t *value, const char *const *known,
-                                size_t count);
-ffd_status ffd_json_read_array(json_place *place, const json_t *value, size_t count, const char *what);
-ffd_status ffd_json_read_double(json_place *place, const json_t *value, double *number);
-ffd_status ffd_json_read_integer(json_place *place, const json_t *value, double *number);
-ffd_status ffd_json_read_doubles(json_place *place, const json_t *value, size_t count, double *numbers);
+/* Each reads the value at the cursor, or fails there. */
+
+/* An object whose keys are all known. */
+ffd_status ffd_json_read_object(json_cursor cursor, const char *const *known, size_t count);
+/* An array of count elements; what: they are called in messages. */
+ffd_status ffd_json_read_array(json_cursor cursor, size_t count, const char *what);
+ffd_status ffd_json_read_double(json_cursor cursor, double *number);
+/* A whole number, exact: at most 2^53. */
+ffd_status ffd_json_read_integer(json_cursor cursor, double *number);
+/* An array of count numbers. */
+ffd_status ffd_json_read_doubles(json_cursor cursor, size_t count, double *numbers);
 /* One of the words: its index; other values fail with the nearest word. */
-ffd_status ffd_json_read_word(json_place *place, const json_t *value, const char *const *words, size_t count,
-                              size_t *index);
+ffd_status ffd_json_read_word(json_cursor cursor, const char *const *words, size_t count, size_t *index);
 
-/* A member of object by key, which a missing one is a failure for. */
-ffd_status ffd_json_require(json_place *place, const json_t *object, const char *key, const json_t **member);
-/* The same for a member that is a number, or an array of count numbers. */
-ffd_status ffd_json_member_double(json_place *place, const json_t *object, const char *key, double *number);
-ffd_status ffd_json_member_doubles(json_place *place, const json_t *object, const char *key, size_t count,
-                                   double *numbers);
+/* The member of an object; fails where it is missing. */
+ffd_status ffd_json_require(json_cursor object, const char *key, json_cursor *member);
+/* The same, and reads it: a number, or an array of count numbers. */
+ffd_status ffd_json_member_double(json_cursor object, const char *key, double *number);
+ffd_status ffd_json_member_doubles(json_cursor object, const char *key, size_t count, double *numbers);
 
 #endif

@@ -7,158 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LARGEST_TEXT ((size_t)INT32_MAX)
-
-typedef struct scanner {
-    json_span *tree;
-    const char *name;
-    const char *at, *last;
-    ffd_error *error;
-} scanner;
-
-static ffd_status syntax(const scanner *s, const char *place, const char *what)
-{
-    size_t line = 1;
-    for (const char *c = s->tree->text; c < place; c++)
-        line += *c == '\n';
-    char found[16] = "end of text";
-    if (place < s->last && *place >= 0x20 && *place < 0x7f)
-        snprintf(found, sizeof found, "'%c'", *place);
-    else if (place < s->last)
-        snprintf(found, sizeof found, "byte 0x%02x", (unsigned)(unsigned char)*place);
-    return ffd_fail_line(s->error, FFD_E_INVALID, s->name, line, "JSON: %s, found %s", what, found);
-}
-
-static void skip_space(scanner *s)
-{
-    while (s->at < s->last && (*s->at == ' ' || *s->at == '\t' || *s->at == '\n' || *s->at == '\r'))
-        s->at++;
-}
-
-static bool is_digit(const scanner *s, const char *c)
-{
-    return c < s->last && *c >= '0' && *c <= '9';
-}
-
-static ffd_status scan_string(scanner *s)
-{
-    if (s->at == s->last || *s->at != '"')
-        return syntax(s, s->at, "a string is expected");
-    const char *const opened = s->at;
-    const char *c = ffd_json_pass_plain(opened + 1, s->last);
-    while (c < s->last && *c != '"') {
-        uint32_t code;
-        const char *behind = ffd_json_char(c, s->last, &code);
-        if (!behind)
-            return syntax(s, c, "a string holds what is no UTF-8 character or escape");
-        c = ffd_json_pass_plain(behind, s->last);
-    }
-    if (c == s->last)
-        return syntax(s, opened, "a string is not ended");
-    s->at = c + 1;
-    return FFD_OK;
-}
-
-/* The grammar of RFC 8259, 6. */
-static ffd_status scan_number(scanner *s)
-{
-    const char *c = s->at;
-    if (*c == '-')
-        c++;
-    if (!is_digit(s, c))
-        return syntax(s, c, "a digit is expected");
-    if (*c == '0' && is_digit(s, c + 1))
-        return syntax(s, c, "a number starts with a needless 0");
-    while (is_digit(s, c))
-        c++;
-    if (c < s->last && *c == '.') {
-        c++;
-        if (!is_digit(s, c))
-            return syntax(s, c, "a digit is expected");
-        while (is_digit(s, c))
-            c++;
-    }
-    if (c < s->last && (*c == 'e' || *c == 'E')) {
-        c++;
-        if (c < s->last && (*c == '+' || *c == '-'))
-            c++;
-        if (!is_digit(s, c))
-            return syntax(s, c, "a digit is expected");
-        while (is_digit(s, c))
-            c++;
-    }
-    s->at = c;
-    return FFD_OK;
-}
-
-static bool scan_word(scanner *s, const char *word)
-{
-    const size_t length = strlen(word);
-    if ((size_t)(s->last - s->at) < length || memcmp(s->at, word, length) != 0)
-        return false;
-    s->at += length;
-    return true;
-}
-
-static ffd_status scan_scalar(scanner *s, json_value *value)
-{
-    if (s->at == s->last)
-        return syntax(s, s->at, "a value is expected");
-    ffd_status status = FFD_OK;
-    if (*s->at == '"') {
-        value->kind = JSON_STRING;
-        status = scan_string(s);
-    } else if (*s->at == '-' || is_digit(s, s->at)) {
-        value->kind = JSON_NUMBER;
-        status = scan_number(s);
-    } else if (scan_word(s, "true")) {
-        value->kind = JSON_TRUE;
-    } else if (scan_word(s, "false")) {
-        value->kind = JSON_FALSE;
-    } else if (scan_word(s, "null")) {
-        value->kind = JSON_NULL;
-    } else {
-        return syntax(s, s->at, "a value is expected");
-    }
-    value->end = (uint32_t)(s->at - s->tree->text);
-    return status;
-}
-
-static uint32_t place(const scanner *s)
-{
-    return (uint32_t)(s->at - s->tree->text);
-}
-
-/* Makes room for a value, the last member so far of parent. */
-static json_value *add_value(scanner *s, uint32_t parent)
-{
-    json_span *tree = s->tree;
-    if (!ffd_grow((void **)&tree->values, &tree->capacity, tree->count + 1, sizeof *tree->values)) {
-        ffd_fail_memory(s->error);
-        return NULL;
-    }
-    json_value *value = &tree->values[tree->count++];
-    *value = (json_value){.parent = parent, .next = (uint32_t)tree->count};
-    if (parent != JSON_NONE)
-        tree->values[parent].count++;
-    return value;
-}
-
-static ffd_status scan_key(scanner *s, json_value *value)
-{
-    value->key_begin = place(s);
-    const ffd_status status = scan_string(s);
-    if (status)
-        return status;
-    value->key_end = place(s);
-    skip_space(s);
-    if (s->at == s->last || *s->at != ':')
-        return syntax(s, s->at, "':' is expected");
-    s->at++;
-    skip_space(s);
-    return FFD_OK;
-}
-
 static int compare_members(const void *a, const void *b)
 {
     const json_member *x = a, *y = b;
@@ -177,113 +25,6 @@ void ffd_json_span_sort(const json_span *tree, uint32_t object, json_member *mem
     for (uint32_t v = ffd_json_span_first(tree, object); v != JSON_NONE; v = ffd_json_span_after(tree, v))
         members[count++] = (json_member){tree, v};
     ffd_json_span_sort_keys(members, count);
-}
-
-#define FEW_MEMBERS 64
-
-/* Two readers may take different ones of two equal keys: what is checked must be what is used. */
-static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
-{
-    const json_span *tree = s->tree;
-    const size_t count = tree->values[object].count;
-    json_member few[FEW_MEMBERS];
-    json_member *members = few;
-    if (count < 2)
-        return FFD_OK;
-    if (count > FEW_MEMBERS && !(members = ffd_alloc(count, sizeof *members)))
-        return ffd_fail_memory(s->error);
-    ffd_json_span_sort(tree, object, members);
-    ffd_status status = FFD_OK;
-    for (size_t i = 1; i < count && status == FFD_OK; i++)
-        if (compare_members(&members[i - 1], &members[i]) == 0)
-            status = ffd_json_span_fail(tree, members[i].value, s->name, FFD_E_INVALID, s->error,
-                                        "the key stands twice in its object");
-    if (members != few)
-        ffd_free(members);
-    return status;
-}
-
-static ffd_status close_container(scanner *s, uint32_t *container)
-{
-    json_span *tree = s->tree;
-    const uint32_t closed = *container;
-    s->at++;
-    tree->values[closed].end = place(s);
-    tree->values[closed].next = (uint32_t)tree->count;
-    *container = tree->values[closed].parent;
-    return tree->values[closed].kind == JSON_OBJECT ? refuse_equal_keys(s, closed) : FFD_OK;
-}
-
-/* Reads a value of container; a container becomes the current one. */
-static ffd_status scan_value(scanner *s, uint32_t *container, int *depth)
-{
-    json_span *tree = s->tree;
-    json_value *value = add_value(s, *container);
-    if (!value)
-        return FFD_E_MEMORY;
-    if (*container != JSON_NONE && tree->values[*container].kind == JSON_OBJECT) {
-        const ffd_status status = scan_key(s, value);
-        if (status)
-            return status;
-    }
-    value->begin = place(s);
-    if (s->at == s->last || (*s->at != '{' && *s->at != '['))
-        return scan_scalar(s, value);
-    if (++*depth > JSON_SPAN_DEPTH)
-        return syntax(s, s->at, "values are nested more than 256 deep");
-    value->kind = *s->at == '{' ? JSON_OBJECT : JSON_ARRAY;
-    *container = (uint32_t)(tree->count - 1);
-    s->at++;
-    return FFD_OK;
-}
-
-/* One step inside a container: its end, or the next member with the comma before it. */
-static ffd_status scan_member(scanner *s, uint32_t *container, int *depth)
-{
-    const json_value *in = &s->tree->values[*container];
-    const bool object = in->kind == JSON_OBJECT;
-    if (s->at < s->last && *s->at == (object ? '}' : ']')) {
-        --*depth;
-        return close_container(s, container);
-    }
-    if (in->count > 0) {
-        if (s->at == s->last || *s->at != ',')
-            return syntax(s, s->at, object ? "',' or '}' is expected" : "',' or ']' is expected");
-        s->at++;
-        skip_space(s);
-    }
-    return scan_value(s, container, depth);
-}
-
-static ffd_status scan_text(scanner *s)
-{
-    if (s->last - s->at >= 3 && memcmp(s->at, "\xef\xbb\xbf", 3) == 0)
-        s->at += 3;
-    skip_space(s);
-    uint32_t container = JSON_NONE;
-    int depth = 0;
-    ffd_status status = scan_value(s, &container, &depth);
-    while (status == FFD_OK && container != JSON_NONE) {
-        skip_space(s);
-        status = scan_member(s, &container, &depth);
-    }
-    if (status)
-        return status;
-    skip_space(s);
-    return s->at < s->last ? syntax(s, s->at, "the text goes on behind its value") : FFD_OK;
-}
-
-ffd_status ffd_json_span_parse(const char *text, size_t size, const char *name, json_span *tree,
-                               ffd_error *error)
-{
-    *tree = (json_span){.text = text, .size = size};
-    if (size > LARGEST_TEXT)
-        return ffd_fail_file(error, FFD_E_LIMIT, name, "its JSON has %zu bytes, more than 2147483647", size);
-    scanner s = {.tree = tree, .name = name, .at = text, .last = text + size, .error = error};
-    const ffd_status status = scan_text(&s);
-    if (status)
-        ffd_json_span_free(tree);
-    return status;
 }
 
 void ffd_json_span_free(json_span *tree)
@@ -334,23 +75,11 @@ bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number)
 /* The characters between the quotes at begin and end. */
 static char *decode(const json_span *tree, uint32_t begin, uint32_t end, size_t *size)
 {
-    char *text = ffd_alloc(end - begin, 1); /* an escape is never shorter than its character */
+    const size_t capacity = end - begin; /* an escape is never shorter than its character */
+    char *const text = ffd_alloc(capacity, 1);
     if (!text)
         return NULL;
-    size_t length = 0;
-    const char *c = tree->text + begin + 1, *const last = tree->text + end - 1;
-    while (c < last) {
-        const char *const plain = ffd_json_pass_plain(c, last);
-        memcpy(text + length, c, (size_t)(plain - c));
-        length += (size_t)(plain - c);
-        c = plain;
-        if (c < last) {
-            uint32_t code = 0;
-            c = ffd_json_char(c, last, &code);
-            length += ffd_utf8_write(code, text + length);
-        }
-    }
-    text[length] = 0;
+    const size_t length = ffd_json_decode(tree->text + begin + 1, tree->text + end - 1, text, capacity);
     if (size)
         *size = length;
     return text;
@@ -421,31 +150,36 @@ bool ffd_json_span_equal_strings(const json_span *a, uint32_t x, const json_span
                         b->text + w->end - 1) == 0;
 }
 
-/* One step of a pointer, "/nodes" or "/3"; '~' and '/' are written ~0 and ~1. */
-static void pointer_step(const json_span *tree, uint32_t value, char *text, size_t capacity)
+/* Appends one step of a pointer, "/nodes" or "/3"; '~' and '/' are written ~0 and ~1. Returns the new length:
+   what does not fit is left out. */
+static size_t pointer_step(const json_span *tree, uint32_t value, char *text, size_t length, size_t capacity)
 {
     const json_value *v = &tree->values[value];
     if (v->key_end == v->key_begin) {
         size_t i = 0;
         for (uint32_t e = v->parent + 1; e != value; e = tree->values[e].next)
             i++;
-        snprintf(text, capacity, "/%zu", i);
-        return;
+        snprintf(text + length, capacity - length, "/%zu", i);
+        return length + strlen(text + length);
     }
-    size_t length = 0;
     text[length++] = '/';
     const char *c = tree->text + v->key_begin + 1, *const last = tree->text + v->key_end - 1;
-    while (c < last && length + 5 < capacity) {
+    while (c < last) {
         uint32_t code = 0;
+        char bytes[4] = "~0";
         c = ffd_json_char(c, last, &code);
-        if (code == '~' || code == '/') {
-            text[length++] = '~';
-            text[length++] = code == '~' ? '0' : '1';
-        } else {
-            length += ffd_utf8_write(code, text + length);
-        }
+        size_t size = 2;
+        if (code == '/')
+            bytes[1] = '1';
+        else if (code != '~')
+            size = ffd_utf8_write(code, bytes);
+        if (length + size >= capacity)
+            break;
+        memcpy(text + length, bytes, size);
+        length += size;
     }
     text[length] = 0;
+    return length;
 }
 
 void ffd_json_span_pointer(const json_span *tree, uint32_t value, char *text, size_t capacity)
@@ -455,12 +189,8 @@ void ffd_json_span_pointer(const json_span *tree, uint32_t value, char *text, si
     for (uint32_t v = value; tree->values[v].parent != JSON_NONE; v = tree->values[v].parent)
         path[depth++] = v;
     text[0] = 0;
-    while (depth > 0 && length + 1 < capacity) {
-        char step[128];
-        pointer_step(tree, path[--depth], step, sizeof step);
-        snprintf(text + length, capacity - length, "%s", step);
-        length += strlen(text + length);
-    }
+    while (depth > 0 && length + 2 < capacity)
+        length = pointer_step(tree, path[--depth], text, length, capacity);
 }
 
 ffd_status ffd_json_span_fail(const json_span *tree, uint32_t value, const char *name, ffd_status status,

@@ -1,4 +1,5 @@
 #include "json/json_text.h"
+#include "json/json_chars.h"
 #include <assert.h>
 #include <inttypes.h>
 #include <math.h>
@@ -18,36 +19,18 @@ static void line_break(json_text *json)
         ffd_buffer_text(json->out, "  ");
 }
 
-/* The length of the UTF-8 sequence that starts at c (Unicode 15, table 3-7), 0 where it is none. The final 0
-   of the text ends every sequence that is cut. */
-static size_t sequence_length(const unsigned char *c)
-{
-    const unsigned char first = c[0];
-    if (first < 0x80)
-        return 1;
-    const size_t length = first >= 0xc2 && first <= 0xdf   ? 2
-                          : (first & 0xf0) == 0xe0         ? 3
-                          : first >= 0xf0 && first <= 0xf4 ? 4
-                                                           : 0;
-    for (size_t i = 1; i < length; i++)
-        if ((c[i] & 0xc0) != 0x80)
-            return 0;
-    if ((first == 0xe0 && c[1] < 0xa0) || (first == 0xed && c[1] > 0x9f) || (first == 0xf0 && c[1] < 0x90) ||
-        (first == 0xf4 && c[1] > 0x8f))
-        return 0;
-    return length;
-}
-
 /* File names are bytes: those that are not UTF-8 become the replacement character, so that what comes out is
  * JSON. */
 static void quoted(byte_buffer *out, const char *text)
 {
+    const char *const last = text + strlen(text);
     ffd_buffer_text(out, "\"");
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        const size_t length = sequence_length(c);
-        if (length != 1) {
-            ffd_buffer_append(out, length ? (const char *)c : "\xef\xbf\xbd", length ? length : 3);
-            c += length ? length - 1 : 0;
+    for (const char *c = text, *next; c < last; c = next) {
+        uint32_t code;
+        next = ffd_utf8_read(c, last, &code);
+        if (!next || next > c + 1) {
+            ffd_buffer_append(out, next ? c : "\xef\xbf\xbd", next ? (size_t)(next - c) : 3);
+            next = next ? next : c + 1;
             continue;
         }
         if (*c == '"' || *c == '\\')
@@ -56,15 +39,15 @@ static void quoted(byte_buffer *out, const char *text)
             ffd_buffer_text(out, "\\n");
         else if (*c == '\t')
             ffd_buffer_text(out, "\\t");
-        else if (*c < 0x20 || *c == 0x7f)
-            ffd_buffer_format(out, "\\u%04x", (unsigned)*c);
+        else if (code < 0x20 || code == 0x7f)
+            ffd_buffer_format(out, "\\u%04x", (unsigned)code);
         else
             ffd_buffer_append(out, c, 1);
     }
     ffd_buffer_text(out, "\"");
 }
 
-/* What stands before a value: the comma, the place, the key. */
+/* What comes before a value: the comma, the line break, the key. */
 static void lead_in(json_text *json, const char *key)
 {
     const bool first = json->empty[json->depth];

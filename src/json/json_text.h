@@ -1,5 +1,5 @@
 /* json_text.h - writes JSON for people and programs: two spaces of indent, inline arrays, shortest numbers.
-   (jansson reads JSON for us; its writer prints 0.1 as 0.10000000000000001.) */
+ */
 #ifndef FFD_JSON_JSON_TEXT_H
 #define FFD_JSON_JSON_TEXT_H
 

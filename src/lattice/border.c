@@ -1,5 +1,6 @@
 #include "lattice/border.h"
 #include "spline/basis.h"
+#include "spline/knots.h"
 #include <float.h>
 #include <math.h>
 

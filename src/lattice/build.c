@@ -1,11 +1,15 @@
+#include "lattice/build.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "lattice/cylinder.h"
 #include "lattice/lattice.h"
+#include "lattice/moves.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <stdio.h>
 #include <string.h>
 
-/* Says where in the file the cause stands of an error that came without a place. */
+/* Adds to an error the JSON pointer of its cause. */
 static ffd_status locate(const lattice_spec *spec, const char *pointer, ffd_status status, ffd_error *error)
 {
     if (status == FFD_E_INVALID && error && !error->pointer[0])
@@ -120,8 +124,8 @@ static ffd_status place_rest(const lattice_spec *spec, const double *min, const 
     return FFD_OK;
 }
 
-static ffd_status place(const lattice_spec *spec, const double *min, const double *max, ffd_lattice *lattice,
-                        ffd_error *error)
+static ffd_status set_points(const lattice_spec *spec, const double *min, const double *max,
+                             ffd_lattice *lattice, ffd_error *error)
 {
     rest_region region;
     ffd_status status = make_points(lattice, error);
@@ -144,7 +148,7 @@ ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *m
     ffd_lattice *result = ffd_alloc_zero(1, sizeof *result);
     ffd_status status = result ? make_knots(spec, result, error) : ffd_fail_memory(error);
     if (!status && (spec->rest != SPEC_BOX_MESH || min))
-        status = place(spec, min, max, result, error);
+        status = set_points(spec, min, max, result, error);
     if (status) {
         ffd_fail_name_file(error, spec->name);
         ffd_lattice_destroy(&result);

@@ -1,9 +1,12 @@
+/* create.c - a lattice from a description of the library's caller. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "lattice/build.h"
 #include "lattice/direction.h"
 #include "lattice/lattice.h"
 #include "lattice/principal.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 
 void ffd_lattice_desc_init(ffd_lattice_desc *desc)
@@ -41,7 +44,7 @@ static ffd_status check_knots(const ffd_lattice_desc *desc, ffd_error *error)
     const bool cylinder = desc->shape == FFD_SHAPE_CYLINDER;
     for (int a = 0; a < 3; a++) {
         if ((int)desc->knots[a] < FFD_KNOTS_DEFAULT || desc->knots[a] > FFD_KNOTS_CLOSED)
-            return ffd_fail(error, FFD_E_ARGUMENT, "there is no kind of knots %d", (int)desc->knots[a]);
+            return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a kind of knots", (int)desc->knots[a]);
         if (desc->knots[a] == FFD_KNOTS_CLOSED && !(cylinder && a == 1))
             return ffd_fail(error, FFD_E_ARGUMENT, "direction %c of a %s cannot be closed", "uvw"[a],
                             cylinder ? "cylinder" : "box");
@@ -60,24 +63,24 @@ static ffd_status check_desc(const ffd_lattice_desc *desc, ffd_error *error)
                         desc->struct_size, sizeof *desc);
     const bool cylinder = desc->shape == FFD_SHAPE_CYLINDER;
     if (!cylinder && desc->shape != FFD_SHAPE_BOX)
-        return ffd_fail(error, FFD_E_ARGUMENT, "there is no lattice shape %d", (int)desc->shape);
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a shape of lattices", (int)desc->shape);
     if (desc->spacing != FFD_SPACING_GREVILLE && desc->spacing != FFD_SPACING_UNIFORM)
-        return ffd_fail(error, FFD_E_ARGUMENT, "there is no spacing %d", (int)desc->spacing);
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a kind of spacing", (int)desc->spacing);
     if (!(desc->margin >= 0) || !isfinite(desc->margin))
-        return ffd_fail(error, FFD_E_ARGUMENT, "margin %g is not a number from 0 on", desc->margin);
+        return ffd_fail(error, FFD_E_ARGUMENT, "margin %g is not 0 or more", desc->margin);
     if (cylinder && desc->spacing != FFD_SPACING_GREVILLE)
         return ffd_fail(error, FFD_E_ARGUMENT, "uniform spacing is for boxes, not for cylinders");
     if (cylinder && desc->principal)
         return ffd_fail(error, FFD_E_ARGUMENT, "principal axes are for boxes; a cylinder has its own axis");
     if (cylinder &&
         (!vec_is_finite(desc->axis) || (desc->axis[0] == 0 && desc->axis[1] == 0 && desc->axis[2] == 0)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "axis %g %g %g of the cylinder is no direction", desc->axis[0],
-                        desc->axis[1], desc->axis[2]);
+        return ffd_fail(error, FFD_E_ARGUMENT, "axis %g %g %g of the cylinder is not a direction",
+                        desc->axis[0], desc->axis[1], desc->axis[2]);
     const ffd_status status = check_counts(desc, error);
     return status ? status : check_knots(desc, error);
 }
 
-/* The bounds of the finite points along three directions (rows of axes). False where there is none. */
+/* The bounds of the finite points along three directions (rows of axes). False if no point is finite. */
 static bool find_bounds(const double *xyz, size_t count, const double axes[9], double min[3], double max[3])
 {
     bool any = false;
@@ -105,7 +108,7 @@ static ffd_status find_bounds_or_fail(const double *xyz, size_t count, const dou
 {
     if (find_bounds(xyz, count, axes, min, max))
         return FFD_OK;
-    return ffd_fail(error, FFD_E_INVALID, "there is no finite point to stand a lattice round");
+    return ffd_fail(error, FFD_E_INVALID, "there is no finite point to put a lattice around");
 }
 
 static void fill_common(const ffd_lattice_desc *desc, lattice_spec *spec)
@@ -206,9 +209,8 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
         spec->kind[1] = KNOTS_CLOSED;
     if (isfinite(spec->radius[1]) && isfinite(spec->height))
         return FFD_OK;
-    return ffd_fail(error, FFD_E_INVALID,
-                    "a cylinder of radius %g and height %g is larger than numbers can hold", spec->radius[1],
-                    spec->height);
+    return ffd_fail(error, FFD_E_INVALID, "a cylinder of radius %g and height %g is too large for a double",
+                    spec->radius[1], spec->height);
 }
 
 ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,

@@ -1,7 +1,9 @@
+#include "lattice/cylinder.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
 #include "lattice/ring.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 
 /* The volume is C(u,v,w) = center + rho(u) c(v) + z(w) axis: c is a curve round the origin with control
@@ -9,10 +11,10 @@
    |c(v)| <= greatest over all v (ring.h) the control rings' radii r0/greatest and r1/least at the ends of u
    make the volume reach from within r0 to beyond r1 at every v, and c runs through every angle of the turn.
    Weights that are a product f(u,w) g(v) keep that (g enters c; clamped u and w keep their ends whatever f
-   is); for other weights the rings stand as for none, and what they cover is the author's affair. */
+   is); for other weights the rings are placed as without weights, and what they cover is up to the author. */
 
 /* A ring that comes nearer to the axis than this fraction of its control points' radius is refused: such a
-   volume would have to stand that many times farther out. */
+   volume would have to be that many times larger. */
 #define LEAST_RADIUS (1.0 / 32)
 #define WEIGHT_TOLERANCE 1e-9
 

@@ -1,14 +1,29 @@
+/* destroy.c - the end of lattices and of their specs. */
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+
+void ffd_spec_free(lattice_spec *spec)
+{
+    if (!spec)
+        return;
+    ffd_free(spec->name);
+    for (int a = 0; a < 3; a++)
+        ffd_free(spec->list[a]);
+    ffd_free(spec->points);
+    ffd_free(spec->weights);
+    ffd_free(spec->deformed_points);
+    ffd_free(spec->deformed_weights);
+    ffd_free(spec->moves);
+    ffd_free(spec);
+}
 
 void ffd_lattice_destroy(ffd_lattice **lattice)
 {
     if (!lattice || !*lattice)
         return;
     ffd_lattice *const l = *lattice;
-    if (l->spec)
-        ffd_spec_free(l->spec);
+    ffd_spec_free(l->spec);
     for (int a = 0; a < 3; a++)
         ffd_knots_free(&l->knots[a]);
     ffd_free(l->rest);

@@ -1,9 +1,11 @@
+/* evaluate.c - points, derivatives and weights of the volume at u,v,w. */
 #include "lattice/lattice.h"
 #include "spline/basis.h"
+#include "spline/knots.h"
 #include <math.h>
 #include <string.h>
 
-/* Where the control points of a cell stand along each direction (closed ones go round). */
+/* The indices of a cell's control points along each direction (closed ones wrap around). */
 typedef struct cell_index {
     int count[3];
     size_t at[3][MAX_ORDER];
@@ -22,7 +24,7 @@ static cell_index index_of_cell(const ffd_lattice *lattice, const int span[3])
     return index;
 }
 
-/* The first control point of the row along u at place j of v and k of w. */
+/* The first control point of the row along u at position j of v and k of w. */
 static size_t row_start(const ffd_lattice *lattice, const cell_index *index, int j, int k)
 {
     return lattice->size[0] * (index->at[1][j] + lattice->size[1] * index->at[2][k]);

@@ -1,8 +1,12 @@
+/* file.c - lattice files: load, save, and fit to a mesh. */
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "lattice/build.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+#include "lattice/spec_parse.h"
+#include "lattice/spec_text.h"
 
 static ffd_status parse(const char *text, size_t size, const char *name, const spec_settings *settings,
                         ffd_lattice **lattice, ffd_error *error)

@@ -41,7 +41,7 @@ static ffd_status check_point(const ffd_lattice *lattice, ffd_volume volume, siz
     return FFD_OK;
 }
 
-/* A number less itself is 0 where it is finite. In a loop that compilers make vectors of. */
+/* A number less itself is 0 where it is finite. The loop is one that compilers turn into SIMD code. */
 static bool all_finite(const double *numbers, size_t count)
 {
     enum { AT_ONCE = 8 };
@@ -102,13 +102,13 @@ static ffd_status make_diagonal(ffd_lattice *lattice, ffd_error *error)
     if (isfinite(lattice->diagonal))
         return FFD_OK;
     return ffd_fail(error, FFD_E_INVALID,
-                    "the rest points reach from %s to %s in %c, further than numbers can hold",
+                    "the rest points reach from %s to %s in %c, which is too far for a double",
                     ffd_number_text(min[longest]).text, ffd_number_text(max[longest]).text, "xyz"[longest]);
 }
 
 static ffd_status fail_difference(const ffd_lattice *lattice, size_t c, ffd_error *error)
 {
-    return ffd_fail(error, FFD_E_INVALID, "%s: the way from %s to %s is longer than numbers can hold",
+    return ffd_fail(error, FFD_E_INVALID, "%s: the distance from %s to %s is too large for a double",
                     name_of(lattice, FFD_VOLUME_DEFORMED, c / 3).text, ffd_number_text(lattice->rest[c]).text,
                     ffd_number_text(lattice->deformed[c]).text);
 }
@@ -137,7 +137,7 @@ static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
         if (!(fabs(difference[c]) <= largest))
             return fail_difference(lattice, c, error);
         if (!lattice->has_uvw_by_p && !(fabs(lattice->rest[c]) <= largest))
-            return ffd_fail(error, FFD_E_INVALID, "%s: %s is farther away than numbers can hold",
+            return ffd_fail(error, FFD_E_INVALID, "%s: %s is too large to compute with",
                             name_of(lattice, FFD_VOLUME_REST, c / 3).text,
                             ffd_number_text(lattice->rest[c]).text);
     }

@@ -1,7 +1,9 @@
+#include "lattice/moves.h"
 #include "base/memory/memory.h"
 #include "base/vector/trig.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
+#include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <float.h>
 #include <math.h>
@@ -11,11 +13,11 @@
    fractions of the rest region's sides, along them; directions, angles and factors are the same in both
    units. */
 
-/* The moves of one lattice on their way. */
+/* The moves of one lattice while they are applied. */
 typedef struct move_work {
     const ffd_lattice *lattice;
     double *points;          /* those that move */
-    unsigned char *selected; /* of the move in hand, one byte a control point */
+    unsigned char *selected; /* of the current move, one byte a control point */
     bool box_units;
     rest_region region;
     double inverse[9]; /* of the region's frame; only in box units */
@@ -283,7 +285,7 @@ static ffd_status move_point(const move_work *work, ready_move *ready, size_t po
         return FFD_OK;
     const size_t *const size = work->lattice->size;
     return ffd_fail_at(work->error, FFD_E_INVALID, work->file, ready->move.pointer,
-                       "moves control point %zu,%zu,%zu to a place that is no finite number", point % size[0],
+                       "moves control point %zu,%zu,%zu to a position that is not finite", point % size[0],
                        point / size[0] % size[1], point / size[0] / size[1]);
 }
 
@@ -303,7 +305,7 @@ static ffd_status apply_move(move_work *work, const lattice_move *move)
     const size_t count = select_points(work, move);
     if (count == 0)
         return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
-                           "selects no control point: none rests within these bounds");
+                           "selects no control point: none is within these bounds at rest");
     if (move->weight == 0)
         return FFD_OK;
     move_to_world(work, &ready.move);

@@ -1,8 +1,10 @@
 #include "lattice/ring.h"
 #include "base/text/number.h"
 #include "base/vector/trig.h"
-#include "lattice/spec.h"
+#include "lattice/shapes.h"
 #include "spline/basis.h"
+#include "spline/bezier.h"
+#include "spline/knots.h"
 #include <math.h>
 
 static bool is_rational(const knot_vector *knots, const ring_point *points)
@@ -19,8 +21,8 @@ static bool is_regular(const knot_vector *knots)
     return knots->kind == KNOTS_OPEN || knots->kind == KNOTS_UNIFORM || knots->kind == KNOTS_CLOSED;
 }
 
-/* The place of control point j between the start (0) and the end (1) of the turn: its Greville abscissa. The
-   presets' are written as one division, which keeps 90 degrees 90. */
+/* The position of control point j between the start (0) and the end (1) of the turn: its Greville abscissa.
+   The presets' are written as one division, which keeps 90 degrees 90. */
 static double fraction_of(const knot_vector *knots, size_t j)
 {
     if (!is_regular(knots))

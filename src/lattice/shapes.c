@@ -1,8 +1,8 @@
+#include "lattice/shapes.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
-#include "lattice/spec.h"
 
 /* A side shorter than this fraction of the diagonal counts as flat: it is the rounding of coordinates that
    were meant to be equal, or a volume too thin to be inverted well. It is widened, round its middle, to
@@ -31,7 +31,7 @@ ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double m
     const double diagonal = diagonal_of(min, max);
     for (int c = 0; c < 3; c++) {
         if (!(min[c] <= max[c]) || !isfinite(max[c] - min[c]))
-            return ffd_fail(error, FFD_E_INVALID, "no lattice can stand round bounds from %s to %s along %c",
+            return ffd_fail(error, FFD_E_INVALID, "no lattice fits around bounds from %s to %s along %c",
                             ffd_number_text(min[c]).text, ffd_number_text(max[c]).text, "xyz"[c]);
         const double side = max[c] - min[c];
         const bool flat = !(side > FLAT_SIDE * diagonal);
@@ -40,8 +40,7 @@ ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double m
         grown_min[c] = (flat ? 0.5 * min[c] + 0.5 * max[c] - half : min[c]) - out;
         grown_max[c] = (flat ? 0.5 * min[c] + 0.5 * max[c] + half : max[c]) + out;
         if (!isfinite(grown_max[c] - grown_min[c]))
-            return ffd_fail(error, FFD_E_INVALID,
-                            "a box from %s to %s along %c is larger than numbers can hold",
+            return ffd_fail(error, FFD_E_INVALID, "a box from %s to %s along %c is too large for a double",
                             ffd_number_text(grown_min[c]).text, ffd_number_text(grown_max[c]).text, "xyz"[c]);
     }
     return FFD_OK;

@@ -74,58 +74,10 @@ typedef struct spec_settings {
     size_t count;
 } spec_settings;
 
-/* Reads the JSON text of data/schema/lattice.md, with these values for placeholders (NULL: none). Errors as
-   ffd_lattice_parse. */
-ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
-                          lattice_spec **spec, ffd_error *error);
 #define SPEC_FORMAT "ffd-lattice"
 #define SPEC_VERSION 1
 
-/* The file's text for a spec (a final line break, no final 0 needed): NULL when there is no memory. */
-char *ffd_spec_text(const lattice_spec *spec, size_t *size);
+/* NULL is allowed. */
 void ffd_spec_free(lattice_spec *spec);
-
-/* Makes the lattice: knots, control points, moves. min, max are the bounds of the mesh for SPEC_BOX_MESH;
-   without them (NULL) such a lattice gets only its knots. Errors name the file and the place in it. On
-   success the lattice owns the spec; on failure the spec is still the caller's. */
-ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
-                          ffd_error *error);
-
-/* The region that "units": "box" refers to: position = origin + sum_a fraction_a * (column a of frame).
-   A box: its lower corner and its sides. A cylinder: the bounds along x,y,z of the whole solid cylinder (all
-   round, whatever its angles). Points: the bounds along x,y,z of the rest points. */
-typedef struct rest_region {
-    double origin[3], frame[9];
-} rest_region;
-
-/* shapes.c: a box grown by margin on every side, as a fraction of the side; sides of no length are widened
-   first, so that the volume is not empty. FFD_E_INVALID where the result is not finite. */
-ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double margin, double grown_min[3],
-                              double grown_max[3], ffd_error *error);
-/* The region of a box from min to max along axes (rows). */
-void ffd_shape_box_region(const double min[3], const double max[3], const double axes[9],
-                          rest_region *region);
-/* Whether the curve starts and ends in its first and last control points: presets and lists alike. */
-bool ffd_shape_is_clamped(const knot_vector *knots);
-/* Where control point i stands between the domain's ends along one direction: 0 and 1 at the ends of the
-   domain, with Greville spacing (g_i - t_d)/(t_n - t_d), so that linear maps of it are exact. */
-double ffd_shape_fraction(const knot_vector *knots, size_t point, ffd_spacing spacing);
-/* from + fraction (to - from), exact at both ends and symmetric. */
-static inline double ffd_shape_between(double from, double to, double fraction)
-{
-    const double length = to - from;
-    return fraction <= 0.5 ? from + fraction * length : to - (1 - fraction) * length;
-}
-/* The control points (3*count) of a box along axes (rows). */
-ffd_status ffd_shape_box(const ffd_lattice *lattice, const double min[3], const double max[3],
-                         const double axes[9], ffd_spacing spacing, double *points, ffd_error *error);
-/* cylinder.c: the control points of the spec's cylinder. */
-ffd_status ffd_shape_cylinder(const ffd_lattice *lattice, const lattice_spec *spec, double *points,
-                              ffd_error *error);
-void ffd_shape_cylinder_region(const lattice_spec *spec, rest_region *region);
-
-/* moves.c: applies the spec's moves to lattice->deformed. */
-ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
-                           ffd_error *error);
 
 #endif

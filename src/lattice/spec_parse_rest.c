@@ -1,7 +1,8 @@
+#include "lattice/spec_parse_rest.h"
 #include "base/text/number.h"
 #include "base/vector/vec.h"
 #include "lattice/direction.h"
-#include "lattice/spec_parse.h"
+#include "lattice/spec_values.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
@@ -9,204 +10,193 @@
    They are then used as written: min and max are along them, whatever their last digits. */
 #define AXES_TOLERANCE 1e-6
 
-static ffd_status check_axes(json_place *place, const double axes[9])
+static ffd_status check_axes(json_cursor cursor, const double axes[9])
 {
     for (int r = 0; r < 3; r++)
         for (int s = r; s < 3; s++) {
             const double dot = vec_dot(axes + 3 * r, axes + 3 * s);
             if (r == s && !(fabs(dot - 1) <= AXES_TOLERANCE))
-                return ffd_place_fail(place, "axis %d has the length %s, not 1", r,
-                                      ffd_number_text(vec_length(axes + 3 * r)).text);
+                return ffd_cursor_fail(cursor, "axis %d has the length %s, not 1", r,
+                                       ffd_number_text(vec_length(axes + 3 * r)).text);
             if (r != s && !(fabs(dot) <= AXES_TOLERANCE))
-                return ffd_place_fail(place, "axes %d and %d are not perpendicular: their dot product is %s",
-                                      r, s, ffd_number_text(dot).text);
+                return ffd_cursor_fail(cursor,
+                                       "axes %d and %d are not perpendicular: their dot product is %s", r, s,
+                                       ffd_number_text(dot).text);
         }
     return FFD_OK;
 }
 
-static ffd_status read_axes(json_place *place, const json_t *value, double axes[9])
+static ffd_status read_axes(json_cursor cursor, double axes[9])
 {
-    ffd_status status = ffd_json_read_array(place, value, 3, "axes");
-    for (size_t r = 0; r < 3 && !status; r++) {
-        const size_t before = ffd_place_enter_index(place, r);
-        status = ffd_json_read_doubles(place, json_array_get(value, r), 3, axes + 3 * r);
-        ffd_place_leave(place, before);
-    }
-    return status ? status : check_axes(place, axes);
+    ffd_status status = ffd_json_read_array(cursor, 3, "axes");
+    json_cursor row = ffd_cursor_first(cursor);
+    for (size_t r = 0; r < 3 && !status; r++, row = ffd_cursor_next(row))
+        status = ffd_json_read_doubles(row, 3, axes + 3 * r);
+    return status ? status : check_axes(cursor, axes);
 }
 
-static ffd_status check_sides(json_place *place, const lattice_spec *spec)
+static ffd_status check_sides(json_cursor cursor, const lattice_spec *spec)
 {
     for (int c = 0; c < 3; c++) {
         if (!(spec->box_min[c] < spec->box_max[c]))
-            return ffd_place_fail(place, "max %s of direction %c is not more than min %s",
-                                  ffd_number_text(spec->box_max[c]).text, "uvw"[c],
-                                  ffd_number_text(spec->box_min[c]).text);
+            return ffd_cursor_fail(cursor, "max %s of direction %c is not more than min %s",
+                                   ffd_number_text(spec->box_max[c]).text, "uvw"[c],
+                                   ffd_number_text(spec->box_min[c]).text);
         if (!isfinite(spec->box_max[c] - spec->box_min[c]))
-            return ffd_place_fail(place, "the side from %s to %s is longer than numbers can hold",
-                                  ffd_number_text(spec->box_min[c]).text,
-                                  ffd_number_text(spec->box_max[c]).text);
+            return ffd_cursor_fail(cursor, "the side from %s to %s is too large for a double",
+                                   ffd_number_text(spec->box_min[c]).text,
+                                   ffd_number_text(spec->box_max[c]).text);
     }
     return FFD_OK;
 }
 
-static ffd_status read_spacing(json_place *place, const json_t *value, ffd_spacing *spacing)
+static ffd_status read_spacing(json_cursor cursor, ffd_spacing *spacing)
 {
     static const char *const names[] = {"greville", "uniform"};
     size_t index;
-    const ffd_status status = ffd_json_read_word(place, value, names, COUNT_OF(names), &index);
+    const ffd_status status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
     *spacing = index == 1 ? FFD_SPACING_UNIFORM : FFD_SPACING_GREVILLE;
     return status;
 }
 
-static ffd_status read_box(json_place *place, const json_t *value, lattice_spec *spec)
+static ffd_status read_box(json_cursor cursor, lattice_spec *spec)
 {
     static const char *const keys[] = {"min", "max", "spacing", "axes"};
     spec->rest = SPEC_BOX;
-    ffd_status status = ffd_json_read_object(place, value, keys, COUNT_OF(keys));
+    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
-        status = ffd_json_member_doubles(place, value, "min", 3, spec->box_min);
+        status = ffd_json_member_doubles(cursor, "min", 3, spec->box_min);
     if (!status)
-        status = ffd_json_member_doubles(place, value, "max", 3, spec->box_max);
-    const json_t *const spacing = json_object_get(value, "spacing"), *const axes =
-                                                                         json_object_get(value, "axes");
-    if (!status && spacing) {
-        const size_t before = ffd_place_enter(place, "spacing");
-        status = read_spacing(place, spacing, &spec->spacing);
-        ffd_place_leave(place, before);
-    }
-    if (!status && axes) {
-        const size_t before = ffd_place_enter(place, "axes");
-        spec->has_axes = true;
-        status = read_axes(place, axes, spec->box_axes);
-        ffd_place_leave(place, before);
-    }
-    return status ? status : check_sides(place, spec);
+        status = ffd_json_member_doubles(cursor, "max", 3, spec->box_max);
+    const json_cursor spacing = ffd_cursor_member(cursor, "spacing"),
+                      axes = ffd_cursor_member(cursor, "axes");
+    spec->has_axes = ffd_cursor_exists(axes);
+    if (!status && ffd_cursor_exists(spacing))
+        status = read_spacing(spacing, &spec->spacing);
+    if (!status && spec->has_axes)
+        status = read_axes(axes, spec->box_axes);
+    return status ? status : check_sides(cursor, spec);
 }
 
-static ffd_status read_margin(json_place *place, const json_t *value, double *margin)
+static ffd_status read_margin(json_cursor cursor, double *margin)
 {
-    const ffd_status status = ffd_json_read_double(place, value, margin);
+    const ffd_status status = ffd_json_read_double(cursor, margin);
     if (!status && *margin < 0)
-        return ffd_place_fail(place, "margin %s is less than 0", ffd_number_text(*margin).text);
+        return ffd_cursor_fail(cursor, "margin %s is less than 0", ffd_number_text(*margin).text);
     return status;
+}
+
+static ffd_status refuse_margin(json_cursor cursor)
+{
+    return ffd_cursor_fail(cursor, "a margin goes only with \"box\": \"mesh\"");
 }
 
 /* "box": {...}, or "box": "mesh" with a margin beside it. */
-static ffd_status read_any_box(json_place *place, const json_t *rest, lattice_spec *spec)
+static ffd_status read_any_box(json_cursor rest, lattice_spec *spec)
 {
     static const char *const names[] = {"mesh"};
-    const json_t *const box = json_object_get(rest, "box"), *const margin = json_object_get(rest, "margin");
-    size_t index, before = ffd_place_enter(place, "box");
+    const json_cursor box = ffd_cursor_member(rest, "box"), margin = ffd_cursor_member(rest, "margin");
+    size_t index;
     ffd_status status;
-    if (json_is_string(box)) {
+    if (ffd_cursor_is(box, JSON_STRING)) {
         spec->rest = SPEC_BOX_MESH;
-        status = ffd_json_read_word(place, box, names, COUNT_OF(names), &index);
+        status = ffd_json_read_word(box, names, COUNT_OF(names), &index);
     } else {
-        status = read_box(place, box, spec);
+        status = read_box(box, spec);
     }
-    ffd_place_leave(place, before);
-    if (status || !margin)
+    if (status || !ffd_cursor_exists(margin))
         return status;
-    before = ffd_place_enter(place, "margin");
-    if (spec->rest == SPEC_BOX_MESH)
-        status = read_margin(place, margin, &spec->margin);
-    else
-        status = ffd_place_fail(place, "a margin goes only with \"box\": \"mesh\"");
-    ffd_place_leave(place, before);
-    return status;
+    return spec->rest == SPEC_BOX_MESH ? read_margin(margin, &spec->margin) : refuse_margin(margin);
 }
 
-static ffd_status read_zero(json_place *place, const json_t *cylinder, lattice_spec *spec)
+static ffd_status read_zero(json_cursor cylinder, lattice_spec *spec)
 {
-    if (!json_object_get(cylinder, "zero")) {
+    const json_cursor zero = ffd_cursor_member(cylinder, "zero");
+    if (!ffd_cursor_exists(zero)) {
         ffd_direction_default_zero(spec->axis, spec->zero);
         return FFD_OK;
     }
-    const ffd_status status = ffd_spec_parse_axis(place, cylinder, "zero", spec->zero);
+    const ffd_status status = ffd_spec_read_axis(cylinder, "zero", spec->zero);
     if (status || ffd_direction_perpendicular(spec->axis, spec->zero))
         return status;
-    ffd_place_enter(place, "zero");
-    return ffd_place_fail(place, "points along the axis; it must lead away from it");
+    return ffd_cursor_fail(zero, "points along the axis; it must lead away from it");
 }
 
-static ffd_status read_radius(json_place *place, const json_t *cylinder, double radius[2])
+static ffd_status read_radius(json_cursor cylinder, double radius[2])
 {
-    const ffd_status status = ffd_json_member_doubles(place, cylinder, "radius", 2, radius);
+    const ffd_status status = ffd_json_member_doubles(cylinder, "radius", 2, radius);
     if (status || (radius[0] >= 0 && radius[0] < radius[1]))
         return status;
-    ffd_place_enter(place, "radius");
-    return ffd_place_fail(place, "radii %s and %s are not 0 <= r0 < r1", ffd_number_text(radius[0]).text,
-                          ffd_number_text(radius[1]).text);
+    return ffd_cursor_fail(ffd_cursor_member(cylinder, "radius"), "radii %s and %s are not 0 <= r0 < r1",
+                           ffd_number_text(radius[0]).text, ffd_number_text(radius[1]).text);
 }
 
-static ffd_status read_height(json_place *place, const json_t *cylinder, double *height)
+static ffd_status read_height(json_cursor cylinder, double *height)
 {
-    const ffd_status status = ffd_json_member_double(place, cylinder, "height", height);
+    const ffd_status status = ffd_json_member_double(cylinder, "height", height);
     if (status || *height > 0)
         return status;
-    ffd_place_enter(place, "height");
-    return ffd_place_fail(place, "height %s is not more than 0", ffd_number_text(*height).text);
+    return ffd_cursor_fail(ffd_cursor_member(cylinder, "height"), "height %s is not more than 0",
+                           ffd_number_text(*height).text);
 }
 
-static ffd_status read_angle(json_place *place, const json_t *cylinder, double angle[2])
+static ffd_status read_angle(json_cursor cylinder, double angle[2])
 {
+    const json_cursor cursor = ffd_cursor_member(cylinder, "angle");
     angle[0] = 0;
     angle[1] = 360;
-    if (!json_object_get(cylinder, "angle"))
+    if (!ffd_cursor_exists(cursor))
         return FFD_OK;
-    const ffd_status status = ffd_json_member_doubles(place, cylinder, "angle", 2, angle);
+    const ffd_status status = ffd_json_read_doubles(cursor, 2, angle);
     if (status)
         return status;
     const double span = angle[1] - angle[0];
     if (span > 0 && span <= 360 + SPEC_TURN_TOLERANCE)
         return FFD_OK;
-    ffd_place_enter(place, "angle");
-    return ffd_place_fail(place, "%s to %s degrees is not an angle of more than 0, at most 360",
-                          ffd_number_text(angle[0]).text, ffd_number_text(angle[1]).text);
+    return ffd_cursor_fail(cursor, "%s to %s degrees is not an angle of more than 0, at most 360",
+                           ffd_number_text(angle[0]).text, ffd_number_text(angle[1]).text);
 }
 
-static ffd_status read_cylinder(json_place *place, const json_t *value, lattice_spec *spec)
+static ffd_status read_cylinder(json_cursor cursor, lattice_spec *spec)
 {
     static const char *const keys[] = {"center", "axis", "zero", "radius", "height", "angle"};
     spec->rest = SPEC_CYLINDER;
-    ffd_status status = ffd_json_read_object(place, value, keys, COUNT_OF(keys));
+    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
-        status = ffd_json_member_doubles(place, value, "center", 3, spec->center);
+        status = ffd_json_member_doubles(cursor, "center", 3, spec->center);
     if (!status)
-        status = ffd_spec_parse_axis(place, value, "axis", spec->axis);
+        status = ffd_spec_read_axis(cursor, "axis", spec->axis);
     if (!status)
-        status = read_zero(place, value, spec);
+        status = read_zero(cursor, spec);
     if (!status)
-        status = read_radius(place, value, spec->radius);
+        status = read_radius(cursor, spec->radius);
     if (!status)
-        status = read_height(place, value, &spec->height);
+        status = read_height(cursor, &spec->height);
     if (!status)
-        status = read_angle(place, value, spec->angle);
+        status = read_angle(cursor, spec->angle);
     return status;
 }
 
-ffd_status ffd_spec_parse_rest(json_place *place, const json_t *value, lattice_spec *spec)
+ffd_status ffd_spec_parse_rest(json_cursor cursor, lattice_spec *spec)
 {
     static const char *const keys[] = {"box", "cylinder", "points", "margin"};
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             spec->box_axes[3 * r + c] = r == c;
-    const ffd_status status = ffd_json_read_object(place, value, keys, COUNT_OF(keys));
+    const ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
     if (status)
         return status;
-    const json_t *const cylinder = json_object_get(value, "cylinder"), *const points =
-                                                                           json_object_get(value, "points");
-    const bool box = json_object_get(value, "box") != NULL;
-    if (box + (cylinder != NULL) + (points != NULL) != 1)
-        return ffd_place_fail(place, "needs exactly one of \"box\", \"cylinder\", \"points\"");
-    if (box)
-        return read_any_box(place, value, spec);
-    if (json_object_get(value, "margin"))
-        return ffd_place_fail(place, "a margin goes only with \"box\": \"mesh\"");
-    ffd_place_enter(place, cylinder ? "cylinder" : "points");
-    if (cylinder)
-        return read_cylinder(place, cylinder, spec);
+    const json_cursor box = ffd_cursor_member(cursor, "box"),
+                      cylinder = ffd_cursor_member(cursor, "cylinder"),
+                      points = ffd_cursor_member(cursor, "points");
+    if (ffd_cursor_exists(box) + ffd_cursor_exists(cylinder) + ffd_cursor_exists(points) != 1)
+        return ffd_cursor_fail(cursor, "needs exactly one of \"box\", \"cylinder\", \"points\"");
+    if (ffd_cursor_exists(box))
+        return read_any_box(cursor, spec);
+    if (ffd_cursor_exists(ffd_cursor_member(cursor, "margin")))
+        return refuse_margin(cursor);
+    if (ffd_cursor_exists(cylinder))
+        return read_cylinder(cylinder, spec);
     spec->rest = SPEC_POINTS;
-    return ffd_spec_parse_points(place, points, spec->count, &spec->points);
+    return ffd_spec_read_points(points, spec->count, &spec->points);
 }

@@ -1,75 +1,79 @@
 #include "lattice/spec_set.h"
-#include <string.h>
+#include "base/memory/memory.h"
+#include "json/json_chars.h"
+#include "json/json_parse.h"
 
-/* The name in {"$": "NAME"}; NULL: it is no placeholder. */
-static const char *placeholder_name(const json_t *value)
+/* The name, a string, in {"$": "NAME"}; JSON_NONE: it is not a placeholder. */
+static uint32_t placeholder_name(const json_span *tree, uint32_t value)
 {
-    if (!json_is_object(value) || json_object_size(value) != 1)
-        return NULL;
-    return json_string_value(json_object_get(value, "$"));
+    if (tree->values[value].kind != JSON_OBJECT || tree->values[value].count != 1)
+        return JSON_NONE;
+    const uint32_t name = ffd_json_span_member(tree, value, "$");
+    return name != JSON_NONE && tree->values[name].kind == JSON_STRING ? name : JSON_NONE;
 }
 
-/* A value is what it says as JSON, or else a text. */
-static json_t *parse_value(const char *text)
+/* The value for the placeholder at the cursor. */
+static ffd_status find_value(json_cursor cursor, uint32_t name, const spec_settings *settings,
+                             spec_values *values, const json_span **tree)
 {
-    json_t *const value =
-        json_loads(text, JSON_DECODE_ANY | JSON_REJECT_DUPLICATES | JSON_DECODE_INT_AS_REAL, NULL);
-    return value ? value : json_string(text);
-}
-
-static ffd_status find_value(const json_place *place, const char *name, const spec_settings *settings,
-                             json_t **value)
-{
-    for (size_t i = 0; i < settings->count; i++)
-        if (strcmp(settings->values[i].name, name) == 0) {
-            settings->used[i] = true;
-            *value = parse_value(settings->values[i].value);
-            return *value ? FFD_OK
-                          : ffd_place_fail(
-                                place, "the value of \"%.60s\" is neither JSON nor a text in UTF-8", name);
-        }
-    return ffd_place_fail(place, "the placeholder \"%.60s\" has no value (--set %.60s=VALUE)", name, name);
-}
-
-/* *found: what comes in the place of a member or element, NULL: it stays, with what is in it filled. */
-static ffd_status fill(json_place *place, json_t *value, const spec_settings *settings, json_t **found)
-{
-    const char *const name = placeholder_name(value);
-    *found = NULL;
-    return name ? find_value(place, name, settings, found) : ffd_spec_set(place, value, settings);
-}
-
-static ffd_status fill_members(json_place *place, json_t *object, const spec_settings *settings)
-{
-    ffd_status status = FFD_OK;
-    for (void *at = json_object_iter(object); at && !status; at = json_object_iter_next(object, at)) {
-        const size_t before = ffd_place_enter(place, json_object_iter_key(at));
-        json_t *found;
-        status = fill(place, json_object_iter_value(at), settings, &found);
-        if (found)
-            json_object_iter_set_new(object, at, found);
-        ffd_place_leave(place, before);
+    const json_value *const v = &cursor.tree->values[name];
+    char shown[61];
+    ffd_json_decode(cursor.tree->text + v->begin + 1, cursor.tree->text + v->end - 1, shown, sizeof shown);
+    for (size_t i = 0; i < settings->count; i++) {
+        if (!ffd_json_span_string_is(cursor.tree, name, settings->values[i].name))
+            continue;
+        json_setting *const value = &values->values[i];
+        ffd_status status = FFD_OK;
+        if (!value->tree.values)
+            status = ffd_json_setting_parse(settings->values[i].value, JSON_NO_NUL | JSON_DOUBLES, value);
+        settings->used[i] = true;
+        *tree = &value->tree;
+        if (status == FFD_E_INVALID)
+            return ffd_cursor_fail(cursor, "the value of \"%s\" is neither JSON nor a text in UTF-8", shown);
+        return status ? ffd_fail_memory(cursor.file->error) : FFD_OK;
     }
+    return ffd_cursor_fail(cursor, "the placeholder \"%s\" has no value (--set %s=VALUE)", shown, shown);
+}
+
+static ffd_status add_substitute(const json_file *file, uint32_t value, const json_span *tree,
+                                 spec_values *values)
+{
+    if (!ffd_grow((void **)&values->substitutes, &values->substitute_capacity, values->substitute_count + 1,
+                  sizeof *values->substitutes))
+        return ffd_fail_memory(file->error);
+    values->substitutes[values->substitute_count++] = (json_substitute){value, tree};
+    return FFD_OK;
+}
+
+ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, spec_values *values)
+{
+    const json_span *const tree = file->tree;
+    const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
+    ffd_status status = FFD_OK;
+    values->count = settings->count;
+    values->values = ffd_alloc_zero(settings->count, sizeof *values->values);
+    if (!values->values)
+        return ffd_fail_memory(file->error);
+    /* All that is within moves follows it in the tree. */
+    for (uint32_t v = moves + 1; v < end && !status; v++) {
+        const uint32_t name = placeholder_name(tree, v);
+        const json_span *value = NULL;
+        if (name == JSON_NONE)
+            continue;
+        status = find_value((json_cursor){file, tree, v, JSON_NONE}, name, settings, values, &value);
+        if (!status)
+            status = add_substitute(file, v, value, values);
+    }
+    file->substitutes = values->substitutes;
+    file->substitute_count = values->substitute_count;
     return status;
 }
 
-static ffd_status fill_elements(json_place *place, json_t *array, const spec_settings *settings)
+void ffd_spec_values_free(spec_values *values)
 {
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < json_array_size(array) && !status; i++) {
-        const size_t before = ffd_place_enter_index(place, i);
-        json_t *found;
-        status = fill(place, json_array_get(array, i), settings, &found);
-        if (found)
-            json_array_set_new(array, i, found);
-        ffd_place_leave(place, before);
-    }
-    return status;
-}
-
-ffd_status ffd_spec_set(json_place *place, json_t *moves, const spec_settings *settings)
-{
-    if (json_is_object(moves))
-        return fill_members(place, moves, settings);
-    return json_is_array(moves) ? fill_elements(place, moves, settings) : FFD_OK;
+    for (size_t i = 0; values->values && i < values->count; i++)
+        ffd_json_setting_free(&values->values[i]);
+    ffd_free(values->values);
+    ffd_free(values->substitutes);
+    *values = (spec_values){0};
 }

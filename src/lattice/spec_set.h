@@ -1,12 +1,24 @@
-/* spec_set.h - values for the placeholders of a lattice file's moves. */
+/* spec_set.h - values for the placeholders {"$": "NAME"} in the moves of a lattice file. */
 #ifndef FFD_LATTICE_SPEC_SET_H
 #define FFD_LATTICE_SPEC_SET_H
 
 #include "lattice/spec.h"
 #include "json/json_reader.h"
+#include "json/json_setting.h"
 
-/* Puts values in the place of every {"$": "NAME"} within moves, which stands at place and is changed. Those
-   that are used are marked. Errors: FFD_E_INVALID for one that has no value. */
-ffd_status ffd_spec_set(json_place *place, json_t *moves, const spec_settings *settings);
+/* All zeros: empty. */
+typedef struct spec_values {
+    json_setting *values; /* one for each setting; parsed if it is used */
+    size_t count;
+    json_substitute *substitutes; /* one for each placeholder */
+    size_t substitute_count, substitute_capacity;
+} spec_values;
+
+/* Makes the file's readers read these values instead of the placeholders that are somewhere within moves (a
+   value of the file's tree, or JSON_NONE), and marks those that are used. The values must outlive the
+   reading; free them after a failure too. Errors: FFD_E_INVALID for a placeholder without a value,
+   FFD_E_MEMORY. */
+ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, spec_values *values);
+void ffd_spec_values_free(spec_values *values);
 
 #endif

@@ -1,4 +1,4 @@
-#include "lattice/spec.h"
+#include "lattice/spec_text.h"
 #include "json/json_text.h"
 
 static void write_counts(json_text *json, const char *key, const size_t values[], size_t count)

@@ -1,5 +1,5 @@
+#include "spline/bezier.h"
 #include "base/memory/memory.h"
-#include "spline/basis.h"
 #include "spline/triangle.h"
 #include <string.h>
 

@@ -1,7 +1,7 @@
 #include "spline/knots.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
-#include "spline/basis.h"
+#include "spline/bezier.h"
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -87,7 +87,7 @@ static size_t run_end(const knot_list *list, size_t first)
     return end;
 }
 
-/* Both ends of a period are one place: their breakpoints count together, the common one once. */
+/* Both ends of a period are the same point: their breakpoints count together, the common one once. */
 static ffd_status check_seam(const knot_list *list, size_t at_start, size_t at_end)
 {
     const size_t multiplicity = at_start + at_end - 1;

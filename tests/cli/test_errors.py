@@ -37,19 +37,19 @@ OBJ = [
 ]
 
 LATTICES = [
-    ("", INVALID, ":1: not valid JSON: '[' or '{' expected near end of file"),
-    ("{", INVALID, ":1: not valid JSON: string or '}' expected near end of file"),
+    ("", INVALID, ":1: not valid JSON: a value is expected, found the end of the text (column 1)"),
+    ("{", INVALID, ":1: not valid JSON: a key in double quotes is expected, found the end of the text (column 2)"),
     ("[]", INVALID, ": a lattice is an object, not an array of 0"),
-    ("1", INVALID, ":1: not valid JSON: '[' or '{' expected near '1'"),
-    ("null", INVALID, ":1: not valid JSON: '[' or '{' expected near 'null'"),
-    ('{"format":"ffd-lattice",}', INVALID, ":1: not valid JSON: string or '}' expected near '}'"),
-    ('{\n"format":"ffd-lattice"\n"version":1}', INVALID, ":3: not valid JSON: '}' expected near '\"version\"'"),
-    (b'\xff\xfe', INVALID, ":1: not valid JSON: unable to decode byte 0xff"),
-    ('{"format":"ffd-lattice","format":"x"}', INVALID, ":1: not valid JSON: duplicate object key near '\"format\"'"),
-    ("[" * 100000, INVALID, ":1: not valid JSON: maximum parsing depth reached near '['"),
-    ('{"a":NaN}', INVALID, ":1: not valid JSON: invalid token near 'NaN'"),
+    ("1", INVALID, ": a lattice is an object, not the number 1"),
+    ("null", INVALID, ": a lattice is an object, not null"),
+    ('{"format":"ffd-lattice",}', INVALID, ":1: not valid JSON: a key in double quotes is expected, found '}' (column 25)"),
+    ('{\n"format":"ffd-lattice"\n"version":1}', INVALID, ":3: not valid JSON: ',' or '}' is expected, found '\"' (column 1)"),
+    (b'\xff\xfe', INVALID, ":1: not valid JSON: a value is expected, found byte 0xff (column 1)"),
+    ('{"format":"ffd-lattice","format":"x"}', INVALID, ':1: not valid JSON: duplicate key "format" in an object (column 25)'),
+    ("[" * 100000, INVALID, ":1: not valid JSON: values are nested more than 256 deep, found '[' (column 257)"),
+    ('{"a":NaN}', INVALID, ":1: not valid JSON: a value is expected, found 'N' (column 6)"),
     ('{"format":"ffd-lattice","version":1,"size":[1e999,4,4]}', INVALID,
-     ":1: not valid JSON: real number overflow near '1e999'"),
+     ":1: not valid JSON: the number 1e999 is too large (column 45)"),
     ({}, INVALID, ': "format" is missing'),
     (lattice(format="x"), INVALID, ':/format: unknown word "x"; the nearest known one is "ffd-lattice"'),
     (lattice(format=1), INVALID, ':/format: must be a word like "ffd-lattice", not the number 1'),
@@ -69,7 +69,7 @@ LATTICES = [
     (lattice(knots=["clampd", "open", "open"]), INVALID,
      ':/knots/0: unknown word "clampd"; the nearest known one is "clamped"'),
     (lattice(knots=["closed", "clamped", "clamped"]), INVALID,
-     ":/knots/0: direction u of a box cannot be closed: its points do not go round"),
+     ":/knots/0: direction u of a box cannot be closed: its points do not form a ring"),
     (lattice(knots=[[0, 0, 0, 0, 1, 1, 1], "clamped", "clamped"]), INVALID,
      ":/knots/0: has 7 knots where 8 are needed"),
     (lattice(knots=[[0, 0, 0, 0, 1, 1, 1, 0.5], "clamped", "clamped"]), INVALID,
@@ -103,7 +103,7 @@ LATTICES = [
     (lattice(rest={"points": [[0, 0]] * 64}), INVALID, ":/rest/points/0: has 2 numbers where 3 are needed"),
     (lattice(rest={"cylinder": {}}), INVALID, ':/rest/cylinder: "center" is missing'),
     (lattice(rest={"cylinder": {"center": [0, 0, 0], "axis": [0, 0, 0], "radius": [0, 1], "height": 1}}), INVALID,
-     ":/rest/cylinder/axis: is 0 0 0, which is no direction"),
+     ":/rest/cylinder/axis: must not be 0 0 0: that is not a direction"),
     (lattice(rest={"cylinder": {"center": [0, 0, 0], "axis": [0, 0, 1], "radius": [1, 0], "height": 1}}), INVALID,
      ":/rest/cylinder/radius: radii 1 and 0 are not 0 <= r0 < r1"),
     (lattice(rest={"cylinder": {"center": [0, 0, 0], "axis": [0, 0, 1], "radius": [0, 1], "height": 0}}), INVALID,
@@ -141,7 +141,7 @@ LATTICES = [
      ':/moves/0/twist/axis: unknown word "q"; the nearest known one is "x"'),
     (lattice(moves=[{"twist": {"axis": "z"}}]), INVALID, ':/moves/0/twist: "degrees" is missing'),
     (lattice(moves=[{"rotate": {"axis": [0, 0, 0], "degrees": 1}}]), INVALID,
-     ":/moves/0/rotate/axis: is 0 0 0, which is no direction"),
+     ":/moves/0/rotate/axis: must not be 0 0 0: that is not a direction"),
     (lattice(moves=[{"matrix": [1] * 16}]), INVALID, ":/moves/0/matrix: the last row is 1 1 1 1, not 0 0 0 1"),
     (lattice(moves=[{"matrix": [1] * 15}]), INVALID, ":/moves/0/matrix: has 15 numbers where 16 are needed"),
     (lattice(moves=[{"scale": {"factor": "x"}}]), INVALID,
@@ -152,11 +152,11 @@ LATTICES = [
     (lattice(moves=[{"at": [0.5, 0, 0], "by": [0, 0, 0]}]), INVALID,
      ":/moves/0/at/0: must be a whole number, not the number 0.5"),
     (lattice(moves=[{"by": [1e+308, 0, 0]}, {"by": [1e+308, 0, 0]}]), INVALID,
-     ":/moves/1: moves control point 0,0,0 to a place that is no finite number"),
+     ":/moves/1: moves control point 0,0,0 to a position that is not finite"),
     (lattice(moves=[{"within": {"min": [1, 1, 1], "max": [0, 0, 0]}, "by": [0, 0, 0]}]), INVALID,
      ":/moves/0/within: max 0 is less than min 1"),
     (lattice(moves=[{"within": {"min": [7, 7, 7], "max": [8, 8, 8]}, "by": [1, 0, 0]}]), INVALID,
-     ":/moves/0: selects no control point: none rests within these bounds"),
+     ":/moves/0: selects no control point: none is within these bounds at rest"),
 ]
 
 
@@ -260,19 +260,21 @@ def glb_containers(run):
 def gltf_json_text(run):
     start(run)
     for text, message in (
-            ("{", ":1: JSON: a string is expected, found end of text"),
+            ("{", ":1: not valid JSON: a key in double quotes is expected, found the end of the text (column 2)"),
             ("[]", ": is not glTF: the JSON is not an object"),
             ("null", ": is not glTF: the JSON is not an object"),
             ("{}", ': "asset" is missing'),
-            ('{"asset":{"version":"2.0"}', ":1: JSON: ',' or '}' is expected, found end of text"),
-            ('{"asset":{"version":"2.0"}} x', ":1: JSON: the text goes on behind its value, found 'x'"),
-            ('{\n"asset":{"version":"2.0"},\n"x":,}', ":3: JSON: a value is expected, found ','"),
+            ('{"asset":{"version":"2.0"}', ":1: not valid JSON: ',' or '}' is expected, found the end of the text (column 27)"),
+            ('{"asset":{"version":"2.0"}} x', ":1: not valid JSON: nothing may follow the value, found 'x' (column 29)"),
+            ('{\n"asset":{"version":"2.0"},\n"x":,}', ":3: not valid JSON: a value is expected, found ',' (column 5)"),
             ('{"asset":{"version":2.0}}', ":/asset/version: a string is expected, not 2.0"),
             ('{"asset":{"version":"2.0"},"meshes":{}}', ":/meshes: an array of objects is expected, not {}"),
-            ("[" * 100000, ":1: JSON: values are nested more than 256 deep, found '['"),
-            ('{"a":' * 300 + "1" + "}" * 300, ":1: JSON: values are nested more than 256 deep, found '{'")):
+            ("[" * 100000, ":1: not valid JSON: values are nested more than 256 deep, found '[' (column 257)"),
+            ('{"a":' * 300 + "1" + "}" * 300, ":1: not valid JSON: values are nested more than 256 deep, found '{' (column 1281)")):
         refused(run, "m.gltf", text, INVALID, message)
         chunk = pad(text.encode(), b" ")
+        if "the end of the text" in message:
+            message = f"{message.split(' (')[0]} (column {len(chunk) + 1})"
         file = struct.pack("<IIIII", 0x46546C67, 2, 20 + len(chunk), len(chunk), 0x4E4F534A) + chunk
         refused(run, "m.glb", file, INVALID, message)
 

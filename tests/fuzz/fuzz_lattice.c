@@ -6,6 +6,8 @@
 #include "check_folds.h"
 #include "fuzz_target.h"
 #include "lattice/spec.h"
+#include "lattice/spec_parse.h"
+#include "lattice/spec_text.h"
 #include "promise.h"
 #include <math.h>
 #include <string.h>

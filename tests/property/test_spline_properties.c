@@ -2,6 +2,8 @@
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
 #include "spline/basis.h"
+#include "spline/bezier.h"
+#include "spline/knots.h"
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>

@@ -33,7 +33,7 @@ LAYERS = {
     },
     "io/gltf": {
         "base/file", "base/memory", "base/system", "base/vector", "io", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/model", "io/gltf/save", "io/gltf/scene", "mesh",
+        "io/gltf/model", "io/gltf/save", "io/gltf/scene", "json", "mesh",
     },
     "io/openmesh": {"base/memory", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},
@@ -55,13 +55,16 @@ LAYERS = {
     "embed/direct": {"base/memory", "base/vector", "embed/frame", "spline"},
     "embed": {"base/memory", "base/vector", "embed/cells", "embed/direct", "embed/frame"},
     "fold": {"base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
-    "batch": {"base", "base/file", "base/memory", "base/system", "base/text", "io", "job", "job/input", "job/report"},
+    "batch": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "io", "job", "job/input",
+        "job/report", "json",
+    },
     "cli": {"batch"},
     "cli/pages": {"cli"},
     "job": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
-        "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "json",
-        "lattice", "mesh",
+        "base", "base/file", "base/memory", "base/system", "base/vector", "io", "io/npy", "io/openmesh",
+        "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "json", "lattice",
+        "mesh",
     },
     "job/input": {
         "base", "base/file", "base/memory", "base/system", "base/vector", "io", "io/npy", "job", "lattice",
@@ -86,7 +89,6 @@ OUTSIDE = [
     (r"OpenMesh/", {"io/openmesh"}),
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/model"}),
     (r"draco/|meshoptimizer\.h", {"io/gltf/decode"}),
-    (r"jansson\.h", {"json", "lattice", "io/gltf", "job", "batch"}),
     (r"charconv", {"base/text"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",

@@ -1,5 +1,7 @@
 #include "../support/bspline_reference.h"
 #include "spline/basis.h"
+#include "spline/bezier.h"
+#include "spline/knots.h"
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>

@@ -305,10 +305,10 @@ static void test_refusals(void **state)
     lattice->rest[3 * 23] = -1.5e308;
     lattice->deformed[3 * 23] = 1.5e308;
     check_refusal(lattice,
-                  "deformed point 1,2,3: the way from -1.5e+308 to 1.5e+308 is longer than numbers can hold");
+                  "deformed point 1,2,3: the distance from -1.5e+308 to 1.5e+308 is too large for a double");
     lattice->rest[0] = 1.5e308;
     check_refusal(lattice,
-                  "the rest points reach from -1.5e+308 to 1.5e+308 in x, further than numbers can hold");
+                  "the rest points reach from -1.5e+308 to 1.5e+308 in x, which is too far for a double");
     ffd_lattice_destroy(&lattice);
 }
 
@@ -323,9 +323,9 @@ static void test_far_points(void **state)
     double delta[3], gradient[9];
     lattice->rest[n] = 0;
     lattice->deformed[n] = -7e306;
-    check_refusal(lattice, "deformed point 1,2,1: the way from 0 to -7e+306 is longer than numbers can hold");
+    check_refusal(lattice, "deformed point 1,2,1: the distance from 0 to -7e+306 is too large for a double");
     lattice->rest[n] = lattice->deformed[n] = 7e306;
-    check_refusal(lattice, "rest point 1,2,1: 7e+306 is farther away than numbers can hold");
+    check_refusal(lattice, "rest point 1,2,1: 7e+306 is too large to compute with");
     lattice->rest[n] = 0;
     lattice->deformed[n] = 6.6e306;
     finish(lattice);

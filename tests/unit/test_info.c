@@ -6,11 +6,11 @@
 
 #include <cmocka.h>
 
+#include "../support/json_facts.h"
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
 #include "job/info.h"
 #include <ffd/job.h>
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,22 +18,19 @@
 #include <unistd.h>
 
 /* The JSON of a file in the folder; the caller's. */
-static json_t *info_of(const char *name)
+static json_facts *info_of(const char *name)
 {
     const ffd_source source = {.path = in_folder(name)};
     char *text = NULL;
     ffd_error error = {0};
     if (ffd_info_run(&source, true, &text, &error) != FFD_OK)
         fail_msg("%s: %s", error.pointer, error.message);
-    json_error_t reason;
-    json_t *json = json_loads(text, JSON_REJECT_DUPLICATES, &reason);
-    if (!json)
-        fail_msg("%s in %s", reason.text, text);
+    json_facts *const json = facts_read(text, strlen(text));
     assert_string_equal(text + strlen(text) - 2, "}\n");
     ffd_text_free(text);
-    assert_string_equal(json_string_value(json_object_get(json, "format")), "ffd-info");
-    assert_int_equal(json_integer_value(json_object_get(json, "version")), 1);
-    assert_string_equal(json_string_value(json_object_get(json, "file")), in_folder(name));
+    assert_text(json, facts_member(json, "format"), "ffd-info");
+    assert_true(facts_number(json, facts_member(json, "version")) == 1);
+    assert_text(json, facts_member(json, "file"), in_folder(name));
     return json;
 }
 
@@ -56,53 +53,38 @@ static ffd_status failure_of(ffd_source source, ffd_error *error)
     return status;
 }
 
-/* A member by names with points between, "topology.edges". */
-static json_t *member(json_t *json, const char *names)
+static void assert_number(const json_facts *json, const char *names, double expected)
 {
-    char copy[64];
-    snprintf(copy, sizeof copy, "%s", names);
-    for (char *name = copy, *end; json && name; name = end) {
-        end = strchr(name, '.');
-        if (end)
-            *end++ = 0;
-        json = json_object_get(json, name);
-    }
-    return json;
+    if (!facts_is(json, names, JSON_NUMBER))
+        fail_msg("%s is not a number", names);
+    const double number = facts_number(json, facts_member(json, names));
+    if (!(fabs(number - expected) <= 1e-14 * fabs(expected)))
+        fail_msg("%s is %.17g, not %.17g", names, number, expected);
 }
 
-static void assert_number(json_t *json, const char *names, double expected)
+static void assert_word(const json_facts *json, const char *names, const char *expected)
 {
-    json_t *value = member(json, names);
-    if (!json_is_number(value))
-        fail_msg("%s is no number", names);
-    if (!(fabs(json_number_value(value) - expected) <= 1e-14 * fabs(expected)))
-        fail_msg("%s is %.17g, not %.17g", names, json_number_value(value), expected);
+    if (!facts_is(json, names, JSON_STRING))
+        fail_msg("%s is not a string", names);
+    assert_text(json, facts_member(json, names), expected);
 }
 
-static void assert_word(json_t *json, const char *names, const char *expected)
+static void assert_none(const json_facts *json, const char *names)
 {
-    json_t *value = member(json, names);
-    if (!json_is_string(value))
-        fail_msg("%s is no string", names);
-    assert_string_equal(json_string_value(value), expected);
-}
-
-static void assert_none(json_t *json, const char *names)
-{
-    if (!json_is_null(member(json, names)))
+    if (!facts_is(json, names, JSON_NULL))
         fail_msg("%s is not null", names);
 }
 
-static void assert_vector(json_t *json, const char *names, double x, double y, double z)
+static void assert_vector(const json_facts *json, const char *names, double x, double y, double z)
 {
-    json_t *value = member(json, names);
     const double expected[3] = {x, y, z};
-    if (json_array_size(value) != 3)
-        fail_msg("%s is no vector", names);
-    for (size_t i = 0; i < 3; i++)
-        if (!(fabs(json_number_value(json_array_get(value, i)) - expected[i]) <= 1e-14 * fabs(expected[i])))
-            fail_msg("%s[%zu] is %.17g, not %.17g", names, i, json_number_value(json_array_get(value, i)),
-                     expected[i]);
+    if (!facts_is(json, names, JSON_ARRAY) || json->tree.values[facts_member(json, names)].count != 3)
+        fail_msg("%s is not a vector", names);
+    for (size_t i = 0; i < 3; i++) {
+        const double number = facts_number_at(json, names, i);
+        if (!(fabs(number - expected[i]) <= 1e-14 * fabs(expected[i])))
+            fail_msg("%s[%zu] is %.17g, not %.17g", names, i, number, expected[i]);
+    }
 }
 
 /* A document of the test's own */
@@ -160,7 +142,7 @@ static fake_document make_fake(void)
     return fake;
 }
 
-static ffd_status fake_info(fake_document *fake, json_t **json, ffd_error *error)
+static ffd_status fake_info(fake_document *fake, json_facts **json, ffd_error *error)
 {
     byte_buffer out = {0};
     json_text writer;
@@ -171,8 +153,7 @@ static ffd_status fake_info(fake_document *fake, json_t **json, ffd_error *error
     *json = NULL;
     if (status == FFD_OK) {
         ffd_json_end(&writer, '}');
-        *json = json_loadb(out.data, out.size, JSON_REJECT_DUPLICATES, NULL);
-        assert_non_null(*json);
+        *json = facts_read(out.data, out.size);
     }
     ffd_buffer_free(&out);
     return status;
@@ -182,7 +163,7 @@ static void test_document(void **state)
 {
     (void)state;
     fake_document fake = make_fake();
-    json_t *json;
+    json_facts *json;
     assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
     assert_word(json, "mesh_format", "fake");
     assert_number(json, "parts", 2);
@@ -196,7 +177,7 @@ static void test_document(void **state)
     assert_number(json, "topology.area", 6);
     assert_number(json, "topology.lines", 4);
     assert_number(json, "topology.boundary_edges", 3);
-    json_decref(json);
+    facts_free(json);
 }
 
 static void test_repeated_positions_count_once(void **state)
@@ -204,12 +185,12 @@ static void test_repeated_positions_count_once(void **state)
     (void)state;
     fake_document fake = make_fake();
     fake.parts[1].repeats_positions = true;
-    json_t *json;
+    json_facts *json;
     assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
     assert_number(json, "vertices", 3);
     assert_number(json, "not_finite", 0);
     assert_vector(json, "bounds.max", 4, 3, 0);
-    json_decref(json);
+    facts_free(json);
 }
 
 static void test_faces_that_cannot_be_shown(void **state)
@@ -217,12 +198,12 @@ static void test_faces_that_cannot_be_shown(void **state)
     (void)state;
     fake_document fake = make_fake();
     fake.faces_status = FFD_E_UNSUPPORTED;
-    json_t *json;
+    json_facts *json;
     assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
     assert_none(json, "topology");
     assert_word(json, "topology_unknown", "these faces are too odd");
     assert_number(json, "vertices", 6);
-    json_decref(json);
+    facts_free(json);
 
     ffd_error error = {0};
     fake.faces_status = FFD_E_INVALID;
@@ -236,11 +217,11 @@ static void test_no_finite_vertex(void **state)
     fake_document fake = make_fake();
     fake.parts[0].vertex_count = 0;
     fake.xyz[1][0] = -INFINITY;
-    json_t *json;
+    json_facts *json;
     assert_int_equal(fake_info(&fake, &json, NULL), FFD_OK);
     assert_number(json, "not_finite", 3);
     assert_none(json, "bounds");
-    json_decref(json);
+    facts_free(json);
 }
 
 /* The text */
@@ -288,7 +269,7 @@ static void test_obj_file(void **state)
 {
     (void)state;
     put_text("cube.obj", cube);
-    json_t *json = info_of("cube.obj");
+    json_facts *json = info_of("cube.obj");
     assert_word(json, "kind", "mesh");
     assert_word(json, "mesh_format", "OBJ");
     assert_number(json, "vertices", 8);
@@ -300,8 +281,8 @@ static void test_obj_file(void **state)
     assert_number(json, "topology.boundary_loops", 0);
     assert_number(json, "topology.euler", 2);
     assert_number(json, "topology.area", 10);
-    assert_true(json_is_object(member(json, "contents")));
-    json_decref(json);
+    assert_true(facts_is(json, "contents", JSON_OBJECT));
+    facts_free(json);
 }
 
 /* Whether each fact has its line: the name at its depth, two spaces or more, the value. */
@@ -376,18 +357,17 @@ static void test_box_lattice(void **state)
              LATTICE "\"size\": [4, 5, 3], \"knots\": [\"clamped\", \"open\", [0, 0, 0, 2, 2, 2]],"
                      "\"rest\": {\"box\": {\"min\": [0, 0, 0], \"max\": [3, 2, 6]}},"
                      "\"moves\": [{\"at\": [0, \"all\", 0], \"by\": [-3, 0, -4]}]}");
-    json_t *json = info_of("box.json");
+    json_facts *json = info_of("box.json");
     assert_word(json, "kind", "lattice");
     assert_vector(json, "size", 4, 5, 3);
     assert_vector(json, "degree", 3, 3, 2);
-    json_t *knots = member(json, "knots");
-    assert_string_equal(json_string_value(json_array_get(knots, 0)), "clamped");
-    assert_string_equal(json_string_value(json_array_get(knots, 1)), "open");
-    assert_string_equal(json_string_value(json_array_get(knots, 2)), "list");
-    assert_int_equal(json_number_value(json_array_get(member(json, "domain.w"), 1)), 2);
+    static const char *const knots[] = {"clamped", "open", "list"};
+    for (size_t a = 0; a < 3; a++)
+        assert_text(json, ffd_json_span_element(&json->tree, facts_member(json, "knots"), a), knots[a]);
+    assert_true(facts_number_at(json, "domain.w", 1) == 2);
     assert_number(json, "control_points", 60);
     assert_word(json, "rest", "box");
-    assert_true(json_is_false(member(json, "rational")));
+    assert_true(facts_is(json, "rational", JSON_FALSE));
     assert_vector(json, "rest_bounds.min", 0, -1,
                   0); /* open: the outer layers stand one spacing beyond the box */
     assert_vector(json, "rest_bounds.max", 3, 3, 6);
@@ -395,9 +375,9 @@ static void test_box_lattice(void **state)
     assert_number(json, "diagonal", sqrt(61));
     assert_number(json, "moved", 5);
     assert_number(json, "largest_move", 5);
-    assert_true(json_is_false(member(json, "weights_moved")));
+    assert_true(facts_is(json, "weights_moved", JSON_FALSE));
     assert_word(json, "inversion", "affine");
-    json_decref(json);
+    facts_free(json);
 
     char *text = text_of("box.json");
     assert_told(text, "knots", "clamped, open, list");
@@ -413,13 +393,13 @@ static void test_cylinder_lattice(void **state)
     put_text("cylinder.json", LATTICE
              "\"size\": [3, 8, 4], \"rest\": {\"cylinder\": {\"center\": [0, 0, 0], \"axis\": [0, 0, 1],"
              "\"radius\": [1, 2], \"height\": 4, \"angle\": [0, 360]}}}");
-    json_t *json = info_of("cylinder.json");
+    json_facts *json = info_of("cylinder.json");
     assert_word(json, "rest", "cylinder");
-    assert_string_equal(json_string_value(json_array_get(member(json, "knots"), 1)), "closed");
+    assert_text(json, ffd_json_span_element(&json->tree, facts_member(json, "knots"), 1), "closed");
     assert_number(json, "moved", 0);
     assert_number(json, "largest_move", 0);
     assert_word(json, "inversion", "general");
-    json_decref(json);
+    facts_free(json);
 }
 
 static void test_rational_points_lattice(void **state)
@@ -429,14 +409,14 @@ static void test_rational_points_lattice(void **state)
              "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],"
              "[0,1,1],[1,1,1]]}, \"weights\": [1,1,1,1,1,1,1,2], \"deformed\": {\"weights\": "
              "[1,1,1,1,1,1,1,3]}}");
-    json_t *json = info_of("points.json");
+    json_facts *json = info_of("points.json");
     assert_word(json, "rest", "points");
     assert_vector(json, "degree", 1, 1, 1);
-    assert_true(json_is_true(member(json, "rational")));
-    assert_true(json_is_true(member(json, "weights_moved")));
+    assert_true(facts_is(json, "rational", JSON_TRUE));
+    assert_true(facts_is(json, "weights_moved", JSON_TRUE));
     assert_number(json, "moved", 1);
     assert_number(json, "largest_move", 0);
-    json_decref(json);
+    facts_free(json);
 }
 
 static void test_lattice_of_a_mesh(void **state)
@@ -444,7 +424,7 @@ static void test_lattice_of_a_mesh(void **state)
     (void)state;
     put_text("mesh.json", LATTICE "\"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"},"
                                   "\"moves\": [{\"by\": [1, 0, 0]}, {\"by\": [0, 1, 0]}]}");
-    json_t *json = info_of("mesh.json");
+    json_facts *json = info_of("mesh.json");
     assert_word(json, "rest", "mesh");
     assert_number(json, "control_points", 64);
     assert_number(json, "moves", 2);
@@ -452,7 +432,7 @@ static void test_lattice_of_a_mesh(void **state)
     assert_none(json, "deformed_bounds");
     assert_none(json, "moved");
     assert_none(json, "inversion");
-    json_decref(json);
+    facts_free(json);
     ffd_text_free(text_of("mesh.json"));
 }
 
@@ -463,11 +443,11 @@ static void test_lattice_that_cannot_be_inverted(void **state)
     put_text("flat.json",
              LATTICE "\"size\": [2, 2, 2], \"rest\": {\"points\": [[0,0,0],[1,0,0],[0,1,0],[1,1,0],"
                      "[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}}");
-    json_t *json = info_of("flat.json");
+    json_facts *json = info_of("flat.json");
     assert_none(json, "inversion");
-    assert_true(json_is_string(member(json, "inversion_unknown")));
+    assert_true(facts_is(json, "inversion_unknown", JSON_STRING));
     assert_vector(json, "rest_bounds.max", 1, 1, 0);
-    json_decref(json);
+    facts_free(json);
 }
 
 static void test_lattice_new(void **state)
@@ -482,14 +462,14 @@ static void test_lattice_new(void **state)
     ffd_lattice_desc_init(&desc);
     desc.margin = 0.5;
     assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), false, &error), FFD_OK);
-    json_t *json = info_of("new.json");
+    json_facts *json = info_of("new.json");
     assert_word(json, "rest", "box");
     assert_vector(json, "size", 4, 4, 4);
     assert_vector(json, "rest_bounds.min", -0.5, -0.5, -1);
     assert_vector(json, "rest_bounds.max", 1.5, 1.5, 3);
     assert_number(json, "moved", 0);
     assert_word(json, "inversion", "affine");
-    json_decref(json);
+    facts_free(json);
 
     assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), false, &error), FFD_E_EXISTS);
     assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), true, &error), FFD_OK);

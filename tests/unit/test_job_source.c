@@ -9,6 +9,7 @@
 #include "../support/test_folder.h"
 #include "batch/job_source.h"
 #include "batch/lines.h"
+#include "batch/manifest.h"
 
 /* The words of a list, with bars between them. */
 static const char *joined(const byte_buffer *words)
@@ -104,7 +105,7 @@ static void test_refused(void **state)
         {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"options\": {\"report\": \"r\"}}",
          "\"report\" is not an option of a job"},
         {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"options\": {\"falloff\": null}}",
-         "option \"falloff\" is neither a text, a number, true, false nor a list of these"},
+         "option \"falloff\" must be a string, a number, true, false or a list of strings and numbers"},
         {"{\"in\": \"a\", \"lattice\": \"l\", \"out\": \"b\", \"set\": 1}", "\"set\" is not an object"},
     };
     const batch_frame frame = {.name = "m", .folder = ""};
@@ -201,8 +202,8 @@ static void test_table(void **state)
                      settings[i]);
             assert_string_equal(joined(&job.words), expected);
         } else {
-            assert_string_equal(job.error.message, i == 2 ? "a row of 3 cells in a table of 4 columns"
-                                                          : "not a row of a CSV table");
+            assert_string_equal(job.error.message, i == 2 ? "the row has 3 cells, but the table has 4 columns"
+                                                          : "not a valid CSV row");
         }
         ffd_job_free(&job);
     }

@@ -121,8 +121,8 @@ static void test_not_a_journal(void **state)
 static void test_place(void **state)
 {
     assert_int_equal(setenv("XDG_CACHE_HOME", folder, 1), 0);
-    char *a = ffd_journal_place("jobs.jsonl", 0, 1), *b = ffd_journal_place("jobs.jsonl", 0, 2),
-         *c = ffd_journal_place("./jobs.jsonl", 0, 1);
+    char *a = ffd_journal_default_path("jobs.jsonl", 0, 1), *b = ffd_journal_default_path("jobs.jsonl", 0, 2),
+         *c = ffd_journal_default_path("./jobs.jsonl", 0, 1);
     assert_int_equal(strncmp(a, in_folder("ffd/batch-"), strlen(in_folder("ffd/batch-"))), 0);
     assert_string_not_equal(a, b);
     assert_string_equal(a, c);

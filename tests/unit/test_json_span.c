@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
 #include "json/json_edit.h"
-#include "json/json_span.h"
+#include "json/json_parse.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,7 +13,8 @@
 
 static ffd_status parse(const char *text, json_span *tree, ffd_error *error)
 {
-    return ffd_json_span_parse(text, strlen(text), "t.json", tree, error);
+    const json_input input = {.text = text, .size = strlen(text), .name = "t.json", .rules = JSON_ALLOW_MARK};
+    return ffd_json_parse(&input, tree, error);
 }
 
 static void spans_are_those_of_the_text(void **state)
@@ -97,29 +98,31 @@ static void broken_text_is_refused_with_its_line(void **state)
     static const struct {
         const char *text, *message;
     } cases[] = {
-        {"", "t.json:1: JSON: a value is expected, found end of text"},
-        {"{", "t.json:1: JSON: a string is expected, found end of text"},
-        {"[1,\n2,\n]", "t.json:3: JSON: a value is expected, found ']'"},
-        {"[1 2]", "t.json:1: JSON: ',' or ']' is expected, found '2'"},
-        {"{\"a\":1,}", "t.json:1: JSON: a string is expected, found '}'"},
-        {"{\"a\" 1}", "t.json:1: JSON: ':' is expected, found '1'"},
-        {"{\"a\":1\n \"b\":2}", "t.json:2: JSON: ',' or '}' is expected, found '\"'"},
-        {"[01]", "t.json:1: JSON: a number starts with a needless 0, found '0'"},
-        {"[1.]", "t.json:1: JSON: a digit is expected, found ']'"},
-        {"[-]", "t.json:1: JSON: a digit is expected, found ']'"},
-        {"[1e+]", "t.json:1: JSON: a digit is expected, found ']'"},
-        {"[+1]", "t.json:1: JSON: a value is expected, found '+'"},
-        {"[nul]", "t.json:1: JSON: a value is expected, found 'n'"},
-        {"[NaN]", "t.json:1: JSON: a value is expected, found 'N'"},
-        {"\"a", "t.json:1: JSON: a string is not ended, found '\"'"},
-        {"\"\\x\"", "t.json:1: JSON: a string holds what is no UTF-8 character or escape, found '\\'"},
-        {"\"\\ud800\"", "t.json:1: JSON: a string holds what is no UTF-8 character or escape, found '\\'"},
-        {"\"\xc0\xaf\"",
-         "t.json:1: JSON: a string holds what is no UTF-8 character or escape, found byte 0xc0"},
-        {"\"\xff\"", "t.json:1: JSON: a string holds what is no UTF-8 character or escape, found byte 0xff"},
-        {"\"a\nb\"", "t.json:1: JSON: a string holds what is no UTF-8 character or escape, found byte 0x0a"},
-        {"1 2", "t.json:1: JSON: the text goes on behind its value, found '2'"},
-        {"{\"a\":1,\"b\":{\"x\":1,\"\\u0078\":2}}", "t.json:/b/x: the key stands twice in its object"},
+        {"", "1: not valid JSON: a value is expected, found the end of the text (column 1)"},
+        {"{", "1: not valid JSON: a key in double quotes is expected, found the end of the text (column 2)"},
+        {"[1,\n2,\n]", "3: not valid JSON: a value is expected, found ']' (column 1)"},
+        {"[1 2]", "1: not valid JSON: ',' or ']' is expected, found '2' (column 4)"},
+        {"{\"a\":1,}", "1: not valid JSON: a key in double quotes is expected, found '}' (column 8)"},
+        {"{\"a\" 1}", "1: not valid JSON: ':' is expected, found '1' (column 6)"},
+        {"{\"a\":1\n \"b\":2}", "2: not valid JSON: ',' or '}' is expected, found '\"' (column 2)"},
+        {"[01]", "1: not valid JSON: a number must not start with 0, found '0' (column 2)"},
+        {"[1.]", "1: not valid JSON: a digit is expected, found ']' (column 4)"},
+        {"[-]", "1: not valid JSON: a digit is expected, found ']' (column 3)"},
+        {"[1e+]", "1: not valid JSON: a digit is expected, found ']' (column 5)"},
+        {"[+1]", "1: not valid JSON: a value is expected, found '+' (column 2)"},
+        {"[nul]", "1: not valid JSON: a value is expected, found 'n' (column 2)"},
+        {"[NaN]", "1: not valid JSON: a value is expected, found 'N' (column 2)"},
+        {"\"a", "1: not valid JSON: this string has no closing quote (column 1)"},
+        {"\"\\x\"", "1: not valid JSON: an escape in a string is not valid, found '\\' (column 2)"},
+        {"\"\\ud800\"", "1: not valid JSON: an escape in a string is not valid, found '\\' (column 2)"},
+        {"\"\xc0\xaf\"", "1: not valid JSON: a string is not valid UTF-8, found byte 0xc0 (column 2)"},
+        {"\"\xff\"", "1: not valid JSON: a string is not valid UTF-8, found byte 0xff (column 2)"},
+        {"\"a\nb\"",
+         "1: not valid JSON: a control character in a string must be escaped, found byte 0x0a (column 3)"},
+        {"1 2", "1: not valid JSON: nothing may follow the value, found '2' (column 3)"},
+        {"\xef\xbb\xbf[\"\xc3\xa4\" 2", "1: not valid JSON: ',' or ']' is expected, found '2' (column 6)"},
+        {"{\"a\":1,\"b\":{\"x\":1,\n\"\\u0078\":2}}",
+         "2: not valid JSON: duplicate key \"\\u0078\" in an object (column 1)"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         json_span tree;
@@ -127,9 +130,80 @@ static void broken_text_is_refused_with_its_line(void **state)
         char line[512];
         assert_int_equal(parse(cases[i].text, &tree, &error), FFD_E_INVALID);
         ffd_error_format(&error, line, sizeof line);
-        assert_string_equal(line, cases[i].message);
+        assert_memory_equal(line, "t.json:", 7);
+        assert_string_equal(line + 7, cases[i].message);
         assert_null(tree.values);
     }
+}
+
+/* What a reader may ask for beyond the grammar. */
+static void rules_are_kept(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        unsigned refused_by; /* any of these rules */
+        const char *message;
+    } cases[] = {
+        {"\"\\u0000\"", JSON_NO_NUL, "a string must not hold the character \\u0000 (column 2)"},
+        {"{\"a\\u0000\":1}", JSON_NO_NUL, "a string must not hold the character \\u0000 (column 4)"},
+        {"[\"\\u0001\\\\u0000\"]", 0, NULL},
+        {"[1e308,-1e308,1e-999]", 0, NULL},
+        {"[1,-1e309]", JSON_DOUBLES, "the number -1e309 is too large (column 4)"},
+        {"[1.8E+308]", JSON_DOUBLES, "the number 1.8E+308 is too large (column 2)"},
+        {"[9223372036854775807,-9223372036854775808]", 0, NULL},
+        {"9223372036854775808", JSON_INTEGERS,
+         "the whole number 9223372036854775808 does not fit 64 bits (column 1)"},
+        {"-9223372036854775809", JSON_INTEGERS,
+         "the whole number -9223372036854775809 does not fit 64 bits (column 1)"},
+        {"100000000000000000000000000000000000000000000", JSON_INTEGERS,
+         "the whole number 1000000000000000000000000000000000000000 does not fit 64 bits (column 1)"},
+        {"9223372036854775808.0", 0, NULL},
+        {"9223372036854775808e0", 0, NULL},
+    };
+    static const unsigned rules[] = {0, JSON_NO_NUL, JSON_DOUBLES, JSON_INTEGERS};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (size_t r = 0; r < sizeof rules / sizeof *rules; r++) {
+            const json_input input = {
+                .text = cases[i].text, .size = strlen(cases[i].text), .name = "t", .rules = rules[r]};
+            json_span tree;
+            ffd_error error = {0};
+            const ffd_status status = ffd_json_parse(&input, &tree, &error);
+            assert_int_equal(status, rules[r] & cases[i].refused_by ? FFD_E_INVALID : FFD_OK);
+            if (status)
+                assert_string_equal(error.message + strlen("not valid JSON: "), cases[i].message);
+            ffd_json_span_free(&tree);
+        }
+    /* 310 digits. */
+    char digits[311];
+    memset(digits, '1', sizeof digits);
+    json_input input = {.text = digits, .size = sizeof digits - 1, .name = "t", .rules = JSON_DOUBLES};
+    json_span tree;
+    assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_E_INVALID);
+    input.size = 308;
+    assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_OK);
+    ffd_json_span_free(&tree);
+    input = (json_input){.text = "\xef\xbb\xbf"
+                                 "1",
+                         .size = 4,
+                         .name = "t"};
+    assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_E_INVALID);
+    input.rules = JSON_ALLOW_MARK;
+    assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_OK);
+    ffd_json_span_free(&tree);
+}
+
+/* A part of a text has the lines and columns of the whole. */
+static void parts_are_counted_from_the_beginning(void **state)
+{
+    (void)state;
+    const char *const whole = "[\n 1, {\"a\": x}]";
+    const json_input input = {.text = whole + 6, .size = 8, .name = "t", .whole = whole, .line = 7};
+    json_span tree;
+    ffd_error error = {0};
+    assert_int_equal(ffd_json_parse(&input, &tree, &error), FFD_E_INVALID);
+    assert_int_equal(error.line, 8);
+    assert_string_equal(error.message, "not valid JSON: a value is expected, found 'x' (column 11)");
 }
 
 static void depth_is_limited(void **state)
@@ -156,12 +230,15 @@ static void many_members_are_compared(void **state)
     const size_t unique = text.size;
     ffd_buffer_text(&text, "}");
     json_span tree;
-    assert_int_equal(ffd_json_span_parse(text.data, text.size, "t", &tree, NULL), FFD_OK);
+    json_input input = {.text = text.data, .size = text.size, .name = "t"};
+    assert_int_equal(ffd_json_parse(&input, &tree, NULL), FFD_OK);
     ffd_json_span_free(&tree);
     text.size = unique;
     ffd_buffer_text(&text, ",\"key17\":0}");
     ffd_error error = {0};
-    assert_int_equal(ffd_json_span_parse(text.data, text.size, "t", &tree, &error), FFD_E_INVALID);
+    input.text = text.data;
+    input.size = text.size;
+    assert_int_equal(ffd_json_parse(&input, &tree, &error), FFD_E_INVALID);
     assert_string_equal(error.pointer, "/key17");
     ffd_buffer_free(&text);
 }
@@ -262,6 +339,8 @@ int main(void)
         cmocka_unit_test(characters_are_decoded),
         cmocka_unit_test(a_character_is_seen_anywhere),
         cmocka_unit_test(broken_text_is_refused_with_its_line),
+        cmocka_unit_test(rules_are_kept),
+        cmocka_unit_test(parts_are_counted_from_the_beginning),
         cmocka_unit_test(depth_is_limited),
         cmocka_unit_test(many_members_are_compared),
         cmocka_unit_test(memory_may_run_out_anywhere),

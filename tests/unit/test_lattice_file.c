@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+#include "lattice/spec_text.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -176,14 +177,20 @@ static void test_syntax(void **state)
 {
     (void)state;
     static const refusal refusals[] = {
-        {"", FFD_E_INVALID, "f.json:1: not valid JSON: '[' or '{' expected near end of file"},
-        {"\xef\xbb\xbf", FFD_E_INVALID, "f.json:1: not valid JSON: '[' or '{' expected near end of file"},
-        {"{\n\"size\": [1,\n2,]}", FFD_E_INVALID, "f.json:3: not valid JSON: unexpected token near ']'"},
+        {"", FFD_E_INVALID,
+         "f.json:1: not valid JSON: a value is expected, found the end of the text (column 1)"},
+        {"\xef\xbb\xbf", FFD_E_INVALID,
+         "f.json:1: not valid JSON: a value is expected, found the end of the text (column 1)"},
+        {"{\n\"size\": [1,\n2,]}", FFD_E_INVALID,
+         "f.json:3: not valid JSON: a value is expected, found ']' (column 3)"},
         {"{\n\"a\":1,\n\n\"a\":2}", FFD_E_INVALID,
-         "f.json:4: not valid JSON: duplicate object key near '\"a\"'"},
-        {"{\"a\": 1e999}", FFD_E_INVALID, "f.json:1: not valid JSON: real number overflow near '1e999'"},
-        {"{\"a\": NaN}", FFD_E_INVALID, "f.json:1: not valid JSON: invalid token near 'NaN'"},
-        {"{} x", FFD_E_INVALID, "f.json:1: not valid JSON: end of file expected near 'x'"},
+         "f.json:4: not valid JSON: duplicate key \"a\" in an object (column 1)"},
+        {"{\"a\": 1e999}", FFD_E_INVALID,
+         "f.json:1: not valid JSON: the number 1e999 is too large (column 7)"},
+        {"{\"a\": NaN}", FFD_E_INVALID,
+         "f.json:1: not valid JSON: a value is expected, found 'N' (column 7)"},
+        {"{} x", FFD_E_INVALID,
+         "f.json:1: not valid JSON: nothing may follow the value, found 'x' (column 4)"},
         {"[1]", FFD_E_INVALID, "f.json: a lattice is an object, not an array of 1"},
     };
     check_refusals(refusals, COUNT(refusals));
@@ -211,7 +218,7 @@ static void test_refuses_frame(void **state)
         {"{\"format\":\"ffd-lattice\",\"version\":2,\"news\":1}", FFD_E_UNSUPPORTED,
          "f.json:/version: version 2 is newer than 1, the newest known here"},
         {"{\"format\":\"ffd-lattice\",\"version\":0}", FFD_E_INVALID,
-         "f.json:/version: there is no version 0, only 1"},
+         "f.json:/version: there is no version 0; the only one is 1"},
         {"{\"format\":\"ffd-lattice\",\"version\":\"1\"}", FFD_E_INVALID,
          "f.json:/version: must be a whole number, not the text \"1\""},
         {HEAD "\"sise\":[2,2,2]," UNIT "}", FFD_E_INVALID,
@@ -267,9 +274,9 @@ static void test_refuses_knots(void **state)
         {BOX ",\"knots\":[\"clamped\",\"clamp\",\"clamped\"]}", FFD_E_INVALID,
          "f.json:/knots/1: unknown word \"clamp\"; the nearest known one is \"clamped\""},
         {BOX ",\"knots\":[\"clamped\",\"closed\",\"clamped\"]}", FFD_E_INVALID,
-         "f.json:/knots/1: direction v of a box cannot be closed: its points do not go round"},
+         "f.json:/knots/1: direction v of a box cannot be closed: its points do not form a ring"},
         {BOX ",\"knots\":[{\"closed\":[0,1,2]},\"open\",\"clamped\"]}", FFD_E_INVALID,
-         "f.json:/knots/0: direction u of a box cannot be closed: its points do not go round"},
+         "f.json:/knots/0: direction u of a box cannot be closed: its points do not form a ring"},
         {BOX ",\"knots\":[{\"closd\":[0,1,2]},\"open\",\"clamped\"]}", FFD_E_INVALID,
          "f.json:/knots/0/closd: unknown key \"closd\"; the nearest known one is \"closed\""},
         {BOX ",\"knots\":[[0,0,1],\"open\",\"clamped\"]}", FFD_E_INVALID,
@@ -284,7 +291,7 @@ static void test_refuses_knots(void **state)
               "\"height\":1,"
               "\"angle\":[0,90]}},\"knots\":[\"open\",\"closed\",\"open\"]}",
          FFD_E_INVALID,
-         "f.json:/knots/1: a cylinder from 0 to 90 degrees cannot be closed: it is no full turn"},
+         "f.json:/knots/1: a cylinder from 0 to 90 degrees cannot be closed: it is not a full turn"},
         {HEAD "\"size\":[2,3,2],\"rest\":{\"cylinder\":{\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[0,1],"
               "\"height\":1}},"
               "\"knots\":[\"closed\",\"closed\",\"open\"]}",
@@ -325,7 +332,7 @@ static void test_refuses_rest(void **state)
         {SIZE "\"rest\":{\"box\":{\"min\":[0,2,0],\"max\":[1,2,1]}}}", FFD_E_INVALID,
          "f.json:/rest/box: max 2 of direction v is not more than min 2"},
         {SIZE "\"rest\":{\"box\":{\"min\":[-1e308,0,0],\"max\":[1e308,1,1]}}}", FFD_E_INVALID,
-         "f.json:/rest/box: the side from -1e+308 to 1e+308 is longer than numbers can hold"},
+         "f.json:/rest/box: the side from -1e+308 to 1e+308 is too large for a double"},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"spacing\":\"even\"}}}", FFD_E_INVALID,
          "f.json:/rest/box/spacing: unknown word \"even\"; the nearest known one is \"greville\""},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"axes\":[[1,0,0],[0,2,0],[0,0,1]]}}}",
@@ -344,7 +351,7 @@ static void test_refuses_rest(void **state)
         {CYLINDER("\"center\":[0,0,0],\"axis\":\"w\",\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
          "f.json:/rest/cylinder/axis: unknown word \"w\"; the nearest known one is \"x\""},
         {CYLINDER("\"center\":[0,0,0],\"axis\":[0,0,0],\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
-         "f.json:/rest/cylinder/axis: is 0 0 0, which is no direction"},
+         "f.json:/rest/cylinder/axis: must not be 0 0 0: that is not a direction"},
         {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"zero\":[0,0,5],\"radius\":[0,1],\"height\":1"),
          FFD_E_INVALID, "f.json:/rest/cylinder/zero: points along the axis; it must lead away from it"},
         {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[1,1],\"height\":1"), FFD_E_INVALID,
@@ -536,8 +543,7 @@ static void test_load_and_save(void **state)
     rmdir(folder);
 }
 
-/* Every allocation of ours fails once; nothing leaks (the sanitizers look) and the status is right.
-   (jansson's own allocations do not go through ffd_alloc.) */
+/* Every allocation of ours fails once; nothing leaks (the sanitizers look) and the status is right. */
 static void test_no_memory(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* test_memory.c - memory that ends anywhere, in every job and every format: in ffd_alloc, in C++'s operator
-   new, in jansson. Each failure is told as such and leaves no file. That nothing leaks, the leak sanitizer
+   new. Each failure is told as such and leaves no file. That nothing leaks, the leak sanitizer
    sees.
 
        test_memory CORPUS      the folder tests/fuzz/corpus */
@@ -16,7 +16,6 @@
 #include "base/memory/memory.h"
 #include <dirent.h>
 #include <ffd/job.h>
-#include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -153,23 +152,6 @@ static ffd_status run_report_merge(ffd_error *error)
     return ffd_report_merge_run(reports, 2, true, output, false, error);
 }
 
-/* As ffd_alloc_fail_after and new_fail_after. */
-static long remaining = -1;
-
-static void *json_allocate(size_t size)
-{
-    if (remaining == 0)
-        return NULL;
-    if (remaining > 0)
-        remaining--;
-    return malloc(size);
-}
-
-static void json_fail_after(long successes)
-{
-    remaining = successes;
-}
-
 static void cpp_fail_after(long successes)
 {
     new_fail_after(successes);
@@ -277,14 +259,30 @@ static void memory_of_cpp(void **state)
     (void)state;
 }
 
-/* Lattice files, and the text of info. */
-static void memory_of_jansson(void **state)
+/* Their placeholders too: for numbers, an object, and a text that is not JSON. */
+static ffd_status run_lattice_load(ffd_error *error)
 {
-    take_input("obj", "normals");
-    json_set_alloc_funcs(json_allocate, free);
-    assert_true(fail_everywhere(input, run_deform, json_fail_after) > 20);
-    assert_true(fail_everywhere(input, run_info, json_fail_after) > 20);
-    json_set_alloc_funcs(malloc, free);
+    static const ffd_setting values[] = {
+        {"N", "0.5"}, {"T", "{\"axis\": \"x\", \"degrees\": 9}"}, {"A", "all"}};
+    bool used[3] = {false};
+    ffd_lattice *loaded;
+    const ffd_status status = ffd_lattice_load_set(input, values, 3, used, &loaded, error);
+    assert_true((status == FFD_OK) == (loaded != NULL));
+    if (!status)
+        assert_true(used[0] && used[1] && used[2]);
+    ffd_lattice_destroy(&loaded);
+    return status;
+}
+
+static void memory_of_lattice_files(void **state)
+{
+    path_of("p.json", input);
+    put_text("p.json",
+             "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [2, 3, 4], \"degree\": [1, 2, 3], "
+             "\"rest\": {\"box\": {\"min\": [0, 0, 0], \"max\": [1, 1, 1], \"spacing\": \"greville\"}}, "
+             "\"moves\": [{\"at\": [{\"$\": \"A\"}, 0, 0], \"by\": [0, {\"$\": \"N\"}, {\"$\": \"N\"}]}, "
+             "{\"twist\": {\"$\": \"T\"}}]}");
+    assert_true(fail_everywhere(input, run_lattice_load, ffd_alloc_fail_after) > 20);
     unlink(input);
     (void)state;
 }
@@ -325,7 +323,7 @@ int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_of_ours),    cmocka_unit_test(memory_of_morph_targets),
-        cmocka_unit_test(memory_of_cpp),     cmocka_unit_test(memory_of_jansson),
+        cmocka_unit_test(memory_of_cpp),     cmocka_unit_test(memory_of_lattice_files),
         cmocka_unit_test(memory_of_reports),
     };
     if (argc != 2)

@@ -9,6 +9,14 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
+bool ffd_word_is_known(const char *word, const char *const *known, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(word, known[i]) == 0)
+            return true;
+    return false;
+}
+
 /* Optimal string alignment distance. */
 size_t ffd_word_distance(const char *a, const char *b)
 {

@@ -2,7 +2,11 @@
 #ifndef FFD_BASE_TEXT_WORDS_H
 #define FFD_BASE_TEXT_WORDS_H
 
+#include <stdbool.h>
 #include <stddef.h>
+
+/* Whether word is one of known (count words). */
+bool ffd_word_is_known(const char *word, const char *const *known, size_t count);
 
 /* The edit distance (insert, delete, replace, swap of neighbours) of two words, by their first letters where
    they are long. */

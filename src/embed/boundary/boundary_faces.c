@@ -2,7 +2,7 @@
    rectangle of a face's cells: neighbours on the surface stay together, and nothing is sorted. */
 #include "embed/boundary/boundary_faces.h"
 #include "base/memory/memory.h"
-#include "spline/basis.h"
+#include "spline/bezier.h"
 #include <float.h>
 #include <string.h>
 

@@ -5,6 +5,7 @@
 #include "embed/cells/cell_volume.h"
 #include "embed/cells/collapse.h"
 #include "lattice/border.h"
+#include "spline/bezier.h"
 
 enum { N = BEZIER_COMPONENTS };
 

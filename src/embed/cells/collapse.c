@@ -3,6 +3,8 @@
 #include "embed/cells/cells.h"
 #include "lattice/border.h"
 #include "spline/basis.h"
+#include "spline/bezier.h"
+#include "spline/knots.h"
 #include <math.h>
 #include <string.h>
 

@@ -11,6 +11,7 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shapes.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "json/json_parse.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,7 +38,8 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
     } else if (is_glb) {
         return ffd_fail_file(error, FFD_E_INVALID, d->name, "is a GLB file: its name must end in .glb");
     }
-    const ffd_status status = ffd_json_span_parse(text, size, d->name, &d->tree, error);
+    const json_input json = {.text = text, .size = size, .name = d->name, .rules = JSON_ALLOW_MARK};
+    const ffd_status status = ffd_json_parse(&json, &d->tree, error);
     return status ? status : ffd_room_take(&d->base.room, d->tree.count, sizeof *d->tree.values, error);
 }
 

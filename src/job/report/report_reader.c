@@ -1,13 +1,13 @@
 #include "job/report/report_reader.h"
-#include "json/json_span.h"
+#include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>
 
-/* The line of a place in the text. Counted only where something is wrong. */
-static size_t line_of(const report_reader *reader, const char *place)
+/* The line of a position in the text. Counted only when something is wrong. */
+static size_t line_of(const report_reader *reader, const char *at)
 {
     size_t line = 1;
-    for (const char *c = reader->begin; c < place; c++)
+    for (const char *c = reader->begin; c < at; c++)
         line += *c == '\n';
     return line;
 }
@@ -30,7 +30,7 @@ static void skip_space(report_reader *reader)
         reader->at++;
 }
 
-/* Steps over c and the space behind it. */
+/* Skips c and the white space after it. */
 static bool take(report_reader *reader, char c)
 {
     if (reader->at == reader->end || *reader->at != c)
@@ -40,7 +40,7 @@ static bool take(report_reader *reader, char c)
     return true;
 }
 
-/* Steps over text, as it is, and the space behind it. */
+/* Skips text, as it is, and the white space after it. */
 static bool take_text(report_reader *reader, const char *text)
 {
     const size_t length = strlen(text);
@@ -51,7 +51,7 @@ static bool take_text(report_reader *reader, const char *text)
     return true;
 }
 
-/* The end of the object that begins at c: brackets outside of strings are counted. NULL: it is not ended. */
+/* The end of the object that begins at c: brackets outside of strings are counted. NULL: it has no end. */
 static const char *object_end(const char *c, const char *end)
 {
     size_t depth = 0;
@@ -69,7 +69,7 @@ static const char *object_end(const char *c, const char *end)
     return NULL;
 }
 
-/* Steps over the entry that begins here. */
+/* Skips the entry that begins here. */
 static ffd_status take_entry(report_reader *reader, report_entry_text *entry, ffd_error *error)
 {
     if (reader->at == reader->end || *reader->at != '{')
@@ -77,7 +77,7 @@ static ffd_status take_entry(report_reader *reader, report_entry_text *entry, ff
     const char *const end = object_end(reader->at, reader->end);
     if (!end)
         return ffd_fail_line(error, FFD_E_INVALID, reader->name, line_of(reader, reader->at),
-                             "not a report: this entry of \"jobs\" is not ended");
+                             "not a report: this entry of \"jobs\" has no end");
     *entry = (report_entry_text){reader->at, (size_t)(end - reader->at)};
     reader->at = end;
     reader->jobs++;
@@ -85,15 +85,18 @@ static ffd_status take_entry(report_reader *reader, report_entry_text *entry, ff
     return FFD_OK;
 }
 
-/* Steps over the comma behind an entry, to the next one; or stays at the end of all. */
+/* Skips the comma after an entry, to the next one; or stays at the closing bracket. */
 static ffd_status take_comma(report_reader *reader, ffd_error *error)
 {
     const bool comma = take(reader, ',');
     if (reader->at < reader->end && *reader->at == (comma ? '{' : ']'))
         return FFD_OK;
-    return refuse(
-        reader, comma ? "an entry is expected behind ','" : "',' or ']' is expected behind an entry", error);
+    return refuse(reader, comma ? "an entry is expected after ','" : "',' or ']' is expected after an entry",
+                  error);
 }
+
+/* Bytes of a value in a message. */
+#define VALUE_SHOWN 200
 
 /* What every entry says. */
 static const struct {
@@ -118,6 +121,15 @@ static bool is_promised(const json_span *tree, uint32_t value, size_t which)
     return !ffd_json_span_number(tree, value, &code) || (code >= 0 && code <= 7 && code == (int)code);
 }
 
+static ffd_status refuse_value(const json_span *tree, uint32_t value, const char *what, const char *name,
+                               ffd_error *error)
+{
+    const json_value *const v = &tree->values[value];
+    const uint32_t length = v->end - v->begin;
+    return ffd_json_span_fail(tree, value, name, FFD_E_INVALID, error, "must be %s, not %.*s", what,
+                              (int)(length < VALUE_SHOWN ? length : VALUE_SHOWN), tree->text + v->begin);
+}
+
 static ffd_status check_members(const json_span *tree, const char *name, ffd_error *error)
 {
     for (size_t i = 0; i < sizeof promised / sizeof *promised; i++) {
@@ -126,35 +138,30 @@ static ffd_status check_members(const json_span *tree, const char *name, ffd_err
             return ffd_json_span_fail(tree, 0, name, FFD_E_INVALID, error, "\"%s\" is missing",
                                       promised[i].key);
         if (!is_promised(tree, value, i))
-            return ffd_json_span_fail(tree, value, name, FFD_E_INVALID, error, "must be %s, not %.*s",
-                                      promised[i].what,
-                                      (int)(tree->values[value].end - tree->values[value].begin),
-                                      tree->text + tree->values[value].begin);
+            return refuse_value(tree, value, promised[i].what, name, error);
     }
     return FFD_OK;
 }
 
-/* Errors of an entry are told as those of the whole report. */
-static void place_error(const report_reader *reader, const char *entry, ffd_error *error)
+/* Makes a pointer into an entry one into the report. */
+static void extend_pointer(const report_reader *reader, ffd_error *error)
 {
     char pointer[sizeof error->pointer];
-    if (error && error->line)
-        error->line += line_of(reader, entry) - 1;
-    else if (error && error->status == FFD_E_INVALID) {
-        snprintf(pointer, sizeof pointer, "/jobs/%llu%s", (unsigned long long)(reader->jobs - 1),
-                 error->pointer);
-        memcpy(error->pointer, pointer, sizeof pointer);
-    }
+    snprintf(pointer, sizeof pointer, "/jobs/%llu%s", (unsigned long long)(reader->jobs - 1), error->pointer);
+    memcpy(error->pointer, pointer, sizeof pointer);
 }
 
 static ffd_status check_entry(const report_reader *reader, const report_entry_text *entry, ffd_error *error)
 {
+    const json_input input = {
+        .text = entry->bytes, .size = entry->size, .name = reader->name, .whole = reader->begin};
     json_span tree;
-    ffd_status status = ffd_json_span_parse(entry->bytes, entry->size, reader->name, &tree, error);
+    ffd_status status = ffd_json_parse(&input, &tree, error);
+    const bool parsed = !status;
     if (!status)
         status = check_members(&tree, reader->name, error);
-    if (status)
-        place_error(reader, entry->bytes, error);
+    if (status == FFD_E_INVALID && error && (parsed || error->pointer[0]))
+        extend_pointer(reader, error);
     ffd_json_span_free(&tree);
     return status;
 }
@@ -177,7 +184,7 @@ static ffd_status read_jobs(report_reader *reader, ffd_error *error)
     return FFD_OK;
 }
 
-/* Reads a member of the report; each may stand once. */
+/* Reads a member of the report; each may occur once. */
 static ffd_status read_member(report_reader *reader, unsigned *seen, const char **jobs, ffd_error *error)
 {
     static const char *const keys[] = {"\"format\"", "\"version\"", "\"jobs\""};
@@ -188,7 +195,7 @@ static ffd_status read_member(report_reader *reader, unsigned *seen, const char 
             continue;
         if (*seen & 1U << i) {
             reader->at = key;
-            return refuse(reader, "a member stands twice", error);
+            return refuse(reader, "a member is repeated", error);
         }
         *seen |= 1U << i;
         if (!take(reader, ':'))
@@ -230,7 +237,7 @@ ffd_status ffd_report_reader_open(report_reader *reader, const char *name, const
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "not a report: \"format\", \"version\" or \"jobs\" is missing");
     if (reader->at < reader->end)
-        return refuse(reader, "nothing more is expected", error);
+        return refuse(reader, "nothing may follow", error);
     reader->at = jobs;
     reader->jobs = 0;
     take(reader, '[');

@@ -8,9 +8,9 @@
 #include <stdint.h>
 
 typedef struct report_reader {
-    const char *name;        /* stands in messages */
-    const char *begin, *end; /* the text, lent */
-    const char *at;          /* behind the entry that was read last */
+    const char *name;        /* for messages */
+    const char *begin, *end; /* the text, not owned */
+    const char *at;          /* after the entry that was read last */
     uint64_t jobs;           /* entries read */
 } report_reader;
 
@@ -20,11 +20,11 @@ typedef struct report_entry_text {
 } report_entry_text;
 
 /* Reads the whole text once: it must be a report, and each of its entries strict JSON that says which job it
-   was and how it ended. Then the reader stands before the first entry. Errors: FFD_E_INVALID with the line,
+   was and how it ended. Then the reader is at the first entry. Errors: FFD_E_INVALID with the line,
    FFD_E_UNSUPPORTED for another version, FFD_E_MEMORY. */
 ffd_status ffd_report_reader_open(report_reader *reader, const char *name, const void *text, size_t size,
                                   ffd_error *error);
-/* The next entry; false behind the last. */
+/* The next entry; false after the last. */
 bool ffd_report_reader_next(report_reader *reader, report_entry_text *entry);
 
 #endif

@@ -1,0 +1,179 @@
+#include "batch/manifest.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "json/json_parse.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A line on its way to a description. What is wrong with a member becomes a part of it: the words of the
+   members before that are made all the same. */
+typedef struct line_parser {
+    const json_span *tree;
+    job_description description;
+} line_parser;
+
+static const char *const members[] = {"in", "out", "lattice", "options", "set"};
+enum { MEMBERS = sizeof members / sizeof *members };
+
+/* Something is wrong with a member. */
+static void refuse(line_parser *parser, const char *member, const char *format, ...) FFD_PRINTF(3, 4);
+
+static void refuse(line_parser *parser, const char *member, const char *format, ...)
+{
+    char text[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    ffd_description_add(&parser->description, JOB_WRONG, member, text);
+}
+
+static bool is_kind(const line_parser *parser, uint32_t value, json_kind kind)
+{
+    return parser->tree->values[value].kind == kind;
+}
+
+/* Adds a part whose value is this string. */
+static void add_string(line_parser *parser, job_part part, const char *name, uint32_t value)
+{
+    char *const text = ffd_json_span_string(parser->tree, value, NULL);
+    if (text)
+        ffd_description_add(&parser->description, part, name, text);
+    else
+        parser->description.texts.failed = true;
+    ffd_free(text);
+}
+
+static void read_path(line_parser *parser, job_part part, const char *key, uint32_t value)
+{
+    if (is_kind(parser, value, JSON_STRING))
+        add_string(parser, part, NULL, value);
+    else
+        refuse(parser, key, "\"%s\" is not the name of a file", key);
+}
+
+static void read_lattices(line_parser *parser, uint32_t value)
+{
+    if (!is_kind(parser, value, JSON_ARRAY))
+        read_path(parser, JOB_LATTICE, "lattice", value);
+    else if (parser->tree->values[value].count == 0)
+        refuse(parser, "lattice", "\"lattice\" is an empty list");
+    else
+        for (uint32_t v = ffd_json_span_first(parser->tree, value); v != JSON_NONE;
+             v = ffd_json_span_after(parser->tree, v))
+            read_path(parser, JOB_LATTICE, "lattice", v);
+}
+
+/* A whole number is taken as it is written, which can be more exact than a double. */
+static void add_number(line_parser *parser, const char *name, uint32_t value)
+{
+    const json_value *const v = &parser->tree->values[value];
+    const char *const first = parser->tree->text + v->begin;
+    const size_t size = v->end - v->begin;
+    byte_buffer text = {0};
+    double number;
+    ffd_json_span_number(parser->tree, value, &number);
+    if (memchr(first, '.', size) || memchr(first, 'e', size) || memchr(first, 'E', size))
+        ffd_buffer_number(&text, number);
+    else if (size == 2 && memcmp(first, "-0", size) == 0)
+        ffd_buffer_text(&text, "0");
+    else
+        ffd_buffer_append(&text, first, size);
+    char *const written = ffd_buffer_finish(&text);
+    if (written)
+        ffd_description_add(&parser->description, JOB_OPTION, name, written);
+    else
+        parser->description.texts.failed = true;
+    ffd_free(written);
+    ffd_buffer_free(&text);
+}
+
+/* A text or a number. */
+static void read_option_value(line_parser *parser, const char *name, uint32_t value)
+{
+    if (is_kind(parser, value, JSON_STRING))
+        add_string(parser, JOB_OPTION, name, value);
+    else if (is_kind(parser, value, JSON_NUMBER))
+        add_number(parser, name, value);
+    else {
+        ffd_description_add(&parser->description, JOB_UNSET, name, NULL);
+        refuse(parser, "options",
+               "option \"%s\" must be a string, a number, true, false or a list of strings and numbers",
+               name);
+    }
+}
+
+static void read_option(line_parser *parser, const char *name, uint32_t value)
+{
+    const uint32_t first =
+        is_kind(parser, value, JSON_ARRAY) ? ffd_json_span_first(parser->tree, value) : value;
+    if (is_kind(parser, value, JSON_TRUE))
+        ffd_description_add(&parser->description, JOB_FLAG, name, NULL);
+    else if (is_kind(parser, value, JSON_FALSE) || first == JSON_NONE)
+        ffd_description_add(&parser->description, JOB_UNSET, name, NULL);
+    else if (first == value)
+        read_option_value(parser, name, value);
+    else
+        for (uint32_t v = first; v != JSON_NONE; v = ffd_json_span_after(parser->tree, v))
+            read_option_value(parser, name, v);
+}
+
+static void read_setting(line_parser *parser, const char *name, uint32_t value)
+{
+    ffd_description_set(&parser->description, name, parser->tree, value);
+}
+
+/* Reads each member of an object. */
+static void read_members(line_parser *parser, uint32_t object,
+                         void (*read)(line_parser *parser, const char *name, uint32_t value))
+{
+    for (uint32_t v = ffd_json_span_first(parser->tree, object); v != JSON_NONE;
+         v = ffd_json_span_after(parser->tree, v)) {
+        char *const name = ffd_json_span_key(parser->tree, v);
+        if (name)
+            read(parser, name, v);
+        else
+            parser->description.texts.failed = true;
+        ffd_free(name);
+    }
+}
+
+static void read_member(line_parser *parser, const char *name, uint32_t value)
+{
+    if (strcmp(name, "in") == 0)
+        read_path(parser, JOB_INPUT, name, value);
+    else if (strcmp(name, "out") == 0)
+        read_path(parser, JOB_OUTPUT, name, value);
+    else if (strcmp(name, "lattice") == 0)
+        read_lattices(parser, value);
+    else if (!ffd_word_is_known(name, members, MEMBERS))
+        refuse(parser, "", "unknown key \"%.60s\" (nearest: \"%s\")", name,
+               ffd_nearest_word(name, members, MEMBERS));
+    else if (!is_kind(parser, value, JSON_OBJECT))
+        refuse(parser, strcmp(name, "set") == 0 ? name : "", "\"%s\" is not an object", name);
+    else
+        read_members(parser, value, strcmp(name, "set") == 0 ? read_setting : read_option);
+}
+
+ffd_status ffd_job_parse(const batch_frame *frame, const char *text, size_t size, batch_job *job)
+{
+    const json_input input = {.text = text,
+                              .size = size,
+                              .name = frame->name,
+                              .line = (size_t)job->line,
+                              .rules = JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS};
+    json_span tree;
+    ffd_status status = ffd_json_parse(&input, &tree, &job->error);
+    if (status)
+        return status == FFD_E_MEMORY ? status : FFD_OK;
+    line_parser parser = {.tree = &tree};
+    if (is_kind(&parser, 0, JSON_OBJECT))
+        read_members(&parser, 0, read_member);
+    else
+        refuse(&parser, "", "a job is an object: {\"in\": ..., \"lattice\": ..., \"out\": ...}");
+    status = ffd_job_make(frame, &parser.description, job);
+    ffd_description_free(&parser.description);
+    ffd_json_span_free(&tree);
+    return status;
+}

@@ -1,0 +1,349 @@
+#include "json/json_parse.h"
+#include "base/memory/memory.h"
+#include "base/text/number.h"
+#include "json/json_chars.h"
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Offsets have 32 bits. */
+#define LARGEST_TEXT ((size_t)UINT32_MAX - 1)
+
+/* Up to so many characters, a number without an exponent is in the range of a double, a whole one in that of
+   64 bits, whose longest has 20. */
+#define SAFE_FOR_DOUBLE 300
+#define SAFE_FOR_INTEGER 18
+#define INTEGER_CAPACITY 24
+
+typedef struct scanner {
+    const json_input *input;
+    json_span *tree;
+    const char *at, *last;
+    ffd_error *error;
+} scanner;
+
+/* The position after a byte order mark, if there is one. */
+static const char *skip_mark(const char *text, const char *last)
+{
+    return last - text >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
+}
+
+/* What is wrong at a position: with the line, and the column in characters. */
+static ffd_status refuse(const scanner *s, const char *at, const char *format, ...) FFD_PRINTF(3, 4);
+
+static ffd_status refuse(const scanner *s, const char *at, const char *format, ...)
+{
+    char what[256];
+    size_t line = s->input->line ? s->input->line : 1, column = 1;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    for (const char *c = skip_mark(s->input->whole ? s->input->whole : s->input->text, at); c < at; c++) {
+        column = *c == '\n' ? 1 : column + (((unsigned char)*c & 0xc0) != 0x80);
+        line += *c == '\n';
+    }
+    return ffd_fail_line(s->error, FFD_E_INVALID, s->input->name, line, "not valid JSON: %s (column %zu)",
+                         what, column);
+}
+
+/* The same with what is there instead. */
+static ffd_status expect(const scanner *s, const char *at, const char *what)
+{
+    char found[32] = "the end of the text";
+    if (at < s->last && *at >= 0x20 && *at < 0x7f)
+        snprintf(found, sizeof found, "'%c'", *at);
+    else if (at < s->last)
+        snprintf(found, sizeof found, "byte 0x%02x", (unsigned)(unsigned char)*at);
+    return refuse(s, at, "%s, found %s", what, found);
+}
+
+static void skip_space(scanner *s)
+{
+    while (s->at < s->last && (*s->at == ' ' || *s->at == '\t' || *s->at == '\n' || *s->at == '\r'))
+        s->at++;
+}
+
+static bool is_digit(const scanner *s, const char *c)
+{
+    return c < s->last && *c >= '0' && *c <= '9';
+}
+
+static ffd_status refuse_character(const scanner *s, const char *c)
+{
+    if (*c == '\\')
+        return expect(s, c, "an escape in a string is not valid");
+    if ((unsigned char)*c < 0x20)
+        return expect(s, c, "a control character in a string must be escaped");
+    return expect(s, c, "a string is not valid UTF-8");
+}
+
+/* what: is expected here. */
+static ffd_status scan_string(scanner *s, const char *what)
+{
+    if (s->at == s->last || *s->at != '"')
+        return expect(s, s->at, what);
+    const char *const opened = s->at;
+    const char *c = ffd_json_pass_plain(opened + 1, s->last);
+    while (c < s->last && *c != '"') {
+        uint32_t code;
+        const char *next = ffd_json_char(c, s->last, &code);
+        if (!next)
+            return refuse_character(s, c);
+        if (code == 0 && s->input->rules & JSON_NO_NUL)
+            return refuse(s, c, "a string must not hold the character \\u0000");
+        c = ffd_json_pass_plain(next, s->last);
+    }
+    if (c == s->last)
+        return refuse(s, opened, "this string has no closing quote");
+    s->at = c + 1;
+    return FFD_OK;
+}
+
+/* The valid number from `first` to here, against the reader's rules. */
+static ffd_status check_range(const scanner *s, const char *first, bool fraction, bool exponent)
+{
+    const size_t length = (size_t)(s->at - first);
+    const int shown = length < 40 ? (int)length : 40;
+    double number;
+    if ((exponent || length > SAFE_FOR_DOUBLE) && s->input->rules & JSON_DOUBLES &&
+        ffd_number_parse(first, s->at, &number) && isinf(number))
+        return refuse(s, first, "the number %.*s is too large", shown, first);
+    if (!exponent && !fraction && length > SAFE_FOR_INTEGER && s->input->rules & JSON_INTEGERS) {
+        char text[INTEGER_CAPACITY];
+        snprintf(text, sizeof text, "%.*s", shown, first);
+        errno = 0;
+        strtoll(text, NULL, 10);
+        if (errno || length >= sizeof text)
+            return refuse(s, first, "the whole number %.*s does not fit 64 bits", shown, first);
+    }
+    return FFD_OK;
+}
+
+/* The grammar of RFC 8259, 6. */
+static ffd_status scan_number(scanner *s)
+{
+    const char *const first = s->at, *c = first;
+    bool fraction = false, exponent = false;
+    if (*c == '-')
+        c++;
+    if (!is_digit(s, c))
+        return expect(s, c, "a digit is expected");
+    if (*c == '0' && is_digit(s, c + 1))
+        return expect(s, c, "a number must not start with 0");
+    while (is_digit(s, c))
+        c++;
+    if (c < s->last && *c == '.') {
+        fraction = true;
+        c++;
+        if (!is_digit(s, c))
+            return expect(s, c, "a digit is expected");
+        while (is_digit(s, c))
+            c++;
+    }
+    if (c < s->last && (*c == 'e' || *c == 'E')) {
+        exponent = true;
+        c++;
+        if (c < s->last && (*c == '+' || *c == '-'))
+            c++;
+        if (!is_digit(s, c))
+            return expect(s, c, "a digit is expected");
+        while (is_digit(s, c))
+            c++;
+    }
+    s->at = c;
+    return check_range(s, first, fraction, exponent);
+}
+
+static bool scan_word(scanner *s, const char *word)
+{
+    const size_t length = strlen(word);
+    if ((size_t)(s->last - s->at) < length || memcmp(s->at, word, length) != 0)
+        return false;
+    s->at += length;
+    return true;
+}
+
+static ffd_status scan_scalar(scanner *s, json_value *value)
+{
+    if (s->at == s->last)
+        return expect(s, s->at, "a value is expected");
+    ffd_status status = FFD_OK;
+    if (*s->at == '"') {
+        value->kind = JSON_STRING;
+        status = scan_string(s, "a value is expected");
+    } else if (*s->at == '-' || is_digit(s, s->at)) {
+        value->kind = JSON_NUMBER;
+        status = scan_number(s);
+    } else if (scan_word(s, "true")) {
+        value->kind = JSON_TRUE;
+    } else if (scan_word(s, "false")) {
+        value->kind = JSON_FALSE;
+    } else if (scan_word(s, "null")) {
+        value->kind = JSON_NULL;
+    } else {
+        return expect(s, s->at, "a value is expected");
+    }
+    value->end = (uint32_t)(s->at - s->tree->text);
+    return status;
+}
+
+static uint32_t offset(const scanner *s)
+{
+    return (uint32_t)(s->at - s->tree->text);
+}
+
+/* Adds a value: the last member so far of parent. */
+static json_value *add_value(scanner *s, uint32_t parent)
+{
+    json_span *tree = s->tree;
+    if (!ffd_grow((void **)&tree->values, &tree->capacity, tree->count + 1, sizeof *tree->values)) {
+        ffd_fail_memory(s->error);
+        return NULL;
+    }
+    json_value *value = &tree->values[tree->count++];
+    *value = (json_value){.parent = parent, .next = (uint32_t)tree->count};
+    if (parent != JSON_NONE)
+        tree->values[parent].count++;
+    return value;
+}
+
+static ffd_status scan_key(scanner *s, json_value *value)
+{
+    value->key_begin = offset(s);
+    const ffd_status status = scan_string(s, "a key in double quotes is expected");
+    if (status)
+        return status;
+    value->key_end = offset(s);
+    skip_space(s);
+    if (s->at == s->last || *s->at != ':')
+        return expect(s, s->at, "':' is expected");
+    s->at++;
+    skip_space(s);
+    return FFD_OK;
+}
+
+#define FEW_MEMBERS 64
+/* Bytes of a key in a message. */
+#define KEY_SHOWN 80
+
+/* The later of two equal keys. */
+static ffd_status refuse_key(const scanner *s, uint32_t a, uint32_t b)
+{
+    const json_value *const value = &s->tree->values[a > b ? a : b];
+    const uint32_t length = value->key_end - value->key_begin;
+    const ffd_status status =
+        refuse(s, s->tree->text + value->key_begin, "duplicate key %.*s in an object",
+               (int)(length < KEY_SHOWN ? length : KEY_SHOWN), s->tree->text + value->key_begin);
+    if (s->error)
+        ffd_json_span_pointer(s->tree, a > b ? a : b, s->error->pointer, sizeof s->error->pointer);
+    return status;
+}
+
+/* Two readers may take different ones of two equal keys: what is checked must be what is used. */
+static ffd_status refuse_equal_keys(const scanner *s, uint32_t object)
+{
+    const json_span *tree = s->tree;
+    const size_t count = tree->values[object].count;
+    json_member few[FEW_MEMBERS];
+    json_member *members = few;
+    if (count < 2)
+        return FFD_OK;
+    if (count > FEW_MEMBERS && !(members = ffd_alloc(count, sizeof *members)))
+        return ffd_fail_memory(s->error);
+    ffd_json_span_sort(tree, object, members);
+    ffd_status status = FFD_OK;
+    for (size_t i = 1; i < count && status == FFD_OK; i++)
+        if (ffd_json_span_compare_keys(tree, members[i - 1].value, tree, members[i].value) == 0)
+            status = refuse_key(s, members[i - 1].value, members[i].value);
+    if (members != few)
+        ffd_free(members);
+    return status;
+}
+
+static ffd_status close_container(scanner *s, uint32_t *container)
+{
+    json_span *tree = s->tree;
+    const uint32_t closed = *container;
+    s->at++;
+    tree->values[closed].end = offset(s);
+    tree->values[closed].next = (uint32_t)tree->count;
+    *container = tree->values[closed].parent;
+    return tree->values[closed].kind == JSON_OBJECT ? refuse_equal_keys(s, closed) : FFD_OK;
+}
+
+/* Reads a value of container; a container becomes the current one. */
+static ffd_status scan_value(scanner *s, uint32_t *container, int *depth)
+{
+    json_span *tree = s->tree;
+    json_value *value = add_value(s, *container);
+    if (!value)
+        return FFD_E_MEMORY;
+    if (*container != JSON_NONE && tree->values[*container].kind == JSON_OBJECT) {
+        const ffd_status status = scan_key(s, value);
+        if (status)
+            return status;
+    }
+    value->begin = offset(s);
+    if (s->at == s->last || (*s->at != '{' && *s->at != '['))
+        return scan_scalar(s, value);
+    if (++*depth > JSON_SPAN_DEPTH)
+        return expect(s, s->at, "values are nested more than 256 deep");
+    value->kind = *s->at == '{' ? JSON_OBJECT : JSON_ARRAY;
+    *container = (uint32_t)(tree->count - 1);
+    s->at++;
+    return FFD_OK;
+}
+
+/* One step inside a container: its end, or the next member with the comma before it. */
+static ffd_status scan_member(scanner *s, uint32_t *container, int *depth)
+{
+    const json_value *in = &s->tree->values[*container];
+    const bool object = in->kind == JSON_OBJECT;
+    if (s->at < s->last && *s->at == (object ? '}' : ']')) {
+        --*depth;
+        return close_container(s, container);
+    }
+    if (in->count > 0) {
+        if (s->at == s->last || *s->at != ',')
+            return expect(s, s->at, object ? "',' or '}' is expected" : "',' or ']' is expected");
+        s->at++;
+        skip_space(s);
+    }
+    return scan_value(s, container, depth);
+}
+
+static ffd_status scan_text(scanner *s)
+{
+    if (s->input->rules & JSON_ALLOW_MARK)
+        s->at = skip_mark(s->at, s->last);
+    skip_space(s);
+    uint32_t container = JSON_NONE;
+    int depth = 0;
+    ffd_status status = scan_value(s, &container, &depth);
+    while (status == FFD_OK && container != JSON_NONE) {
+        skip_space(s);
+        status = scan_member(s, &container, &depth);
+    }
+    if (status)
+        return status;
+    skip_space(s);
+    return s->at < s->last ? expect(s, s->at, "nothing may follow the value") : FFD_OK;
+}
+
+ffd_status ffd_json_parse(const json_input *input, json_span *tree, ffd_error *error)
+{
+    *tree = (json_span){.text = input->text, .size = input->size};
+    if (input->size > LARGEST_TEXT)
+        return ffd_fail_file(error, FFD_E_LIMIT, input->name, "its JSON has %zu bytes, more than %zu",
+                             input->size, LARGEST_TEXT);
+    scanner s = {
+        .input = input, .tree = tree, .at = input->text, .last = input->text + input->size, .error = error};
+    const ffd_status status = scan_text(&s);
+    if (status)
+        ffd_json_span_free(tree);
+    return status;
+}

@@ -1,0 +1,11 @@
+/* spec_parse_moves.h - the moves of a lattice file. */
+#ifndef FFD_LATTICE_SPEC_PARSE_MOVES_H
+#define FFD_LATTICE_SPEC_PARSE_MOVES_H
+
+#include "lattice/spec.h"
+#include "json/json_reader.h"
+
+/* Reads the array of moves into the spec, whose sizes must be known. */
+ffd_status ffd_spec_parse_moves(json_cursor cursor, lattice_spec *spec);
+
+#endif
