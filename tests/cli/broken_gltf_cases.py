@@ -173,6 +173,8 @@ CASES = [
     ("VALUE_NOT_IN_RANGE", INVALID, "a count of 0", ".glb", changed("accessors/0/count", 0)),
     ("VALUE_NOT_IN_RANGE", INVALID, "a negative byteLength", ".glb", changed("bufferViews/0/byteLength", -1)),
     ("VALUE_NOT_IN_RANGE", INVALID, "a stride of 256", ".glb", stride(0, 256)),
+    ("VALUE_NOT_IN_RANGE", INVALID, "a stride of 256 in a view of nobody's", ".glb",
+     made(lambda m: m.view(bytes(512), byteStride=256))),
     ("VALUE_NOT_IN_RANGE", OK, "a sparse count of 0", ".glb",
      made(lambda m: m.sparse().set("accessors/0/sparse/count", 0))),
 

@@ -468,8 +468,8 @@ def lines_points_and_clouds(run):
 @case
 def colours_go_along(run):
     run.write("still.json", STILL)
-    run.write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0.501961 0.2 1\nv 0 1 0 0 0 0\nf 1 2 3\n")
-    bytes_ = [(255, 0, 0), (128, 51, 255), (0, 0, 0)]
+    run.write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 0.501961 0.2 1\nv 0 1 0 0 0.498039 0\nf 1 2 3\n")
+    bytes_ = [(255, 0, 0), (128, 51, 255), (0, 127, 0)]
     run.ffd("deform", "a.obj", "a.ply", "-l", "still.json")
     equal([(v["red"], v["green"], v["blue"]) for v in ply_elements(run.read("a.ply"))["vertex"]], bytes_)
     run.ffd("deform", "a.obj", "a.off", "-l", "still.json")
@@ -504,6 +504,34 @@ def colours_go_along(run):
     run.write("bytes.obj", "v 0 0 0 51 0 0\nv 1 0 0 0 255 0\nv 0 1 0 0 0 102\nf 1 2 3\n")
     run.ffd("deform", "bytes.obj", "bytes.ply", "-l", "still.json")
     equal([v["red"] for v in ply_elements(run.read("bytes.ply"))["vertex"]], [51, 0, 0])
+
+
+@case
+def colours_of_shorts(run):
+    run.write("still.json", STILL)
+    run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+                       "property ushort red\nproperty ushort green\nproperty ushort blue\nelement face 1\n"
+                       "property list uchar int vertex_indices\nend_header\n0 0 0 65535 0 1\n1 0 0 32768 0 0\n0 1 0 0 0 0\n"
+                       "3 0 1 2\n")
+    run.ffd("deform", "a.ply", "a.obj", "-l", "still.json")
+    found = [[float(x) for x in line.split()[4:]] for line in run.text("a.obj").splitlines() if line.startswith("v ")]
+    equal(found, [[1, 0, 1 / 65535], [32768 / 65535, 0, 0], [0, 0, 0]])
+
+
+@case
+def faces_of_many_corners(run):
+    """PLY counts corners, and twice as many texture coordinates, by bytes as long as these suffice."""
+    run.write("still.json", STILL)
+    for corners in (127, 128, 255, 256):
+        ring = [(round(math.cos(2 * math.pi * i / corners), 6), round(math.sin(2 * math.pi * i / corners), 6))
+                for i in range(corners)]
+        face = " ".join(f"{i}/{i}" for i in range(1, corners + 1))
+        run.write("a.obj", "".join(f"v {x} {y} 0\n" for x, y in ring) + "".join(f"vt {x} {y}\n" for x, y in ring) +
+                  f"f {face}\nf 1/2 2/3 3/1\n")
+        run.ffd("deform", "a.obj", "a.ply", "-l", "still.json", "--force")
+        rows = ply_elements(run.read("a.ply"))["face"]
+        equal([len(row["vertex_indices"]) for row in rows], [corners, 3], corners)
+        equal(rows[0]["texcoord"], [x for point in ring for x in point], corners)
 
 
 @case

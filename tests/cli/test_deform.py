@@ -296,6 +296,21 @@ def report(run):
 
 
 @case
+def residuals_are_of_the_vertices_with_a_place(run):
+    axes = {"box": {"min": [-1, -1, -1], "max": [1, 1, 1], "axes": [[0.6, 0.8, 0], [-0.8, 0.6, 0], [0, 0, 1]]}}
+    run.write("l.json", lattice(moves=MOVE, rest=axes))
+    points = [[math.sin(7 * i + a) / 2 for a in range(3)] for i in range(200)]
+    found = []
+    for beyond in ([], [[9, 9, 9 + i] for i in range(600)]):
+        run.write("p.obj", "".join("v %r %r %r\n" % tuple(p) for p in points + beyond))
+        run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", "--report", "r.json", "--force", "-q")
+        found.append(json.loads(run.read("r.json"))["jobs"][0]["residual"])
+    check(0 < found[0]["rms"] < 0.8 * found[0]["max"] < 1e-14, found)
+    equal(found[1]["max"], found[0]["max"])
+    near([found[1]["rms"] / found[0]["rms"]], [1], 1e-12)
+
+
+@case
 def report_that_is_stable(run):
     start(run, BUMP)
     texts = set()

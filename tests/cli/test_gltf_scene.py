@@ -74,6 +74,14 @@ def inverse_bind_matrices_and_integer_weights(run):
 
 
 @case
+def inverse_bind_matrices_turn(run):
+    # x of the scene is -y of the mesh by the matrix, and y by its transpose.
+    turn = column_major([[0.0, -1.0, 0], [1.0, 0, 0], [0, 0, 1.0]], [0, 0, 0])
+    scene = skinned([[1, 0, 0, 0]], [[1, 0, 0, 0]], bind=[turn, turn])
+    near(vectors(deformed(run, scene, SHIFT), 0), [[1, -1, 0]], 1e-6)
+
+
+@case
 def weights_are_divided_by_their_sum(run):
     scene = skinned([[0, 1, 0, 0]] * 2, [[0.5, 0.25, 0, 0], [2, 2, 0, 0]])
     third = 1 / 3

@@ -5,6 +5,7 @@ import os
 import struct
 import subprocess
 
+from gltf_build import Scene
 from gltf_reader import Gltf
 from harness import (CUBE_CORNERS, CUBE_FACES, INVALID, MODELS, OK, case, check, equal, glb, glb_split, gltf_json,
                      gltf_vectors, lattice, main, near)
@@ -407,6 +408,30 @@ def halves_that_meet_in_a_mirror_have_one_normal(run):
         n = gltf_vectors(after, changed, attributes["NORMAL"])
         near([n[0][0], n[2][0]], [0, 0], 1e-7, "across the mirror's plane")
         check(n[0][2] > 0.5, "the side that is shown", n)
+
+
+@case
+def halves_under_turned_nodes_have_one_normal(run):
+    """Two meshes that meet along y, one under a node that is turned by 90 degrees: their normals there show as one."""
+    scene = Scene(nodes=[{"mesh": 0}, {"mesh": 1, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}],
+                  scenes=[{"nodes": [0, 1]}], meshes=[])
+    halves = [[[0, 0, 0], [1, 0, 0.5], [0, 1, 0], [1, 1, 0.25]], [[0, 0, 0], [0, 1, 0], [-1, 0, 0.75], [-1, 1, 0.5]]]
+    for points, indices, turned in zip(halves, ([0, 1, 2, 1, 3, 2], [0, 1, 2, 1, 3, 2]), (False, True)):
+        normals = [[0.6, 0, 0.8]] * 4
+        if turned:
+            points, normals = ([[y, -x, z] for x, y, z in vectors] for vectors in (points, normals))
+        scene.asset["meshes"].append({"primitives": [{
+            "attributes": {"POSITION": scene.add([list(map(float, p)) for p in points], bounds=True),
+                           "NORMAL": scene.add(normals)},
+            "indices": scene.add([[i] for i in indices], 5121, "SCALAR")}]})
+    run.write("a.glb", scene.glb())
+    run.write("l.json", lattice(moves=[{"bend": {"axis": "y", "toward": [0, 0, 1], "degrees": 60, "about": [0, 0, 0]}}]))
+    after, changed = glb_split(recompute(run, "a.glb", "b.glb"))
+    first, second = (gltf_vectors(after, changed, mesh["primitives"][0]["attributes"]["NORMAL"])
+                     for mesh in after["meshes"])
+    for i, j in ((0, 0), (2, 1)):
+        near([-second[j][1], second[j][0], second[j][2]], first[i], 1e-6, "along the line where they meet")
+        check(abs(first[i][0] - 0.6) > 0.1, "made anew", first)
 
 
 @case

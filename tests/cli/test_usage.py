@@ -2,7 +2,7 @@
 """Help, version, and everything that is a mistake on the command line (exit 2, one line, before any work)."""
 import re
 
-from harness import CUBE, USAGE, case, check, equal, lattice, main
+from harness import CUBE, LIMIT, USAGE, case, check, equal, lattice, main
 
 COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new", "report merge"]
 OPTIONS = {
@@ -134,6 +134,8 @@ def values(run):
         refused(run, *work, option, value, says=option)
         refused(run, *work, f"{option}={value}", says=option)
     refused(run, *work, "-j", "x", says='"x"')
+    refused(run, *work, "-j", "1025", says='"1025"')
+    run.ffd(*work, "-j", "1024", "--force")
     refused(run, *work, "-jx", says='"x"')
     for option in ("--force", "--in-place", "--report-stable", "--quiet", "--verbose", "--help"):
         refused(run, *work, f"{option}=yes", says=option)
@@ -250,6 +252,18 @@ def unknown_endings(run):
     refused(run, "lattice", "new", "a.txt", "-o", "n.json", says="a.txt")
     refused(run, "lattice", "new", "a.obj", "-o", "n.obj", says="JSON")
     check(run.ffd(*work), "the right words")
+
+
+@case
+def units_of_sizes(run):
+    files(run)
+    run.write("large.gltf", {
+        "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "accessors": [{"componentType": 5126, "count": 10 ** 9, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})
+    for size, megabytes in (("300M", 300), ("300000K", 300), ("0.3G", 300), ("300000000", 300), ("1.5G", 1500)):
+        run.ffd("deform", "large.gltf", "o.gltf", "-l", "l.json", "--memory", size, code=LIMIT,
+                err=re.compile(f" the {megabytes} MB of memory allowed"))
 
 
 @case

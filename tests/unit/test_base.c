@@ -168,14 +168,17 @@ static void test_json_text(void **state)
     ffd_json_end(&json, ']');
     ffd_json_object(&json, "inner", false);
     ffd_json_number(&json, "nan", 0.0 / (numbers[0] - 1));
+    ffd_json_number(&json, "infinite", numbers[2] / (numbers[0] - 1));
     ffd_json_bool(&json, "yes", true);
     ffd_json_count(&json, "count", UINT64_MAX);
     ffd_json_end(&json, '}');
     ffd_json_end(&json, '}');
     char *text = ffd_buffer_finish(&out);
-    assert_string_equal(text, "{\n  \"name\": \"a\\\"b\\\\c\\n\\u0001\",\n  \"numbers\": [1, 0.1, -2e-300],\n"
-                              "  \"empty\": [],\n  \"inner\": {\n    \"nan\": null,\n    \"yes\": true,\n"
-                              "    \"count\": 18446744073709551615\n  }\n}\n");
+    assert_string_equal(text,
+                        "{\n  \"name\": \"a\\\"b\\\\c\\n\\u0001\",\n  \"numbers\": [1, 0.1, -2e-300],\n"
+                        "  \"empty\": [],\n  \"inner\": {\n    \"nan\": null,\n    \"infinite\": null,\n"
+                        "    \"yes\": true,\n"
+                        "    \"count\": 18446744073709551615\n  }\n}\n");
     ffd_free(text);
     (void)state;
 }

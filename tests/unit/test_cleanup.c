@@ -60,14 +60,25 @@ static int end_of(void (*work)(void), int number)
 
 static file_output *unfinished; /* of a child that ends */
 
-static void begin_two_files_in_a_folder(void)
+static void begin_two_files(void)
 {
-    ffd_cleanup_on_signals();
     if (ffd_output_create(&unfinished, NULL) || ffd_output_folder(unfinished, in_folder("new/deep"), NULL) ||
         ffd_output_begin(unfinished, in_folder("new/deep/a"), false, NULL) ||
         ffd_output_begin(unfinished, in_folder("old"), true, NULL) ||
         ffd_output_write(unfinished, "new", 3, NULL))
         _exit(9);
+}
+
+static void begin_two_files_in_a_folder(void)
+{
+    ffd_cleanup_on_signals();
+    begin_two_files();
+}
+
+static void begin_two_files_as_a_worker(void)
+{
+    ffd_cleanup_on_crashes();
+    begin_two_files();
 }
 
 static void test_each_signal(void **state)
@@ -82,6 +93,18 @@ static void test_each_signal(void **state)
     assert_int_equal(ffd_file_load(in_folder("old"), &input, NULL), FFD_OK);
     assert_memory_equal(input.data, "old", 3);
     ffd_file_unload(&input);
+    (void)state;
+}
+
+/* A worker of a batch, which may crash and which its batch may stop. */
+static void test_each_crash(void **state)
+{
+    static const int crashes[] = {SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGILL, SIGSEGV};
+    for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++) {
+        assert_int_equal(end_of(begin_two_files_as_a_worker, crashes[i]), crashes[i]);
+        assert_int_equal(leftovers(), 0);
+        assert_false(ffd_file_exists(in_folder("new")));
+    }
     (void)state;
 }
 
@@ -173,13 +196,60 @@ static void test_threads_at_work(void **state)
     (void)state;
 }
 
+static void write_a_set(int count)
+{
+    file_output *output;
+    char name[32];
+    if (ffd_output_create(&output, NULL))
+        _exit(9);
+    for (int i = 0; i < count; i++) {
+        snprintf(name, sizeof name, "set-%d", i);
+        if (ffd_output_begin(output, in_folder(name), false, NULL))
+            _exit(9);
+    }
+    if (ffd_output_commit(output, NULL))
+        _exit(9);
+}
+
+static void wait_for(const char *name)
+{
+    for (int i = 0; i < 100000 && !ffd_file_exists(in_folder(name)); i++)
+        nanosleep(&(struct timespec){.tv_nsec = 20000}, NULL);
+}
+
+/* A signal between the renames of a set waits until all its files are there. */
+static void test_set_is_whole(void **state)
+{
+    enum { FILES = 500 };
+    int status;
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        signal(SIGTERM, SIG_DFL);
+        ffd_cleanup_on_signals();
+        write_a_set(FILES);
+        pause();
+        _exit(8);
+    }
+    wait_for("set-0");
+    kill(child, SIGTERM);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status));
+    assert_int_equal(leftovers(), 0);
+    for (int i = 0; i < FILES; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "set-%d", i);
+        assert_true(ffd_file_exists(in_folder(name)));
+    }
+    (void)state;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_signal),
-        cmocka_unit_test(test_dispositions),
-        cmocka_unit_test(test_files_of_a_parent),
-        cmocka_unit_test(test_threads_at_work),
+        cmocka_unit_test(test_each_signal),     cmocka_unit_test(test_each_crash),
+        cmocka_unit_test(test_dispositions),    cmocka_unit_test(test_files_of_a_parent),
+        cmocka_unit_test(test_threads_at_work), cmocka_unit_test(test_set_is_whole),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -177,6 +177,30 @@ static void test_collapse(void **state)
     (void)state;
 }
 
+/* Everything comes to a line: all that is left of a normal, or of a tangent across it, is rounding. */
+static void test_collapse_to_rounding(void **state)
+{
+    draw d = {draw_seed()};
+    for (int i = 0; i < 50; i++) {
+        const double to[3] = {draw_between(&d, 0.1, 1), draw_between(&d, 0.1, 1), draw_between(&d, 0.1, 1)};
+        const double by[3] = {draw_between(&d, 0.1, 1), draw_between(&d, 0.1, 1), draw_between(&d, 0.1, 1)};
+        const double normal[3] = {0.6, 0, 0.8}, tangent[3] = {by[1], -by[0], 0};
+        double gradient[9], result[3];
+        int collapsed = 7;
+        for (int r = 0; r < 3; r++)
+            for (int c = 0; c < 3; c++)
+                gradient[3 * r + c] = to[r] * by[c] - (r == c);
+        assert_int_equal(ffd_deform_normal(gradient, normal, result, &collapsed), 0);
+        assert_memory_equal(result, normal, sizeof result);
+        assert_int_equal(collapsed, 1);
+        collapsed = 7;
+        assert_int_equal(ffd_deform_tangent(gradient, tangent, NULL, result, &collapsed), 0);
+        assert_memory_equal(result, tangent, sizeof result);
+        assert_int_equal(collapsed, 1);
+    }
+    (void)state;
+}
+
 /* What had no direction before has not lost one. */
 static void test_no_direction(void **state)
 {
@@ -202,7 +226,7 @@ int main(void)
         cmocka_unit_test(test_identity),      cmocka_unit_test(test_translation),
         cmocka_unit_test(test_linear_map),    cmocka_unit_test(test_local_support),
         cmocka_unit_test(test_moved_weights), cmocka_unit_test(test_collapse),
-        cmocka_unit_test(test_no_direction),
+        cmocka_unit_test(test_no_direction),  cmocka_unit_test(test_collapse_to_rounding),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

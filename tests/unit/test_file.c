@@ -1,4 +1,5 @@
 /* test_file.c - files that appear whole or not at all, and reading of whatever a path leads to. */
+#define _DEFAULT_SOURCE /* syscall */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -9,12 +10,26 @@
 #include "../support/test_folder.h"
 #include "base/file/output.h"
 #include "base/file/written_files.h"
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
+
+/* Stands before the C library's: as file systems that tell only here that a quota is used up. */
+static bool closing_fails;
+
+int close(int fd)
+{
+    const long result = syscall(SYS_close, fd);
+    if (!closing_fails)
+        return (int)result;
+    errno = EDQUOT;
+    return -1;
+}
 
 static void check_content(const char *name, const char *text)
 {
@@ -229,12 +244,23 @@ static void test_pieces_of_any_size(void **state)
     (void)state;
 }
 
+/* The number that the next file to be opened gets: a greater one than before tells of one that stays open. */
+static int next_descriptor(void)
+{
+    const int fd = open("/dev/null", O_RDONLY);
+    assert_true(fd >= 0);
+    close(fd);
+    return fd;
+}
+
 static void test_dropped(void **state)
 {
+    const int next = next_descriptor();
     put_text("old.txt", "old");
     file_output *output = begin("old.txt", true);
     assert_int_equal(ffd_output_write(output, "newer", 5, NULL), FFD_OK);
     ffd_output_destroy(&output);
+    assert_int_equal(next_descriptor(), next);
     check_content("old.txt", "old");
     assert_false(ffd_file_exists(in_folder(".old.txt.ffd-tmp")));
     (void)state;
@@ -438,6 +464,24 @@ static void test_full_disk(void **state)
     (void)state;
 }
 
+/* Whether the bytes have arrived is asked before the old file is replaced. */
+static void test_disk_that_is_full_at_the_close(void **state)
+{
+    ffd_error error;
+    put_text("late.txt", "old");
+    file_output *output = begin("late.txt", true);
+    assert_int_equal(ffd_output_write(output, "new", 3, NULL), FFD_OK);
+    closing_fails = true;
+    const ffd_status status = ffd_output_commit(output, &error);
+    closing_fails = false;
+    ffd_output_destroy(&output);
+    assert_int_equal(status, FFD_E_IO);
+    assert_string_equal(error.file, in_folder("late.txt"));
+    check_content("late.txt", "old");
+    assert_false(ffd_file_exists(in_folder(".late.txt.ffd-tmp")));
+    (void)state;
+}
+
 static void write_file(const char *name, bool force, written_files *written, ffd_status expected)
 {
     file_output *output;
@@ -504,6 +548,7 @@ int main(void)
         cmocka_unit_test(test_written),
         cmocka_unit_test(test_folders),
         cmocka_unit_test(test_full_disk),
+        cmocka_unit_test(test_disk_that_is_full_at_the_close),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

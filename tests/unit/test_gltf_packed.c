@@ -369,6 +369,12 @@ static void draco_that_cannot_be_is_refused(void **state)
          "primitives read different values for the accessor, from Draco data and from elsewhere: this is not "
          "supported",
          FFD_E_UNSUPPORTED},
+        /* As positions here, as normals there. */
+        {DRACO_ACCESSORS, WITH(POSITION_ONLY("\"POSITION\":3", "") "," POSITION_ONLY("\"POSITION\":7", "")),
+         "/accessors/1",
+         "primitives read different values for the accessor, from Draco data and from elsewhere: this is not "
+         "supported",
+         FFD_E_UNSUPPORTED},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char *text = make_draco_text(false, cases[i].accessors, cases[i].rest);
@@ -649,6 +655,64 @@ static void many_views_of_the_same_bytes_are_too_much(void **state)
     ffd_free(text);
 }
 
+/* Draco data of a sheet of so many points a side. Free it with free(). */
+static unsigned char *make_large_draco(uint32_t side, size_t *size)
+{
+    const size_t points = (size_t)side * side;
+    float *const xyz = calloc(3 * points, sizeof *xyz);
+    uint32_t *const corners = calloc(6 * points, sizeof *corners);
+    for (size_t i = 0; i < points; i++) {
+        xyz[3 * i] = (float)(i % side);
+        xyz[3 * i + 1] = (float)(i / side);
+    }
+    sheet_triangles(side, corners);
+    const sample_mesh mesh = {.point_count = points,
+                              .triangle_count = 2 * (size_t)(side - 1) * (side - 1),
+                              .positions = xyz,
+                              .triangles = corners};
+    unsigned char *const bytes = make_draco(&mesh, &(sample_options){.edgebreaker = true, .bits = 6}, size);
+    free(xyz);
+    free(corners);
+    return bytes;
+}
+
+/* Many views of the same Draco data, each with a primitive that takes nothing out of it: it is decoded for
+   each of them. */
+static void the_same_draco_data_is_decoded_too_often(void **state)
+{
+    (void)state;
+    enum { LARGE = 120, VIEWS = 300 };
+    static blob b;
+    byte_buffer rest = {0};
+    size_t size;
+    unsigned char *const bytes = make_large_draco(LARGE, &size);
+    b = (blob){.size = 0};
+    put(&b, bytes, size);
+    ffd_buffer_format(&rest,
+                      LISTS("\"" DRACO "\"") ",\"nodes\":[{\"mesh\":0}],\"accessors\":[{"
+                                             "\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\",\"min\":"
+                                             "[0,0,0],\"max\":[0,0,0]}],\"meshes\":[{\"primitives\":[",
+                      LARGE * LARGE);
+    for (size_t i = 0; i < VIEWS; i++) {
+        ffd_buffer_format(&b.views, "%s{\"buffer\":0,\"byteLength\":%zu}", i ? "," : "", size);
+        ffd_buffer_format(&rest,
+                          "%s{\"attributes\":{\"POSITION\":0},\"extensions\":{\"" DRACO
+                          "\":{\"bufferView\":%zu,\"attributes\":{}}}}",
+                          i ? "," : "", i);
+    }
+    ffd_buffer_text(&rest, "]}]");
+    char *const finished = ffd_buffer_finish(&rest), *const text = make_text(&b, "", finished);
+    mesh_document *document = NULL;
+    ffd_error error = {0};
+    assert_int_equal(
+        open_bytes(text, strlen(text), "t.gltf", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &document, &error),
+        FFD_E_LIMIT);
+    assert_string_equal(error.message, "the file's Draco data would be decoded too many times");
+    ffd_free(finished);
+    ffd_free(text);
+    free(bytes);
+}
+
 static void memory_failures_are_reported(void **state)
 {
     (void)state;
@@ -704,6 +768,7 @@ int main(void)
         cmocka_unit_test(meshopt_that_cannot_be_is_refused),
         cmocka_unit_test(compressed_data_is_compared_as_what_it_becomes),
         cmocka_unit_test(many_views_of_the_same_bytes_are_too_much),
+        cmocka_unit_test(the_same_draco_data_is_decoded_too_often),
         cmocka_unit_test(memory_failures_are_reported),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

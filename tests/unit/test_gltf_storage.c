@@ -7,9 +7,11 @@
 
 #include <cmocka.h>
 
+#include "../support/draw.h"
 #include "../support/gltf_file.h"
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_results.h"
 #include <math.h>
 #include <unistd.h>
 
@@ -116,6 +118,51 @@ static void only_what_changes_is_encoded(void **state)
     assert_memory_equal(element, "\0\0\x80\xbf\0\0\x80\xbf\0\0\x80\x3f\0\0\x80\xbf", 16);
 }
 
+/* Of so many vectors that groups of them and a rest are looked at. */
+static void bounds_are_those_of_all_vectors(void **state)
+{
+    (void)state;
+    enum { MOST = 30 };
+    draw d = {draw_seed()};
+    for (size_t count = 1; count <= MOST; count++) {
+        float xyz[3 * MOST], least[3] = {2, 2, 2}, largest[3] = {-2, -2, -2};
+        for (size_t i = 0; i < 3 * count; i++) {
+            xyz[i] = (float)draw_between(&d, -1, 1);
+            least[i % 3] = fminf(least[i % 3], xyz[i]);
+            largest[i % 3] = fmaxf(largest[i % 3], xyz[i]);
+        }
+        const gltf_tile_bounds found = ffd_gltf_find_bounds(xyz, count);
+        assert_memory_equal(found.least, least, sizeof least);
+        assert_memory_equal(found.largest, largest, sizeof largest);
+    }
+}
+
+/* Elements are read a part at a time: one that a sparse accessor has behind the part is not written. */
+static void a_sparse_element_behind_the_part(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":28,\"uri\":"
+        "\"data:;base64,AQAAAAAAgD8AAABAAABAQAAAAAAAAAAAAAAAAA==\"}],\"bufferViews\":["
+        "{\"buffer\":0,\"byteLength\":4},{\"buffer\":0,\"byteOffset\":4,\"byteLength\":12}],"
+        "\"accessors\":[{\"componentType\":5126,\"count\":2,\"type\":\"VEC3\",\"sparse\":{\"count\":1,"
+        "\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":1}},"
+        "\"min\":[0,0,0],\"max\":[1,2,3]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+        "\"nodes\":[{\"mesh\":0}]}";
+    mesh_document *document = NULL;
+    ffd_error error;
+    double xyz[6] = {7, 7, 7, 7, 7, 7};
+    if (open_bytes(text, sizeof text - 1, "t.gltf", FFD_FORMAT_GLTF, FFD_SPACE_SCENE, &document, &error))
+        fail_msg("%s", error.message);
+    gltf->read_positions(document, 0, 0, 1, xyz);
+    for (int i = 0; i < 6; i++)
+        assert_true(xyz[i] == (i < 3 ? 0 : 7));
+    gltf->read_positions(document, 0, 1, 1, xyz);
+    for (int i = 0; i < 6; i++)
+        assert_true(xyz[i] == (i < 3 ? i + 1 : 7));
+    gltf->close(document);
+}
+
 /* A sparse accessor and zeros without a buffer for them; integers that become floats, whose extension goes.
  */
 static void memory_may_run_out_anywhere(void **state)
@@ -161,8 +208,9 @@ static void memory_may_run_out_anywhere(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_integer_comes_back),    cmocka_unit_test(halves_go_to_the_even_step),
-        cmocka_unit_test(what_does_not_fit_is_found),  cmocka_unit_test(only_what_changes_is_encoded),
+        cmocka_unit_test(every_integer_comes_back),        cmocka_unit_test(halves_go_to_the_even_step),
+        cmocka_unit_test(what_does_not_fit_is_found),      cmocka_unit_test(only_what_changes_is_encoded),
+        cmocka_unit_test(bounds_are_those_of_all_vectors), cmocka_unit_test(a_sparse_element_behind_the_part),
         cmocka_unit_test(memory_may_run_out_anywhere),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -201,6 +201,8 @@ static void test_other_knots(void **state)
     ffd_lattice *lattice = lattice_of_kinds(kind, degree, size);
     set_points(lattice, box_map);
     check_round_trip(lattice, "affine", &d, 100);
+    set_points(lattice, separable_map);
+    check_round_trip(lattice, "separable", &d, 100);
     set_points(lattice, warped_map);
     check_round_trip(lattice, "general", &d, 100);
     ffd_lattice_destroy(&lattice);

@@ -113,6 +113,38 @@ static void values_of_a_position_are_compared(void **state)
     }
 }
 
+/* A colour goes into bytes where it is what six digits say of one. */
+static void colours_that_bytes_hold(void **state)
+{
+    (void)state;
+    static const struct {
+        double value;
+        bool fits;
+    } cases[] = {{0, true},          {1, true},       {0.501961, true}, {0.498039, true}, {0.2, true},
+                 {0.2000025, false}, {0.2005, false}, {0.5, false},     {-0.001, false},  {1.001, false}};
+    for (size_t i = 0; i < COUNT(cases); i++) {
+        double colours[8] = {1, 1, 1, 1, 1, 1, cases[i].value, 1};
+        const mesh_model model = {.position_count = 2, .colours = colours};
+        if (ffd_model_colours_fit_bytes(&model) != cases[i].fits)
+            fail_msg("%g", cases[i].value);
+    }
+}
+
+/* Floats are too coarse where a mesh is far away for its size. */
+static void positions_that_floats_hold(void **state)
+{
+    (void)state;
+    for (int far = 0; far < 2; far++) {
+        mesh_model model = {0};
+        assert_int_equal(ffd_model_make_values(&model, 3, 0, 0, NULL), FFD_OK);
+        for (size_t i = 0; i < 9; i++)
+            model.positions[i] = (far ? 1000.3 : 60.3) + (double)(i / 3) / 2;
+        assert_int_equal(ffd_model_finish(&model, NULL), FFD_OK);
+        assert_int_equal(model.features & MODEL_HAS_FINE_POSITIONS, far ? MODEL_HAS_FINE_POSITIONS : 0);
+        ffd_model_free(&model);
+    }
+}
+
 static void losses_are_named_once(void **state)
 {
     (void)state;
@@ -248,6 +280,8 @@ int main(void)
         cmocka_unit_test(keys_are_numbered_in_order),
         cmocka_unit_test(elements_fall_where_they_belong),
         cmocka_unit_test(values_of_a_position_are_compared),
+        cmocka_unit_test(colours_that_bytes_hold),
+        cmocka_unit_test(positions_that_floats_hold),
         cmocka_unit_test(losses_are_named_once),
         cmocka_unit_test(memory_may_run_out_anywhere),
     };

@@ -301,14 +301,31 @@ static void test_memory_failures(void **state)
         use_with_failing_memory(off, &seeds[i]);
 }
 
+/* What a message shows of a long word ends with a whole character. */
+static void test_shown_words(void **state)
+{
+    (void)state;
+    char text[60];
+    for (size_t before = 30; before <= 40; before++) {
+        memset(text, 'x', before);
+        memcpy(text + before, "\xf0\x9f\x90\x84\xc3\xa4\xe2\x82\xac", 9);
+        memset(text + before + 9, 'x', 11);
+        const int shown = ffd_text_shown((text_word){text, text + before + 20});
+        assert_in_range(shown, 37, 40);
+        assert_true((text[shown] & 0xc0) != 0x80);
+    }
+    assert_int_equal(ffd_text_shown((text_word){text, text + 40}), 40);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_dialects),   cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_results),    cmocka_unit_test(test_normals_are_kept),
-        cmocka_unit_test(test_zero_signs), cmocka_unit_test(test_description),
-        cmocka_unit_test(test_compare),    cmocka_unit_test(test_truncations),
-        cmocka_unit_test(test_mutations),  cmocka_unit_test(test_memory_failures),
+        cmocka_unit_test(test_dialects),        cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_results),         cmocka_unit_test(test_normals_are_kept),
+        cmocka_unit_test(test_zero_signs),      cmocka_unit_test(test_description),
+        cmocka_unit_test(test_compare),         cmocka_unit_test(test_truncations),
+        cmocka_unit_test(test_shown_words),     cmocka_unit_test(test_mutations),
+        cmocka_unit_test(test_memory_failures),
     };
     return cmocka_run_group_tests(tests, NULL, remove_saved);
 }

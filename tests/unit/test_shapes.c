@@ -1,6 +1,6 @@
 /* Where the control points of boxes and cylinders stand, and what their volumes cover. */
 #include "base/memory/memory.h"
-#include "lattice/lattice.h"
+#include "lattice/border.h"
 #include "lattice/spec.h"
 #include <math.h>
 #include <setjmp.h>
@@ -243,6 +243,15 @@ static void check_tight(const ffd_lattice *lattice, double r0, double r1, const 
         fail_msg("%s: least outer radius %g, greatest inner %g", what, least, greatest);
 }
 
+/* Whether both ends are one surface, though they are computed from other control points: only rounding may
+   tell them apart. */
+static void check_seam(const ffd_lattice *lattice, const char *knots, turn range, const char *what)
+{
+    const bool meets = range.last - range.first == 360 && strcmp(knots, "\"closed\"") != 0;
+    if (knots[0] == '"' && ffd_lattice_is_seam(lattice, 1) != meets)
+        fail_msg("%s: %s", what, meets ? "the ends do not meet" : "the ends meet");
+}
+
 static void check_one_cylinder(int n, int degree, const char *knots, turn range, double r0)
 {
     char size[32], degrees[32], kinds[8192], rest[256];
@@ -258,6 +267,7 @@ static void check_one_cylinder(int n, int degree, const char *knots, turn range,
     snprintf(what, sizeof what, "%d points, degree %d, %.60s, %g to %g", n, degree, knots, range.first,
              range.last);
     check_cylinder(lattice, r0, 2, 5, range, what);
+    check_seam(lattice, knots, range, what);
     if (n < 12)
         check_tight(lattice, r0, 2, what);
     ffd_lattice_destroy(&lattice);

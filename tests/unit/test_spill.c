@@ -1,6 +1,7 @@
 /* test_spill.c - arrays that move into a file when they grow large. */
 #include "base/file/spill.h"
 #include "base/memory/memory.h"
+#include <fcntl.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -10,6 +11,7 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
+#include <unistd.h>
 
 #include <cmocka.h>
 
@@ -31,11 +33,21 @@ static unsigned char mark_of(size_t step)
     return (unsigned char)(17 * step + 1);
 }
 
+/* The number that the next file to be opened gets: a greater one than before tells of one that stays open. */
+static int next_descriptor(void)
+{
+    const int fd = open("/dev/null", O_RDONLY);
+    assert_true(fd >= 0);
+    close(fd);
+    return fd;
+}
+
 /* Grows in steps to three times the size of the least file; each step marks its ends. */
 static void grow_and_check(bool is_mapped)
 {
     spill_array array = {0};
     const size_t steps = 3 * (SPILL_FROM / STEP);
+    const int next = next_descriptor();
     for (size_t s = 0; s < steps; s++) {
         assert_true(ffd_spill_grow(&array, (s + 1) * STEP));
         unsigned char *data = array.data;
@@ -51,6 +63,7 @@ static void grow_and_check(bool is_mapped)
     }
     ffd_spill_free(&array);
     assert_null(array.data);
+    assert_int_equal(next_descriptor(), next);
 }
 
 static void large_arrays_stand_in_a_file(void **state)
