@@ -165,8 +165,9 @@ class Run:
             return done
         options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options}
         program = options.pop("program", FFD)
-        if not is_first:  # filling memory takes more time than all else; the driver has a way of its own
-            options.setdefault("env", {**os.environ, "MALLOC_PERTURB_": "0"})
+        if not is_first:  # filling memory and the search for leaks take more time than all else
+            options.setdefault("env", {**os.environ, "MALLOC_PERTURB_": "0",
+                                       "ASAN_OPTIONS": os.environ.get("ASAN_OPTIONS", "") + ":detect_leaks=0"})
         return subprocess.run([program, *arguments], cwd=self.folder, input=stdin, timeout=SECONDS, check=False, **options)
 
     def check_no_leftovers(self):

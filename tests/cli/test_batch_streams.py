@@ -87,10 +87,12 @@ def a_terminal_has_a_bar(run):
         count *= 2
     check(re.search(r"\[#*\.*\] \d+ jobs, 0 failed, \d+/s, .* left", shown), "no bar:", shown[:300])
     check(shown.split("\r")[-2].endswith("failed") or shown.rstrip().endswith("0 failed"), "the summary is not the last:", shown[-300:])
+    few = count // 3  # still several times as long as a bar waits for
+    run.write("m.jsonl", lines_of([job(i) for i in range(few)]))
     quiet = on_terminal(run, "batch", "m.jsonl", "-j", "2", "-q", "--force")
     equal(quiet, "", "--quiet on a terminal")
     # Not one where the output is no terminal.
-    done = batch(run, "m.jsonl", "--force", done=count)
+    done = batch(run, "m.jsonl", "--force", done=few)
     check(not any("\r" in line or "[#" in line for line in done.err), done.err)
 
 
