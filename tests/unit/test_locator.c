@@ -7,6 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "../support/under_valgrind.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cells.h"
 #include "embed/locator.h"
@@ -735,6 +736,7 @@ static void test_instruction_sets(void **state)
                  {steep_map, 3, 5},    {warped_map, 1, 6}, {warped_map, 5, 8}, {product_map, 2, 4},
                  {far_map, 3, 5},      {thin_map, 3, 6},   {box_map, 3, 5},    {sheared_map, 2, 4},
                  {mirrored_map, 4, 7}, {tiny_map, 3, 4}};
+    const size_t count = (size_t)repetitions(COUNT);
     static double points[3 * COUNT];
     static ffd_location one_by_one[COUNT], several[COUNT];
     draw d = {draw_seed()};
@@ -742,9 +744,9 @@ static void test_instruction_sets(void **state)
         ffd_lattice *lattice = clamped(kinds[i].degree, kinds[i].size);
         ffd_locator *locator;
         set_points(lattice, kinds[i].map);
-        draw_points(&d, lattice, COUNT, points);
+        draw_points(&d, lattice, count, points);
         assert_int_equal(ffd_locator_create_for(lattice, FFD_ISA_SCALAR, &locator, NULL), FFD_OK);
-        assert_int_equal(ffd_locator_find(locator, points, COUNT, one_by_one, NULL), FFD_OK);
+        assert_int_equal(ffd_locator_find(locator, points, count, one_by_one, NULL), FFD_OK);
         ffd_locator_destroy(&locator);
         for (ffd_isa isa = FFD_ISA_AUTO; isa <= FFD_ISA_AVX512; isa++) {
             if (!ffd_isa_available(isa))
@@ -753,9 +755,9 @@ static void test_instruction_sets(void **state)
             /* The first time bricks are made. The second time the lanes have other points. */
             for (size_t round = 0; round < 2; round++) {
                 assert_int_equal(
-                    ffd_locator_find(locator, points + 3 * round, COUNT - round, several + round, NULL),
+                    ffd_locator_find(locator, points + 3 * round, count - round, several + round, NULL),
                     FFD_OK);
-                for (size_t k = round; k < COUNT; k++)
+                for (size_t k = round; k < count; k++)
                     check_same(&several[k], &one_by_one[k], isa, points + 3 * k);
             }
             ffd_locator_destroy(&locator);

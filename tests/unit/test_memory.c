@@ -12,6 +12,7 @@
 
 #include "../support/failing_new.h"
 #include "../support/test_folder.h"
+#include "../support/under_valgrind.h"
 #include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <dirent.h>
@@ -235,16 +236,11 @@ static void memory_of_morph_targets(void **state)
     (void)state;
 }
 
-/* Valgrind, which loads itself before the program, puts an operator new of its own in the place of ours. */
-static bool is_under_valgrind(void)
-{
-    const char *loaded = getenv("LD_PRELOAD");
-    return loaded && strstr(loaded, "vgpreload");
-}
-
 /* Whatever C++ is called: for glTF and for topology. */
 static void memory_of_cpp(void **state)
 {
+    /* Valgrind, which loads itself before the program, puts an operator new of its own in the place of ours.
+     */
     if (is_under_valgrind())
         skip();
     size_t failures = 0;

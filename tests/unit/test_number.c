@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
+#include "../support/under_valgrind.h"
 #include "base/text/decimal.h"
 #include "base/text/number.h"
 #include <float.h>
@@ -192,7 +193,7 @@ static void test_shortest(void **state)
 {
     draw d = {draw_seed()};
     setlocale(LC_ALL, "C");
-    for (int i = 0; i < 300000; i++) {
+    for (int i = 0; i < repetitions(300000); i++) {
         char expected[400];
         int exponent;
         const double value = draw_coordinate(&d);
@@ -218,7 +219,7 @@ static void test_read(void **state)
 {
     draw d = {draw_seed()};
     setlocale(LC_ALL, "C");
-    for (int i = 0; i < 300000; i++) {
+    for (int i = 0; i < repetitions(300000); i++) {
         char text[80] = "-", *end;
         size_t size = (size_t)draw_int(&d, 0, 1);
         size += draw_digits(&d, 22, text + size);
