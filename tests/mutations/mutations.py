@@ -271,8 +271,8 @@ m("meshopt-triangles", "check left out", "meshopt, gltf_packed", "view->mode == 
 m("glb-newer-version", "error code", "gltf, cli_broken_gltf",
   "if (version != GLB_VERSION) return ffd_fail_file(error, FFD_E_UNSUPPORTED,",
   "if (version != GLB_VERSION)\n        return ffd_fail_file(error, FFD_E_INVALID,")
-m("view-stride", "limit", "gltf, cli_broken_gltf, broken_gltf", "number >= 4 && number <= 252 && fmod(number, 4) <= 0",
-  "number >= 4 && number <= 256 && fmod(number, 4) <= 0")
+m("primitive-mode", "limit", "cli_broken_gltf, gltf", "return known && number <= 6 ? FFD_OK",
+  "return known && number <= 7 ? FFD_OK")
 m("files-of-buffers", "operation", "hash_cache, cli_batch_resume, cli_pipeline",
   "if (d->buffers[i].kind != BUFFER_FILE) continue; char *path = ffd_path_beside(d->path, d->buffers[i].path);",
   "if (d->buffers[i].kind != BUFFER_FILE || i == 0)\n            continue;\n"
