@@ -73,7 +73,9 @@ m("ties-of-decimals", "rounding", "number",
 m("too-large-a-number", "bound", "number", "return exponent + point - leading > 0;",
   "return exponent + point - leading > 400;")
 m("sine-of-45", "rounding", "trig", "if (size == 45)", "if (size == 46)")
-m("utf8-surrogates", "check left out", "base", "(first == 0xed && c[1] > 0x9f)", "(first == 0xed && c[1] > 0xbf)")
+m("utf8-surrogates", "check left out", "base, json_span", "(first == 0xed && c[1] > 0x9f)",
+  "(first == 0xed && c[1] > 0xbf)",
+  "*code > 0x10ffff || (*code >= 0xd800 && *code <= 0xdfff)", "*code > 0x10ffff")
 m("null-for-infinity", "format", "base", "if (isfinite(value)) ffd_buffer_number(json->out, value);",
   "if (!isnan(value))\n        ffd_buffer_number(json->out, value);")
 
@@ -261,7 +263,9 @@ m("json-depth", "limit", "json_span, gltf, replay gltf", "if (++*depth > JSON_SP
   "if (++*depth > 2 * JSON_SPAN_DEPTH)")
 m("json-equal-keys", "off by one", "json_span, gltf",
   "for (size_t i = 1; i < count && status == FFD_OK; i++) if (compare_members(",
-  "for (size_t i = 2; i < count && status == FFD_OK; i++)\n        if (compare_members(")
+  "for (size_t i = 2; i < count && status == FFD_OK; i++)\n        if (compare_members(",
+  "for (size_t i = 1; i < count && status == FFD_OK; i++) if (ffd_json_span_compare_keys(",
+  "for (size_t i = 2; i < count && status == FFD_OK; i++)\n        if (ffd_json_span_compare_keys(")
 m("draco-clash", "check left out", "gltf_packed, draco, gltf",
   "unpacked->size != size || memcmp(unpacked->bytes, bytes, size) != 0", "unpacked->size != size")
 m("draco-too-often", "limit", "gltf_packed, draco", "#define MOST_DECODED_A_BYTE 0.25",
