@@ -73,7 +73,9 @@ m("ties-of-decimals", "rounding", "number",
 m("too-large-a-number", "bound", "number", "return exponent + point - leading > 0;",
   "return exponent + point - leading > 400;")
 m("sine-of-45", "rounding", "trig", "if (size == 45)", "if (size == 46)")
-m("utf8-surrogates", "check left out", "base", "(first == 0xed && c[1] > 0x9f)", "(first == 0xed && c[1] > 0xbf)")
+m("utf8-surrogates", "check left out", "base, json_span", "(first == 0xed && c[1] > 0x9f)",
+  "(first == 0xed && c[1] > 0xbf)",
+  "*code > 0x10ffff || (*code >= 0xd800 && *code <= 0xdfff)", "*code > 0x10ffff")
 m("null-for-infinity", "format", "base", "if (isfinite(value)) ffd_buffer_number(json->out, value);",
   "if (!isnan(value))\n        ffd_buffer_number(json->out, value);")
 
@@ -261,7 +263,9 @@ m("json-depth", "limit", "json_span, gltf, replay gltf", "if (++*depth > JSON_SP
   "if (++*depth > 2 * JSON_SPAN_DEPTH)")
 m("json-equal-keys", "off by one", "json_span, gltf",
   "for (size_t i = 1; i < count && status == FFD_OK; i++) if (compare_members(",
-  "for (size_t i = 2; i < count && status == FFD_OK; i++)\n        if (compare_members(")
+  "for (size_t i = 2; i < count && status == FFD_OK; i++)\n        if (compare_members(",
+  "for (size_t i = 1; i < count && status == FFD_OK; i++) if (ffd_json_span_compare_keys(",
+  "for (size_t i = 2; i < count && status == FFD_OK; i++)\n        if (ffd_json_span_compare_keys(")
 m("draco-clash", "check left out", "gltf_packed, draco, gltf",
   "unpacked->size != size || memcmp(unpacked->bytes, bytes, size) != 0", "unpacked->size != size")
 m("draco-too-often", "limit", "gltf_packed, draco", "#define MOST_DECODED_A_BYTE 0.25",
@@ -271,8 +275,8 @@ m("meshopt-triangles", "check left out", "meshopt, gltf_packed", "view->mode == 
 m("glb-newer-version", "error code", "gltf, cli_broken_gltf",
   "if (version != GLB_VERSION) return ffd_fail_file(error, FFD_E_UNSUPPORTED,",
   "if (version != GLB_VERSION)\n        return ffd_fail_file(error, FFD_E_INVALID,")
-m("view-stride", "limit", "gltf, cli_broken_gltf, broken_gltf", "number >= 4 && number <= 252 && fmod(number, 4) <= 0",
-  "number >= 4 && number <= 256 && fmod(number, 4) <= 0")
+m("primitive-mode", "limit", "cli_broken_gltf, gltf", "return known && number <= 6 ? FFD_OK",
+  "return known && number <= 7 ? FFD_OK")
 m("files-of-buffers", "operation", "hash_cache, cli_batch_resume, cli_pipeline",
   "if (d->buffers[i].kind != BUFFER_FILE) continue; char *path = ffd_path_beside(d->path, d->buffers[i].path);",
   "if (d->buffers[i].kind != BUFFER_FILE || i == 0)\n            continue;\n"
