@@ -1,4 +1,5 @@
 #include "batch/csv.h"
+#include "json/json_chars.h"
 #include <string.h>
 
 /* Reads a quoted cell from the quote at text[i]. Returns the index after its closing quote; 0 if there is
@@ -62,6 +63,17 @@ bool ffd_csv_split(const char *text, size_t size, csv_row *row)
         if (i >= size)
             return true;
     }
+}
+
+bool ffd_csv_is_text(const csv_row *row)
+{
+    const char *cell = NULL;
+    for (size_t i = 0; i < row->count; i++) {
+        cell = ffd_csv_next(row, cell);
+        if (!ffd_utf8_is_valid(cell, strlen(cell)))
+            return false;
+    }
+    return true;
 }
 
 const char *ffd_csv_next(const csv_row *row, const char *cell)

@@ -23,8 +23,11 @@ bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size);
 /* Splits a complete row. False if a quote is in the middle of a cell, or the cell goes on after its closing
    quote. */
 bool ffd_csv_split(const char *text, size_t size, csv_row *row);
+/* Whether all cells are UTF-8. */
+bool ffd_csv_is_text(const csv_row *row);
 /* The cell after this one; the first for NULL. */
 const char *ffd_csv_next(const csv_row *row, const char *cell);
+/* Leaves an empty row. */
 void ffd_csv_free(csv_row *row);
 
 #endif

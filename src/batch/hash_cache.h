@@ -35,6 +35,7 @@ ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ff
 ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error);
 /* Adds the images beside it that it shows, there or not. */
 ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error);
+/* Leaves an empty cache. */
 void ffd_cache_free(hash_cache *cache);
 
 #endif

@@ -41,6 +41,7 @@ const char *ffd_description_value(const job_description *description, const job_
 const char *ffd_description_find(const job_description *description, job_part part);
 /* What is wrong with a member; NULL: nothing. */
 const char *ffd_description_wrong(const job_description *description, const char *name);
+/* Leaves an empty description. */
 void ffd_description_free(job_description *description);
 
 #endif

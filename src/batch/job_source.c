@@ -4,11 +4,9 @@
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "batch/csv.h"
+#include "batch/job_rows.h"
 #include "batch/lines.h"
 #include "batch/manifest.h"
-#include "json/json_chars.h"
-#include "json/json_parse.h"
-#include "json/json_setting.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -99,91 +97,10 @@ static ffd_status next_row(job_source *source, csv_row *row, line_state *state, 
     return row->text.failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
-/* Whether all cells are UTF-8. */
-static bool is_text(const csv_row *row)
-{
-    const char *cell = NULL;
-    for (size_t i = 0; i < row->count; i++) {
-        cell = ffd_csv_next(row, cell);
-        if (!ffd_utf8_is_valid(cell, strlen(cell)))
-            return false;
-    }
-    return true;
-}
-
-/* Sets a placeholder to a cell. */
-static void set_cell(job_description *job, const char *column, const char *cell)
-{
-    json_setting value;
-    if (ffd_json_setting_parse(cell, JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS, &value))
-        job->texts.failed = true;
-    else
-        ffd_description_set(job, column, &value.tree, 0);
-    ffd_json_setting_free(&value);
-}
-
-/* Adds a path, which is relative to folder ("": to the current one). */
-static void add_path(job_description *job, job_part part, const char *folder, const char *path)
-{
-    if (!*folder || ffd_path_is_absolute(path)) {
-        ffd_description_add(job, part, NULL, path);
-        return;
-    }
-    char *const joined = ffd_path_join(folder, path);
-    if (joined)
-        ffd_description_add(job, part, NULL, joined);
-    else
-        job->texts.failed = true;
-    ffd_free(joined);
-}
-
-static void add_lattices(job_description *job, const job_source_desc *desc)
-{
-    for (size_t i = 0; i < desc->lattice_count; i++)
-        ffd_description_add(job, JOB_LATTICE, NULL, desc->lattices[i]);
-}
-
-/* In the folder of outputs, the output has the name of the input. */
-static void add_output(job_description *job, const char *folder, const char *input)
-{
-    char *const name = ffd_text_copy(ffd_path_name(input));
-    if (name)
-        add_path(job, JOB_OUTPUT, folder, name);
-    else
-        job->texts.failed = true;
-    ffd_free(name);
-}
-
-/* "in", "out", "lattice" are files, other columns values of placeholders. Relative paths start at the table's
-   folder, those of outputs at the batch's. */
-static void describe_cell(const job_source *source, const char *column, const char *cell,
-                          job_description *job)
-{
-    const char *const out_dir = source->desc.out_dir;
-    if (strcmp(column, "in") != 0 && strcmp(column, "out") != 0 && strcmp(column, "lattice") != 0)
-        set_cell(job, column, cell);
-    else if (*cell && *column == 'o')
-        add_path(job, JOB_OUTPUT, out_dir ? out_dir : source->folder, cell);
-    else if (*cell)
-        add_path(job, *column == 'i' ? JOB_INPUT : JOB_LATTICE, source->folder, cell);
-}
-
-static void describe_row(const job_source *source, job_description *job)
+static job_commons list_commons(const job_source *source)
 {
     const job_source_desc *const desc = &source->desc;
-    const char *column = NULL, *cell = NULL;
-    for (size_t i = 0; i < source->row.count; i++) {
-        column = ffd_csv_next(&source->columns, column);
-        cell = ffd_csv_next(&source->row, cell);
-        describe_cell(source, column, cell, job);
-    }
-    if (desc->pattern && !ffd_description_find(job, JOB_INPUT))
-        ffd_description_add(job, JOB_INPUT, NULL, desc->pattern);
-    const char *const input = ffd_description_find(job, JOB_INPUT);
-    if (desc->out_dir && input && !ffd_description_find(job, JOB_OUTPUT))
-        add_output(job, desc->out_dir, input);
-    if (!ffd_description_find(job, JOB_LATTICE))
-        add_lattices(job, desc);
+    return (job_commons){source->folder, desc->out_dir, desc->pattern, desc->lattices, desc->lattice_count};
 }
 
 /* Fails the job of a row; returns false. */
@@ -212,7 +129,7 @@ static bool check_row(const job_source *source, bool valid, batch_job *job)
     if (source->row.count != source->columns.count)
         return refuse_row(source, job, "the row has %zu cells, but the table has %zu columns",
                           source->row.count, source->columns.count);
-    return is_text(&source->row) || refuse_row(source, job, "a cell is not text in UTF-8");
+    return ffd_csv_is_text(&source->row) || refuse_row(source, job, "a cell is not text in UTF-8");
 }
 
 static ffd_status read_row(job_source *source, bool valid, batch_job *job)
@@ -220,7 +137,8 @@ static ffd_status read_row(job_source *source, bool valid, batch_job *job)
     job_description description = {0};
     if (!check_row(source, valid, job))
         return FFD_OK;
-    describe_row(source, &description);
+    const job_commons commons = list_commons(source);
+    ffd_describe_row(&commons, &source->columns, &source->row, &description);
     const ffd_status status = ffd_job_make(&source->frame, &description, job);
     ffd_description_free(&description);
     return status;
@@ -230,7 +148,7 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
 {
     const csv_row *const columns = &source->columns;
     const char *name = NULL;
-    if (!is_text(columns))
+    if (!ffd_csv_is_text(columns))
         return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
                              "the name of a column is not text in UTF-8");
     for (size_t i = 0; i < columns->count; i++) {
@@ -270,12 +188,9 @@ static ffd_status read_columns(job_source *source, ffd_error *error)
 
 static ffd_status read_file(const job_source *source, const char *path, batch_job *job)
 {
-    const job_source_desc *const desc = &source->desc;
+    const job_commons commons = list_commons(source);
     job_description description = {0};
-    ffd_description_add(&description, JOB_INPUT, NULL, path);
-    if (desc->out_dir)
-        add_path(&description, JOB_OUTPUT, desc->out_dir, ffd_path_name(path));
-    add_lattices(&description, desc);
+    ffd_describe_file(&commons, path, &description);
     const ffd_status status = ffd_job_make(&source->frame, &description, job);
     ffd_description_free(&description);
     return status;

@@ -31,6 +31,7 @@ ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, 
 double ffd_jobs_fraction(const job_source *source);
 /* The name of the manifest, table or pattern, for messages. */
 const char *ffd_jobs_name(const job_source *source);
+/* Sets *source to NULL; it may be NULL before. */
 void ffd_jobs_close(job_source **source);
 
 #endif

@@ -39,6 +39,7 @@ typedef struct batch_job {
 ffd_status ffd_job_make(const batch_frame *frame, const job_description *description, batch_job *job);
 /* What its output is called: NULL where it has none. */
 const char *ffd_job_output_name(const batch_job *job);
+/* Leaves an empty job. */
 void ffd_job_free(batch_job *job);
 
 #endif

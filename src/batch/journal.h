@@ -17,6 +17,7 @@ ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *
 bool ffd_journal_find(job_journal *journal, const char *target, job_record *record);
 /* Remembers it. False where that failed: what was known may then be forgotten. */
 bool ffd_journal_put(job_journal *journal, const char *target, const job_record *record);
+/* Sets *journal to NULL; it may be NULL before. */
 void ffd_journal_close(job_journal **journal);
 
 /* The default path of a batch's journal: in the user's cache (XDG_CACHE_HOME or ~/.cache; LOCALAPPDATA),

@@ -29,6 +29,7 @@ typedef enum line_state {
 /* Reads the next line, as far as it has come. append: to what is there, after a line break. Errors:
    FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_lines_next(line_reader *reader, bool append, line_state *state, ffd_error *error);
+/* Closes the file, and frees the line. */
 void ffd_lines_close(line_reader *reader);
 
 #endif

@@ -34,6 +34,8 @@ typedef struct pool_task {
 
 typedef struct worker_pool worker_pool;
 
+/* Makes a pool without workers: they are started when there are tasks. desc's texts must outlive it. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error);
 /* Gives waiting tasks, which are listed in their order with gaps (NULL), to idle workers. Errors: no worker
    can be started. */
@@ -44,8 +46,10 @@ void ffd_pool_wait(worker_pool *pool, double seconds);
 size_t ffd_pool_running(const worker_pool *pool);
 /* Lets running tasks come to their end for a moment; then ends them, as failures. */
 void ffd_pool_stop(worker_pool *pool);
+/* Ends the workers. Sets *pool to NULL; it may be NULL before. */
 void ffd_pool_destroy(worker_pool **pool);
 
+/* Frees a task with its job and texts. */
 void ffd_task_free(pool_task *task);
 
 #endif

@@ -16,6 +16,7 @@ typedef struct batch_progress {
     double begin, last;
 } batch_progress;
 
+/* Starts the clock. quiet: nothing but the lines of ffd_progress_print is written. */
 void ffd_progress_begin(batch_progress *progress, bool quiet);
 /* fraction: of all jobs, negative where it is not known. Writes where it is time to. */
 void ffd_progress_show(batch_progress *progress, const batch_counts *counts, double fraction);

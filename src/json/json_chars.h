@@ -8,6 +8,7 @@
 
 /* Reads the UTF-8 character at c (c < last). Returns the position after it; NULL if it is not valid. */
 const char *ffd_utf8_read(const char *c, const char *last, uint32_t *code);
+/* Whether all of a text is UTF-8. */
 bool ffd_utf8_is_valid(const char *text, size_t size);
 /* Writes a character as UTF-8; returns its 1 to 4 bytes. */
 size_t ffd_utf8_write(uint32_t code, char bytes[4]);

@@ -24,8 +24,10 @@ typedef struct json_edits {
 
 /* The spans of one list must not overlap; at one offset, texts are inserted in the order of the calls. */
 void ffd_edits_replace(json_edits *edits, uint32_t begin, uint32_t end, const char *text, size_t size);
+/* Replaces a span by formatted text, of less than 256 bytes. */
 void ffd_edits_format(json_edits *edits, uint32_t begin, uint32_t end, const char *format, ...)
     FFD_PRINTF(4, 5);
+/* Replaces a span by the base64 of a buffer's new content. */
 void ffd_edits_buffer(json_edits *edits, uint32_t begin, uint32_t end, int buffer);
 
 /* Takes members of an object (or elements of an array) out, with the commas that go; once a container. */
@@ -38,7 +40,9 @@ void ffd_edits_sort(json_edits *edits);
 void ffd_edits_apply(const json_edits *edits, const char *text, uint32_t begin, uint32_t end,
                      byte_buffer *out);
 
+/* Whether memory ran out. */
 bool ffd_edits_failed(const json_edits *edits);
+/* Leaves an empty list. */
 void ffd_edits_free(json_edits *edits);
 
 #endif

@@ -35,11 +35,13 @@ json_cursor ffd_cursor_member(json_cursor object, const char *key);
 json_cursor ffd_cursor_first(json_cursor container);
 json_cursor ffd_cursor_next(json_cursor element);
 
+/* Whether there is a value. */
 static inline bool ffd_cursor_exists(json_cursor cursor)
 {
     return cursor.value != JSON_NONE;
 }
 
+/* Whether there is a value of this kind. */
 static inline bool ffd_cursor_is(json_cursor cursor, json_kind kind)
 {
     return cursor.value != JSON_NONE && cursor.tree->values[cursor.value].kind == kind;
@@ -63,6 +65,7 @@ typedef struct json_words {
     char text[96];
 } json_words;
 
+/* Describes the value, cut where it is long. */
 json_words ffd_json_describe(json_cursor cursor);
 
 /* Each reads the value at the cursor, or fails there. */
@@ -71,6 +74,7 @@ json_words ffd_json_describe(json_cursor cursor);
 ffd_status ffd_json_read_object(json_cursor cursor, const char *const *known, size_t count);
 /* An array of count elements; what: they are called in messages. */
 ffd_status ffd_json_read_array(json_cursor cursor, size_t count, const char *what);
+/* A number. */
 ffd_status ffd_json_read_double(json_cursor cursor, double *number);
 /* A whole number, exact: at most 2^53. */
 ffd_status ffd_json_read_integer(json_cursor cursor, double *number);

@@ -14,6 +14,7 @@ typedef struct json_setting {
 /* Parses a text, which must outlive the setting, by rules of json_parse.h. What breaks them is a text too.
    Errors: FFD_E_INVALID where it is neither JSON nor UTF-8, FFD_E_MEMORY. */
 ffd_status ffd_json_setting_parse(const char *text, unsigned rules, json_setting *setting);
+/* Leaves an empty setting. */
 void ffd_json_setting_free(json_setting *setting);
 
 #endif

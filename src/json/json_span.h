@@ -38,6 +38,7 @@ typedef struct json_span {
     size_t count, capacity;
 } json_span;
 
+/* Leaves an empty tree. */
 void ffd_json_span_free(json_span *tree);
 
 /* The member of an object; JSON_NONE where there is none, or where object is JSON_NONE or no object. */

@@ -21,19 +21,27 @@ typedef struct json_text {
     bool empty[FFD_JSON_DEPTH];
 } json_text;
 
+/* Starts a text at the end of out. */
 void ffd_json_begin(json_text *json, byte_buffer *out);
-/* key is NULL in an array and at the top. */
+/* Each of the following appends a member with this key, or an element or the top (key NULL). */
+
+/* Opens an object or array, whose members follow. */
 void ffd_json_object(json_text *json, const char *key, bool on_one_line);
 void ffd_json_array(json_text *json, const char *key, bool on_one_line);
-void ffd_json_end(json_text *json, char bracket);                          /* '}' or ']' */
-void ffd_json_string(json_text *json, const char *key, const char *value); /* NULL gives null */
-void ffd_json_number(json_text *json, const char *key, double value);      /* not finite gives null */
+/* Closes it by '}' or ']'; the top with a line break. */
+void ffd_json_end(json_text *json, char bracket);
+/* NULL gives null; bytes that are not UTF-8 become the replacement character. */
+void ffd_json_string(json_text *json, const char *key, const char *value);
+/* A number that is not finite gives null. */
+void ffd_json_number(json_text *json, const char *key, double value);
 void ffd_json_count(json_text *json, const char *key, uint64_t value);
+/* Several members at once. */
 void ffd_json_counts(json_text *json, const json_count *members, size_t count);
 void ffd_json_bool(json_text *json, const char *key, bool value);
 void ffd_json_null(json_text *json, const char *key);
 /* A value that is JSON already, with its line breaks. */
 void ffd_json_raw(json_text *json, const char *key, const char *text, size_t size);
-void ffd_json_vector(json_text *json, const char *key, const double *values, size_t count); /* on one line */
+/* An array of numbers on one line. */
+void ffd_json_vector(json_text *json, const char *key, const double *values, size_t count);
 
 #endif

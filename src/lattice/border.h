@@ -13,6 +13,7 @@ typedef struct border_face {
     double value[MAX_ORDER]; /* the direction's basis functions at that end */
 } border_face;
 
+/* Fills *face for one end of a direction, which must not be closed. */
 void ffd_border_face(const ffd_lattice *lattice, ffd_volume volume, int direction, int end,
                      border_face *face);
 

@@ -19,6 +19,7 @@ typedef struct spec_values {
    reading; free them after a failure too. Errors: FFD_E_INVALID for a placeholder without a value,
    FFD_E_MEMORY. */
 ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, spec_values *values);
+/* Leaves them empty. */
 void ffd_spec_values_free(spec_values *values);
 
 #endif

@@ -24,6 +24,7 @@ typedef struct span_scheme {
     double factors[MAX_DEGREE]; /* d / (t_{i+d} - t_i) of the derivatives, by the knots' own parameter */
 } span_scheme;
 
+/* Makes the scheme of a non-empty span. */
 void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme);
 /* ffd_basis_derivatives_in by reciprocals, within a few roundings of it: at a knot a function may miss 0 or 1
    by one. */
