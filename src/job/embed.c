@@ -108,7 +108,7 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
 /* Fills in the arrays. */
 static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
 {
-    made->count = (size_t)ffd_pass_vertex_count(made->document);
+    made->count = (size_t)ffd_mesh_vertex_count(made->document);
     mesh_room room = made->document->room;
     const ffd_status status =
         ffd_room_take(&room, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error);

@@ -27,7 +27,7 @@ static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *d
     ffd_status status = ffd_source_open(mesh, 0, &document, error);
     if (status != FFD_OK)
         return status;
-    const uint64_t count = ffd_pass_vertex_count(document);
+    const uint64_t count = ffd_mesh_vertex_count(document);
     double *xyz = NULL;
     status = ffd_mesh_check(document, error);
     if (status == FFD_OK && document->format->check_reach)

@@ -258,6 +258,10 @@ static inline ffd_status ffd_mesh_check(const mesh_document *document, ffd_error
     return format->check ? format->check(document, error) : FFD_OK;
 }
 
+/* The number of the document's vertices, in the order of `ffd embed`: parts that repeat positions do not
+   count. */
+uint64_t ffd_mesh_vertex_count(const mesh_document *document);
+
 /* The number of each part's first vertex in the document; of a part that repeats positions it is that of the
    part which it repeats. *first is the caller's to free, NULL after a failure. Errors: FFD_E_MEMORY. */
 ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error);

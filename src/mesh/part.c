@@ -29,6 +29,15 @@ void ffd_part_place(const mesh_document *document, size_t part, size_t first, si
         ffd_point_place(p->linear, p->offset, points + 3 * i);
 }
 
+uint64_t ffd_mesh_vertex_count(const mesh_document *document)
+{
+    uint64_t count = 0;
+    for (size_t i = 0; i < document->part_count; i++)
+        if (!document->parts[i].repeats_positions)
+            count += document->parts[i].vertex_count;
+    return count;
+}
+
 ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_error *error)
 {
     size_t number = 0;

@@ -286,7 +286,7 @@ static double *deformed_positions(const trial *of, const uint8_t *data, size_t s
                            NULL, &chain, &error) == FFD_OK &&
                 ffd_chain_place(&chain, document, 1, &error) == FFD_OK,
             "no lattice");
-    double *const deformed = malloc((size_t)ffd_pass_vertex_count(document) * 3 * sizeof *deformed + 1);
+    double *const deformed = malloc((size_t)ffd_mesh_vertex_count(document) * 3 * sizeof *deformed + 1);
     const mesh_pass pass = {
         .document = document, .chain = &chain, .links = 1, .threads = 1, .deformed = deformed};
     PROMISE(deformed && ffd_pass_run(&pass, &totals, &error) == FFD_OK, "no pass");

@@ -279,7 +279,7 @@ static void test_arrays(void **state)
     outcome *made = run(&chain, NULL, 2);
     double least = HUGE_VAL, most = -HUGE_VAL;
     size_t inside = 0;
-    assert_int_equal(ffd_pass_vertex_count(&mesh->head), NUMBERED);
+    assert_int_equal(ffd_mesh_vertex_count(&mesh->head), NUMBERED);
     for (size_t i = 0; i < NUMBERED; i++) {
         double p[3], delta[3] = {0}, gradient[9] = {0};
         ffd_location found;

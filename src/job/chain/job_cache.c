@@ -380,7 +380,7 @@ ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, boo
         *filled = true;
         return share->locations;
     }
-    const uint64_t count = ffd_pass_vertex_count(document);
+    const uint64_t count = ffd_mesh_vertex_count(document);
     share->is_located = false;
     share->located = *rest;
     if (taken && share->locations)

@@ -27,7 +27,7 @@ static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, 
 static ffd_status take_room(const deform_job *job, const mesh_faces *faces, mesh_room *room, ffd_error *error)
 {
     const size_t corners = faces->start[faces->face_count];
-    ffd_status status = ffd_room_take(room, ffd_pass_vertex_count(job->document), ARRAY_BYTES, error);
+    ffd_status status = ffd_room_take(room, ffd_mesh_vertex_count(job->document), ARRAY_BYTES, error);
     if (status == FFD_OK)
         status = ffd_mesh_faces_take(faces, corners, room, error);
     if (status == FFD_OK && job->recomputes)
@@ -63,7 +63,7 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
 
 ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
-    const size_t count = (size_t)ffd_pass_vertex_count(job->document);
+    const size_t count = (size_t)ffd_mesh_vertex_count(job->document);
     const ffd_status status = read_faces(job, arrays, error);
     if (status || !arrays->has_faces)
         return status;

@@ -347,15 +347,6 @@ static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *erro
     return FFD_OK;
 }
 
-uint64_t ffd_pass_vertex_count(const mesh_document *document)
-{
-    uint64_t count = 0;
-    for (size_t i = 0; i < document->part_count; i++)
-        if (!document->parts[i].repeats_positions)
-            count += document->parts[i].vertex_count;
-    return count;
-}
-
 int ffd_pass_threads(const mesh_room *room, size_t edge_links, int threads)
 {
     return ffd_room_threads(room, threads, THREAD_BYTES + edge_links * THREAD_LINK_BYTES);

@@ -43,6 +43,8 @@ typedef struct mesh_pass {
     bool write;        /* hand positions back to the document (after begin_results) */
     bool attributes;   /* and normals and tangents */
     bool only_offsets; /* with attributes: only those of morph targets; the base's are not handed back */
+    /* Arrays of vertices are in the order of `ffd embed` (ffd_mesh_vertex_count), as mesh_faces counts them.
+     */
     double *uvw;       /* 3 a vertex, or NULL: u,v,w in the last link, NaN where there is none */
     uint8_t *statuses; /* one a vertex, or NULL */
     double *deformed;  /* 3 a vertex, or NULL: where the chain brings it, in the lattice's space, unrounded;
@@ -51,10 +53,6 @@ typedef struct mesh_pass {
                           NaN likewise */
     bool determinants; /* the totals are to have the range of det F */
 } mesh_pass;
-
-/* Vertices of the document in the order of `ffd embed`, which is that of all arrays above and of mesh_faces:
-   parts that repeat positions do not count. */
-uint64_t ffd_pass_vertex_count(const mesh_document *document);
 
 /* What a thread of a pass may take, and of what looks at edges after it (quality.h): the latter for each
    lattice too. */
