@@ -2,6 +2,7 @@
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "base/vector/isa.h"
+#include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"

@@ -4,6 +4,7 @@
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "io/npy/npy.h"
+#include "job/chain/chain_load.h"
 #include "job/input/embedding_file.h"
 #include "job/input/source.h"
 #include "job/pass/placement.h"

@@ -3,6 +3,7 @@
 #include "base/vector/vec.h"
 #include "io/formats.h"
 #include "io/gltf/document/gltf_document.h"
+#include "job/chain/chain_load.h"
 #include "job/deform_job.h"
 #include "job/info.h"
 #include "job/input/source.h"

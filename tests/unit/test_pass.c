@@ -8,6 +8,7 @@
 
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "job/chain/chain_load.h"
 #include "job/input/embedding_file.h"
 #include "job/pass/pass.h"
 #include "job/pass/vertex_transform.h"

@@ -8,6 +8,7 @@
 
 #include "../support/test_folder.h"
 #include "embed/cells/cells.h"
+#include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
 #include "job/deform_job.h"
 #include "job/input/source.h"

@@ -43,22 +43,8 @@ typedef struct lattice_chain {
     ffd_share *share; /* with jobs before and after, or NULL */
 } lattice_chain;
 
-/* The lattice files of a chain, with the values of their placeholders. */
-typedef struct chain_files {
-    const char *const *paths; /* count */
-    size_t count;
-    const ffd_setting *set; /* set_count, or NULL */
-    size_t set_count;
-} chain_files;
-
-/* Makes a chain of these lattice files. share may be NULL; else it must outlive the chain, and gets what the
-   chain made by ffd_share_keep_chain. */
-ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
-                          ffd_share *share, lattice_chain *chain, ffd_error *error);
+/* Frees what the chain owns: what is lent stays. Leaves an empty chain. */
 void ffd_chain_free(lattice_chain *chain);
-
-/* Makes what a link whose lattice has its place searches with. */
-ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error);
 
 /* Beyond it a link, whose lattice has its place, moves nothing: the bounds of the control points hold the
    volume, and what is extended goes on from there. */

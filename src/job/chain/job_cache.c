@@ -3,7 +3,6 @@
 #include "base/memory/memory.h"
 #include "embed/locator.h"
 #include "job/input/source.h"
-#include "job/pass/pass.h"
 #include <string.h>
 
 /* A lattice, owned: of a file, or because a locator looks at it. */

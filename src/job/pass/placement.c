@@ -1,4 +1,5 @@
 #include "job/pass/placement.h"
+#include "job/chain/chain_load.h"
 #include "job/chain/coverage.h"
 #include "job/input/source.h"
 #include "lattice/lattice.h"
