@@ -3,10 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const cli_command *const cli_commands[] = {&cli_deform,      &cli_batch,        &cli_check,
-                                           &cli_embed,       &cli_compare,      &cli_info,
-                                           &cli_lattice_new, &cli_report_merge, NULL};
-
 void cli_print_help(const cli_command *command)
 {
     printf("%s\n\n%s\nOptions:\n", command->summary, command->synopsis);

@@ -1,4 +1,4 @@
-/* command.h - the table of commands. */
+/* command.h - what a command is, and what all commands do alike. */
 #ifndef FFD_CLI_COMMAND_H
 #define FFD_CLI_COMMAND_H
 
@@ -26,12 +26,11 @@ typedef struct cli_command {
     const cli_example *examples; /* ended by NULL; a test runs them, one after the other */
 } cli_command;
 
+/* The commands, each in the source of its name. */
 extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new,
     cli_report_merge;
 
-/* All of them, in the order of the help, ended by NULL. */
-extern const cli_command *const cli_commands[];
-
+/* Prints what --help tells. */
 void cli_print_help(const cli_command *command);
 
 /* What is common to commands that talk: filled by the options -q, -v. */

@@ -1,6 +1,6 @@
 /* main.c - the program ffd: finds the command and runs it. */
 #include "batch/worker.h"
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/deform.h"
 #include "cli/nearest.h"
 #include <errno.h>

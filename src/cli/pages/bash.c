@@ -1,4 +1,5 @@
 /* bash.c - the parts of the completion for bash: arms of its case statements. */
+#include "cli/commands.h"
 #include "cli/pages/pages.h"
 #include "cli/pages/value.h"
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* man.c - the parts of the man page, in the language of mdoc(7). */
-#include "cli/command.h"
+#include "cli/commands.h"
 #include "cli/pages/pages.h"
 #include <stdio.h>
 #include <string.h>

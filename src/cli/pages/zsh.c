@@ -1,4 +1,5 @@
 /* zsh.c - the parts of the completion for zsh: specifications of its _arguments. */
+#include "cli/commands.h"
 #include "cli/pages/pages.h"
 #include "cli/pages/value.h"
 #include <stdio.h>
