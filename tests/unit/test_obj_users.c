@@ -11,7 +11,7 @@
 #include "../support/draw.h"
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
-#include "io/obj/obj_users.h"
+#include "io/obj/obj_vectors.h"
 #include <string.h>
 
 #define MOST_CORNERS 60000

@@ -51,8 +51,6 @@ static inline const obj_document *ffd_obj_of(const mesh_document *document)
     return (const obj_document *)document;
 }
 
-typedef struct obj_users obj_users;
-
 /* A walk over the document's file, totals set. */
 void ffd_obj_document_walk(const obj_document *document, obj_walk *walk);
 /* The same from the first block on with a statement that may name elements: faces, lines, points, and what is
@@ -60,20 +58,6 @@ void ffd_obj_document_walk(const obj_document *document, obj_walk *walk);
 void ffd_obj_document_walk_users(const obj_document *document, obj_walk *walk);
 /* The same over one block. */
 void ffd_obj_document_walk_block(const obj_document *document, size_t block, obj_walk *walk);
-/* obj_vectors.c: cuts the file into blocks, and fills in the blocks, the numbers of elements, their
-   coordinates, and addition as if no index counted back. *users (obj_users.h) is to be freed in any case. */
-ffd_status ffd_obj_read_vectors(obj_document *document, obj_users *users, ffd_error *error);
-/* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
-ffd_status ffd_obj_read_faces(obj_document *document, obj_users *users, ffd_error *error);
-
-/* Frees the results of normals, if there are any: normals are kept. */
-void ffd_obj_free_normals(obj_document *document);
-/* Gives back the memory of positions and results of so many vertices, where they stand in a file. */
-void ffd_obj_forget_vectors(const obj_document *document, size_t first, size_t count);
-
-/* The pair of a face's corner that has a normal. */
-size_t ffd_obj_find_pair(const obj_document *document, const obj_face_corner *corner);
-
 /* The entries of the format's table. */
 mesh_open_function ffd_obj_open;
 mesh_close_function ffd_obj_close;

@@ -1,6 +1,6 @@
+#include "io/obj/obj_faces.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/obj/obj_users.h"
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-#include "io/formats.h"
+#include "io/obj/obj_format.h"
 #include "io/obj/obj_document.h"
 #include <float.h>
 

@@ -1,6 +1,6 @@
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
-#include "io/obj/obj_document.h"
+#include "io/obj/obj_faces.h"
 #include "io/obj/obj_number.h"
 #include "io/text/vectors.h"
 #include <string.h>

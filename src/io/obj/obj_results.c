@@ -1,6 +1,6 @@
+#include "io/obj/obj_results.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/obj/obj_document.h"
 #include "io/text/vectors.h"
 #include <string.h>
 

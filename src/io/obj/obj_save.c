@@ -1,7 +1,8 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/text/number.h"
-#include "io/obj/obj_document.h"
+#include "io/obj/obj_faces.h"
+#include "io/obj/obj_results.h"
 #include "io/obj/obj_split.h"
 #include "io/text/splice.h"
 #include <inttypes.h>

@@ -2,7 +2,7 @@
    what follows into each group that it names, one without names, and the file's beginning, into "default"; an
    `o` or `usemtl` has one name, which may hold blanks. */
 #include "base/memory/memory.h"
-#include "io/obj/obj_document.h"
+#include "io/obj/obj_faces.h"
 #include "io/obj/obj_names.h"
 #include <string.h>
 

@@ -25,14 +25,14 @@ typedef struct obj_block_users {
 } obj_block_users;
 
 /* Those of a file. */
-struct obj_users {
+typedef struct obj_users {
     obj_block_users *blocks; /* one a block */
     /* Of each vertex the number, from 1, of a normal that is named together with it, whichever thread came
        first; 0: none so far. Nearly all vertices of most meshes have but one. NULL: normals are not wanted,
        or none yet. What a block has left here that turns out to be late is found there again, or refused. */
     _Atomic uint32_t *firsts;
     size_t first_count;
-};
+} obj_users;
 
 /* Makes room for a document that has its blocks, where so many vertices and normals are expected. Errors:
    FFD_E_MEMORY. To be freed in any case. */

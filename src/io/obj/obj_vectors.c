@@ -1,8 +1,8 @@
+#include "io/obj/obj_vectors.h"
 /* obj_vectors.c - the blocks of a file with their positions and normals. */
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/obj/obj_number.h"
-#include "io/obj/obj_users.h"
 #include <inttypes.h>
 #include <stdatomic.h>
 #include <string.h>

@@ -1,0 +1,13 @@
+/* obj_faces.h - what the faces of an OBJ file name. */
+#ifndef FFD_IO_OBJ_OBJ_FACES_H
+#define FFD_IO_OBJ_OBJ_FACES_H
+
+#include "io/obj/obj_users.h"
+
+/* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
+ffd_status ffd_obj_read_faces(obj_document *document, obj_users *users, ffd_error *error);
+
+/* The pair of a face's corner that has a normal. */
+size_t ffd_obj_find_pair(const obj_document *document, const obj_face_corner *corner);
+
+#endif

@@ -1,0 +1,12 @@
+/* obj_results.h - what a deformation changes in an OBJ file. */
+#ifndef FFD_IO_OBJ_OBJ_RESULTS_H
+#define FFD_IO_OBJ_OBJ_RESULTS_H
+
+#include "io/obj/obj_document.h"
+
+/* Frees the results of normals, if there are any: normals are kept. */
+void ffd_obj_free_normals(obj_document *document);
+/* Gives back the memory of positions and results of so many vertices, where they stand in a file. */
+void ffd_obj_forget_vectors(const obj_document *document, size_t first, size_t count);
+
+#endif
