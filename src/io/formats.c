@@ -1,5 +1,10 @@
 #include "io/formats.h"
 #include "base/file/path.h"
+#include "io/gltf/gltf_format.h"
+#include "io/obj/obj_format.h"
+#include "io/off/off_format.h"
+#include "io/ply/ply_format.h"
+#include "io/stl/stl_format.h"
 
 const mesh_format *ffd_format_table(ffd_format format)
 {

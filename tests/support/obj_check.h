@@ -6,8 +6,8 @@
 
 #include "base/memory/memory.h"
 #include "draw.h"
-#include "io/formats.h"
 #include "io/obj/obj_document.h"
+#include "io/obj/obj_format.h"
 #include "mesh_file.h"
 #include "obj_reader.h"
 

@@ -7,8 +7,8 @@
 #include <cmocka.h>
 
 #include "../support/mesh_bytes.h"
-#include "io/formats.h"
 #include "io/obj/obj_document.h"
+#include "io/obj/obj_format.h"
 #include "io/obj/obj_number.h"
 #include <math.h>
 

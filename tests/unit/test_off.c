@@ -7,8 +7,8 @@
 #include <cmocka.h>
 
 #include "../support/mesh_bytes.h"
-#include "io/formats.h"
 #include "io/off/off_document.h"
+#include "io/off/off_format.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 

@@ -8,8 +8,8 @@
 
 #include "../support/mesh_bytes.h"
 #include "base/text/buffer.h"
-#include "io/formats.h"
 #include "io/ply/ply_document.h"
+#include "io/ply/ply_format.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>

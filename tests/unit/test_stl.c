@@ -9,8 +9,8 @@
 
 #include "../support/mesh_bytes.h"
 #include "base/little_endian.h"
-#include "io/formats.h"
 #include "io/stl/stl_document.h"
+#include "io/stl/stl_format.h"
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 

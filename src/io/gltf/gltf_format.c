@@ -1,5 +1,5 @@
 /* gltf_format.c - the table of functions for .gltf and .glb files. */
-#include "io/formats.h"
+#include "io/gltf/gltf_format.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/gltf_as_morph.h"
 #include "io/gltf/gltf_compare.h"

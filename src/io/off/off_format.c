@@ -1,4 +1,4 @@
-#include "io/formats.h"
+#include "io/off/off_format.h"
 #include "io/off/off_document.h"
 #include <float.h>
 

@@ -1,4 +1,4 @@
-#include "io/formats.h"
+#include "io/ply/ply_format.h"
 #include "io/ply/ply_document.h"
 #include <float.h>
 

@@ -1,4 +1,4 @@
-#include "io/formats.h"
+#include "io/stl/stl_format.h"
 #include "io/stl/stl_document.h"
 #include <float.h>
 

@@ -1,0 +1,9 @@
+/* gltf_format.h - the format glTF (.gltf and .glb), as the table of formats has it. */
+#ifndef FFD_IO_GLTF_GLTF_FORMAT_H
+#define FFD_IO_GLTF_GLTF_FORMAT_H
+
+#include "mesh/mesh.h"
+
+extern const mesh_format ffd_gltf_format;
+
+#endif

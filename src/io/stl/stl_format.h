@@ -1,0 +1,9 @@
+/* stl_format.h - the format STL, ascii and binary, as the table of formats has it. */
+#ifndef FFD_IO_STL_STL_FORMAT_H
+#define FFD_IO_STL_STL_FORMAT_H
+
+#include "mesh/mesh.h"
+
+extern const mesh_format ffd_stl_format;
+
+#endif
