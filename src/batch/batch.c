@@ -5,7 +5,7 @@
 #include "base/system/interrupt.h"
 #include "batch/journal.h"
 #include "batch/progress.h"
-#include "job/deform_job.h"
+#include "job/judge/result.h"
 #include "job/report/depfile.h"
 #include "job/report/report.h"
 #include <stdio.h>

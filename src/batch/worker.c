@@ -5,7 +5,7 @@
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
 #include "batch/wire.h"
-#include "job/deform_job.h"
+#include "job/judge/result.h"
 #include "job/report/depfile.h"
 #include "job/report/report.h"
 #include <string.h>

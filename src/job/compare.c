@@ -1,5 +1,5 @@
-#include "job/info.h"
 #include "job/input/source.h"
+#include "mesh/bounds.h"
 #include "mesh/difference.h"
 #include <float.h>
 #include <math.h>
@@ -21,7 +21,7 @@ static ffd_status open_source(const ffd_source *given, mesh_document **document,
 /* No more than the largest number, also where the box's sides are more. */
 static double find_diagonal(const mesh_document *document)
 {
-    ffd_bounds box = ffd_info_no_bounds();
+    ffd_bounds box = ffd_bounds_empty();
     double half[3];
     for (size_t i = 0; i < document->part_count; i++)
         if (!document->parts[i].repeats_positions)

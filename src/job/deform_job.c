@@ -8,22 +8,13 @@
 #include "job/input/source.h"
 #include "job/judge/figures.h"
 #include "job/judge/gates.h"
-#include "job/pass/placement.h"
+#include "job/judge/result.h"
+#include "job/pass/chain_fit.h"
+#include "job/pass/pass.h"
 #include "job/pass/recompute.h"
 #include "job/report/output_set.h"
 #include <math.h>
 #include <string.h>
-
-void ffd_result_clear(ffd_job_result *result)
-{
-    memset(result, 0, sizeof *result);
-    for (int a = 0; a < 3; a++) {
-        result->before.min[a] = result->after.min[a] = 1; /* nothing yet: min > max */
-        result->before.max[a] = result->after.max[a] = -1;
-    }
-    result->det_min = 1;
-    result->det_max = -1;
-}
 
 static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 {
@@ -141,7 +132,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
 static ffd_status place(deform_job *job, ffd_error *error)
 {
     const char *embedding = job->desc->embedding;
-    const ffd_status status = ffd_chain_place(&job->chain, job->document, job->threads, error);
+    const ffd_status status = ffd_chain_fit(&job->chain, job->document, job->threads, error);
     if (status || !embedding)
         return status;
     return ffd_embedding_reuse(embedding, job->document, job->chain.links[0].lattice, job->threads,

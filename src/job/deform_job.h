@@ -2,27 +2,7 @@
 #ifndef FFD_JOB_DEFORM_JOB_H
 #define FFD_JOB_DEFORM_JOB_H
 
-#include "job/input/embedding_file.h"
-#include "job/pass/pass.h"
-
-/* What a job holds while it runs. */
-typedef struct deform_job {
-    const ffd_deform_desc *desc;
-    bool check;          /* nothing will be written; all figures are wanted */
-    bool recomputes;     /* there are normals, and they are to be those of the deformed faces */
-    bool only_positions; /* set before opening: nothing asked for looks at normals */
-    int threads;
-    mesh_log log;
-    lattice_chain chain;
-    mesh_document *document;
-    bool document_is_shared;  /* it is the last job's */
-    embedding_file embedding; /* where one is named */
-    pass_totals totals;
-    mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
-} deform_job;
-
-/* No figures yet. */
-void ffd_result_clear(ffd_job_result *result);
+#include "job/judge/job_state.h"
 
 /* Clears result and takes desc, after a look at what does not concern the output. Errors: FFD_E_ARGUMENT,
    FFD_E_EXISTS, in result. */

@@ -7,7 +7,9 @@
 #include "job/chain/chain_load.h"
 #include "job/input/embedding_file.h"
 #include "job/input/source.h"
-#include "job/pass/placement.h"
+#include "job/judge/result.h"
+#include "job/pass/chain_fit.h"
+#include "job/pass/pass.h"
 #include <string.h>
 
 void ffd_embed_desc_init(ffd_embed_desc *desc)
@@ -102,7 +104,7 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
     if (!status)
         status = ffd_mesh_check(made->document, error);
     if (!status)
-        status = ffd_chain_place(&made->chain, made->document, threads, error);
+        status = ffd_chain_fit(&made->chain, made->document, threads, error);
     return status;
 }
 

@@ -1,33 +1,9 @@
-#include "job/info.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "job/info_lattice.h"
+#include "job/info_mesh.h"
+#include "job/info_text.h"
 #include "job/input/source.h"
-#include <math.h>
-
-ffd_bounds ffd_info_no_bounds(void)
-{
-    return (ffd_bounds){.min = {INFINITY, INFINITY, INFINITY}, .max = {-INFINITY, -INFINITY, -INFINITY}};
-}
-
-void ffd_info_widen(ffd_bounds *bounds, const double point[3])
-{
-    for (int c = 0; c < 3; c++) {
-        bounds->min[c] = point[c] < bounds->min[c] ? point[c] : bounds->min[c];
-        bounds->max[c] = point[c] > bounds->max[c] ? point[c] : bounds->max[c];
-    }
-}
-
-void ffd_info_bounds(json_text *json, const char *key, const ffd_bounds *bounds)
-{
-    if (bounds->min[0] > bounds->max[0]) {
-        ffd_json_null(json, key);
-        return;
-    }
-    ffd_json_object(json, key, false);
-    ffd_json_vector(json, "min", bounds->min, 3);
-    ffd_json_vector(json, "max", bounds->max, 3);
-    ffd_json_end(json, '}');
-}
 
 static ffd_status write_facts(const ffd_source *file, byte_buffer *out, ffd_error *error)
 {

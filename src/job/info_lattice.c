@@ -1,7 +1,8 @@
+#include "job/info_lattice.h"
 #include "base/vector/vec.h"
-#include "job/info.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+#include "mesh/bounds.h"
 #include <ffd/embedding.h>
 
 static const char *knot_word(knot_kind kind)
@@ -63,9 +64,9 @@ static void write_directions(const ffd_lattice *lattice, json_text *json)
 
 static ffd_bounds bounds_of(const double *points, size_t count)
 {
-    ffd_bounds bounds = ffd_info_no_bounds();
+    ffd_bounds bounds = ffd_bounds_empty();
     for (size_t i = 0; i < count; i++)
-        ffd_info_widen(&bounds, points + 3 * i);
+        ffd_bounds_widen(&bounds, points + 3 * i);
     return bounds;
 }
 
@@ -108,8 +109,8 @@ static ffd_status write_volume(const ffd_lattice *lattice, json_text *json, ffd_
 {
     const ffd_bounds rest = bounds_of(lattice->rest, lattice->count);
     const ffd_bounds deformed = bounds_of(lattice->deformed, lattice->count);
-    ffd_info_bounds(json, "rest_bounds", &rest);
-    ffd_info_bounds(json, "deformed_bounds", &deformed);
+    ffd_bounds_json(json, "rest_bounds", &rest);
+    ffd_bounds_json(json, "deformed_bounds", &deformed);
     ffd_json_number(json, "diagonal", lattice->diagonal);
     write_moves(lattice, json);
     return write_inversion(lattice, json, error);

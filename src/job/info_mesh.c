@@ -1,7 +1,8 @@
+#include "job/info_mesh.h"
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
-#include "job/info.h"
 #include "job/input/source.h"
+#include "mesh/bounds.h"
 
 typedef struct vertex_facts {
     size_t vertices, normals, tangents;
@@ -11,7 +12,7 @@ typedef struct vertex_facts {
 
 static void write_vertices(const mesh_document *document, json_text *json)
 {
-    vertex_facts facts = {.bounds = ffd_info_no_bounds()};
+    vertex_facts facts = {.bounds = ffd_bounds_empty()};
     for (size_t part = 0; part < document->part_count; part++) {
         const mesh_part *p = &document->parts[part];
         if (!p->repeats_positions) {
@@ -26,7 +27,7 @@ static void write_vertices(const mesh_document *document, json_text *json)
     ffd_json_count(json, "not_finite", facts.not_finite);
     ffd_json_count(json, "normals", facts.normals);
     ffd_json_count(json, "tangents", facts.tangents);
-    ffd_info_bounds(json, "bounds", &facts.bounds);
+    ffd_bounds_json(json, "bounds", &facts.bounds);
 }
 
 static void write_topology(const mesh_faces *faces, const mesh_topology *topology, json_text *json)

@@ -1,6 +1,6 @@
-/* info_text.c - the facts of `ffd info` as text for people. */
+#include "job/info_text.h"
 #include "base/memory/memory.h"
-#include "job/info.h"
+#include "base/text/buffer.h"
 #include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 #include "base/memory/memory.h"
 #include "job/input/source.h"
-#include "job/pass/pass.h"
 #include <math.h>
 #include <string.h>
 

@@ -5,9 +5,11 @@
 #include "io/gltf/document/gltf_document.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
-#include "job/info.h"
+#include "job/info_mesh.h"
+#include "job/info_text.h"
 #include "job/input/source.h"
-#include "job/pass/placement.h"
+#include "job/pass/chain_fit.h"
+#include "job/pass/pass.h"
 #include "promise.h"
 #include "work_folder.h"
 #include <math.h>
@@ -285,7 +287,7 @@ static double *deformed_positions(const trial *of, const uint8_t *data, size_t s
     mesh_document *document = open_again(of, of->input, data, size);
     PROMISE(ffd_chain_load(&(chain_files){.paths = lattices, .count = 1}, &(chain_outside){0}, FFD_ISA_AUTO,
                            NULL, &chain, &error) == FFD_OK &&
-                ffd_chain_place(&chain, document, 1, &error) == FFD_OK,
+                ffd_chain_fit(&chain, document, 1, &error) == FFD_OK,
             "no lattice");
     double *const deformed = malloc((size_t)ffd_mesh_vertex_count(document) * 3 * sizeof *deformed + 1);
     const mesh_pass pass = {

@@ -9,7 +9,8 @@
 #include "../support/json_facts.h"
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
-#include "job/info.h"
+#include "job/info_mesh.h"
+#include "job/info_text.h"
 #include <ffd/job.h>
 #include <math.h>
 #include <stdio.h>

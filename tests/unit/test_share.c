@@ -13,6 +13,7 @@
 #include "job/deform_job.h"
 #include "job/input/source.h"
 #include "job/judge/figures.h"
+#include "job/judge/result.h"
 #include <time.h>
 
 static const char one[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",

@@ -1,7 +1,7 @@
 #include "job/chain/coverage.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
-#include <math.h>
+#include "mesh/bounds.h"
 #include <stdio.h>
 
 /* The domain is looked at in this many places along each direction. */
@@ -31,17 +31,14 @@ static double sample(const knot_vector *knots, int i)
 
 static ffd_bounds volume_bounds(const ffd_lattice *lattice)
 {
-    ffd_bounds box = {{HUGE_VAL, HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+    ffd_bounds box = ffd_bounds_empty();
     for (int n = 0; n < SAMPLES * SAMPLES * SAMPLES; n++) {
         const int index[3] = {n % SAMPLES, n / SAMPLES % SAMPLES, n / (SAMPLES * SAMPLES)};
         double uvw[3], p[3];
         for (int a = 0; a < 3; a++)
             uvw[a] = sample(&lattice->knots[a], index[a]);
         ffd_lattice_evaluate(lattice, FFD_VOLUME_REST, uvw, p, NULL);
-        for (int a = 0; a < 3; a++) {
-            box.min[a] = fmin(box.min[a], p[a]);
-            box.max[a] = fmax(box.max[a], p[a]);
-        }
+        ffd_bounds_widen(&box, p);
     }
     return box;
 }

@@ -2,7 +2,7 @@
 #include "base/file/path.h"
 #include "base/vector/vec.h"
 #include "io/formats.h"
-#include "job/info.h"
+#include "mesh/bounds.h"
 #include <string.h>
 
 /* Positions read at once. */
@@ -79,7 +79,7 @@ size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *
         ffd_source_positions(document, part, first, count, xyz);
         for (size_t i = 0; i < count; i++)
             if (vec_is_finite(xyz + 3 * i))
-                ffd_info_widen(bounds, xyz + 3 * i);
+                ffd_bounds_widen(bounds, xyz + 3 * i);
             else
                 not_finite++;
     }

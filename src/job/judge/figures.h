@@ -4,7 +4,7 @@
 #ifndef FFD_JOB_JUDGE_FIGURES_H
 #define FFD_JOB_JUDGE_FIGURES_H
 
-#include "job/deform_job.h"
+#include "job/judge/job_state.h"
 
 /* What the pass must leave for them. */
 typedef struct figure_arrays {

@@ -2,7 +2,8 @@
 #ifndef FFD_JOB_JUDGE_GATES_H
 #define FFD_JOB_JUDGE_GATES_H
 
-#include "job/pass/pass.h"
+#include "job/chain/chain.h"
+#include "job/pass/pass_totals.h"
 
 /* What a deformation refuses of the vertices; name is the mesh's. A check counts those that are not finite.
    Errors: FFD_E_INVALID, FFD_E_EMBEDDING. */

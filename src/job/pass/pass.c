@@ -1,9 +1,11 @@
+#include "job/pass/pass.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
-#include "job/pass/pass_totals.h"
+#include "job/pass/pass_shapes.h"
+#include "job/pass/tile_totals.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <string.h>
@@ -66,18 +68,6 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
     }
 }
 
-static double largest_coordinate(const mesh_document *document)
-{
-    const double own = document->largest_coordinate;
-    return own > 0 ? own : document->format->largest_coordinate;
-}
-
-bool ffd_tile_fits_file(const mesh_document *document, const double p[3])
-{
-    const double largest = largest_coordinate(document);
-    return fabs(p[0]) <= largest && fabs(p[1]) <= largest && fabs(p[2]) <= largest;
-}
-
 /* Only the displacement goes back to the file's space: p' = p + linear^{-1} delta. */
 static void bring_back(const part_work *work, tile_scratch *scratch, size_t count)
 {
@@ -93,7 +83,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
 {
     const mesh_pass *pass = work->pass;
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
-                             ->displace(scratch->delta, count, largest_coordinate(pass->document),
+                             ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);
     for (size_t i = 0; i < count; i++)
         totals->moved += scratch->changed[i];

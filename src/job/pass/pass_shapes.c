@@ -1,9 +1,10 @@
 /* pass_shapes.c - morph targets in a pass. With D the displacement in the file's own space, a vertex at p
    with the offset m gets m' = m + D(p + m) - D(p); its normals' offset is n'(p + m, n + dn) - n'(p, n),
    tangents likewise (src/maths.md 9.3). */
+#include "job/pass/pass_shapes.h"
 #include "base/vector/vec.h"
-#include "job/pass/tile.h"
 #include <ffd/deform.h>
+#include <math.h>
 #include <string.h>
 
 typedef struct shape_work {
@@ -106,9 +107,16 @@ static void take(double value, double *offset, uint8_t *changed)
     }
 }
 
+/* Whether the file's numbers can hold an offset. */
+static bool fits(const double m[3], double largest)
+{
+    return fabs(m[0]) <= largest && fabs(m[1]) <= largest && fabs(m[2]) <= largest;
+}
+
 static void deform_positions(const shape_work *work)
 {
     shape_scratch *s = work->scratch;
+    const double largest = ffd_largest_coordinate(work->part->pass->document);
     memset(s->changed, 0, work->count);
     for (size_t k = 0; k < s->moved_count; k++) {
         const size_t i = s->moved[k];
@@ -118,7 +126,7 @@ static void deform_positions(const shape_work *work)
         ffd_displacement_bring_back(&place, moved);
         for (int a = 0; a < 3; a++)
             take(m[a] + (moved[a] - base[a]), &m[a], &s->changed[i]);
-        if (s->changed[i] && !ffd_tile_fits_file(work->part->pass->document, m))
+        if (s->changed[i] && !fits(m, largest))
             note_first(&work->totals->first_overflow, number_of(work, i));
     }
     if (has(work, MESH_POSITIONS))

@@ -2,7 +2,7 @@
 #ifndef FFD_JOB_PASS_RECOMPUTE_H
 #define FFD_JOB_PASS_RECOMPUTE_H
 
-#include "job/pass/pass.h"
+#include "mesh/mesh.h"
 
 /* What was found. */
 typedef struct recompute_counts {

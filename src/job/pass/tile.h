@@ -2,7 +2,8 @@
 #ifndef FFD_JOB_PASS_TILE_H
 #define FFD_JOB_PASS_TILE_H
 
-#include "job/pass/pass.h"
+#include "job/pass/mesh_pass.h"
+#include "job/pass/pass_totals.h"
 #include "job/pass/vertex_transform.h"
 #include <stdatomic.h>
 
@@ -62,11 +63,11 @@ static inline size_t ffd_tile_chosen(const tile_scratch *scratch, size_t i)
     return scratch->all_chosen ? i : scratch->chosen[i];
 }
 
-/* Whether the file's numbers can hold the position. */
-bool ffd_tile_fits_file(const mesh_document *document, const double p[3]);
-
-/* pass_shapes.c: deforms the part's morph targets, after all else of the tile: the base's points, and its
-   normals and tangents as they are deformed, stand in scratch. */
-void ffd_tile_shapes(part_work *work, tile_scratch *scratch, size_t first, size_t count, pass_totals *totals);
+/* The largest coordinate that the numbers of the document's file can hold. */
+static inline double ffd_largest_coordinate(const mesh_document *document)
+{
+    const double own = document->largest_coordinate;
+    return own > 0 ? own : document->format->largest_coordinate;
+}
 
 #endif

@@ -1,13 +1,13 @@
-/* placement.h - the lattices that take their box from the mesh, and the one summary line about the vertices.
- */
-#ifndef FFD_JOB_PASS_PLACEMENT_H
-#define FFD_JOB_PASS_PLACEMENT_H
+/* result.h - the figures of a pass as a job's result, and what its user is warned of. */
+#ifndef FFD_JOB_JUDGE_RESULT_H
+#define FFD_JOB_JUDGE_RESULT_H
 
-#include "job/pass/pass.h"
+#include "job/chain/chain.h"
+#include "job/pass/pass_totals.h"
+#include "mesh/mesh.h"
 
-/* Gives each lattice whose box is "mesh" its place: round the mesh as it arrives at that lattice, after those
-   before it. Makes the locators that were still missing. */
-ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error);
+/* No figures yet. */
+void ffd_result_clear(ffd_job_result *result);
 
 /* The figures of a pass as a job's result; seconds are the time of the wall, shared out by the threads' own.
  */

@@ -1,63 +1,20 @@
-#include "job/pass/placement.h"
-#include "job/chain/chain_load.h"
+#include "job/judge/result.h"
 #include "job/chain/coverage.h"
 #include "job/input/source.h"
-#include "lattice/lattice.h"
-#include "lattice/spec.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* What cannot be deformed must be out of reach. chain NULL: of a lattice round the mesh, which reaches all.
- */
-static ffd_status check_reach(const lattice_chain *chain, size_t link, const mesh_document *document,
-                              ffd_error *error)
+void ffd_result_clear(ffd_job_result *result)
 {
-    ffd_bounds box = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
-    if (!document->format->check_reach)
-        return FFD_OK;
-    if (chain) {
-        const bounds reach = ffd_chain_reach(chain, link);
-        memcpy(box.min, reach.lo, sizeof box.min);
-        memcpy(box.max, reach.hi, sizeof box.max);
+    memset(result, 0, sizeof *result);
+    for (int a = 0; a < 3; a++) {
+        result->before.min[a] = result->after.min[a] = 1; /* nothing yet: min > max */
+        result->before.max[a] = result->after.max[a] = -1;
     }
-    return document->format->check_reach(document, &box, error);
-}
-
-ffd_status ffd_chain_place(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
-{
-    const int usable = ffd_pass_threads(&document->room, 0, threads);
-    for (size_t l = 0; l < chain->count; l++) {
-        chain_link *link = &chain->links[l];
-        if (link->locator)
-            continue;
-        const mesh_pass pass = {.document = document, .chain = chain, .links = l, .threads = usable};
-        pass_totals totals;
-        ffd_status status = check_reach(NULL, l, document, error);
-        if (!status)
-            status = ffd_pass_run(&pass, &totals, error);
-        if (status)
-            return status;
-        /* Of a mesh without vertices nothing will be asked. */
-        ffd_bounds box = totals.after;
-        for (int a = 0; a < 3; a++)
-            if (!(box.min[a] <= box.max[a])) {
-                box.min[a] = 0;
-                box.max[a] = 1;
-            }
-        status = ffd_lattice_fit(link->lattice, box.min, box.max, error);
-        if (!status)
-            status = ffd_chain_prepare(chain, l, error);
-        if (status) {
-            ffd_fail_name_file(error, link->lattice->spec->name);
-            return status;
-        }
-    }
-    ffd_status status = FFD_OK;
-    for (size_t l = 0; l < chain->count && !status; l++)
-        status = check_reach(chain, l, document, error);
-    return status;
+    result->det_min = 1;
+    result->det_max = -1;
 }
 
 void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double seconds)

@@ -1,0 +1,10 @@
+/* info_lattice.h - what `ffd info` says of a lattice file. */
+#ifndef FFD_JOB_INFO_LATTICE_H
+#define FFD_JOB_INFO_LATTICE_H
+
+#include "json/json_text.h"
+
+/* Appends the members that describe the lattice file to an open JSON object. Errors: those of reading it. */
+ffd_status ffd_info_lattice(const char *path, json_text *json, ffd_error *error);
+
+#endif

@@ -1,0 +1,26 @@
+/* job_state.h - what `ffd deform` and `ffd check` hold while they run. */
+#ifndef FFD_JOB_JUDGE_JOB_STATE_H
+#define FFD_JOB_JUDGE_JOB_STATE_H
+
+#include "job/chain/chain.h"
+#include "job/input/embedding_file.h"
+#include "job/pass/pass_totals.h"
+#include "mesh/mesh.h"
+
+/* What a job holds while it runs. */
+typedef struct deform_job {
+    const ffd_deform_desc *desc;
+    bool check;          /* nothing will be written; all figures are wanted */
+    bool recomputes;     /* there are normals, and they are to be those of the deformed faces */
+    bool only_positions; /* set before opening: nothing asked for looks at normals */
+    int threads;
+    mesh_log log;
+    lattice_chain chain;
+    mesh_document *document;
+    bool document_is_shared;  /* it is the last job's */
+    embedding_file embedding; /* where one is named */
+    pass_totals totals;
+    mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
+} deform_job;
+
+#endif

@@ -1,0 +1,27 @@
+/* bounds.h - boxes round points. */
+#ifndef FFD_MESH_BOUNDS_H
+#define FFD_MESH_BOUNDS_H
+
+#include "base/vector/vec.h"
+#include "json/json_text.h"
+#include <ffd/job.h>
+
+/* The bounds of no points: min is greater than max. */
+static inline ffd_bounds ffd_bounds_empty(void)
+{
+    return (ffd_bounds){.min = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, .max = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}};
+}
+
+/* Widens the bounds to hold a point. A coordinate that is NaN is passed over. */
+static inline void ffd_bounds_widen(ffd_bounds *box, const double point[3])
+{
+    for (int a = 0; a < 3; a++) {
+        box->min[a] = lesser_of(box->min[a], point[a]);
+        box->max[a] = larger_of(box->max[a], point[a]);
+    }
+}
+
+/* Appends "key": {"min": [..], "max": [..]}, or null where there are no points. */
+void ffd_bounds_json(json_text *json, const char *key, const ffd_bounds *box);
+
+#endif
