@@ -20,7 +20,6 @@ LAYERS = {
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/model": {"base", "base/memory", "json"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
-    "io": {"base/file", "mesh"},
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/vector", "io/gltf/document", "io/gltf/model",
@@ -32,15 +31,16 @@ LAYERS = {
         "io/gltf/file", "io/gltf/scene", "json",
     },
     "io/gltf": {
-        "base/file", "base/memory", "base/system", "base/vector", "io", "io/gltf/decode", "io/gltf/document",
+        "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document",
         "io/gltf/model", "io/gltf/save", "io/gltf/scene", "json", "mesh",
     },
     "io/openmesh": {"base/memory", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},
-    "io/obj": {"base", "base/file", "base/memory", "base/system", "base/text", "io", "io/text", "mesh"},
-    "io/off": {"base/file", "base/memory", "io", "io/text", "mesh"},
-    "io/ply": {"base", "base/file", "base/memory", "base/text", "io", "io/text", "mesh"},
-    "io/stl": {"base", "base/file", "base/memory", "base/text", "base/vector", "io", "io/text", "mesh"},
+    "io/obj": {"base", "base/file", "base/memory", "base/system", "base/text", "io/text", "mesh"},
+    "io/off": {"base/file", "base/memory", "io/text", "mesh"},
+    "io/ply": {"base", "base/file", "base/memory", "base/text", "io/text", "mesh"},
+    "io/stl": {"base", "base/file", "base/memory", "base/text", "base/vector", "io/text", "mesh"},
+    "io": {"base/file", "io/gltf", "io/obj", "io/off", "io/ply", "io/stl", "mesh"},
     "io/write": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
         "mesh",
@@ -55,32 +55,31 @@ LAYERS = {
     "embed/direct": {"base/memory", "base/vector", "embed/frame", "spline"},
     "embed": {"base/memory", "base/vector", "embed/cells", "embed/direct", "embed/frame"},
     "fold": {"base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
-    "batch": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "io", "job", "job/input",
-        "job/report", "json",
-    },
-    "cli": {"batch"},
-    "cli/pages": {"cli"},
-    "job": {
-        "base", "base/file", "base/memory", "base/system", "base/vector", "io", "io/npy", "io/openmesh",
-        "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "json", "lattice",
-        "mesh",
-    },
     "job/input": {
-        "base", "base/file", "base/memory", "base/system", "base/vector", "io", "io/npy", "job", "lattice",
-        "mesh",
+        "base", "base/file", "base/memory", "base/system", "base/vector", "io", "io/npy", "lattice", "mesh",
     },
     "job/chain": {
         "base", "base/file", "base/memory", "base/system", "base/vector", "deform", "embed", "embed/boundary",
-        "embed/frame", "job/input", "job/pass", "lattice", "mesh",
+        "embed/frame", "job/input", "lattice", "mesh",
     },
     "job/pass": {
         "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/input",
         "lattice", "mesh",
     },
     "job/judge": {
-        "base", "base/memory", "base/system", "base/vector", "embed/frame", "io/openmesh", "job", "job/chain",
+        "base", "base/memory", "base/system", "base/vector", "embed/frame", "io/openmesh", "job/chain",
         "job/input", "job/pass", "lattice", "mesh",
+    },
+    "batch": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "io", "job/input", "job/judge",
+        "job/report", "json",
+    },
+    "cli": {"batch"},
+    "cli/pages": {"cli"},
+    "job": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
+        "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "json",
+        "lattice", "mesh",
     },
 }
 

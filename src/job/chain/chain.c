@@ -4,7 +4,6 @@
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
-#include "embed/frame/frame.h"
 #include "embed/locator.h"
 #include "lattice/lattice.h"
 #include <string.h>

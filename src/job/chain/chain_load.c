@@ -1,5 +1,6 @@
 #include "job/chain/chain_load.h"
 #include "base/memory/memory.h"
+#include "embed/frame/frame.h"
 #include "embed/locator.h"
 #include "job/chain/job_cache.h"
 #include "job/input/embedding_file.h"
