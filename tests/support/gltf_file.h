@@ -4,6 +4,7 @@
 
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "io/formats.h"
 #include "io/gltf/gltf_format.h"
 #include <stdio.h>
 #include <stdlib.h>
