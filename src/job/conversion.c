@@ -52,13 +52,13 @@ static void warn(const mesh_model *model, const conversion_morph *morph, const m
         ffd_log_line(log, FFD_LOG_WARNING, "nothing moves: no morph target is added");
 }
 
-/* The model as it is to be written; models take what they need out of room. */
-static ffd_status make_model(const mesh_document *document, const conversion_morph *morph, mesh_room *room,
-                             mesh_model *model, ffd_error *error)
+/* The model as it is to be written; models take what they need from the budget. */
+static ffd_status make_model(const mesh_document *document, const conversion_morph *morph,
+                             memory_budget *budget, mesh_model *model, ffd_error *error)
 {
-    mesh_model after = {.room = room};
+    mesh_model after = {.budget = budget};
     if (!morph) {
-        model->room = room;
+        model->budget = budget;
         return document->format->model(document, model, error);
     }
     *model = *morph->base;
@@ -76,8 +76,8 @@ ffd_status ffd_conversion_save(const mesh_document *document, const conversion_m
 {
     const model_target *target = ffd_model_target(options->format);
     mesh_model model = {0};
-    mesh_room room = document->room;
-    ffd_status status = make_model(document, morph, &room, &model, error);
+    memory_budget budget = document->budget;
+    ffd_status status = make_model(document, morph, &budget, &model, error);
     if (status == FFD_OK)
         status = check_range(&model, target, options->path, error);
     if (status == FFD_OK)

@@ -146,7 +146,7 @@ static ffd_status begin_morph(deform_job *job, ffd_error *error)
     if (!job->desc->as_morph)
         return FFD_OK;
     if (!format->keep_base) { /* then it is a conversion */
-        job->base.room = &job->document->room;
+        job->base.budget = &job->document->budget;
         return format->model(job->document, &job->base, error);
     }
     return format->keep_base(job->document, job->desc->as_morph, error);

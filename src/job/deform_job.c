@@ -122,10 +122,10 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "has no normals: there are none to recompute");
-    arrays->room = job->document->room;
+    arrays->budget = job->document->budget;
     if (!status && (wants_figures(job) || job->recomputes))
-        status = ffd_figures_make_room(job, arrays, error);
-    job->threads = ffd_pass_threads(&arrays->room, job->check ? job->chain.count : 0, job->threads);
+        status = ffd_figures_prepare(job, arrays, error);
+    job->threads = ffd_pass_threads(&arrays->budget, job->check ? job->chain.count : 0, job->threads);
     return status;
 }
 

@@ -112,9 +112,9 @@ static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int thr
 static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_error *error)
 {
     made->count = (size_t)ffd_mesh_vertex_count(made->document);
-    mesh_room room = made->document->room;
+    memory_budget budget = made->document->budget;
     const ffd_status status =
-        ffd_room_take(&room, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error);
+        ffd_budget_take(&budget, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error);
     if (status)
         return status;
     made->uvw = ffd_alloc(made->count, 3 * sizeof *made->uvw);
@@ -124,7 +124,7 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
     const mesh_pass pass = {.document = made->document,
                             .chain = &made->chain,
                             .links = 1,
-                            .threads = ffd_pass_threads(&room, 0, threads),
+                            .threads = ffd_pass_threads(&budget, 0, threads),
                             .uvw = made->uvw,
                             .statuses = made->statuses};
     return ffd_pass_run(&pass, totals, error);

@@ -52,10 +52,10 @@ static void write_topology(const mesh_faces *faces, const mesh_topology *topolog
 
 static ffd_status check_room(const mesh_document *document, const mesh_faces *faces, ffd_error *error)
 {
-    mesh_room room = document->room;
+    memory_budget budget = document->budget;
     const size_t corners = faces->start[faces->face_count];
-    const ffd_status status = ffd_mesh_faces_take(faces, corners, &room, error);
-    return status ? status : ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
+    const ffd_status status = ffd_mesh_faces_take(faces, corners, &budget, error);
+    return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
 /* Faces that this build cannot show do not keep the rest from being told. */

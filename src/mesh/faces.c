@@ -2,19 +2,20 @@
 #include "mesh/mesh.h"
 #include <string.h>
 
-ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, mesh_room *room, ffd_error *error)
+ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory_budget *budget,
+                               ffd_error *error)
 {
-    ffd_status status = ffd_room_take(room, faces->vertex_count, 3 * sizeof *faces->positions, error);
+    ffd_status status = ffd_budget_take(budget, faces->vertex_count, 3 * sizeof *faces->positions, error);
     if (status == FFD_OK)
-        status = ffd_room_take(room, faces->face_count, sizeof *faces->start, error);
-    return status == FFD_OK ? ffd_room_take(room, corners, sizeof *faces->corners, error) : status;
+        status = ffd_budget_take(budget, faces->face_count, sizeof *faces->start, error);
+    return status == FFD_OK ? ffd_budget_take(budget, corners, sizeof *faces->corners, error) : status;
 }
 
 ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces, size_t corners,
                                ffd_error *error)
 {
-    mesh_room room = document->room;
-    ffd_status status = ffd_mesh_faces_take(faces, corners, &room, error);
+    memory_budget budget = document->budget;
+    ffd_status status = ffd_mesh_faces_take(faces, corners, &budget, error);
     if (status == FFD_OK) {
         faces->positions = ffd_alloc(faces->vertex_count, 3 * sizeof *faces->positions);
         faces->start = ffd_alloc(faces->face_count + 1, sizeof *faces->start);

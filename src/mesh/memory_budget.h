@@ -12,31 +12,31 @@ extern "C" {
 #endif
 
 /* What a document may take, in bytes. */
-typedef struct mesh_room {
+typedef struct memory_budget {
     uint64_t most;
     uint64_t taken; /* may be more: what is taken for the bytes of files is not refused */
     uint64_t asked; /* by the user */
     bool is_shared; /* with another document of the same files: they are allowed for already */
-} mesh_room;
+} memory_budget;
 
 /* Room for a document without files: 100 MB, or `asked` where that is more, with the program itself in it. */
-mesh_room ffd_room_make(uint64_t asked);
+memory_budget ffd_budget_make(uint64_t asked);
 /* Adds a file: 20 times its size is allowed, and of that kept_per_byte times its size is taken. */
-void ffd_room_add_file(mesh_room *room, uint64_t size, uint64_t kept_per_byte);
+void ffd_budget_add_file(memory_budget *budget, uint64_t size, uint64_t kept_per_byte);
 /* Room for a document of one file, beside whose bytes its numbers are kept, and again when they have moved.
    text: the numbers are text, which may be shorter than they are. */
-mesh_room ffd_room_of_file(uint64_t size, bool text, uint64_t asked);
+memory_budget ffd_budget_for_file(uint64_t size, bool text, uint64_t asked);
 /* What is allowed in all, and what is left of it. */
-uint64_t ffd_room_most(const mesh_room *room);
-uint64_t ffd_room_left(const mesh_room *room);
+uint64_t ffd_budget_most(const memory_budget *budget);
+uint64_t ffd_budget_left(const memory_budget *budget);
 /* Whether count * size bytes fit in. Errors: FFD_E_LIMIT. */
-ffd_status ffd_room_check(const mesh_room *room, uint64_t count, uint64_t size, ffd_error *error);
+ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
 /* Takes them, for as long as the document is open. Errors: FFD_E_LIMIT; nothing is taken then. */
-ffd_status ffd_room_take(mesh_room *room, uint64_t count, uint64_t size, ffd_error *error);
+ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
 /* Gives back what was taken so. */
-void ffd_room_return(mesh_room *room, uint64_t count, uint64_t size);
+void ffd_budget_return(memory_budget *budget, uint64_t count, uint64_t size);
 /* How many of the threads, 1 at least, it has room for where each takes size bytes. */
-int ffd_room_threads(const mesh_room *room, int threads, uint64_t size);
+int ffd_budget_threads(const memory_budget *budget, int threads, uint64_t size);
 
 #ifdef __cplusplus
 }

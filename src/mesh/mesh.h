@@ -81,11 +81,12 @@ typedef struct mesh_faces {
 typedef struct mesh_document mesh_document;
 
 /* Makes arrays for the vertices and faces that are counted, and for their corners. A failure leaves nothing
-   to be freed. Errors: FFD_E_MEMORY, FFD_E_LIMIT: the document has no room for them. */
+   to be freed. Errors: FFD_E_MEMORY, FFD_E_LIMIT: the memory budget does not allow them. */
 ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces, size_t corners,
                                ffd_error *error);
-/* Takes what these arrays need out of room. */
-ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, mesh_room *room, ffd_error *error);
+/* Takes what these arrays need from the budget. */
+ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory_budget *budget,
+                               ffd_error *error);
 void ffd_mesh_faces_free(mesh_faces *faces);
 
 /* A corner that has no normal. */
@@ -243,7 +244,7 @@ struct mesh_document {
     const mesh_part *parts; /* part_count, lent */
     size_t part_count;
     double largest_coordinate; /* that the file's numbers can hold; 0: that of the format */
-    mesh_room room;
+    memory_budget budget;
     /* Set before results: they are for another format (model), not for the file, and so not rounded to the
        steps of its integers. */
     bool converted;

@@ -26,7 +26,7 @@ void ffd_model_free(mesh_model *model)
 
 ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_error *error)
 {
-    return model->room ? ffd_room_take(model->room, count, size, error) : FFD_OK;
+    return model->budget ? ffd_budget_take(model->budget, count, size, error) : FFD_OK;
 }
 
 static ffd_status make(mesh_model *model, double **values, size_t count, size_t numbers, ffd_error *error)
@@ -130,18 +130,18 @@ ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner 
     return append(&model->lists[count == 2 ? MODEL_LINES : kind], corners, count, error);
 }
 
-ffd_status ffd_model_check_room(const mesh_model *model, size_t corner_bytes, size_t run_bytes,
-                                ffd_error *error)
+ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, size_t run_bytes,
+                                  ffd_error *error)
 {
-    if (!model->room)
+    if (!model->budget)
         return FFD_OK;
-    mesh_room room = *model->room;
-    ffd_status status = ffd_room_take(&room, model->run_count, run_bytes, error);
+    memory_budget budget = *model->budget;
+    ffd_status status = ffd_budget_take(&budget, model->run_count, run_bytes, error);
     for (int k = 0; k < MODEL_KINDS && status == FFD_OK; k++) {
         const model_list *list = &model->lists[k];
         const size_t corners = list->corner_count; /* of faces at least 3 each */
-        status = ffd_room_take(&room, k == MODEL_FACES ? 3 * (corners - 2 * list->count) : corners,
-                               corner_bytes, error);
+        status = ffd_budget_take(&budget, k == MODEL_FACES ? 3 * (corners - 2 * list->count) : corners,
+                                 corner_bytes, error);
     }
     return status;
 }

@@ -88,7 +88,8 @@ typedef struct mesh_model {
     size_t run_count, run_capacity;
     intern_table names;
     uint32_t features; /* of model_feature; complete after ffd_model_finish */
-    mesh_room *room;   /* what the model and writing it take comes out of it; lent. NULL: it is not counted */
+    memory_budget
+        *budget; /* what the model and writing it take comes out of it; lent. NULL: it is not counted */
 } mesh_model;
 
 void ffd_model_free(mesh_model *model);
@@ -107,12 +108,12 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
    point; a line of less than two corners likewise; of none, nothing. A run must have begun. */
 ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner *corners, size_t count,
                          ffd_error *error);
-/* Takes count * size bytes out of the model's room, if it has one. Errors: FFD_E_LIMIT. */
+/* Takes count * size bytes from the model's memory budget, if it has one. Errors: FFD_E_LIMIT. */
 ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_error *error);
 /* Whether so much more may be taken on the way into a file of each corner, with polygons cut into triangles,
    and of each run. Errors: FFD_E_LIMIT. */
-ffd_status ffd_model_check_room(const mesh_model *model, size_t corner_bytes, size_t run_bytes,
-                                ffd_error *error);
+ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, size_t run_bytes,
+                                  ffd_error *error);
 /* Completes a model: colours on a scale of 255 are brought to that of 1; vertices alone become points; and
    features tell of the content. */
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error);

@@ -46,7 +46,7 @@ static void make_grid(grid *g)
                             g->texcoords, g->joints, g->factors,   g->triangles};
 }
 
-static const mesh_room any_room = {.most = 100000000};
+static const memory_budget any_room = {.most = 100000000};
 static const draco_claim grid_claim = {POINTS, 3 * TRIANGLES};
 
 static draco_mesh *decode_grid(const sample_options *options)

@@ -133,7 +133,7 @@ static const mesh_format fake_format = {
 
 static fake_document make_fake(void)
 {
-    fake_document fake = {.head = {.format = &fake_format, .part_count = 2, .room = ffd_room_make(0)},
+    fake_document fake = {.head = {.format = &fake_format, .part_count = 2, .budget = ffd_budget_make(0)},
                           .parts = {{.vertex_count = 3, .identity = true, .normal_count = 3},
                                     {.vertex_count = 3,
                                      .linear = {2, 0, 0, 0, 0, 1, 0, 1, 0},

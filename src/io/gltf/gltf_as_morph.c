@@ -86,15 +86,15 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
 {
     const ffd_format format = d->binary ? FFD_FORMAT_GLB : FFD_FORMAT_GLTF;
     const ffd_source source = {.path = d->path, .format = format, .space = d->space};
-    mesh_room room = d->base.room;
-    room.is_shared = true;
+    memory_budget budget = d->base.budget;
+    budget.is_shared = true;
     mesh_document *other = NULL;
     file_input file = {0};
     ffd_status status = ffd_gltf_add_target(d, meshes, log, &file, error);
     if (status == FFD_OK)
-        status = ffd_room_take(&room, file.size, 1, error);
+        status = ffd_budget_take(&budget, file.size, 1, error);
     if (status == FFD_OK)
-        status = ffd_gltf_open_within(&file, &source, &room, &other, error);
+        status = ffd_gltf_open_within(&file, &source, &budget, &other, error);
     if (status == FFD_OK) {
         ((gltf_document *)other)->own_accessors =
             ffd_gltf_of(other)->model.accessor_count - d->model.accessor_count;

@@ -156,7 +156,7 @@ static bool may_compare(gltf_comparer *c, size_t accessor)
 {
     const uint64_t count = c->a->model.accessors[accessor].count;
     return both_read(c, accessor) && (c->a->layouts[accessor].packing == GLTF_DRACO ||
-                                      ffd_room_take(&c->room, count, 1, NULL) == FFD_OK);
+                                      ffd_budget_take(&c->budget, count, 1, NULL) == FFD_OK);
 }
 
 /* Compares positions under each node that uses them, then the other accessors. */
@@ -311,7 +311,7 @@ ffd_status ffd_gltf_compare(const mesh_document *first, const mesh_document *sec
     gltf_comparer c = {.a = ffd_gltf_of(first),
                        .b = ffd_gltf_of(second),
                        .result = comparison,
-                       .room = first->room,
+                       .budget = first->budget,
                        .error = error};
     ffd_status status = FFD_OK;
     if (make_tables(&c)) {

@@ -22,7 +22,7 @@ typedef struct gltf_comparer {
     bool *is_unpacked; /* it is Draco data, whose elements are compared instead */
     /* The JSON differs in accessors, bufferViews or meshes: elements are not compared. */
     bool other_storage;
-    mesh_room room; /* for going over elements; a copy of a's */
+    memory_budget budget; /* for going over elements; a copy of a's */
     ffd_error *error;
 } gltf_comparer;
 

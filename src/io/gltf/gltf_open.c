@@ -40,7 +40,7 @@ static ffd_status find_json(gltf_document *d, ffd_format format, ffd_error *erro
     }
     const json_input json = {.text = text, .size = size, .name = d->name, .rules = JSON_ALLOW_MARK};
     const ffd_status status = ffd_json_parse(&json, &d->tree, error);
-    return status ? status : ffd_room_take(&d->base.room, d->tree.count, sizeof *d->tree.values, error);
+    return status ? status : ffd_budget_take(&d->base.budget, d->tree.count, sizeof *d->tree.values, error);
 }
 
 static ffd_status list_values(const gltf_document *d, const char *key, gltf_values *list, ffd_error *error)
@@ -91,7 +91,7 @@ static ffd_status count_files(gltf_document *d, ffd_error *error)
         qsort(files, count, sizeof *files, compare_files);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || compare_files(&files[i - 1], &files[i]) != 0)
-            ffd_room_add_file(&d->base.room, files[i]->size, KEPT_PER_BYTE);
+            ffd_budget_add_file(&d->base.budget, files[i]->size, KEPT_PER_BYTE);
     ffd_free(files);
     return FFD_OK;
 }
@@ -108,7 +108,7 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
                                       bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size, d->path,
                                       d->name, &d->buffers[i], error);
         if (d->buffers[i].kind == BUFFER_DATA && status == FFD_OK)
-            status = ffd_room_take(&d->base.room, d->buffers[i].size, 1, error);
+            status = ffd_budget_take(&d->base.budget, d->buffers[i].size, 1, error);
     }
     return status == FFD_OK ? count_files(d, error) : status;
 }
@@ -140,8 +140,8 @@ static ffd_status limit_objects(gltf_document *d, ffd_error *error)
     const uint64_t count = (uint64_t)d->buffer_values.count + d->view_values.count +
                            d->accessor_values.count + d->mesh_values.count + d->primitive_values.count +
                            d->node_values.count + (scenes == JSON_NONE ? 0 : d->tree.values[scenes].count);
-    const ffd_status status = ffd_room_check(&d->base.room, count, OBJECT_BYTES, error);
-    return status ? status : ffd_room_take(&d->base.room, count, KEPT_OBJECT_BYTES, error);
+    const ffd_status status = ffd_budget_check(&d->base.budget, count, OBJECT_BYTES, error);
+    return status ? status : ffd_budget_take(&d->base.budget, count, KEPT_OBJECT_BYTES, error);
 }
 
 /* tinygltf refuses indices whose accessor has no bufferView, as compressed and sparse ones may not:
@@ -335,14 +335,14 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     return status == FFD_OK && no_memory ? ffd_fail_memory(error) : status;
 }
 
-ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const mesh_room *room,
+ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, const memory_budget *budget,
                                 mesh_document **document, ffd_error *error)
 {
     *document = NULL;
     gltf_document *d = ffd_alloc_zero(1, sizeof *d);
     if (!d)
         return ffd_fail_memory(error);
-    d->base.room = *room;
+    d->base.budget = *budget;
     d->space = source->space;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
     d->input = *input; /* the caller's until all succeeded */
@@ -361,9 +361,9 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
 ffd_status ffd_gltf_open(file_input *input, const ffd_source *source, mesh_document **document,
                          ffd_error *error)
 {
-    mesh_room room = ffd_room_make(source->memory);
-    ffd_room_add_file(&room, input->size, KEPT_PER_BYTE);
-    return ffd_gltf_open_within(input, source, &room, document, error);
+    memory_budget budget = ffd_budget_make(source->memory);
+    ffd_budget_add_file(&budget, input->size, KEPT_PER_BYTE);
+    return ffd_gltf_open_within(input, source, &budget, document, error);
 }
 
 void ffd_gltf_close(mesh_document *document)

@@ -84,7 +84,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
         return status;
     }
     describe_part(d);
-    d->base.room = ffd_room_of_file(d->input.size, true, source->memory);
+    d->base.budget = ffd_budget_for_file(d->input.size, true, source->memory);
     *document = &d->base;
     return FFD_OK;
 }

@@ -356,7 +356,7 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
 {
     planner p = {.plan = plan, .model = model, .error = error};
     *plan = (glb_plan){.model = model};
-    ffd_status status = ffd_model_check_room(model, CORNER_BYTES, RUN_BYTES, error);
+    ffd_status status = ffd_model_check_memory(model, CORNER_BYTES, RUN_BYTES, error);
     if (status == FFD_OK)
         status = join_values(&p, model->texcoord_count, read_texcoord, 2, &p.texcoords);
     if (status == FFD_OK)

@@ -385,11 +385,11 @@ ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, boo
     if (taken && share->locations)
         return share->locations; /* of the same vertices, in another volume */
     forget_locations(share);
-    if (ffd_room_take(&document->room, count, sizeof *share->locations, NULL))
+    if (ffd_budget_take(&document->budget, count, sizeof *share->locations, NULL))
         return NULL;
     share->locations = ffd_alloc((size_t)count, sizeof *share->locations);
     if (!share->locations)
-        ffd_room_return(&document->room, count, sizeof *share->locations);
+        ffd_budget_return(&document->budget, count, sizeof *share->locations);
     return share->locations;
 }
 

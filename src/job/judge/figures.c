@@ -13,27 +13,28 @@
 #define ARRAY_BYTES (12 * sizeof(double))
 
 /* What normals from faces take while they are made. */
-static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, mesh_room room,
+static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, memory_budget budget,
                                 ffd_error *error)
 {
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < job->document->part_count && status == FFD_OK; i++)
-        status = ffd_room_take(&room, job->document->parts[i].normal_count, NORMAL_BYTES, error);
-    return status ? status : ffd_room_check(&room, ffd_half_edge_bytes(faces), 1, error);
+        status = ffd_budget_take(&budget, job->document->parts[i].normal_count, NORMAL_BYTES, error);
+    return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
 /* Takes the memory that figures need, with the faces that are there, and looks whether that suffices for
    normals before. */
-static ffd_status take_room(const deform_job *job, const mesh_faces *faces, mesh_room *room, ffd_error *error)
+static ffd_status take_room(const deform_job *job, const mesh_faces *faces, memory_budget *budget,
+                            ffd_error *error)
 {
     const size_t corners = faces->start[faces->face_count];
-    ffd_status status = ffd_room_take(room, ffd_mesh_vertex_count(job->document), ARRAY_BYTES, error);
+    ffd_status status = ffd_budget_take(budget, ffd_mesh_vertex_count(job->document), ARRAY_BYTES, error);
     if (status == FFD_OK)
-        status = ffd_mesh_faces_take(faces, corners, room, error);
+        status = ffd_mesh_faces_take(faces, corners, budget, error);
     if (status == FFD_OK && job->recomputes)
-        status = check_normals(job, faces, *room, error);
+        status = check_normals(job, faces, *budget, error);
     if (status == FFD_OK && job->check)
-        status = ffd_room_take(room, corners, EDGE_LIST_BYTES, error);
+        status = ffd_budget_take(budget, corners, EDGE_LIST_BYTES, error);
     return status;
 }
 
@@ -41,13 +42,13 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
 {
     ffd_error own;
     char line[1024];
-    mesh_room room = arrays->room;
+    memory_budget budget = arrays->budget;
     ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
     if (status == FFD_OK)
-        status = take_room(job, &arrays->faces, &room, &own);
+        status = take_room(job, &arrays->faces, &budget, &own);
     arrays->has_faces = status == FFD_OK;
     if (!status) {
-        arrays->room = room;
+        arrays->budget = budget;
         return FFD_OK;
     }
     ffd_mesh_faces_free(&arrays->faces);
@@ -61,7 +62,7 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
     return FFD_OK;
 }
 
-ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, ffd_error *error)
+ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     const size_t count = (size_t)ffd_mesh_vertex_count(job->document);
     const ffd_status status = read_faces(job, arrays, error);

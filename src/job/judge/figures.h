@@ -11,13 +11,13 @@ typedef struct figure_arrays {
     mesh_faces faces;
     bool has_faces;
     double *deformed, *gradients; /* see mesh_pass */
-    mesh_room room;               /* the document's, as it is beside them */
+    memory_budget budget;         /* the document's, as it is beside them */
 } figure_arrays;
 
-/* Reads the mesh's faces (at rest: before the pass) and makes the arrays, out of arrays->room. Faces that are
-   not valid, or that the document has no room for, refuse a check and normals that are to be computed from
-   them; else a deformation goes on without their figures after a warning. */
-ffd_status ffd_figures_make_room(const deform_job *job, figure_arrays *arrays, ffd_error *error);
+/* Reads the mesh's faces (at rest: before the pass) and makes the arrays, out of arrays->budget. Faces that
+   are not valid, or that the document has no room for, refuse a check and normals that are to be computed
+   from them; else a deformation goes on without their figures after a warning. */
+ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error);
 void ffd_figures_free(figure_arrays *arrays);
 
 /* Proves for each lattice of the chain that it does not fold, and joins the outcomes. */

@@ -24,7 +24,7 @@ static ffd_status check_reach(const lattice_chain *chain, size_t link, const mes
 
 ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
 {
-    const int usable = ffd_pass_threads(&document->room, 0, threads);
+    const int usable = ffd_pass_threads(&document->budget, 0, threads);
     for (size_t l = 0; l < chain->count; l++) {
         chain_link *link = &chain->links[l];
         if (link->locator)

@@ -337,9 +337,9 @@ static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *erro
     return FFD_OK;
 }
 
-int ffd_pass_threads(const mesh_room *room, size_t edge_links, int threads)
+int ffd_pass_threads(const memory_budget *budget, size_t edge_links, int threads)
 {
-    return ffd_room_threads(room, threads, THREAD_BYTES + edge_links * THREAD_LINK_BYTES);
+    return ffd_budget_threads(budget, threads, THREAD_BYTES + edge_links * THREAD_LINK_BYTES);
 }
 
 _Static_assert(sizeof(tile_scratch) - sizeof(kept_cells) + sizeof(shape_scratch) < THREAD_BYTES,

@@ -12,9 +12,9 @@
 #define THREAD_BYTES ((size_t)5 << 20)
 #define THREAD_LINK_BYTES ((size_t)400 << 10)
 
-/* How many of the threads there is memory for, beside what is taken of the room. edge_links: the lattices
+/* How many of the threads there is memory for, beside what is taken of the budget. edge_links: the lattices
    through which they will look at edges; 0: they will not. */
-int ffd_pass_threads(const mesh_room *room, size_t edge_links, int threads);
+int ffd_pass_threads(const memory_budget *budget, size_t edge_links, int threads);
 
 /* Sends all vertices of the document through the chain, and counts. Errors: FFD_E_MEMORY, and those of a
    search (ffd_chain_apply). */

@@ -71,7 +71,7 @@ bool read_head(const draco::MeshSequentialDecoder &, draco::DecoderBuffer buffer
 template <class Decoder> class careful : public Decoder
 {
   public:
-    careful(const draco_claim &stated, const mesh_room &left) : claim(stated), room(left) {}
+    careful(const draco_claim &stated, const memory_budget &left) : claim(stated), budget(left) {}
 
     finding found;
 
@@ -129,12 +129,12 @@ template <class Decoder> class careful : public Decoder
 
     bool fits(uint64_t count, uint64_t size)
     {
-        found.status = ffd_room_take(&room, count, size, &found.error);
+        found.status = ffd_budget_take(&budget, count, size, &found.error);
         return found.status == FFD_OK;
     }
 
     const draco_claim claim;
-    mesh_room room;
+    memory_budget budget;
 };
 
 bool skip_name(draco::DecoderBuffer &buffer)
@@ -200,7 +200,7 @@ std::vector<char> without_metadata(const unsigned char *bytes, size_t size, uint
 
 template <class Decoder>
 ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const draco_claim &claim,
-               const mesh_room &room, draco::Mesh &mesh, ffd_error *error)
+               const memory_budget &budget, draco::Mesh &mesh, ffd_error *error)
 {
     std::vector<char> kept;
     draco::DecoderBuffer buffer;
@@ -212,7 +212,7 @@ ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const 
         buffer.Init(kept.data(), kept.size());
     }
     const draco::DecoderOptions options;
-    careful<Decoder> decoder(claim, room);
+    careful<Decoder> decoder(claim, budget);
     const draco::Status status = decoder.Decode(options, &buffer, &mesh);
     if (decoder.found.status)
         return ffd_fail(error, decoder.found.status, "%s", decoder.found.error.message);
@@ -221,8 +221,8 @@ ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const 
     return ffd_fail(error, FFD_E_INVALID, "the Draco data is broken: %s", status.error_msg());
 }
 
-ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &claim, const mesh_room &room,
-                  draco::Mesh &mesh, ffd_error *error)
+ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &claim,
+                  const memory_budget &budget, draco::Mesh &mesh, ffd_error *error)
 {
     draco::DecoderBuffer buffer;
     draco::DracoHeader header;
@@ -242,9 +242,9 @@ ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &cl
                         header.version_minor, draco::kDracoMeshBitstreamVersionMajor,
                         draco::kDracoMeshBitstreamVersionMinor);
     if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
-        return run<draco::MeshSequentialDecoder>(bytes, size, version, claim, room, mesh, error);
+        return run<draco::MeshSequentialDecoder>(bytes, size, version, claim, budget, mesh, error);
     if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING)
-        return run<draco::MeshEdgebreakerDecoder>(bytes, size, version, claim, room, mesh, error);
+        return run<draco::MeshEdgebreakerDecoder>(bytes, size, version, claim, budget, mesh, error);
     return ffd_fail(error, FFD_E_UNSUPPORTED, "Draco encoding method %d is not known", header.encoder_method);
 }
 
@@ -332,13 +332,13 @@ ffd_status read_attribute(const draco::Mesh &mesh, uint32_t id, int component, i
 } // namespace
 
 extern "C" ffd_status ffd_draco_decode(const unsigned char *bytes, size_t size, const draco_claim *claim,
-                                       const mesh_room *room, draco_mesh **mesh, ffd_error *error)
+                                       const memory_budget *budget, draco_mesh **mesh, ffd_error *error)
 {
     *mesh = nullptr;
     ffd_status status;
     try {
         std::unique_ptr<draco_mesh> decoded(new draco_mesh);
-        status = decode(bytes, size, *claim, *room, decoded->mesh, error);
+        status = decode(bytes, size, *claim, *budget, decoded->mesh, error);
         if (status == FFD_OK)
             *mesh = decoded.release();
     } catch (const std::bad_alloc &) {

@@ -26,7 +26,7 @@ typedef struct draco_mesh draco_mesh;
    budget, from which nothing is taken. Errors, without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED
    (another version, not a mesh), FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_draco_decode(const unsigned char *bytes, size_t size, const draco_claim *claim,
-                            const mesh_room *room, draco_mesh **mesh, ffd_error *error);
+                            const memory_budget *budget, draco_mesh **mesh, ffd_error *error);
 
 /* Frees a mesh; NULL is allowed. */
 void ffd_draco_free(draco_mesh *mesh);

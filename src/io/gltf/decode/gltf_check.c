@@ -274,14 +274,14 @@ static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t va
    time. */
 static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
 {
-    mesh_room room = d->base.room;
+    memory_budget budget = d->base.budget;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < d->model.accessor_count && status == FFD_OK; i++) {
         const gltf_accessor *accessor = &d->model.accessors[i];
         ffd_error problem = {0};
         if (accessor->view >= 0 || d->layouts[i].data || !d->layouts[i].readable)
             continue;
-        status = ffd_room_take(&room, accessor->count, ZERO_BYTES, &problem);
+        status = ffd_budget_take(&budget, accessor->count, ZERO_BYTES, &problem);
         if (status)
             ffd_json_span_fail(&d->tree, d->accessor_values.values[i], d->name, status, error, "%s",
                                problem.message);

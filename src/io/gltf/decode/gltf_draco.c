@@ -90,7 +90,7 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
     if (unpacked->bytes && unpacked->source == source && unpacked->view == u->view)
         return FFD_OK;
     ffd_error problem = {0};
-    ffd_status status = ffd_room_take(&d->base.room, accessor->count, stride, &problem);
+    ffd_status status = ffd_budget_take(&d->base.budget, accessor->count, stride, &problem);
     if (status)
         return fail(d, value, status, u->error, problem.message);
     unsigned char *bytes = ffd_alloc_zero((size_t)accessor->count, stride);
@@ -171,11 +171,11 @@ static ffd_status decode_mesh(gltf_document *d, const packed_primitive *packed, 
     if (!bytes)
         return fail(d, value, FFD_E_INVALID, error, "the bufferView has no bytes");
     const ffd_status status = ffd_draco_decode(bytes, (size_t)d->model.views[packed->view].length, claim,
-                                               &d->base.room, mesh, &problem);
+                                               &d->base.budget, mesh, &problem);
     if (status)
         return fail(d, value, status, error, problem.message);
     d->draco_decoded += (uint64_t)ffd_draco_point_count(*mesh) + ffd_draco_corner_count(*mesh);
-    if ((double)d->draco_decoded > MOST_DECODED_A_BYTE * (double)ffd_room_most(&d->base.room))
+    if ((double)d->draco_decoded > MOST_DECODED_A_BYTE * (double)ffd_budget_most(&d->base.budget))
         return fail(d, value, FFD_E_LIMIT, error, "the file's Draco data would be decoded too many times");
     return FFD_OK;
 }

@@ -125,7 +125,7 @@ static ffd_status decode_view(gltf_document *d, size_t i, ffd_error *error)
     ffd_status status = read_compression(d, i, &view, error);
     if (status)
         return status;
-    status = ffd_room_take(&d->base.room, d->model.views[i].length, 1, &problem);
+    status = ffd_budget_take(&d->base.budget, d->model.views[i].length, 1, &problem);
     if (status)
         return ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     d->decoded_views[i] = ffd_alloc_zero((size_t)d->model.views[i].length, 1);

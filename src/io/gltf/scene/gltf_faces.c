@@ -192,9 +192,9 @@ uint64_t ffd_gltf_most_corners(const gltf_document *d)
 /* Checks the memory for the faces together with the corners of one primitive. */
 static ffd_status check_budget(const gltf_document *d, const mesh_faces *faces, ffd_error *error)
 {
-    mesh_room room = d->base.room;
-    const ffd_status status = ffd_mesh_faces_take(faces, 3 * (uint64_t)faces->face_count, &room, error);
-    return status ? status : ffd_room_check(&room, ffd_gltf_most_corners(d), sizeof(uint32_t), error);
+    memory_budget budget = d->base.budget;
+    const ffd_status status = ffd_mesh_faces_take(faces, 3 * (uint64_t)faces->face_count, &budget, error);
+    return status ? status : ffd_budget_check(&budget, ffd_gltf_most_corners(d), sizeof(uint32_t), error);
 }
 
 ffd_status ffd_gltf_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)

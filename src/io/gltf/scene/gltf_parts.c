@@ -27,7 +27,7 @@ static ffd_status count_instances(gltf_document *d, size_t *total, ffd_error *er
         const uint64_t instances =
             (uint64_t)d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count; /* below 2^31 each */
         d->mesh_uses[m].first_instance = *total;
-        status = ffd_room_take(&d->base.room, instances, INSTANCE_BYTES, error);
+        status = ffd_budget_take(&d->base.budget, instances, INSTANCE_BYTES, error);
         *total += (size_t)instances;
     }
     return status;
@@ -162,7 +162,7 @@ static ffd_status limit_vertices(const gltf_document *d, ffd_error *error)
                                  (unsigned long long)MOST_VERTICES);
     }
     /* Any pass over all vertices keeps at least this for each. */
-    return ffd_room_check(&d->base.room, vertices, sizeof(float[3]), error);
+    return ffd_budget_check(&d->base.budget, vertices, sizeof(float[3]), error);
 }
 
 ffd_status ffd_gltf_make_parts(gltf_document *d, ffd_error *error)

@@ -112,7 +112,7 @@ static ffd_status make_result(gltf_document *d, size_t part, gltf_semantic seman
     if (stream->accessor == GLTF_NONE)
         return FFD_OK;
     if (!stream->result) {
-        const ffd_status status = ffd_room_take(&d->base.room, count, 3 * sizeof *stream->result, error);
+        const ffd_status status = ffd_budget_take(&d->base.budget, count, 3 * sizeof *stream->result, error);
         if (status)
             return status;
         stream->result = ffd_alloc_whole(count, 3 * sizeof *stream->result);
@@ -136,7 +136,7 @@ static void drop_result(gltf_document *d, size_t part, gltf_semantic semantic)
 {
     gltf_stream *stream = &d->parts[part].streams[semantic];
     if (stream->result)
-        ffd_room_return(&d->base.room, d->mesh_parts[part].vertex_count, 3 * sizeof *stream->result);
+        ffd_budget_return(&d->base.budget, d->mesh_parts[part].vertex_count, 3 * sizeof *stream->result);
     ffd_gltf_free_result(stream);
 }
 

@@ -53,7 +53,7 @@ static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *erro
             for (size_t n = 0; n < d->mesh_uses[m].node_count; n++) {
                 const size_t count = d->model.meshes[m].primitives[p].target_count;
                 (instance++)->first_target = *total;
-                const ffd_status status = ffd_room_take(&d->base.room, count, TARGET_BYTES, error);
+                const ffd_status status = ffd_budget_take(&d->base.budget, count, TARGET_BYTES, error);
                 if (status)
                     return status;
                 *total += count;

@@ -111,7 +111,7 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
 static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_error *error)
 {
     const ffd_status taken =
-        ffd_room_take(&d->base.room, skin->joint_count, 12 * sizeof *skin->matrices, error);
+        ffd_budget_take(&d->base.budget, skin->joint_count, 12 * sizeof *skin->matrices, error);
     if (taken)
         return taken;
     skin->matrices = ffd_alloc_zero(skin->joint_count, 12 * sizeof *skin->matrices);
