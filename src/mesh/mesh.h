@@ -112,7 +112,7 @@ typedef struct mesh_log {
 void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
 
 /* x = linear p + offset, in place. */
-static inline void ffd_point_place(const double linear[9], const double offset[3], double point[3])
+static inline void ffd_point_transform(const double linear[9], const double offset[3], double point[3])
 {
     mat_apply(linear, point, point);
     for (int a = 0; a < 3; a++)
@@ -121,9 +121,10 @@ static inline void ffd_point_place(const double linear[9], const double offset[3
 
 /* Takes the positions of a part's vertices [first, first + count) (3 doubles each) from the file's space to
    the lattice's: x = linear p + offset. Any thread. */
-void ffd_part_place(const mesh_document *document, size_t part, size_t first, size_t count, double *points);
+void ffd_part_transform(const mesh_document *document, size_t part, size_t first, size_t count,
+                        double *points);
 /* The same with the vertices' own transforms, as read_transforms gives them. */
-void ffd_points_place(const double *transforms, size_t count, double *points);
+void ffd_points_transform(const double *transforms, size_t count, double *points);
 
 /* The functions of a format, each described at its member of mesh_format. */
 typedef ffd_status mesh_open_function(file_input *input, const ffd_source *source, mesh_document **document,

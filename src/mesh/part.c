@@ -3,10 +3,10 @@
 
 #define BLOCK ((size_t)64)
 
-void ffd_points_place(const double *transforms, size_t count, double *points)
+void ffd_points_transform(const double *transforms, size_t count, double *points)
 {
     for (size_t i = 0; i < count; i++)
-        ffd_point_place(transforms + 12 * i, transforms + 12 * i + 9, points + 3 * i);
+        ffd_point_transform(transforms + 12 * i, transforms + 12 * i + 9, points + 3 * i);
 }
 
 static void place_skinned(const mesh_document *document, size_t part, size_t first, size_t count,
@@ -16,17 +16,18 @@ static void place_skinned(const mesh_document *document, size_t part, size_t fir
     for (size_t at = 0; at < count; at += BLOCK) {
         const size_t size = count - at < BLOCK ? count - at : BLOCK;
         document->format->read_transforms(document, part, first + at, size, transforms);
-        ffd_points_place(transforms, size, points + 3 * at);
+        ffd_points_transform(transforms, size, points + 3 * at);
     }
 }
 
-void ffd_part_place(const mesh_document *document, size_t part, size_t first, size_t count, double *points)
+void ffd_part_transform(const mesh_document *document, size_t part, size_t first, size_t count,
+                        double *points)
 {
     const mesh_part *p = &document->parts[part];
     if (p->skinned)
         place_skinned(document, part, first, count, points);
     for (size_t i = 0; i < count && !p->skinned && !p->identity; i++)
-        ffd_point_place(p->linear, p->offset, points + 3 * i);
+        ffd_point_transform(p->linear, p->offset, points + 3 * i);
 }
 
 uint64_t ffd_mesh_vertex_count(const mesh_document *document)

@@ -257,7 +257,7 @@ static void check_part(const trial *of, const mesh_document *document, size_t pa
         double p[3], placed[3];
         document->format->read_positions(document, part_number, v, 1, p);
         memcpy(placed, p, sizeof p);
-        ffd_part_place(document, part_number, v, 1, placed);
+        ffd_part_transform(document, part_number, v, 1, placed);
         const double error =
             condition * (POSITION_ERROR * (size * vec_length(p) + offset + 1) + quantum * size);
         for (size_t a = 0; a < 3; a++)

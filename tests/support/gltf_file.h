@@ -66,7 +66,7 @@ static inline void move_positions(mesh_document *document, size_t part, mover mo
         const uint8_t changed = 1;
         gltf->read_positions(document, part, i, 1, xyz);
         memcpy(place, xyz, sizeof place);
-        ffd_part_place(document, part, i, 1, place);
+        ffd_part_transform(document, part, i, 1, place);
         move(place, xyz);
         gltf->write_positions(document, part, i, 1, xyz, &changed);
     }

@@ -258,7 +258,7 @@ static void parts_are_pairs_of_accessor_and_node(void **state)
     }
     double xyz[9];
     gltf->read_positions(document, 0, 0, 3, xyz);
-    ffd_part_place(document, 0, 0, 3, xyz);
+    ffd_part_transform(document, 0, 0, 3, xyz);
     static const double expected[9] = {11, 2, 3, 11, 4, 3, 9, 2, 3};
     for (int i = 0; i < 9; i++)
         assert_true(xyz[i] > expected[i] - 1e-14 && xyz[i] < expected[i] + 1e-14);

@@ -193,7 +193,7 @@ static void moved_models_show_what_was_asked_for(void **state)
                 double xyz[3], place[3], moved[3];
                 gltf->read_positions(a, part, i, 1, xyz);
                 memcpy(place, xyz, sizeof place);
-                ffd_part_place(a, part, i, 1, place);
+                ffd_part_transform(a, part, i, 1, place);
                 twist(place, xyz);
                 gltf->read_positions(b, part, i, 1, moved);
                 for (int c = 0; c < 3; c++)

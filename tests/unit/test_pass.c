@@ -20,7 +20,7 @@
 #include <unistd.h>
 
 #define PARTS 4
-#define WHOLE VERTEX_PLACES /* a tile, and no more */
+#define WHOLE VERTEX_TRANSFORMS /* a tile, and no more */
 #define MOST (2 * WHOLE + 452)
 #define NUMBERED (MOST + WHOLE + 5) /* the parts 0, 2 and 3; part 1 repeats part 0 */
 
@@ -75,7 +75,7 @@ static bool place_of(const cloud *mesh, size_t number, double p[3])
     const size_t part = number < MOST ? 0 : number < MOST + WHOLE ? 2 : 3;
     const size_t first = part == 0 ? 0 : part == 2 ? MOST : MOST + WHOLE;
     memcpy(p, mesh->xyz[part] + 3 * (number - first), 3 * sizeof *p);
-    ffd_part_place(&mesh->head, part, number - first, 1, p);
+    ffd_part_transform(&mesh->head, part, number - first, 1, p);
     return part != 3;
 }
 

@@ -95,8 +95,8 @@ static void compare_block(gltf_comparer *c, size_t accessor, size_t part, size_t
     memcpy(world_a, a, size * count * sizeof *a);
     memcpy(world_b, b, size * count * sizeof *b);
     if (part != GLTF_NONE) {
-        ffd_part_place(&c->a->base, part, first, count, world_a);
-        ffd_part_place(&c->a->base, part, first, count, world_b);
+        ffd_part_transform(&c->a->base, part, first, count, world_a);
+        ffd_part_transform(&c->a->base, part, first, count, world_b);
     }
     for (size_t i = 0; i < count; i++, name.element++) {
         const double *x = world_a + size * i, *y = world_b + size * i;

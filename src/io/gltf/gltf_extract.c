@@ -129,7 +129,7 @@ static void fill_values(const extractor *e)
         if (!part->repeats_positions) {
             double *positions = e->model->positions + 3 * e->first_position[i];
             read_stream(d, i, GLTF_POSITION, positions);
-            ffd_part_place(&d->base, i, 0, part->vertex_count, positions);
+            ffd_part_transform(&d->base, i, 0, part->vertex_count, positions);
         }
         if (part->normal_count > 0) {
             double *normals = e->model->normals + 3 * e->first_normal[i];

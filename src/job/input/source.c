@@ -66,7 +66,7 @@ void ffd_source_close(mesh_document **document)
 void ffd_source_positions(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
 {
     document->format->read_positions(document, part, first, count, xyz);
-    ffd_part_place(document, part, first, count, xyz);
+    ffd_part_transform(document, part, first, count, xyz);
 }
 
 size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *bounds)

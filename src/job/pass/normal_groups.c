@@ -5,7 +5,7 @@
 #include "job/pass/vertex_transform.h"
 #include <string.h>
 
-#define BLOCK VERTEX_PLACES
+#define BLOCK VERTEX_TRANSFORMS
 
 enum { SIDE_SHOWN, SIDE_MIRRORED, SIDE_SINGULAR };
 
@@ -16,7 +16,7 @@ typedef struct grouping {
     normal_groups *groups;
     double *values; /* 3 a normal: as they show in the lattice's space, of no particular length */
     uint8_t *sides; /* of each vertex */
-    vertex_places *places;
+    vertex_transforms *transforms;
     uint32_t *corners; /* of each corner: its normal, later its group */
     uint32_t *firsts;  /* of each group: its first corner */
     uint32_t *slots;   /* open addressing: groups; mask + 1, a power of two */
@@ -73,37 +73,37 @@ static ffd_status read_corners(grouping *g, ffd_error *error)
 }
 
 /* As the normal of the side that is shown: M^-T n, whatever the sign of det M. */
-static void show(const vertex_place *place, double n[3])
+static void show(const vertex_transform *transform, double n[3])
 {
-    if (place->identity || place->singular)
+    if (transform->identity || transform->singular)
         return;
-    const double *m = place->inverse;
+    const double *m = transform->inverse;
     const double transposed[9] = {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
     mat_apply(transposed, n, n);
 }
 
-static uint8_t side_of(const vertex_place *place)
+static uint8_t side_of(const vertex_transform *transform)
 {
-    if (place->singular)
+    if (transform->singular)
         return SIDE_SINGULAR;
-    return !place->identity && mat_determinant(place->linear) < 0 ? SIDE_MIRRORED : SIDE_SHOWN;
+    return !transform->identity && mat_determinant(transform->linear) < 0 ? SIDE_MIRRORED : SIDE_SHOWN;
 }
 
 /* The normals and sides of a part's vertices [first, first + count). */
 static void read_block(grouping *g, size_t part, size_t first, size_t count, uint8_t *sides, double *values)
 {
     const mesh_part *p = &g->document->parts[part];
-    ffd_vertex_places_read(g->document, part, first, count, g->places);
+    ffd_vertex_transforms_read(g->document, part, first, count, g->places);
     const size_t from = p->normal_start ? p->normal_start[first] : first;
     const size_t end = p->normal_start ? p->normal_start[first + count] : first + count;
     g->document->format->read_normals(g->document, part, from, end - from, values + 3 * from);
     for (size_t i = 0; i < count; i++) {
-        const vertex_place place = ffd_vertex_place_of(g->places, i);
+        const vertex_transform transform = ffd_vertex_transform_of(g->places, i);
         const size_t v = first + i, own = p->normal_start ? p->normal_start[v] : v;
         const size_t behind = p->normal_start ? p->normal_start[v + 1] : v + 1;
-        sides[v] = side_of(&place);
+        sides[v] = side_of(&transform);
         for (size_t n = own; n < behind; n++)
-            show(&place, values + 3 * n);
+            show(&transform, values + 3 * n);
     }
 }
 

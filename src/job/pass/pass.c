@@ -15,11 +15,11 @@ static void place_points(const part_work *work, tile_scratch *scratch, size_t fi
                          double *points)
 {
     const mesh_document *document = work->pass->document;
-    ffd_vertex_places_read(document, work->part_number, first, count, &scratch->places);
+    ffd_vertex_transforms_read(document, work->part_number, first, count, &scratch->transforms);
     if (work->part->skinned)
-        ffd_points_place(scratch->places.transforms, count, points);
+        ffd_points_transform(scratch->transforms.transforms, count, points);
     else
-        ffd_part_place(document, work->part_number, first, count, points);
+        ffd_part_transform(document, work->part_number, first, count, points);
 }
 
 static void fill_nan(double *values, size_t count)
@@ -47,7 +47,7 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
         return;
     for (size_t i = 0; i < count; i++) {
         const size_t number = (size_t)work->first_vertex + first + i;
-        const bool singular = ffd_vertex_place_of(&scratch->places, i).singular;
+        const bool singular = ffd_vertex_transform_of(&scratch->transforms, i).singular;
         const chain_note *note = &scratch->notes[i];
         const double *gradient = scratch->gradient + 9 * i;
         if (pass->statuses)
@@ -72,8 +72,8 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
 static void bring_back(const part_work *work, tile_scratch *scratch, size_t count)
 {
     for (size_t i = 0; i < count && !work->part->identity; i++) {
-        const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
-        ffd_displacement_bring_back(&place, scratch->delta + 3 * i);
+        const vertex_transform transform = ffd_vertex_transform_of(&scratch->transforms, i);
+        ffd_displacement_to_file(&transform, scratch->delta + 3 * i);
     }
 }
 
@@ -169,8 +169,8 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
 {
     const mesh_part *part = work->part;
     for (size_t i = 0; i < count && !part->identity; i++) {
-        const vertex_place place = ffd_vertex_place_of(&scratch->places, i);
-        ffd_gradient_bring_back(&place, scratch->gradient + 9 * i);
+        const vertex_transform transform = ffd_vertex_transform_of(&scratch->transforms, i);
+        ffd_gradient_to_file(&transform, scratch->gradient + 9 * i);
     }
     if (part->normal_count && part->normal_start)
         deform_listed_normals(work, scratch, first, count, totals);
@@ -247,9 +247,9 @@ static void spread(tile_scratch *scratch, size_t count)
             memcpy(gradient, scratch->gradient + 9 * left, 9 * sizeof *gradient);
             scratch->notes[i] = scratch->notes[left];
         } else {
-            const vertex_place own = ffd_vertex_place_of(&scratch->places, i);
+            const vertex_transform own = ffd_vertex_transform_of(&scratch->transforms, i);
             memcpy(place, scratch->raw + 3 * i, 3 * sizeof *place);
-            ffd_vertex_place_point(&own, place);
+            ffd_vertex_transform_point(&own, place);
             memset(delta, 0, 3 * sizeof *delta);
             memset(gradient, 0, 9 * sizeof *gradient);
             scratch->notes[i] = (chain_note){.status = FFD_OUTSIDE};

@@ -59,10 +59,10 @@ static void place_moved(const shape_work *work)
         s->gradients[i] = work->tile->gradient + 9 * i;
         if (!ffd_part_selects(work->part->part, work->first + i) || (m[0] == 0 && m[1] == 0 && m[2] == 0))
             continue;
-        const vertex_place place = ffd_vertex_place_of(&work->tile->places, i);
+        const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
         for (size_t a = 0; a < 3; a++)
             x[a] = s->base[3 * i + a] + m[a];
-        ffd_vertex_place_point(&place, x);
+        ffd_vertex_transform_point(&transform, x);
         if (!vec_is_finite(x))
             note_first(&work->totals->first_shape_invalid, number_of(work, i));
         s->moved[s->moved_count++] = i;
@@ -86,9 +86,9 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
     work->totals->deform_seconds += run.deform_seconds;
     for (size_t k = 0; k < s->moved_count && !status; k++) {
         const size_t i = s->moved[k];
-        const vertex_place place = ffd_vertex_place_of(&work->tile->places, i);
+        const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
         if (gradients)
-            ffd_gradient_bring_back(&place, s->moved_gradient + 9 * k);
+            ffd_gradient_to_file(&transform, s->moved_gradient + 9 * k);
         s->gradients[i] = s->moved_gradient + 9 * k;
         if (s->moved_notes[k].outside) {
             work->totals->shapes_outside++;
@@ -120,10 +120,10 @@ static void deform_positions(const shape_work *work)
     memset(s->changed, 0, work->count);
     for (size_t k = 0; k < s->moved_count; k++) {
         const size_t i = s->moved[k];
-        const vertex_place place = ffd_vertex_place_of(&work->tile->places, i);
+        const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
         const double *const base = work->tile->delta + 3 * i;
         double *const moved = s->moved_delta + 3 * k, *const m = s->offsets + 3 * i;
-        ffd_displacement_bring_back(&place, moved);
+        ffd_displacement_to_file(&transform, moved);
         for (int a = 0; a < 3; a++)
             take(m[a] + (moved[a] - base[a]), &m[a], &s->changed[i]);
         if (s->changed[i] && !fits(m, largest))

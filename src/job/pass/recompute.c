@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Vertices at once, and normals of one of them or more at once. */
-#define BLOCK VERTEX_PLACES
+#define BLOCK VERTEX_TRANSFORMS
 
 typedef struct recomputing {
     mesh_document *document;
@@ -17,18 +17,18 @@ typedef struct recomputing {
     recompute_counts *counts;
     size_t part;
     size_t first_vertex, first_normal; /* of the part, in the document */
-    vertex_places places;
+    vertex_transforms transforms;
     double normals[3 * BLOCK], tangents[4 * BLOCK];
     uint8_t changed[BLOCK];
 } recomputing;
 
 /* The normal that shows as `direction` in the lattice's space: M^T of it (normal_groups.c: show). */
-static void bring_back(const vertex_place *place, const double direction[3], double n[3])
+static void bring_back(const vertex_transform *transform, const double direction[3], double n[3])
 {
     memcpy(n, direction, 3 * sizeof *n);
-    if (place->identity)
+    if (transform->identity)
         return;
-    const double *m = place->linear;
+    const double *m = transform->linear;
     const double transposed[9] = {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
     mat_apply(transposed, n, n);
     const double length = vec_length(n);
@@ -37,13 +37,14 @@ static void bring_back(const vertex_place *place, const double direction[3], dou
 }
 
 /* The gradient of a vertex, in the file's space. */
-static void read_gradient(const recomputing *r, const vertex_place *place, size_t vertex, double gradient[9])
+static void read_gradient(const recomputing *r, const vertex_transform *transform, size_t vertex,
+                          double gradient[9])
 {
     memcpy(gradient, r->gradients + 9 * (r->first_vertex + vertex), 9 * sizeof *gradient);
-    ffd_gradient_bring_back(place, gradient);
+    ffd_gradient_to_file(place, gradient);
 }
 
-static bool carry(const recomputing *r, const vertex_place *place, size_t vertex, double n[3])
+static bool carry(const recomputing *r, const vertex_transform *transform, size_t vertex, double n[3])
 {
     double gradient[9];
     int collapsed;
@@ -55,11 +56,11 @@ static bool carry(const recomputing *r, const vertex_place *place, size_t vertex
 }
 
 /* Normal number `normal` of the part, which stands in n, at a vertex. Returns whether it changed. */
-static bool recompute(const recomputing *r, const vertex_place *place, size_t vertex, size_t normal,
+static bool recompute(const recomputing *r, const vertex_transform *transform, size_t vertex, size_t normal,
                       double n[3])
 {
     const mesh_part *part = &r->document->parts[r->part];
-    if (place->singular || !ffd_part_selects(part, vertex) ||
+    if (transform->singular || !ffd_part_selects(part, vertex) ||
         (part->selected_normals && !part->selected_normals[normal]))
         return false;
     const uint32_t group = r->groups->group[r->first_normal + normal];
@@ -79,10 +80,10 @@ static void recompute_tangents(recomputing *r, size_t first, size_t count)
     document->format->read_tangents(document, r->part, first, count, r->tangents);
     for (size_t i = 0; i < count; i++) {
         double gradient[9], *t = r->tangents + 4 * i;
-        const vertex_place place = ffd_vertex_place_of(&r->places, i);
+        const vertex_transform transform = ffd_vertex_transform_of(&r->transforms, i);
         if (!r->changed[i])
             continue;
-        read_gradient(r, &place, first + i, gradient);
+        read_gradient(r, &transform, first + i, gradient);
         r->changed[i] = (uint8_t)ffd_tangent_of_normal(gradient, t, r->normals + 3 * i, t);
     }
     document->format->write_tangents(document, r->part, first, count, r->tangents, r->changed);
@@ -98,8 +99,8 @@ static void recompute_run(recomputing *r, size_t first, size_t from, size_t to, 
     for (size_t i = 0; i < count; i++) {
         while (part->normal_start ? part->normal_start[*vertex + 1] <= from + i : *vertex < from + i)
             (*vertex)++;
-        const vertex_place place = ffd_vertex_place_of(&r->places, *vertex - first);
-        r->changed[i] = recompute(r, &place, *vertex, from + i, r->normals + 3 * i);
+        const vertex_transform transform = ffd_vertex_transform_of(&r->transforms, *vertex - first);
+        r->changed[i] = recompute(r, &transform, *vertex, from + i, r->normals + 3 * i);
     }
     document->format->write_normals(document, r->part, from, count, r->normals, r->changed);
     if (part->has_tangents)
@@ -113,7 +114,7 @@ static void recompute_part(recomputing *r)
         const size_t last = part->vertex_count - first < BLOCK ? part->vertex_count : first + BLOCK;
         size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;
         const size_t end = part->normal_start ? part->normal_start[last] : last;
-        ffd_vertex_places_read(r->document, r->part, first, last - first, &r->places);
+        ffd_vertex_transforms_read(r->document, r->part, first, last - first, &r->transforms);
         for (size_t to; from < end; from = to) {
             to = end - from > BLOCK ? from + BLOCK : end;
             recompute_run(r, first, from, to, &vertex);

@@ -7,7 +7,7 @@
 #include "job/pass/vertex_transform.h"
 #include <stdatomic.h>
 
-#define PASS_TILE VERTEX_PLACES /* at most */
+#define PASS_TILE VERTEX_TRANSFORMS /* at most */
 
 /* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place and
    what the chain says stand one behind the other. */
@@ -37,7 +37,7 @@ typedef struct tile_scratch {
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
     chain_note notes[PASS_TILE];
     uint8_t changed[PASS_TILE];
-    vertex_places places;
+    vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
     uint32_t of_points[PASS_TILE]; /* the points that normals stand at, where they are not one a vertex */

@@ -80,7 +80,7 @@ static void count_notes(const part_work *work, const tile_scratch *scratch, size
 /* A vertex whose transform is singular stays, whatever the chain says. */
 static bool stays(const tile_scratch *scratch, size_t i, pass_totals *totals)
 {
-    if (!ffd_vertex_place_of(&scratch->places, ffd_tile_chosen(scratch, i)).singular)
+    if (!ffd_vertex_transform_of(&scratch->transforms, ffd_tile_chosen(scratch, i)).singular)
         return false;
     totals->transforms_singular += vec_is_finite(scratch->place + 3 * i);
     return true;

@@ -2,33 +2,33 @@
 #include "base/vector/vec.h"
 #include <string.h>
 
-void ffd_vertex_places_read(const mesh_document *document, size_t part, size_t first, size_t count,
-                            vertex_places *places)
+void ffd_vertex_transforms_read(const mesh_document *document, size_t part, size_t first, size_t count,
+                                vertex_transforms *transforms)
 {
-    places->part = &document->parts[part];
-    if (!places->part->skinned)
+    transforms->part = &document->parts[part];
+    if (!transforms->part->skinned)
         return;
-    document->format->read_transforms(document, part, first, count, places->transforms);
+    document->format->read_transforms(document, part, first, count, transforms->transforms);
     for (size_t i = 0; i < count; i++)
-        places->singular[i] = !mat_invert(places->transforms + 12 * i, places->inverses + 9 * i);
+        transforms->singular[i] = !mat_invert(transforms->transforms + 12 * i, transforms->inverses + 9 * i);
 }
 
-vertex_place ffd_vertex_place_of(const vertex_places *places, size_t i)
+vertex_transform ffd_vertex_transform_of(const vertex_transforms *transforms, size_t i)
 {
-    const mesh_part *part = places->part;
-    const double *own = places->transforms + 12 * i;
+    const mesh_part *part = transforms->part;
+    const double *own = transforms->transforms + 12 * i;
     if (part->skinned)
-        return (vertex_place){own, own + 9, places->inverses + 9 * i, false, places->singular[i]};
-    return (vertex_place){part->linear, part->offset, part->inverse, part->identity, part->singular};
+        return (vertex_transform){own, own + 9, transforms->inverses + 9 * i, false, transforms->singular[i]};
+    return (vertex_transform){part->linear, part->offset, part->inverse, part->identity, part->singular};
 }
 
-void ffd_gradient_bring_back(const vertex_place *place, double gradient[9])
+void ffd_gradient_to_file(const vertex_transform *transform, double gradient[9])
 {
     double product[9];
-    if (place->singular)
+    if (transform->singular)
         memset(gradient, 0, sizeof product);
-    if (place->identity || place->singular)
+    if (transform->identity || transform->singular)
         return;
-    mat_multiply(gradient, place->linear, product);
-    mat_multiply(place->inverse, product, gradient);
+    mat_multiply(gradient, transform->linear, product);
+    mat_multiply(transform->inverse, product, gradient);
 }

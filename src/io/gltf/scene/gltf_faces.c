@@ -98,7 +98,7 @@ static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *ba
             continue;
         double *positions = faces->positions + 3 * at;
         ffd_gltf_read(d, d->parts[i].streams[GLTF_POSITION].accessor, 0, part->vertex_count, 3, positions);
-        ffd_part_place(&d->base, i, 0, part->vertex_count, positions);
+        ffd_part_transform(&d->base, i, 0, part->vertex_count, positions);
         at += part->vertex_count;
     }
 }
