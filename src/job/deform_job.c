@@ -68,12 +68,13 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     ffd_source source = desc->input;
     source.only_positions = job->only_positions;
     file_stamp stamp;
-    const bool is_file = ffd_share_keeps_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
+    const bool is_file = ffd_cache_holds_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
     ffd_status status = ffd_source_open(&source, job->threads, &job->document, error);
     if (!status)
         status = ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
     if (!status)
-        ffd_share_note_mesh(desc->share, desc, job->only_positions, is_file ? &stamp : NULL, job->document);
+        ffd_cache_describe_mesh(desc->share, desc, job->only_positions, is_file ? &stamp : NULL,
+                                job->document);
     return status;
 }
 
@@ -88,7 +89,7 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
                              "was written by this run already, under this name or another");
     ffd_status status = ffd_chain_load(&files, &outside, desc->isa, desc->share, &job->chain, error);
     if (!status)
-        job->document = ffd_share_take_mesh(desc->share, desc, job->only_positions);
+        job->document = ffd_cache_take_mesh(desc->share, desc, job->only_positions);
     job->document_is_shared = job->document;
     if (!status && !job->document)
         status = open_mesh(job, error);
@@ -117,7 +118,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     ffd_status status = ffd_mesh_check(job->document, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
     job->document->results_replace =
-        !ffd_share_keeps_meshes(job->desc->share) && !wants_figures(job) && !job->recomputes;
+        !ffd_cache_holds_meshes(job->desc->share) && !wants_figures(job) && !job->recomputes;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
@@ -143,7 +144,7 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
 {
     ffd_share *const share = job->chain.count == 1 && !job->desc->embedding ? job->desc->share : NULL;
     bool is_located;
-    ffd_location *const locations = ffd_share_locations(share, job->document, job->document_is_shared,
+    ffd_location *const locations = ffd_cache_locations(share, job->document, job->document_is_shared,
                                                         &job->chain.links[0].rest, &is_located);
     const mesh_pass pass = {.document = job->document,
                             .chain = &job->chain,
@@ -161,7 +162,7 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
     recompute_counts counts = {0};
     ffd_status status = ffd_pass_run(&pass, &job->totals, error);
     if (!status)
-        ffd_share_located(share);
+        ffd_cache_locations_filled(share);
     if (!status && job->recomputes && job->totals.moved)
         status = ffd_recompute_normals(job->document, &arrays->faces, arrays->deformed, arrays->gradients,
                                        &counts, error);
@@ -220,10 +221,10 @@ ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result
     ffd_embedding_close(&job->embedding);
     ffd_model_free(&job->base);
     if (status == FFD_OK)
-        ffd_share_keep_mesh(job->desc->share, job->desc, job->document);
+        ffd_cache_put_mesh(job->desc->share, job->desc, job->document);
     else
         ffd_source_close(&job->document);
-    ffd_share_keep_chain(job->desc->share, &job->chain);
+    ffd_cache_put_chain(job->desc->share, &job->chain);
     ffd_chain_free(&job->chain);
     if (status && error)
         *error = result->error;

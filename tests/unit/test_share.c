@@ -36,13 +36,13 @@ static void let_time_pass(void)
 static void keep(ffd_share *share, const ffd_deform_desc *desc, const file_stamp *stamp)
 {
     mesh_document *const document = opened(desc);
-    ffd_share_note_mesh(share, desc, false, stamp, document);
-    ffd_share_keep_mesh(share, desc, document);
+    ffd_cache_describe_mesh(share, desc, false, stamp, document);
+    ffd_cache_put_mesh(share, desc, document);
 }
 
 static bool takes(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
 {
-    mesh_document *document = ffd_share_take_mesh(share, desc, only_positions);
+    mesh_document *document = ffd_cache_take_mesh(share, desc, only_positions);
     const bool taken = document != NULL;
     ffd_source_close(&document);
     return taken;
@@ -153,7 +153,7 @@ static unsigned borrowed(ffd_share *share, const chain_files *files, ffd_isa isa
         found |= (unsigned)chain.links[i].lattice_is_lent << i;
         found |= (unsigned)chain.links[i].locator_is_lent << (chain.count + i);
     }
-    ffd_share_keep_chain(share, &chain);
+    ffd_cache_put_chain(share, &chain);
     ffd_chain_free(&chain);
     return found;
 }
@@ -217,7 +217,7 @@ static void test_folds_and_border(void **state)
         if (job > 2)
             assert_true(result.has_folds && result.folds.cells == again.folds.cells &&
                         result.folds.min_det == again.folds.min_det && result.folds.cells == 1);
-        ffd_share_keep_chain(share, &chain);
+        ffd_cache_put_chain(share, &chain);
         ffd_chain_free(&chain);
     }
     ffd_share_destroy(&share);
@@ -236,7 +236,7 @@ static void test_only_lattices(void **state)
     desc.input.path = in_folder("o.obj");
     assert_true(ffd_file_stamp(desc.input.path, &stamp));
     assert_int_equal(ffd_share_create_for_lattices(&share, NULL), FFD_OK);
-    assert_false(ffd_share_keeps_meshes(share) || ffd_share_keeps_meshes(NULL));
+    assert_false(ffd_cache_holds_meshes(share) || ffd_cache_holds_meshes(NULL));
     keep(share, &desc, &stamp);
     assert_false(takes(share, &desc, false));
 
@@ -250,7 +250,7 @@ static void test_only_lattices(void **state)
     lattice_chain chain = load(share, &files, &outside, FFD_ISA_AUTO);
     assert_non_null(chain.links[0].locator->cells);
     atomic_store(&chain.links[0].locator->cells->heavy_leaves, 1);
-    ffd_share_keep_chain(share, &chain);
+    ffd_cache_put_chain(share, &chain);
     ffd_chain_free(&chain);
     assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 1);
     assert_int_equal(borrowed(share, &files, FFD_ISA_AUTO), 3);

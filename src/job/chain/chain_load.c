@@ -14,7 +14,7 @@ static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_
         !ffd_file_stamp(files->paths[i], &link->stamp))
         return;
     link->path = files->paths[i];
-    ffd_share_lend_lattice(chain->share, link);
+    ffd_cache_lend_lattice(chain->share, link);
 }
 
 static ffd_status load_link(const chain_files *files, bool *used, lattice_chain *chain, size_t i,
@@ -54,7 +54,7 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     chain->count = status ? 0 : files->count;
     for (size_t i = 0; i < chain->count; i++)
         borrow_lattice(files, chain, i);
-    ffd_share_forget_lattices(share);
+    ffd_cache_evict_lattices(share);
     for (size_t i = 0; i < chain->count && !status; i++)
         status = load_link(files, used, chain, i, error);
     if (!status)
@@ -84,7 +84,7 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
     if (chain->share) {
         if (!made->lattice_is_lent)
             made->rest = hash_rest(made->lattice);
-        ffd_share_lend_rest(chain->share, chain, made);
+        ffd_cache_lend_locator(chain->share, chain, made);
     }
     if (!made->locator)
         status = ffd_locator_create_for(made->lattice, chain->isa, &made->locator, error);

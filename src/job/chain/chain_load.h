@@ -13,7 +13,7 @@ typedef struct chain_files {
 } chain_files;
 
 /* Makes a chain of these lattice files. share may be NULL; else it must outlive the chain, and gets what the
-   chain made by ffd_share_keep_chain. */
+   chain made by ffd_cache_put_chain. */
 ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
                           ffd_share *share, lattice_chain *chain, ffd_error *error);
 

@@ -60,7 +60,7 @@ ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *error)
     return status;
 }
 
-bool ffd_share_keeps_meshes(const ffd_share *share)
+bool ffd_cache_holds_meshes(const ffd_share *share)
 {
     return share && !share->only_lattices;
 }
@@ -147,7 +147,7 @@ static bool leaves_mesh(const ffd_deform_desc *desc)
     return !desc->as_morph && !desc->in_place && !ffd_file_is_stream(desc->input.path);
 }
 
-mesh_document *ffd_share_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
+mesh_document *ffd_cache_take_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
 {
     if (!share)
         return NULL;
@@ -195,17 +195,17 @@ static bool note_files(ffd_share *share, const ffd_source *source, const file_st
     return share->stamps;
 }
 
-void ffd_share_note_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
-                         const file_stamp *stamp, const mesh_document *document)
+void ffd_cache_describe_mesh(ffd_share *share, const ffd_deform_desc *desc, bool only_positions,
+                             const file_stamp *stamp, const mesh_document *document)
 {
-    if (!ffd_share_keeps_meshes(share))
+    if (!ffd_cache_holds_meshes(share))
         return;
     forget_mesh(share);
     share->is_noted = leaves_mesh(desc) && note_source(share, desc, only_positions) &&
                       note_files(share, &desc->input, stamp, document);
 }
 
-void ffd_share_keep_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document)
+void ffd_cache_put_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document)
 {
     if (share && share->is_noted && leaves_mesh(desc))
         share->document = document;
@@ -225,7 +225,7 @@ static kept_lattice *find_lattice(const ffd_share *share, const char *path, cons
     return NULL;
 }
 
-void ffd_share_lend_lattice(const ffd_share *share, chain_link *link)
+void ffd_cache_lend_lattice(const ffd_share *share, chain_link *link)
 {
     kept_lattice *const kept = find_lattice(share, link->path, &link->stamp);
     if (!kept)
@@ -246,7 +246,7 @@ static kept_rest *find_rest(const ffd_share *share, const hash128 *rest, ffd_isa
     return NULL;
 }
 
-void ffd_share_lend_rest(const ffd_share *share, const lattice_chain *chain, chain_link *link)
+void ffd_cache_lend_locator(const ffd_share *share, const lattice_chain *chain, chain_link *link)
 {
     kept_rest *const found = find_rest(share, &link->rest, chain->isa);
     if (!found)
@@ -315,7 +315,7 @@ static bool has_searcher(const ffd_share *share, const ffd_lattice *lattice)
     return false;
 }
 
-void ffd_share_forget_lattices(ffd_share *share)
+void ffd_cache_evict_lattices(ffd_share *share)
 {
     size_t count = 0;
     for (size_t i = 0; share && i < share->lattice_count; i++) {
@@ -352,7 +352,7 @@ static void take_back(ffd_share *share)
         share->lattices[i].used = false;
 }
 
-void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain)
+void ffd_cache_put_chain(ffd_share *share, lattice_chain *chain)
 {
     if (!share)
         return;
@@ -363,17 +363,17 @@ void ffd_share_keep_chain(ffd_share *share, lattice_chain *chain)
         for (size_t i = 0; i < chain->count; i++)
             keep_link(share, &chain->links[i], chain->isa);
     forget_rests(share);
-    ffd_share_forget_lattices(share);
+    ffd_cache_evict_lattices(share);
     take_back(share);
 }
 
 /* Locations */
 
-ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, bool taken, const hash128 *rest,
+ffd_location *ffd_cache_locations(ffd_share *share, mesh_document *document, bool taken, const hash128 *rest,
                                   bool *filled)
 {
     *filled = false;
-    if (!ffd_share_keeps_meshes(share))
+    if (!ffd_cache_holds_meshes(share))
         return NULL;
     if (taken && share->is_located && ffd_hash_equal(&share->located, rest)) {
         *filled = true;
@@ -393,7 +393,7 @@ ffd_location *ffd_share_locations(ffd_share *share, mesh_document *document, boo
     return share->locations;
 }
 
-void ffd_share_located(ffd_share *share)
+void ffd_cache_locations_filled(ffd_share *share)
 {
     if (share && share->locations)
         share->is_located = true;
