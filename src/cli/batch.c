@@ -138,13 +138,13 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .resume = s->resume,
                                       .dry = s->dry,
                                       .stable = job->stable,
-                                      .quiet = job->talk.quiet,
-                                      .verbose = job->talk.verbose && !job->talk.quiet},
+                                      .quiet = job->logging.quiet,
+                                      .verbose = job->logging.verbose && !job->logging.quiet},
                              .report = job->report,
                              .depfile = s->jobs.depfile_path,
                              .journal = s->journal,
                              .stop = s->stop,
-                             .quiet = job->talk.quiet};
+                             .quiet = job->logging.quiet};
     bool failed;
     ffd_error error;
     if (ffd_batch_run(&desc, &failed, &error))

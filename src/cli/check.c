@@ -67,9 +67,9 @@ static void print_folds(const ffd_folds *folds, const char *lattice)
 
 static void print_summary(const cli_job *job, const char *input, const ffd_job_result *result)
 {
-    printf("%s\n", cli_shown(input));
+    printf("%s\n", cli_display_name(input));
     print_statuses(result);
-    print_folds(&result->folds, cli_shown(job->lattices[result->folds_lattice]));
+    print_folds(&result->folds, cli_display_name(job->lattices[result->folds_lattice]));
     printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
     if (result->det_min <= result->det_max)
         printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
@@ -84,7 +84,7 @@ static int check(cli_job *job, const char *input, ffd_report *report)
     cli_job_describe(job, input, &desc);
     const ffd_status status = ffd_check_run(&desc, &result, NULL);
     const bool reported = job->report && cli_is_stream(job->report);
-    if ((status == FFD_OK || status == FFD_E_GATE) && !reported && !job->talk.quiet)
+    if ((status == FFD_OK || status == FFD_E_GATE) && !reported && !job->logging.quiet)
         print_summary(job, input, &result);
     return cli_job_ended(&result, input, NULL, report);
 }
@@ -96,7 +96,7 @@ static int run(const cli_command *command, int count, char **arguments)
     int code = EXIT_USAGE;
     if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
         return code;
-    const char *why = words.count ? cli_job_wrong(&s.job, &words, words.count) : "needs IN";
+    const char *why = words.count ? cli_job_mistake(&s.job, &words, words.count) : "needs IN";
     if (why)
         code = cli_usage(command, why);
     else if (cli_job_knows_formats(&s.job, &words, words.count))

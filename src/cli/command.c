@@ -12,7 +12,7 @@ void cli_print_help(const cli_command *command)
         printf("  %s:\n      %s\n", example->what, example->line);
 }
 
-const char *cli_shown(const char *path)
+const char *cli_display_name(const char *path)
 {
     return strcmp(path, "-") == 0 ? "standard input" : path;
 }
@@ -30,10 +30,10 @@ bool cli_knows_format(const char *path, ffd_format given)
 
 void cli_log(void *user, ffd_log_level level, const char *line)
 {
-    const cli_talk *talk = user;
-    if (talk->quiet || (level != FFD_LOG_WARNING && !talk->verbose))
+    const cli_logging *logging = user;
+    if (logging->quiet || (level != FFD_LOG_WARNING && !logging->verbose))
         return;
-    cli_complain("%s: %s", cli_shown(talk->subject), line);
+    cli_complain("%s: %s", cli_display_name(logging->subject), line);
 }
 
 int cli_fail(const ffd_error *error)

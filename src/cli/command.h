@@ -33,17 +33,17 @@ extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compar
 /* Prints what --help tells. */
 void cli_print_help(const cli_command *command);
 
-/* What is common to commands that talk: filled by the options -q, -v. */
-typedef struct cli_talk {
+/* What is common to commands that log: filled by the options -q, -v. */
+typedef struct cli_logging {
     bool quiet, verbose;
     const char *subject; /* the mesh that is being worked on, "-" for standard input */
-} cli_talk;
+} cli_logging;
 
-/* An ffd_log_function whose user is a cli_talk. */
+/* An ffd_log_function whose user is a cli_logging. */
 void cli_log(void *user, ffd_log_level level, const char *line);
 
 /* The name of an input in messages. */
-const char *cli_shown(const char *path);
+const char *cli_display_name(const char *path);
 
 /* Whether the format of a mesh is known: as given, or by the name's ending. Else says what is missing. */
 bool cli_knows_format(const char *path, ffd_format given);

@@ -10,7 +10,7 @@ typedef struct settings {
     ffd_format input_format;
     uint64_t memory;
     bool json, help;
-    cli_talk talk;
+    cli_logging logging;
 } settings;
 
 /* "0.01", or "1e-6r": relative. */
@@ -53,8 +53,8 @@ static const cli_option options[] = {
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; of - where one of them is, else of both", cli_set_format,
      AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors and the exit code (and --json)", cli_set_flag, AT(talk.quiet), NULL},
-    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"quiet", 'q', NULL, "only errors and the exit code (and --json)", cli_set_flag, AT(logging.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
@@ -97,14 +97,14 @@ static int print_json(const ffd_comparison *comparison, const char *a, const cha
 
 static int tell(const settings *s, const ffd_comparison *comparison, const char *a, const char *b)
 {
-    if (s->talk.verbose && !s->talk.quiet)
+    if (s->logging.verbose && !s->logging.quiet)
         cli_complain("%llu positions compared, largest difference of a coordinate %g",
                      (unsigned long long)comparison->positions_compared, comparison->position_difference_max);
     if (s->json)
         return print_json(comparison, a, b);
-    if (s->talk.quiet || comparison->equal)
+    if (s->logging.quiet || comparison->equal)
         return comparison->equal ? EXIT_DONE : EXIT_NO;
-    printf("%s and %s differ: %s\n", cli_shown(a), cli_shown(b), comparison->first.text);
+    printf("%s and %s differ: %s\n", cli_display_name(a), cli_display_name(b), comparison->first.text);
     if (comparison->differences > 1 && comparison->worst.text[0])
         printf("worst: %s\n", comparison->worst.text);
     if (comparison->differences > 1 || !comparison->complete)

@@ -112,8 +112,8 @@ static int deform(settings *s, const char *input, const char *output, ffd_report
     ffd_job_result result;
     ffd_deform_desc desc;
     describe(s, input, output, &desc);
-    if (!ffd_deform_run(&desc, &result, NULL) && s->job.talk.verbose && !s->job.talk.quiet)
-        cli_complain("%s: %llu of %llu vertices moved, by %g at most", cli_shown(input),
+    if (!ffd_deform_run(&desc, &result, NULL) && s->job.logging.verbose && !s->job.logging.quiet)
+        cli_complain("%s: %llu of %llu vertices moved, by %g at most", cli_display_name(input),
                      (unsigned long long)result.moved, (unsigned long long)result.vertices,
                      result.displacement_max);
     return cli_job_ended(&result, input, s->in_place ? input : output, report);
@@ -191,7 +191,7 @@ static int refuse(const cli_command *command, settings *s, const cli_words *word
     if (!why)
         why = wrong_outputs(s, words, inputs);
     if (!why)
-        why = cli_job_wrong(&s->job, words, inputs);
+        why = cli_job_mistake(&s->job, words, inputs);
     if (why)
         return cli_usage(command, why);
     if (!cli_job_knows_formats(&s->job, words, inputs))

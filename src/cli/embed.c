@@ -9,7 +9,7 @@ typedef struct settings {
     ffd_format input_format;
     uint64_t memory;
     bool force, help;
-    cli_talk talk;
+    cli_logging logging;
 } settings;
 
 static const char *const space_names[] = {"scene", "mesh", NULL};
@@ -28,8 +28,8 @@ static const cli_option options[] = {
     {"force", 0, NULL, "overwrite existing outputs", cli_set_flag, AT(force), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
-    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
@@ -48,8 +48,8 @@ static int embed(settings *s, const char *input)
     desc.threads = s->threads;
     desc.force = s->force;
     desc.log = cli_log;
-    desc.log_user = &s->talk;
-    s->talk.subject = input;
+    desc.log_user = &s->logging;
+    s->logging.subject = input;
     return ffd_embed_run(&desc, &result, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 

@@ -7,7 +7,7 @@ typedef struct settings {
     ffd_format input_format;
     uint64_t memory;
     bool json, help;
-    cli_talk talk; /* the text itself is data: nothing is left to be silent about, or to add */
+    cli_logging logging; /* the text itself is data: nothing is left to be silent about, or to add */
 } settings;
 
 #define AT(field) offsetof(settings, field)
@@ -15,8 +15,8 @@ static const cli_option options[] = {
     {"json", 0, NULL, "as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors beside the text", cli_set_flag, AT(talk.quiet), NULL},
-    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"quiet", 'q', NULL, "only errors beside the text", cli_set_flag, AT(logging.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };

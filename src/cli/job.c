@@ -121,8 +121,8 @@ const cli_option cli_job_options[] = {
      "instructions of the kernels; never changes a byte; default auto", cli_set_choice, AT(isa), isa_names},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
-    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
@@ -191,7 +191,7 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
     return NULL;
 }
 
-const char *cli_job_wrong(const cli_job *job, const cli_words *words, size_t inputs)
+const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs)
 {
     if (job->lattice_count == 0)
         return "no lattice is given (-l FILE)";
@@ -238,8 +238,8 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->written = job->written;
     desc->share = job->share;
     desc->log = cli_log;
-    desc->log_user = &job->talk;
-    job->talk.subject = input;
+    desc->log_user = &job->logging;
+    job->logging.subject = input;
 }
 
 int cli_job_ended(const ffd_job_result *result, const char *input, const char *output, ffd_report *report)

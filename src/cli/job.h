@@ -24,7 +24,7 @@ typedef struct cli_job {
     bool stable;
     ffd_written *written; /* by the jobs so far */
     ffd_share *share;     /* of several jobs: all have one set of lattices */
-    cli_talk talk;
+    cli_logging logging;
     bool help;
 } cli_job;
 
@@ -38,7 +38,7 @@ void cli_job_end(cli_job *job, cli_words *words);
 
 /* What is wrong with the options, given the meshes that are read (the first inputs of words; the others are
    written), or NULL. */
-const char *cli_job_wrong(const cli_job *job, const cli_words *words, size_t inputs);
+const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs);
 
 /* Whether the formats of all inputs are known. Else says what is missing. */
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs);

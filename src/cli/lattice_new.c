@@ -12,7 +12,7 @@ typedef struct settings {
     uint64_t memory;
     bool force, help;
     bool has_axis;
-    cli_talk talk;
+    cli_logging logging;
 } settings;
 
 /* Splits "4,4,4" (or "4" for all three) into texts. */
@@ -154,8 +154,8 @@ static const cli_option options[] = {
     {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
-    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };

@@ -6,7 +6,7 @@
 typedef struct settings {
     const char *output;
     bool interleave, force, help;
-    cli_talk talk;
+    cli_logging logging;
 } settings;
 
 #define AT(field) offsetof(settings, field)
@@ -17,8 +17,8 @@ static const cli_option options[] = {
      "one job of each report in turn: the order of the manifest, for its shards 0, 1, ...", cli_set_flag,
      AT(interleave), NULL},
     {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
-    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(talk.quiet), NULL},
-    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(talk.verbose), NULL},
+    {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
+    {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
