@@ -50,11 +50,11 @@ static ffd_status make_room(grouping *g, ffd_error *error)
     groups->group = ffd_alloc(normals, sizeof *groups->group);
     g->values = ffd_alloc(normals, 3 * sizeof *g->values);
     g->sides = ffd_alloc_zero(g->faces->vertex_count, 1);
-    g->places = ffd_alloc(1, sizeof *g->places);
+    g->transforms = ffd_alloc(1, sizeof *g->transforms);
     g->corners = ffd_alloc(corners, sizeof *g->corners);
     g->firsts = ffd_alloc(most, sizeof *g->firsts);
     g->slots = ffd_alloc(slots, sizeof *g->slots);
-    if (!groups->group || !g->values || !g->sides || !g->places || !g->corners || !g->firsts || !g->slots)
+    if (!groups->group || !g->values || !g->sides || !g->transforms || !g->corners || !g->firsts || !g->slots)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < normals; i++)
         groups->group[i] = NORMAL_NO_GROUP;
@@ -93,12 +93,12 @@ static uint8_t side_of(const vertex_transform *transform)
 static void read_block(grouping *g, size_t part, size_t first, size_t count, uint8_t *sides, double *values)
 {
     const mesh_part *p = &g->document->parts[part];
-    ffd_vertex_transforms_read(g->document, part, first, count, g->places);
+    ffd_vertex_transforms_read(g->document, part, first, count, g->transforms);
     const size_t from = p->normal_start ? p->normal_start[first] : first;
     const size_t end = p->normal_start ? p->normal_start[first + count] : first + count;
     g->document->format->read_normals(g->document, part, from, end - from, values + 3 * from);
     for (size_t i = 0; i < count; i++) {
-        const vertex_transform transform = ffd_vertex_transform_of(g->places, i);
+        const vertex_transform transform = ffd_vertex_transform_of(g->transforms, i);
         const size_t v = first + i, own = p->normal_start ? p->normal_start[v] : v;
         const size_t behind = p->normal_start ? p->normal_start[v + 1] : v + 1;
         sides[v] = side_of(&transform);
@@ -263,7 +263,7 @@ ffd_status ffd_normal_groups_make(const mesh_document *document, const mesh_face
     const ffd_status status = make(&g, error);
     ffd_free(g.values);
     ffd_free(g.sides);
-    ffd_free(g.places);
+    ffd_free(g.transforms);
     ffd_free(g.corners);
     ffd_free(g.firsts);
     ffd_free(g.slots);

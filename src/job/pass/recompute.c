@@ -41,14 +41,14 @@ static void read_gradient(const recomputing *r, const vertex_transform *transfor
                           double gradient[9])
 {
     memcpy(gradient, r->gradients + 9 * (r->first_vertex + vertex), 9 * sizeof *gradient);
-    ffd_gradient_to_file(place, gradient);
+    ffd_gradient_to_file(transform, gradient);
 }
 
 static bool carry(const recomputing *r, const vertex_transform *transform, size_t vertex, double n[3])
 {
     double gradient[9];
     int collapsed;
-    read_gradient(r, place, vertex, gradient);
+    read_gradient(r, transform, vertex, gradient);
     const bool changed = ffd_deform_normal(gradient, n, n, &collapsed);
     r->counts->carried += changed;
     r->counts->collapsed += (uint64_t)collapsed;
@@ -68,8 +68,8 @@ static bool recompute(const recomputing *r, const vertex_transform *transform, s
     if (outcome == NORMAL_KEPT)
         return false;
     if (outcome == NORMAL_LOST)
-        return carry(r, place, vertex, n);
-    bring_back(place, r->groups->directions + 3 * (size_t)group, n);
+        return carry(r, transform, vertex, n);
+    bring_back(transform, r->groups->directions + 3 * (size_t)group, n);
     return true;
 }
 

@@ -25,7 +25,7 @@ typedef struct vertex_transforms {
 /* Those of a part's vertices [first, first + count), count being VERTEX_TRANSFORMS at most. */
 void ffd_vertex_transforms_read(const mesh_document *document, size_t part, size_t first, size_t count,
                                 vertex_transforms *transforms);
-/* That of vertex first + i. Lent by places and the part. */
+/* That of vertex first + i. Lent by transforms and the part. */
 vertex_transform ffd_vertex_transform_of(const vertex_transforms *transforms, size_t i);
 
 /* Takes a point from the file's space to the lattice's. */
