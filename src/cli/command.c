@@ -71,3 +71,15 @@ bool cli_begin(const cli_command *command, void *settings, const bool *help, int
     words->words = NULL;
     return false;
 }
+
+int cli_run(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
+            cli_action *action)
+{
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_begin(command, settings, help, count, arguments, &words, &code))
+        return code;
+    code = action(command, settings, &words);
+    free(words.words);
+    return code;
+}

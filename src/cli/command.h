@@ -54,6 +54,14 @@ int cli_fail(const ffd_error *error);
 /* "usage: ..." for a wrong number of words. */
 int cli_usage(const cli_command *command, const char *why);
 
+/* What a command does with its settings and words. Returns the exit code. */
+typedef int cli_action(const cli_command *command, void *settings, const cli_words *words);
+
+/* Runs a command: parses into settings and words, and lets the action do the rest. Returns the exit code: the
+   action's, or that of a complaint or of help. */
+int cli_run(const cli_command *command, void *settings, const bool *help, int count, char **arguments,
+            cli_action *action);
+
 /* Parses into settings and words (to be freed by the caller). Returns 0 to go on, else with *exit_code to
    end: after a complaint, or help. */
 bool cli_begin(const cli_command *command, void *settings, const bool *help, int count, char **arguments,

@@ -1,7 +1,6 @@
 /* compare.c - ffd compare: are two files the same mesh? */
 #include "cli/command.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct settings {
@@ -27,7 +26,7 @@ static bool set_tolerance(void *context, const cli_option *option, const char *v
         if (cli_parse_number(number, &s->tolerance) && s->tolerance >= 0)
             return true;
     }
-    cli_complain("--%s: \"%s\" is not a number from 0 on, nor one with r behind it", option->name, value);
+    cli_complain("--%s: \"%s\" is not a number of at least 0, alone or followed by r", option->name, value);
     return false;
 }
 
@@ -37,7 +36,7 @@ static bool set_normal_tolerance(void *context, const cli_option *option, const 
     s->has_normal_tolerance = true;
     if (cli_parse_number(value, &s->normal_tolerance) && s->normal_tolerance >= 0)
         return true;
-    cli_complain("--%s: \"%s\" is not a number from 0 on", option->name, value);
+    cli_complain("--%s: \"%s\" is not a number of at least 0", option->name, value);
     return false;
 }
 
@@ -130,21 +129,19 @@ static int compare(const settings *s, const char *a, const char *b)
     return tell(s, &comparison, a, b);
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    if (words->count != 2)
+        return cli_usage(command, "needs A and B");
+    if (strcmp(words->words[0], "-") == 0 && strcmp(words->words[1], "-") == 0)
+        return cli_usage(command, "standard input can be read only once");
+    return compare(context, words->words[0], words->words[1]);
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
-        return code;
-    if (words.count != 2)
-        code = cli_usage(command, "needs A and B");
-    else if (strcmp(words.words[0], "-") == 0 && strcmp(words.words[1], "-") == 0)
-        code = cli_usage(command, "standard input can be read only once");
-    else
-        code = compare(&s, words.words[0], words.words[1]);
-    free(words.words);
-    return code;
+    return cli_run(command, &s, &s.help, count, arguments, act);
 }
 
 static const cli_example examples[] = {

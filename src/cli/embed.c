@@ -1,6 +1,5 @@
 /* embed.c - ffd embed: u,v,w of every vertex as a NumPy file. */
 #include "cli/command.h"
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct settings {
@@ -19,12 +18,12 @@ static const cli_option options[] = {
     {"lattice", 'l', "LATTICE", "lattice file", cli_set_text, AT(lattice), NULL},
     {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside; statuses and hashes behind it",
      cli_set_text, AT(output), NULL},
-    {"status", 0, "FILE.npy", "uint8 a vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
+    {"status", 0, "FILE.npy", "uint8 for each vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
      cli_set_text, AT(status), NULL},
-    {"space", 0, "scene|mesh", "glTF: where the lattice stands; default scene", cli_set_choice, AT(space),
-     space_names},
-    {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),
-     NULL},
+    {"space", 0, "scene|mesh", "glTF: the space that the lattice is in; default scene", cli_set_choice,
+     AT(space), space_names},
+    {"threads", 'j', "N", "number of threads; never changes the output; default all processors",
+     cli_set_count, AT(threads), NULL},
     {"force", 0, NULL, "overwrite existing outputs", cli_set_flag, AT(force), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
@@ -60,7 +59,8 @@ static bool replaces_input(const settings *s, const char *output, const char *me
            (strcmp(output, mesh) == 0 || strcmp(output, s->lattice) == 0);
 }
 
-static const char *wrong(const settings *s, const cli_words *words)
+/* What is wrong with the options and words, or NULL. */
+static const char *mistake(const settings *s, const cli_words *words)
 {
     if (words->count != 1)
         return "needs one IN";
@@ -77,20 +77,19 @@ static const char *wrong(const settings *s, const cli_words *words)
     return NULL;
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *s = context;
+    const char *why = mistake(s, words);
+    if (why)
+        return cli_usage(command, why);
+    return cli_knows_format(words->words[0], s->input_format) ? embed(s, words->words[0]) : EXIT_USAGE;
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
-        return code;
-    const char *why = wrong(&s, &words);
-    if (why)
-        code = cli_usage(command, why);
-    else if (cli_knows_format(words.words[0], s.input_format))
-        code = embed(&s, words.words[0]);
-    free(words.words);
-    return code;
+    return cli_run(command, &s, &s.help, count, arguments, act);
 }
 
 static const cli_example examples[] = {

@@ -1,7 +1,6 @@
 /* info.c - ffd info: what is in a mesh or lattice file. */
 #include "cli/command.h"
 #include <stdio.h>
-#include <stdlib.h>
 
 typedef struct settings {
     ffd_format input_format;
@@ -33,16 +32,15 @@ static int describe(const settings *s, const char *file)
     return EXIT_DONE;
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    return words->count == 1 ? describe(context, words->words[0]) : cli_usage(command, "needs one FILE");
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
-    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
-        return code;
-    code = words.count == 1 ? describe(&s, words.words[0]) : cli_usage(command, "needs one FILE");
-    free(words.words);
-    return code;
+    return cli_run(command, &s, &s.help, count, arguments, act);
 }
 
 static const cli_example examples[] = {

@@ -56,7 +56,8 @@ static bool set_size(void *context, const cli_option *option, const char *value)
         s->desc.size[a] = (size_t)count;
     }
     if (!right)
-        cli_complain("--%s: \"%s\" is not three whole numbers from 2 on, like 4,4,4", option->name, value);
+        cli_complain("--%s: \"%s\" is not three whole numbers of at least 2, like 4,4,4", option->name,
+                     value);
     return right;
 }
 
@@ -104,7 +105,7 @@ static bool set_margin(void *context, const cli_option *option, const char *valu
     settings *s = context;
     if (cli_parse_number(value, &s->desc.margin) && s->desc.margin >= 0)
         return true;
-    cli_complain("--%s: \"%s\" is not a number from 0 on", option->name, value);
+    cli_complain("--%s: \"%s\" is not a number of at least 0", option->name, value);
     return false;
 }
 
@@ -145,7 +146,8 @@ static const cli_option options[] = {
     {"size", 0, "N,M,O", "control points along u, v, w; default 4,4,4", set_size, 0, NULL},
     {"degree", 0, "N,M,O", "1 to 9; default 3, or less where there are fewer points", set_degree, 0, NULL},
     {"knots", 0, "K,K,K", "clamped, open, uniform or closed; default clamped", set_knots, 0, knots_names},
-    {"margin", 0, "F", "room on every side, as a fraction of the extent; default 0.05", set_margin, 0, NULL},
+    {"margin", 0, "F", "space left on every side, as a fraction of the extent; default 0.05", set_margin, 0,
+     NULL},
     {"spacing", 0, "greville|uniform", "of the control points of a box; default greville", cli_set_choice,
      AT(spacing), spacing_names},
     {"shape", 0, "box|cylinder", "default box", cli_set_choice, AT(shape), shape_names},
@@ -169,36 +171,36 @@ static int create(settings *s, const char *mesh)
     return ffd_lattice_new_run(&source, &s->desc, s->output, s->force, &error) ? cli_fail(&error) : EXIT_DONE;
 }
 
-static const char *wrong(const settings *s, const cli_words *words)
+/* What is wrong with the options and words, or NULL. */
+static const char *mistake(const settings *s, const cli_words *words)
 {
     if (words->count != 1)
         return "needs one MESH";
     if (!s->output)
         return "no output is given (-o LATTICE)";
     if (ffd_format_from_name(s->output) != FFD_FORMAT_AUTO)
-        return "a lattice file is JSON, and the output has a mesh's ending";
+        return "a lattice file is JSON, but the output has the ending of a mesh";
     if (s->has_axis && s->shape != FFD_SHAPE_CYLINDER)
         return "--axis needs --shape cylinder";
     if (s->desc.principal && s->shape != FFD_SHAPE_BOX)
-        return "--axes is for boxes: a cylinder has its --axis";
+        return "--axes needs --shape box: a cylinder has --axis";
     return NULL;
+}
+
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    settings *s = context;
+    const char *why = mistake(s, words);
+    if (why)
+        return cli_usage(command, why);
+    return cli_knows_format(words->words[0], s->input_format) ? create(s, words->words[0]) : EXIT_USAGE;
 }
 
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    cli_words words;
-    int code = EXIT_USAGE;
     ffd_lattice_desc_init(&s.desc);
-    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
-        return code;
-    const char *why = wrong(&s, &words);
-    if (why)
-        code = cli_usage(command, why);
-    else if (cli_knows_format(words.words[0], s.input_format))
-        code = create(&s, words.words[0]);
-    free(words.words);
-    return code;
+    return cli_run(command, &s, &s.help, count, arguments, act);
 }
 
 static const cli_example examples[] = {

@@ -1,6 +1,5 @@
 /* report_merge.c - ffd report merge: the reports of several runs as one. */
 #include "cli/command.h"
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct settings {
@@ -31,25 +30,24 @@ static size_t count_streams(const cli_words *words)
     return count;
 }
 
+static int act(const cli_command *command, void *context, const cli_words *words)
+{
+    const settings *s = context;
+    ffd_error error;
+    if (words->count == 0)
+        return cli_usage(command, "needs at least one REPORT");
+    if (count_streams(words) > 1)
+        return cli_usage(command, "standard input can be read only once");
+    if (ffd_report_merge_run(words->words, words->count, s->interleave, s->output ? s->output : "-", s->force,
+                             &error))
+        return cli_fail(&error);
+    return EXIT_DONE;
+}
+
 static int run(const cli_command *command, int count, char **arguments)
 {
-    settings s = {.output = NULL};
-    cli_words words;
-    ffd_error error;
-    int code = EXIT_USAGE;
-    if (!cli_begin(command, &s, &s.help, count, arguments, &words, &code))
-        return code;
-    if (words.count == 0)
-        code = cli_usage(command, "needs at least one REPORT");
-    else if (count_streams(&words) > 1)
-        code = cli_usage(command, "standard input can be read only once");
-    else if (ffd_report_merge_run(words.words, words.count, s.interleave, s.output ? s.output : "-", s.force,
-                                  &error))
-        code = cli_fail(&error);
-    else
-        code = EXIT_DONE;
-    free(words.words);
-    return code;
+    settings s = {0};
+    return cli_run(command, &s, &s.help, count, arguments, act);
 }
 
 static const cli_example examples[] = {
