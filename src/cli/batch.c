@@ -41,20 +41,20 @@ static bool set_shard(void *context, const cli_option *option, const char *value
 
 #define AT(field) offsetof(settings, field)
 static const cli_option own_options[] = {
-    {"jobs", 'j', "N", "jobs at once; default one a processor", cli_set_count, AT(at_once), NULL},
-    {"shard", 0, "I/N", "only every N-th job, from job I on; I from 0", set_shard, 0, NULL},
+    {"jobs", 'j', "N", "jobs at the same time; default one per processor", cli_set_count, AT(at_once), NULL},
+    {"shard", 0, "I/N", "only every N-th job, beginning with job I; I from 0", set_shard, 0, NULL},
     {"resume", 0, NULL, "leave outputs that are up to date by content; replace others", cli_set_flag,
      AT(resume), NULL},
-    {"journal", 0, "FILE", "where --resume remembers what outputs were made of; default in the user's cache",
+    {"journal", 0, "FILE", "where --resume records what outputs were made from; default in the user's cache",
      cli_set_text, AT(journal), NULL},
-    {"timeout", 0, "SECONDS", "that a job may take", cli_set_positive, AT(timeout), NULL},
+    {"timeout", 0, "SECONDS", "longest time that a job may take", cli_set_positive, AT(timeout), NULL},
     {"stop", 0, NULL, "begin no more jobs after one has failed", cli_set_flag, AT(stop), NULL},
-    {"keep-going", 0, NULL, "do all jobs, whatever becomes of others; the default", cli_set_flag,
-     AT(keep_going), NULL},
-    {"dry-run", 0, NULL, "only tell what would be done", cli_set_flag, AT(dry), NULL},
+    {"keep-going", 0, NULL, "do all jobs, even if some fail; the default", cli_set_flag, AT(keep_going),
+     NULL},
+    {"dry-run", 0, NULL, "only print what would be done", cli_set_flag, AT(dry), NULL},
     {"in", 0, "GLOB", "without MANIFEST: these meshes; with --csv: the mesh of all rows", cli_set_text,
      AT(pattern), NULL},
-    {"csv", 0, "TABLE", "a job a row: columns in, lattice, out; others set placeholders of the lattice",
+    {"csv", 0, "TABLE", "one job per row: columns in, lattice, out; others set placeholders of the lattice",
      cli_set_text, AT(table), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
@@ -95,23 +95,23 @@ static const char *wrong(const settings *s, const cli_words *words)
     if (!manifest && !s->table && !s->pattern)
         return "needs MANIFEST, or --in, or --csv";
     if (manifest && (s->table || s->pattern || jobs->out_dir || jobs->job.lattice_count))
-        return "MANIFEST says what --in, --csv, --lattice and --out-dir say";
+        return "MANIFEST cannot be used with --in, --csv, --lattice or --out-dir";
     if (!manifest && !s->table && !jobs->job.lattice_count)
         return "--in needs a lattice (-l FILE)";
     if (!manifest && !s->table && !jobs->out_dir && !jobs->in_place)
         return "--in needs --out-dir or --in-place";
     if (jobs->in_place && jobs->out_dir)
-        return "--in-place and --out-dir exclude each other";
+        return "--in-place and --out-dir cannot be used together";
     if (s->stop && s->keep_going)
-        return "--stop and --keep-going exclude each other";
+        return "--stop and --keep-going cannot be used together";
     if (jobs->job.stable && !jobs->job.report)
         return "--report-stable needs --report";
     if (s->resume && jobs->in_place)
-        return "--in-place has no meaning with --resume: what is done would be done once more";
+        return "--in-place cannot be used with --resume: a finished mesh would be deformed again";
     if (jobs->depfile_path && jobs->in_place)
-        return "--depfile has no meaning with --in-place: a file cannot depend on itself";
+        return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
-        return "what would be done and the report cannot both go to standard output";
+        return "--dry-run and the report cannot both write to standard output";
     if (manifest && jobs->job.report && strcmp(jobs->job.report, words->words[0]) == 0 &&
         !cli_is_stream(jobs->job.report))
         return "the report would replace the manifest";

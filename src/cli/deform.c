@@ -152,12 +152,12 @@ static const char *wrong_depfile(const settings *s, const cli_words *words)
 {
     const bool stream = cli_is_stream(s->depfile_path);
     if (s->in_place)
-        return "--depfile has no meaning with --in-place: a file cannot depend on itself";
+        return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->output && cli_is_stream(s->output))
         return "--depfile needs a file name as OUT";
     if (s->job.report && strcmp(s->job.report, s->depfile_path) == 0)
         return stream ? "the depfile and the report cannot both go to standard output"
-                      : "the depfile and the report have one name";
+                      : "the depfile and the report have the same name";
     for (size_t i = 0; i < words->count && !stream; i++)
         if (strcmp(words->words[i], s->depfile_path) == 0)
             return "the depfile would replace a mesh";
@@ -170,11 +170,11 @@ static const char *wrong_outputs(const settings *s, const cli_words *words, size
     for (size_t i = 0; i < inputs; i++)
         stream = stream || cli_is_stream(words->words[i]);
     if (s->in_place && s->out_dir)
-        return "--in-place and --out-dir exclude each other";
+        return "--in-place and --out-dir cannot be used together";
     if (s->in_place && s->output_format)
-        return "--in-place keeps the format: --output-format has no meaning";
+        return "--in-place keeps the format: --output-format cannot be used with it";
     if (stream && s->out_dir)
-        return "standard input has no name to be kept in --out-dir";
+        return "standard input has no file name to keep in --out-dir";
     if (stream && s->in_place)
         return "standard input cannot be overwritten";
     if (s->job.report && cli_is_stream(s->job.report) && s->output && cli_is_stream(s->output))

@@ -95,13 +95,13 @@ const cli_option cli_job_options[] = {
     {"outside", 0, "keep|extend|error",
      "vertices outside the lattice: stay, follow its border, or fail (exit 5); default keep", cli_set_choice,
      AT(outside), outside_names},
-    {"falloff", 0, "R", "with --outside extend: what follows fades to nothing over this distance",
+    {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
      cli_set_positive, AT(falloff), NULL},
     {"normals", 0, "transform|recompute|keep",
      "normals, tangents: carried along, from the deformed faces, or kept; default transform", cli_set_choice,
      AT(normals), normals_names},
     {"space", 0, "scene|mesh",
-     "glTF: the lattice stands in the scene, or in each mesh's own space; default scene", cli_set_choice,
+     "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_choice,
      AT(space), space_names},
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
@@ -111,14 +111,15 @@ const cli_option cli_job_options[] = {
      AT(as_morph), NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_text, AT(embedding), NULL},
-    {"fail-on", 0, "GATES", "of folds,outside,multiple,singular: exit 1, nothing written, if there are any",
+    {"fail-on", 0, "GATES", "exit 1 and write nothing if there are any of folds,outside,multiple,singular",
      add_gates, 0, gate_names},
     {"report", 0, "FILE|-", "JSON report", cli_set_text, AT(report), NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
-    {"threads", 'j', "N", "threads; never changes a byte; default all processors", cli_set_count, AT(threads),
-     NULL},
+    {"threads", 'j', "N", "number of threads; never changes the output; default all processors",
+     cli_set_count, AT(threads), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512",
-     "instructions of the kernels; never changes a byte; default auto", cli_set_choice, AT(isa), isa_names},
+     "instruction set of the kernels; never changes the output; default auto", cli_set_choice, AT(isa),
+     isa_names},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
@@ -198,9 +199,9 @@ const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t i
     if (job->falloff > 0 && job->outside != FFD_OUTSIDE_EXTEND)
         return "--falloff needs --outside extend";
     if (job->embedding && job->lattice_count > 1)
-        return "--embedding is of one lattice: several -l are given";
+        return "--embedding works with one lattice, but several -l are given";
     if (job->embedding && inputs > 1)
-        return "--embedding is of one mesh: several IN are given";
+        return "--embedding works with one mesh, but several IN are given";
     if (job->stable && !job->report)
         return "--report-stable needs --report";
     const char *why = wrong_streams(job, words, inputs);

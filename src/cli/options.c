@@ -126,7 +126,7 @@ bool cli_set_format(void *settings, const cli_option *option, const char *value)
     snprintf(name, sizeof name, "x.%s", value[0] == '.' ? value + 1 : value);
     const ffd_format format = strlen(value) < 16 ? ffd_format_from_name(name) : FFD_FORMAT_AUTO;
     if (format == FFD_FORMAT_AUTO) {
-        cli_complain("--%s: \"%s\" is none of " CLI_FORMATS, option->name, value);
+        cli_complain("--%s: \"%s\" is not one of " CLI_FORMATS, option->name, value);
         return false;
     }
     *(ffd_format *)field(settings, option) = format;

@@ -24,10 +24,11 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
                                    .resources = desc->resources,
                                    .input = input};
     if (desc->depfile && (desc->in_place || (desc->output && ffd_output_is_stream(desc->output))))
-        return ffd_fail(error, FFD_E_ARGUMENT, "a depfile is of a file that is made anew");
+        return ffd_fail(error, FFD_E_ARGUMENT, "--depfile needs a file name as OUT");
     if (desc->in_place) {
         if (desc->output)
-            return ffd_fail(error, FFD_E_ARGUMENT, "--in-place has no output \"%s\"", desc->output);
+            return ffd_fail(error, FFD_E_ARGUMENT, "--in-place takes no output, but \"%s\" is given",
+                            desc->output);
         if (ffd_file_is_stream(input))
             return ffd_fail(error, FFD_E_ARGUMENT, "standard input cannot be overwritten in place");
         options->path = input;

@@ -22,7 +22,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     if (!embedding)
         return FFD_OK;
     if (desc->lattice_count != 1)
-        return ffd_fail(error, FFD_E_ARGUMENT, "an embedding is of one lattice, not of %zu",
+        return ffd_fail(error, FFD_E_ARGUMENT, "an embedding belongs to one lattice, not to %zu",
                         desc->lattice_count);
     if (strcmp(embedding, "-") == 0 &&
         (strcmp(desc->input.path, "-") == 0 || strcmp(desc->lattices[0], "-") == 0))
@@ -39,12 +39,12 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         (desc->only_count && !desc->only))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is no length", desc->falloff);
+        return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
-        return ffd_fail(error, FFD_E_ARGUMENT, "a falloff has a meaning only where the outside is extended");
+        return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
-                        "this build or this processor does not have the instructions %s",
+                        "this build or this processor does not support the instruction set %s",
                         ffd_isa_name(desc->isa));
     return check_embedding(desc, error);
 }
@@ -122,7 +122,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "has no normals: there are none to recompute");
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
     if (!status && (wants_figures(job) || job->recomputes))
         status = ffd_figures_prepare(job, arrays, error);
@@ -206,7 +206,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
     if (!status && job->desc->only_count && job->totals.vertices == 0)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "--only: what is selected has no vertex");
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "--only selects no vertices");
     if (!status && !job->check)
         ffd_figures_warn(job, result);
     ffd_figures_free(&arrays);

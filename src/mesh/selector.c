@@ -77,8 +77,9 @@ ffd_status ffd_selector_unknown(const selector_nearest *nearest, const char *fil
 {
     const char *kind = kind_names[nearest->selector->kind];
     if (!nearest->offered)
-        return ffd_fail_file(error, FFD_E_ARGUMENT, file, "--only: no %s has a name here, not \"%.120s\"",
-                             kind, nearest->selector->name);
+        return ffd_fail_file(error, FFD_E_ARGUMENT, file,
+                             "--only: no %s has a name here, so none is called \"%.120s\"", kind,
+                             nearest->selector->name);
     return ffd_fail_file(error, FFD_E_ARGUMENT, file, "--only: no %s is called \"%.120s\" (nearest: \"%s\")",
                          kind, nearest->selector->name, nearest->name);
 }

@@ -82,7 +82,7 @@ def a_report_replaces_reports_only(run):
     start(run)
     run.write("notes.txt", "mine")
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "notes.txt", code=IO,
-            err="notes.txt: exists and is no report: it is not replaced")
+            err="notes.txt: exists and is not a report: it is not replaced")
     equal(run.read("notes.txt"), b"mine")
     check(not run.exists("b.obj"), "the job ran")
     for _ in range(2):

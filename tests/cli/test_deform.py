@@ -109,7 +109,7 @@ def zero_normals(run):
     run.ffd("deform", "n.obj", "t.obj", "-l", "l.json", err=[])
     check("vn 0.0 -0 0\n" in run.text("t.obj"), run.text("t.obj"))
     run.write("n.obj", run.text("n.obj").replace("f 1//1", "f 1//2"))
-    run.ffd("deform", "n.obj", "u.obj", "-l", "l.json", err="n.obj: 1 normals stay: the deformation collapses them")
+    run.ffd("deform", "n.obj", "u.obj", "-l", "l.json", err="n.obj: 1 normals are kept: the deformation collapses them")
 
 
 @case

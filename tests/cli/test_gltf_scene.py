@@ -101,7 +101,7 @@ def a_vertex_without_an_inverse_stays_and_is_counted(run):
     run.write("in.glb", scene.glb())
     done = run.ffd("deform", "in.glb", "out.glb", "-l", run.write("l.json", SHEAR | {"moves": [
         {"rotate": {"axis": "z", "degrees": 10}}]}), "--report", "r.json", lines=1)
-    equal(done.err, ["in.glb: 2 vertices stay: their node's or skin's matrix has no inverse"])
+    equal(done.err, ["in.glb: 2 vertices do not move: the matrix of their node or skin has no inverse"])
     out = run.read("out.glb")
     equal(vectors(out, 0)[:2], [[1, 0, 0]] * 2)
     equal(vectors(out, 1)[:2], [[1, 0, 0]] * 2)

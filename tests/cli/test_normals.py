@@ -264,7 +264,7 @@ def where_nothing_moves_the_bits_stay(run):
 @case
 def no_normals(run):
     run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    as_without_recompute(run, "a.obj", "has no normals: there are none to recompute")
+    as_without_recompute(run, "a.obj", "has no normals to recompute")
 
 
 @case

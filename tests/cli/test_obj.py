@@ -7,7 +7,7 @@ from harness import INVALID, MODELS, carried, case, check, equal, lattice, main,
 
 NAMES = ("g", "o", "usemtl", "mtllib")
 BUMP = [{"at": [[1, 2], [1, 2], [1, 2]], "by": [0.5, 0.25, -0.125]}]
-REFUSED = {"obj/ufbx/synthetic_partial_attrib_0_obj.obj": "23: vertex index 0: the first is 1"}
+REFUSED = {"obj/ufbx/synthetic_partial_attrib_0_obj.obj": "23: vertex index 0 is out of range: indices start at 1"}
 
 
 LINE = re.compile(r"[^\r\n\\#]*(\r\n|\r|\n)")

@@ -202,7 +202,7 @@ def off_refused(run):
              "p.off: vertex 1 (counted from 0) has a coordinate that is not finite"),
             ("OFF BINARY\n" + "\0" * 100, UNSUPPORTED, "p.off:1: the binary form of OFF is not supported: \"BINARY\""),
             ("4OFF\n1 0 0\n0 0 0 1\n", UNSUPPORTED,
-             "p.off:1: vertices of other than three coordinates are not supported: \"4OFF\""),
+             "p.off:1: vertices with more or less than three coordinates are not supported: \"4OFF\""),
             ("OFF\n2147483648 1 0\n0 0 0\n", INVALID,
              "p.off:2: 2147483648 vertices and 1 faces are stated, more than the 7 bytes that follow can hold"),
             ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", INVALID,
@@ -436,7 +436,7 @@ def stl_refused(run):
     good = binary_stl([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], [[0, 0, 1]])
     nan = binary_stl([[[0, 0, 0], [math.nan, 0, 0], [0, 1, 0]]], [[0, 0, 1]])
     for content, says in (
-            (b"", "p.stl: is no STL file: it neither begins with \"solid\" nor has, with 0 bytes, the 84 of a binary "
+            (b"", "p.stl: is not an STL file: it neither begins with \"solid\" nor has, with 0 bytes, the 84 of a binary "
                   "file's header"),
             (good[:-1], "p.stl: 1 facets are stated, which take 134 bytes: the file has 133"),
             (good[:80] + b"\xff" * 4 + good[84:],

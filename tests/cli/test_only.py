@@ -264,8 +264,8 @@ def what_cannot_be_selected(run):
             ("a.obj", "material:dark", 'a.obj: --only: no material is called "dark" (nearest: "red")'),
             ("a.obj", "object:first thing", 'a.obj: --only: no object is called "first thing" (nearest: "First Thing")'),
             ("a.obj", "mesh:left", "a.obj: --only mesh: a file of format OBJ has only material, group and object"),
-            ("bare.obj", "group:left", 'bare.obj: --only: no group has a name here, not "left"'),
-            ("bare.obj", "group:default", 'bare.obj: --only: no group has a name here, not "default"'),
+            ("bare.obj", "group:left", 'bare.obj: --only: no group has a name here, so none is called "left"'),
+            ("bare.obj", "group:default", 'bare.obj: --only: no group has a name here, so none is called "default"'),
             ("a.glb", "node:too", 'a.glb: --only: no node is called "too" (nearest: "two")'),
             ("a.glb", "mesh:Ce", 'a.glb: --only: no mesh is called "Ce" (nearest: "A")'),
             ("a.glb", "material:Red", 'a.glb: --only: no material is called "Red" (nearest: "red")'),
@@ -286,7 +286,7 @@ def a_selection_without_vertices(run):
     run.write("a.glb", glb(asset, data))
     run.write("l.json", lattice(moves=SHIFT))
     run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--only", "node:camera",
-            err="a.glb: --only: what is selected has no vertex")
+            err="a.glb: --only selects no vertices")
     equal(run.read("b.glb"), run.read("a.glb"))
 
 

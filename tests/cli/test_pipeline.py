@@ -145,7 +145,7 @@ def a_depfile_replaces_depfiles_only(run):
     for name, content in others.items():
         run.write(name, content)
         run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "--depfile", name, code=IO,
-                err=f"{name}: exists and is no depfile: it is not replaced")
+                err=f"{name}: exists and is not a depfile: it is not replaced")
         equal(run.read(name), content if isinstance(content, bytes) else content.encode())
     for name in ("a.obj", "b.obj"):
         run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--depfile", name, code=USAGE)
@@ -169,7 +169,7 @@ def names_that_no_depfile_can_hold(run):
     run.write("l.json", UP)
     run.write("a\nb.obj", CUBE)
     run.ffd("deform", "a\nb.obj", "b.obj", "-l", "l.json", "--depfile", "d", code=IO,
-            err="a?b.obj: cannot stand in a depfile: its name has a line break")
+            err="a?b.obj: cannot be written in a depfile: its name has a line break")
     check(not run.exists("b.obj") and not run.exists("d"), "something was written")
     for name in ("it's.obj", "a=b.obj", "a\\#b.obj", "a\\:b.obj", "50%.obj", "a|b.obj"):
         run.write(name, CUBE)

@@ -203,7 +203,7 @@ def whole_numbers(run):
     xyz = "property float x\nproperty float y\nproperty float z\n"
     run.write("p.ply", head + xyz.replace("float y", "short y") + "end_header\n1 1 1\n")
     run.ffd("deform", "p.ply", "q.ply", "-l", "l.json", code=UNSUPPORTED,
-            err="p.ply:3: y of the vertices is of type short: float and double can be deformed")
+            err="p.ply:3: y of the vertices is of type short: only float and double can be deformed")
     equal(run.ffd("info", "p.ply", "--json").json["bounds"], {"min": [1, 1, 1], "max": [1, 1, 1]})
     run.write("n.ply", head + xyz + "property char nx\nproperty char ny\nproperty char nz\nend_header\n1 1 1 0 0 127\n")
     run.ffd("deform", "n.ply", "q.ply", "-l", "l.json", code=UNSUPPORTED,
@@ -336,7 +336,7 @@ def refused(run):
             (head + "end_header\n0.00 0.00 0.00\n1 1\n", INVALID,
              "p.ply:9: row 1 (counted from 0) of element vertex: the line ends before z"),
             (head + "end_header\n0 0 0\n1 1 1 1\n", INVALID,
-             "p.ply:9: row 1 (counted from 0) of element vertex: the line goes on behind its last value: \"1\""),
+             "p.ply:9: row 1 (counted from 0) of element vertex: the line goes on after its last value: \"1\""),
             (head + "end_header\n0 0 zero\n1 1 1\n", INVALID,
              "p.ply:8: z of vertex 0 (counted from 0) is not a number: \"zero\""),
             (head + "end_header\n0 0 nan\n1 1 1\n", INVALID,
@@ -355,7 +355,7 @@ def refused(run):
              "p.ply:6: a second property x of element vertex: the first is on line 4"),
             (head.replace("property float z\n", "") + "end_header\n0 0\n1 1\n", INVALID,
              "p.ply:3: element vertex has no property z that is one number"),
-            (head.replace(" 1.0", " 1.1"), UNSUPPORTED, "p.ply:2: version 1.1 of the format is not known: 1.0 is"),
+            (head.replace(" 1.0", " 1.1"), UNSUPPORTED, "p.ply:2: version 1.1 of the format is not supported: only 1.0 is"),
             (head + face + "end_header\n0 0 0\n1 1 1\n255 0\n", INVALID,
              "p.ply:12: row 0 (counted from 0) of element face: the line ends before vertex_indices"),
             (head + "".join(f"property int p{i}\n" for i in range(5000)), LIMIT,

@@ -37,7 +37,7 @@ static mesh_document *open_model(const char *path, file_input *input)
     if (strcmp(ffd_path_name(path), invalid_model) == 0) {
         assert_int_equal(status, FFD_E_INVALID);
         assert_int_equal(error.line, 23);
-        assert_string_equal(error.message, "vertex index 0: the first is 1");
+        assert_string_equal(error.message, "vertex index 0 is out of range: indices start at 1");
         ffd_file_unload(input);
         return NULL;
     }

@@ -193,10 +193,12 @@ static void test_refused_binary(void **state)
         const char *message;
     } cases[] = {
         {1, 0,
-         "is no STL file: it neither begins with \"solid\" nor has, with 0 bytes, the 84 of a binary file's "
+         "is not an STL file: it neither begins with \"solid\" nor has, with 0 bytes, the 84 of a binary "
+         "file's "
          "header"},
         {1, 83,
-         "is no STL file: it neither begins with \"solid\" nor has, with 83 bytes, the 84 of a binary file's "
+         "is not an STL file: it neither begins with \"solid\" nor has, with 83 bytes, the 84 of a binary "
+         "file's "
          "header"},
         {1, 84, "1 facets are stated, which take 134 bytes: the file has 84"},
         {1, 133, "1 facets are stated, which take 134 bytes: the file has 133"},

@@ -19,12 +19,13 @@ static ffd_status check_index(const block_reader *r, const obj_scan *scan, obj_i
         return FFD_OK;
     const int shown = ffd_text_shown(index.text);
     if (index.value == 0)
-        return ffd_fail_line(r->error, FFD_E_INVALID, name, scan->line, "%s index %.*s: the first is 1", kind,
-                             shown, index.text.first);
+        return ffd_fail_line(r->error, FFD_E_INVALID, name, scan->line,
+                             "%s index %.*s is out of range: indices start at 1", kind, shown,
+                             index.text.first);
     if (index.value < 0)
         return ffd_fail_line(r->error, FFD_E_INVALID, name, scan->line,
-                             "%s index %.*s is out of range: %zu stand before", kind, shown, index.text.first,
-                             count.seen);
+                             "%s index %.*s is out of range: %zu come before it", kind, shown,
+                             index.text.first, count.seen);
     return ffd_fail_line(r->error, FFD_E_INVALID, name, scan->line,
                          "%s index %.*s is out of range: the file has %zu", kind, shown, index.text.first,
                          count.total);

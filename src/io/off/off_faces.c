@@ -7,7 +7,7 @@ static ffd_status check_corner(const off_document *d, const text_scan *scan, tex
     const int shown = ffd_text_shown(word);
     if (!ffd_text_whole(word, &index))
         return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
-                             "a corner is no whole number: \"%.*s\"", shown, word.first);
+                             "a corner is not a whole number: \"%.*s\"", shown, word.first);
     if (index >= d->header.vertices)
         return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
                              "vertex %.*s is out of range: there are %zu, counted from 0", shown, word.first,
@@ -31,8 +31,8 @@ static ffd_status read_face(off_document *d, off_walk *walk, text_word count, ff
     text_word word;
     if (!ffd_text_whole(count, &corners))
         return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
-                             "a face's number of corners is no whole number: \"%.*s\"", ffd_text_shown(count),
-                             count.first);
+                             "a face's number of corners is not a whole number: \"%.*s\"",
+                             ffd_text_shown(count), count.first);
     for (uint64_t i = 0; i < corners; i++) {
         if (!ffd_off_walk_corner(walk, &word))
             return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
@@ -53,7 +53,7 @@ ffd_status ffd_off_read_faces(off_document *d, off_walk *walk, ffd_error *error)
         text_word count;
         if (!ffd_off_walk_face(walk, &count))
             return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
-                                 "the file ends behind %zu of %zu faces", i, d->header.faces);
+                                 "the file ends after %zu of %zu faces", i, d->header.faces);
         status = read_face(d, walk, count, error);
     }
     return status;

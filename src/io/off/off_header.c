@@ -89,8 +89,9 @@ static ffd_status read_keyword(header_reader *r, text_word *rest)
         return refuse(r, FFD_E_INVALID, "the file does not begin with OFF (COFF, NOFF, STOFF ..) but with",
                       word);
     if (unsupported)
-        return refuse(r, FFD_E_UNSUPPORTED,
-                      "vertices of other than three coordinates are not supported:", r->header->keyword);
+        return refuse(
+            r, FFD_E_UNSUPPORTED,
+            "vertices with more or less than three coordinates are not supported:", r->header->keyword);
     text_scan ahead = r->scan;
     if (rest->first == rest->last && ffd_text_word(&ahead, &next) && ffd_text_is_any_case(next, "binary"))
         return refuse(r, FFD_E_UNSUPPORTED, "the binary form of OFF is not supported:", next);
@@ -109,7 +110,7 @@ static ffd_status read_count(header_reader *r, const char *what, text_word word,
     if (ffd_text_whole(word, count))
         return FFD_OK;
     return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan.line,
-                         "the number of %s is no whole number: \"%.*s\"", what, ffd_text_shown(word),
+                         "the number of %s is not a whole number: \"%.*s\"", what, ffd_text_shown(word),
                          word.first);
 }
 

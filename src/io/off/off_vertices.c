@@ -56,7 +56,7 @@ ffd_status ffd_off_read_vertices(off_document *d, off_walk *walk, ffd_error *err
         off_vertex vertex;
         if (!ffd_off_walk_vertex(walk, &vertex))
             return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
-                                 "the file ends behind %zu of %zu vertices", i, d->header.vertices);
+                                 "the file ends after %zu of %zu vertices", i, d->header.vertices);
         status = read_numbers(d, &vertex, i, error);
         if (status == FFD_OK)
             status = check_rest(d, walk, error);

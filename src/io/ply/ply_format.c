@@ -8,7 +8,7 @@ ffd_status ffd_ply_check(const mesh_document *document, ffd_error *error)
     for (int a = 0; a < PLY_NORMAL_SLOT; a++)
         if (ply_is_whole(d->types[a]))
             return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
-                                 "%c of the vertices is of type %s: float and double can be deformed",
+                                 "%c of the vertices is of type %s: only float and double can be deformed",
                                  "xyz"[a], ffd_ply_type_name(d->types[a]));
     return ffd_ply_check_faces(d, error);
 }

@@ -89,13 +89,12 @@ static ffd_status read_format(header_reader *r, const header_line *line)
     while (i < sizeof names / sizeof *names && !ffd_text_is(line->words[1], names[i]))
         i++;
     if (i == sizeof names / sizeof *names)
-        return FAIL(r, r->line,
-                    "format \"%.*s\" is none of ascii, binary_little_endian and binary_big_endian",
+        return FAIL(r, r->line, "format \"%.*s\" is not ascii, binary_little_endian or binary_big_endian",
                     ffd_text_shown(line->words[1]), line->words[1].first);
     if (!ffd_text_is(version, "1.0"))
         return ffd_fail_line(r->error, FFD_E_UNSUPPORTED, r->name, r->line,
-                             "version %.*s of the format is not known: 1.0 is", ffd_text_shown(version),
-                             version.first);
+                             "version %.*s of the format is not supported: only 1.0 is",
+                             ffd_text_shown(version), version.first);
     r->header->encoding = (ply_encoding)i;
     r->has_format = true;
     return FFD_OK;

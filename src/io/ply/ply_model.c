@@ -221,7 +221,7 @@ static ffd_status take_edges(extractor *e)
         if (!take_ends(e, &walk, edges, ends))
             return ffd_fail_line(
                 e->error, FFD_E_INVALID, d->name, d->header.encoding == PLY_ASCII ? walk.line : 0,
-                "edge %llu (counted from 0) names a vertex that is not there", (unsigned long long)row);
+                "edge %llu (counted from 0) names a vertex that does not exist", (unsigned long long)row);
         status = ffd_model_add(e->model, MODEL_LINES, ends, 2, e->error);
     }
     return status;

@@ -170,7 +170,7 @@ static ffd_status check_row(row_checker *c)
     if (status || c->walk.header->encoding != PLY_ASCII)
         return status;
     return ffd_ply_walk_value(&c->walk, PLY_INT, &word)
-               ? refuse(c, "the line goes on behind its last value", NULL, word)
+               ? refuse(c, "the line goes on after its last value", NULL, word)
                : FFD_OK;
 }
 

@@ -40,10 +40,11 @@ static ffd_status refuse_facets(const stl_document *d, ffd_error *error)
 static ffd_status read_binary(stl_document *d, ffd_error *error)
 {
     if (d->input.size < STL_START)
-        return ffd_fail_file(error, FFD_E_INVALID, d->name,
-                             "is no STL file: it neither begins with \"solid\" nor has, with %zu bytes, the "
-                             "%d of a binary file's header",
-                             d->input.size, STL_START);
+        return ffd_fail_file(
+            error, FFD_E_INVALID, d->name,
+            "is not an STL file: it neither begins with \"solid\" nor has, with %zu bytes, the "
+            "%d of a binary file's header",
+            d->input.size, STL_START);
     const uint32_t facets = load_u32(d->input.data + STL_HEADER);
     if (stated_size(&d->input) > d->input.size)
         return ffd_fail_file(error, FFD_E_INVALID, d->name,

@@ -37,7 +37,7 @@ static ffd_status refuse_unused(const chain_files *files, const bool *used, ffd_
     for (size_t i = 0; i < files->set_count; i++)
         if (!used[i])
             return ffd_fail_file(error, FFD_E_INVALID, files->paths[0],
-                                 "there is no placeholder {\"$\": \"%.60s\"} that could be set",
+                                 "no lattice has the placeholder {\"$\": \"%.60s\"} (--set)",
                                  files->set[i].name);
     return FFD_OK;
 }

@@ -58,7 +58,7 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
         return status;
     }
     ffd_error_format(&own, line, sizeof line);
-    ffd_log_line(&job->log, FFD_LOG_WARNING, "no flipped faces are counted: %s", line);
+    ffd_log_line(&job->log, FFD_LOG_WARNING, "flipped faces are not counted: %s", line);
     return FFD_OK;
 }
 

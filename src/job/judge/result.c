@@ -95,7 +95,7 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      totals->unresolved);
     if (totals->transforms_singular)
         ffd_log_line(log, FFD_LOG_WARNING,
-                     "%" PRIu64 " vertices stay: their node's or skin's matrix has no inverse",
+                     "%" PRIu64 " vertices do not move: the matrix of their node or skin has no inverse",
                      totals->transforms_singular);
     if (totals->normals_carried)
         ffd_log_line(log, FFD_LOG_WARNING,
@@ -103,6 +103,6 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      "deformation",
                      totals->normals_carried);
     if (totals->normals_collapsed)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " normals stay: the deformation collapses them",
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " normals are kept: the deformation collapses them",
                      totals->normals_collapsed);
 }

@@ -81,7 +81,7 @@ static ffd_status refuse_line_break(const char *name, ffd_error *error)
 {
     if (!name[strcspn(name, "\r\n")])
         return FFD_OK;
-    return ffd_fail_file(error, FFD_E_IO, name, "cannot stand in a depfile: its name has a line break");
+    return ffd_fail_file(error, FFD_E_IO, name, "cannot be written in a depfile: its name has a line break");
 }
 
 ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules, ffd_error *error)

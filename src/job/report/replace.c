@@ -12,6 +12,7 @@ ffd_status ffd_replace_check(const char *path, bool (*is_own)(const file_input *
         return status;
     const bool free = old.size == 0 || is_own(&old);
     ffd_file_unload(&old);
-    return free ? FFD_OK
-                : ffd_fail_file(error, FFD_E_EXISTS, path, "exists and is no %s: it is not replaced", kind);
+    return free
+               ? FFD_OK
+               : ffd_fail_file(error, FFD_E_EXISTS, path, "exists and is not a %s: it is not replaced", kind);
 }

@@ -79,7 +79,7 @@ ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool i
                                 bool force, ffd_error *error)
 {
     if (count == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "there is no report to be joined");
+        return ffd_fail(error, FFD_E_ARGUMENT, "no report is given");
     ffd_status status = ffd_output_check(output, force, error);
     if (status)
         return status;
