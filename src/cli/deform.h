@@ -21,6 +21,7 @@ extern const cli_option cli_deform_options[];
 
 /* The members of a worker_program (batch/worker.h). */
 void *cli_deform_open(int count, char **words, ffd_deform_desc *desc, ffd_error *error);
+/* Frees what cli_deform_open has returned. */
 void cli_deform_close(void *opened);
 
 #endif

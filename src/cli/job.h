@@ -34,6 +34,7 @@ extern const cli_option cli_job_options[];
    cli_job_end must follow; else *exit_code is there. */
 bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,
                    int *exit_code);
+/* Frees the words and what the options have filled. */
 void cli_job_end(cli_job *job, cli_words *words);
 
 /* What is wrong with the options, given the meshes that are read (the first inputs of words; the others are
@@ -43,6 +44,7 @@ const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t i
 /* Whether the formats of all inputs are known. Else says what is missing. */
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs);
 
+/* Whether a path is standard input or output, by any of their names. */
 bool cli_is_stream(const char *path);
 
 /* The job on one mesh, but for its output. */

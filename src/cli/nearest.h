@@ -12,6 +12,7 @@ typedef struct cli_nearest {
     size_t distance;
 } cli_nearest;
 
+/* Offers a known word: it becomes the best one if it is nearer than those before. */
 void cli_nearest_offer(cli_nearest *nearest, const char *known);
 
 #endif

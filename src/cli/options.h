@@ -45,6 +45,7 @@ typedef struct cli_option_walk {
     int part;
 } cli_option_walk;
 
+/* Begins a walk over the options that count. */
 cli_option_walk cli_begin_walk(const cli_table *options);
 
 /* The next option that counts; NULL behind the last. */
@@ -85,6 +86,7 @@ void cli_complain(const char *format, ...);
 /* From now on a complaint goes to text, without "ffd: "; NULL: to stderr again. */
 void cli_capture(char *text, size_t capacity);
 
+/* Prints the options and their help, one a line. */
 void cli_print_options(const cli_table *options);
 
 #endif

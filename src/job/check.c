@@ -1,3 +1,4 @@
+/* check.c - the job of `ffd check`. */
 #include "job/deform_job.h"
 
 ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error)

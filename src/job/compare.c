@@ -1,3 +1,4 @@
+/* compare.c - the job of `ffd compare`. */
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 #include "mesh/difference.h"

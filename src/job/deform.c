@@ -1,3 +1,4 @@
+/* deform.c - the job of `ffd deform`. */
 #include "base/file/path.h"
 #include "base/system/clock.h"
 #include "io/formats.h"

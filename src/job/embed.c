@@ -1,3 +1,4 @@
+/* embed.c - the job of `ffd embed`. */
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"

@@ -1,3 +1,4 @@
+/* info.c - the job of `ffd info`. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "job/info_lattice.h"

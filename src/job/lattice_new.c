@@ -1,3 +1,4 @@
+/* lattice_new.c - the job of `ffd lattice new`. */
 #include "base/memory/memory.h"
 #include "job/input/source.h"
 #include <math.h>

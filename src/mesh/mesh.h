@@ -87,6 +87,7 @@ ffd_status ffd_mesh_faces_make(const mesh_document *document, mesh_faces *faces,
 /* Takes what these arrays need from the budget. */
 ffd_status ffd_mesh_faces_take(const mesh_faces *faces, uint64_t corners, memory_budget *budget,
                                ffd_error *error);
+/* Frees the arrays; leaves no faces. */
 void ffd_mesh_faces_free(mesh_faces *faces);
 
 /* A corner that has no normal. */

@@ -92,6 +92,7 @@ typedef struct mesh_model {
         *budget; /* what the model and writing it take comes out of it; lent. NULL: it is not counted */
 } mesh_model;
 
+/* Frees what a model holds; leaves an empty one. */
 void ffd_model_free(mesh_model *model);
 
 /* Room for values, all 0, which the caller fills in; a count of 0 makes none. Errors: FFD_E_LIMIT,

@@ -1,3 +1,4 @@
+/* model_features.c - what a model has, and what a format cannot hold of it. */
 #include "base/memory/memory.h"
 #include "mesh/model.h"
 #include <float.h>

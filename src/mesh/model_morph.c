@@ -1,3 +1,4 @@
+/* model_morph.c - the deformation of a model as a morph target. */
 #include "base/memory/memory.h"
 #include "mesh/model.h"
 #include <string.h>

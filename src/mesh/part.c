@@ -1,3 +1,4 @@
+/* part.c - transforms and vertex numbers of the parts of a document. */
 #include "base/memory/memory.h"
 #include "mesh/mesh.h"
 

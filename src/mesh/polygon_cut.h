@@ -23,6 +23,7 @@ typedef struct polygon_cutter {
  */
 ffd_status ffd_polygon_cut(polygon_cutter *cutter, const double *points, size_t count, uint32_t *triangles,
                            ffd_error *error);
+/* Frees the scratch memory. */
 void ffd_polygon_cutter_free(polygon_cutter *cutter);
 
 #endif

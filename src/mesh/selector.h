@@ -42,6 +42,7 @@ typedef struct selector_nearest {
     char name[120]; /* the first of equals, cut */
 } selector_nearest;
 
+/* Offers a name that the file has: it is kept if it is nearer than those before. */
 void ffd_selector_offer(selector_nearest *nearest, const char *name, size_t size);
 /* Says so: FFD_E_ARGUMENT. */
 ffd_status ffd_selector_unknown(const selector_nearest *nearest, const char *file, ffd_error *error);

@@ -13,8 +13,10 @@ typedef struct pages_value {
     bool list; /* any number of the words, separated by commas */
 } pages_value;
 
+/* What shells complete for the value of an option. */
 pages_value pages_option_value(const cli_option *option);
 
+/* What shells complete for the arguments of a command that are not options. */
 pages_value pages_command_arguments(const cli_command *command);
 
 #endif

@@ -26,6 +26,7 @@ typedef struct obj_blocks {
    first one from each multiple of `target` bytes on. Errors: FFD_E_MEMORY; *blocks is then empty. */
 ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t target, obj_blocks *blocks,
                               ffd_error *error);
+/* Frees the list of blocks. */
 void ffd_obj_blocks_free(obj_blocks *blocks);
 
 #endif

@@ -1,3 +1,4 @@
+/* obj_describe.c - what `ffd info` says of an OBJ file. */
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_names.h"
 #include "mesh/face_sizes.h"

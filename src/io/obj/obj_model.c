@@ -1,3 +1,4 @@
+/* obj_model.c - an OBJ file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
 #include "io/obj/obj_faces.h"

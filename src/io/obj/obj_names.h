@@ -14,6 +14,7 @@ typedef struct obj_names {
 bool ffd_obj_names_add(obj_names *names, text_word word);
 /* Leaves each word once, in another order, and tells how many that are. */
 size_t ffd_obj_names_distinct(obj_names *names);
+/* Frees the names. */
 void ffd_obj_names_free(obj_names *names);
 
 #endif

@@ -1,3 +1,4 @@
+/* obj_save.c - writes an OBJ file with its results. */
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/text/number.h"

@@ -36,6 +36,7 @@ typedef struct obj_scan {
     size_t keyword_line;
 } obj_scan;
 
+/* Begins a scan of these bytes, which must stay as long as it is used. */
 void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size);
 /* Whether a text is plain (see there). */
 bool ffd_obj_is_plain(const char *first, const char *last);

@@ -16,6 +16,7 @@ typedef struct obj_split {
 
 /* document must have new normals. */
 ffd_status ffd_obj_split_normals(const obj_document *document, obj_split *split, ffd_error *error);
+/* Frees what a split holds. */
 void ffd_obj_split_free(obj_split *split);
 
 #endif

@@ -42,10 +42,12 @@ ffd_status ffd_obj_users_begin(const obj_document *document, size_t vertices, si
    becomes so. Any thread, each with blocks of its own, which *block is to be put among when it ends. */
 void ffd_obj_users_look(const obj_document *document, const obj_users *users, obj_scan *scan,
                         obj_block_users *block);
+/* Frees those of one block. */
 void ffd_obj_free_block_users(obj_block_users *block);
 /* Reads what is late, now that the document has its elements, and refuses what must not be named. firsts are
    then those of all vertices, or NULL. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_obj_users_finish(const obj_document *document, obj_users *users, ffd_error *error);
+/* Frees those of a file. */
 void ffd_obj_users_free(const obj_document *document, obj_users *users);
 
 /* That number. */

@@ -1,3 +1,4 @@
+/* off_describe.c - what `ffd info` says of an OFF file. */
 #include "io/off/off_document.h"
 #include "mesh/face_sizes.h"
 #include <stdio.h>

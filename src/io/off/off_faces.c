@@ -1,3 +1,4 @@
+/* off_faces.c - reads and hands out the faces of an OFF file. */
 #include "io/off/off_document.h"
 #include <inttypes.h>
 

@@ -1,3 +1,4 @@
+/* off_model.c - an OFF file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/off/off_document.h"
 #include "io/text/vectors.h"

@@ -1,3 +1,4 @@
+/* off_results.c - takes the results of an OFF file. */
 #include "base/memory/memory.h"
 #include "io/off/off_document.h"
 #include "io/text/vectors.h"

@@ -1,3 +1,4 @@
+/* off_save.c - writes an OFF file with its results. */
 #include "io/off/off_document.h"
 #include "io/text/splice.h"
 #include "io/text/vectors.h"

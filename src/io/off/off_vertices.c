@@ -1,3 +1,4 @@
+/* off_vertices.c - reads the vertices of an OFF file. */
 #include "base/memory/memory.h"
 #include "io/off/off_document.h"
 

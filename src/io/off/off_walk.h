@@ -20,12 +20,14 @@ typedef struct off_vertex {
     size_t line;
 } off_vertex;
 
+/* Begins a walk at the first vertex behind the header. */
 void ffd_off_walk_begin(const off_header *header, off_walk *walk);
 /* Goes to the next vertex. False at the end of the file. */
 bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex);
 /* Goes to the next face and takes the number of its corners, which ffd_off_walk_corner then takes, all of
    them. False at the end of the file. */
 bool ffd_off_walk_face(off_walk *walk, text_word *count);
+/* Takes the next corner of the current face. False where it is missing. */
 bool ffd_off_walk_corner(off_walk *walk, text_word *corner);
 /* Takes the next word behind the current vertex' numbers, or behind the face's last corner. */
 bool ffd_off_walk_rest(off_walk *walk, text_word *word);

@@ -1,3 +1,4 @@
+/* ply_describe.c - what `ffd info` says of a PLY file. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include "mesh/face_sizes.h"

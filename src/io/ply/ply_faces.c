@@ -1,3 +1,4 @@
+/* ply_faces.c - checks and hands out the faces of a PLY file. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include <inttypes.h>

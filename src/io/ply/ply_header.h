@@ -52,6 +52,7 @@ typedef struct ply_header {
    freed in every case; its words lie in input. */
 ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_header *header,
                                ffd_error *error);
+/* Frees the elements and properties. */
 void ffd_ply_header_free(ply_header *header);
 
 /* NULL where there is none. */

@@ -1,3 +1,4 @@
+/* ply_model.c - a PLY file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include "io/text/vectors.h"

@@ -1,3 +1,4 @@
+/* ply_results.c - takes the results of a PLY file. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
 #include "io/text/vectors.h"

@@ -1,3 +1,4 @@
+/* ply_roles.c - decides what the elements and properties of a PLY file are. */
 #include "io/ply/ply_document.h"
 
 static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny", "nz"};

@@ -1,3 +1,4 @@
+/* ply_save.c - writes a PLY file with its results. */
 #include "io/ply/ply_document.h"
 #include "io/text/splice.h"
 #include <string.h>

@@ -13,6 +13,7 @@ typedef struct ply_walk {
     size_t line; /* ascii: of at */
 } ply_walk;
 
+/* Begins a walk at the first row behind the header. */
 void ffd_ply_walk_begin(const ply_header *header, const file_input *input, ply_walk *walk);
 
 /* For each element: its rows, each begun and ended; in a row, the properties. The following return false

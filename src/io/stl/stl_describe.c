@@ -1,3 +1,4 @@
+/* stl_describe.c - what `ffd info` says of an STL file. */
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 

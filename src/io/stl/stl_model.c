@@ -1,3 +1,4 @@
+/* stl_model.c - an STL file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 #include <string.h>

@@ -1,3 +1,4 @@
+/* stl_normal.c - the normal of a facet. */
 #include "base/vector/vec.h"
 #include "io/stl/stl_document.h"
 #include <float.h>

@@ -1,3 +1,4 @@
+/* stl_results.c - takes the results of an STL file. */
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"

@@ -1,3 +1,4 @@
+/* stl_save.c - writes an STL file with its results. */
 #include "base/vector/vec.h"
 #include "io/stl/stl_document.h"
 #include "io/text/splice.h"

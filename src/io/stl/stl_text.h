@@ -24,6 +24,7 @@ typedef struct stl_facet {
 
 typedef enum stl_event { STL_AT_END, STL_AT_SOLID, STL_AT_FACET } stl_event;
 
+/* Begins to read an ascii file. */
 void ffd_stl_text_begin(stl_text *text, const void *data, size_t size);
 /* Goes on by a facet, which it takes, or to the beginning of a solid. What is not as it should be is refused;
    name stands in the message. */

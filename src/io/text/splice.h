@@ -30,6 +30,7 @@ void ffd_splice_begin_part(file_splice *splice, const char *first, const char *l
 void ffd_splice_part(file_splice *splice, const char *first, const char *last, const byte_buffer *text);
 /* Copies the file up to a place not before the last one. */
 void ffd_splice_copy(file_splice *splice, const char *to);
+/* Writes bytes that the file does not have. */
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);
 /* Copies up to a word and writes bytes in its stead. */
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size);

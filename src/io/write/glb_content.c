@@ -1,3 +1,4 @@
+/* glb_content.c - the binary content of a new glTF file. */
 #include "base/little_endian.h"
 #include "io/gltf/file/base64.h"
 #include "io/gltf/file/glb.h"

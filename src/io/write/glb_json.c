@@ -1,3 +1,4 @@
+/* glb_json.c - the JSON of a new glTF file. */
 #include "base/memory/memory.h"
 #include "io/write/glb_writer.h"
 #include <ffd/version.h>

@@ -1,3 +1,4 @@
+/* glb_values.c - the numbers of a vertex as a new glTF file holds them. */
 #include "base/vector/vec.h"
 #include "io/write/glb_plan.h"
 #include <float.h>

@@ -1,3 +1,4 @@
+/* glb_write.c - writes a model as a new .glb or .gltf file. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/file/glb.h"

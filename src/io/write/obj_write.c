@@ -1,3 +1,4 @@
+/* obj_write.c - writes a model as a new OBJ file. */
 #include "io/write/sink.h"
 #include "io/write/write.h"
 #include <float.h>

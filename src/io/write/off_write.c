@@ -1,3 +1,4 @@
+/* off_write.c - writes a model as a new OFF file. */
 #include "base/text/number.h"
 #include "io/write/sink.h"
 #include "io/write/vertex_values.h"

@@ -1,3 +1,4 @@
+/* ply_write.c - writes a model as a new PLY file. */
 #include "io/write/sink.h"
 #include "io/write/vertex_values.h"
 #include "io/write/write.h"

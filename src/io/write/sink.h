@@ -12,6 +12,7 @@ typedef struct model_sink {
     ffd_status status;
 } model_sink;
 
+/* Each appends to the output; after a failure, which sink holds, none does anything more. */
 void ffd_sink_bytes(model_sink *sink, const void *bytes, size_t size);
 void ffd_sink_text(model_sink *sink, const char *text);
 void ffd_sink_count(model_sink *sink, uint64_t count);

@@ -1,3 +1,4 @@
+/* stl_write.c - writes a model as a new STL file. */
 #include "io/stl/stl_document.h"
 #include "io/write/sink.h"
 #include "io/write/triangles.h"

@@ -1,3 +1,4 @@
+/* target.c - the table of formats that a model can be written in. */
 #include "io/write/write.h"
 
 const model_target *ffd_model_target(ffd_format format)

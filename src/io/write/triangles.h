@@ -23,6 +23,7 @@ static inline size_t model_triangle_count(const mesh_model *model)
 /* Cuts a face: `count` triangles, each as 3 numbers of its corners, stand in scratch->triangles. */
 ffd_status ffd_face_triangles(face_triangles *scratch, const mesh_model *model, size_t face, size_t *count,
                               ffd_error *error);
+/* Frees the scratch memory. */
 void ffd_face_triangles_free(face_triangles *scratch);
 
 #endif

@@ -12,6 +12,7 @@ typedef struct vertex_values {
 
 /* To be freed in every case. Errors: FFD_E_MEMORY. */
 ffd_status ffd_vertex_values_find(const mesh_model *model, vertex_values *values, ffd_error *error);
+/* Frees the arrays. */
 void ffd_vertex_values_free(vertex_values *values);
 
 #endif

@@ -59,6 +59,7 @@ typedef struct embedding_file {
    outside the domain. Errors also: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *positions,
                               const hash128 *lattice, embedding_file *file, ffd_error *error);
+/* Closes the file and frees its values. */
 void ffd_embedding_close(embedding_file *file);
 
 /* Opens the embedding that `ffd embed` made of this document and lattice, as ffd_embedding_open. The lattice

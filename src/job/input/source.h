@@ -16,6 +16,7 @@ ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document 
 ffd_status ffd_source_files(const ffd_source *source, const mesh_document *document, path_list *files,
                             ffd_error *error);
 
+/* Closes a document, if there is one, and clears the pointer. */
 void ffd_source_close(mesh_document **document);
 
 /* Positions of a part's vertices [first, first + count) in the lattice's space: 3*count doubles. */

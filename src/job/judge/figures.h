@@ -18,6 +18,7 @@ typedef struct figure_arrays {
    are not valid, or that the document has no room for, refuse a check and normals that are to be computed
    from them; else a deformation goes on without their figures after a warning. */
 ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error);
+/* Frees the arrays and the faces. */
 void ffd_figures_free(figure_arrays *arrays);
 
 /* Proves for each lattice of the chain that it does not fold, and joins the outcomes. */

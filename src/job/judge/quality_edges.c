@@ -1,3 +1,4 @@
+/* quality_edges.c - how far straight edges are from the deformed surface (quality.h). */
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"

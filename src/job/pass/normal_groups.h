@@ -33,6 +33,7 @@ typedef struct normal_groups {
    Freed by ffd_normal_groups_free, also after a failure. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
 ffd_status ffd_normal_groups_make(const mesh_document *document, const mesh_faces *faces,
                                   const double *deformed, normal_groups *groups, ffd_error *error);
+/* Frees the arrays of groups. */
 void ffd_normal_groups_free(normal_groups *groups);
 
 #endif
