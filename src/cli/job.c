@@ -176,7 +176,7 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
 }
 
-/* A report replaces what stands under its name, which must not be a file of the job. */
+/* A report replaces the file of its name, which must not be a file of the job. */
 static const char *wrong_report(const cli_job *job, const cli_words *words)
 {
     if (!job->report || cli_is_stream(job->report))

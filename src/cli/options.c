@@ -235,7 +235,7 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
     return set(options, settings, option, value);
 }
 
-/* -q, -lFILE, -l FILE; letters without values may stand together. */
+/* -q, -lFILE, -l FILE; letters without values may be combined. */
 static bool parse_letters(const cli_table *options, void *settings, const char *text, char ***next,
                           char **end)
 {

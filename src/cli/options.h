@@ -20,7 +20,7 @@ typedef bool (*cli_setter)(void *settings, const cli_option *option, const char 
 struct cli_option {
     const char *name; /* "lattice", without the dashes */
     char letter;      /* 'l', or 0 */
-    /* What stands for the value in the help, NULL: the option takes none. Shells complete what words and
+    /* The name of the value in the help; NULL: the option takes none. Shells complete what words and
        names of files they know in it (cli/pages/value.h). */
     const char *value;
     const char *help;
@@ -34,7 +34,7 @@ struct cli_option {
    the first counts. */
 typedef struct cli_table {
     const cli_option *first, *more, *base; /* more and base may be NULL */
-    /* Told of every option that was set; or NULL. */
+    /* Called for every option that was set; or NULL. */
     bool (*note)(void *settings, const cli_option *option, const char *value);
 } cli_table;
 

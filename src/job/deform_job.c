@@ -110,7 +110,7 @@ static bool wants_figures(const deform_job *job)
     return job->check || job->desc->quality;
 }
 
-/* What can be refused before a vertex is touched, and room for the results. */
+/* What can be refused before a vertex is touched, and memory for the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;

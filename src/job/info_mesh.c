@@ -58,7 +58,7 @@ static ffd_status check_room(const mesh_document *document, const mesh_faces *fa
     return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
-/* Faces that this build cannot show do not keep the rest from being told. */
+/* Faces that this build cannot show do not keep the rest from being described. */
 static ffd_status survey_faces(const mesh_document *document, json_text *json, ffd_error *error)
 {
     mesh_faces faces = {0};

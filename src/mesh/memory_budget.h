@@ -19,12 +19,13 @@ typedef struct memory_budget {
     bool is_shared; /* with another document of the same files: they are allowed for already */
 } memory_budget;
 
-/* Room for a document without files: 100 MB, or `asked` where that is more, with the program itself in it. */
+/* The budget of a document without files: 100 MB, or `asked` where that is more, with the program itself in
+ * it. */
 memory_budget ffd_budget_make(uint64_t asked);
 /* Adds a file: 20 times its size is allowed, and of that kept_per_byte times its size is taken. */
 void ffd_budget_add_file(memory_budget *budget, uint64_t size, uint64_t kept_per_byte);
-/* Room for a document of one file, beside whose bytes its numbers are kept, and again when they have moved.
-   text: the numbers are text, which may be shorter than they are. */
+/* The budget of a document of one file, beside whose bytes its numbers are kept, and again when they have
+   moved. text: the numbers are text, which may be shorter than they are. */
 memory_budget ffd_budget_for_file(uint64_t size, bool text, uint64_t asked);
 /* What is allowed in all, and what is left of it. */
 uint64_t ffd_budget_most(const memory_budget *budget);
@@ -35,7 +36,7 @@ ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_
 ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
 /* Gives back what was taken so. */
 void ffd_budget_return(memory_budget *budget, uint64_t count, uint64_t size);
-/* How many of the threads, 1 at least, it has room for where each takes size bytes. */
+/* How many of the threads, 1 at least, the budget allows where each takes size bytes. */
 int ffd_budget_threads(const memory_budget *budget, int threads, uint64_t size);
 
 #ifdef __cplusplus

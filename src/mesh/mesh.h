@@ -23,7 +23,7 @@
 /* What a vertex has. */
 typedef enum mesh_stream { MESH_POSITIONS, MESH_NORMALS, MESH_TANGENTS, MESH_STREAMS } mesh_stream;
 
-/* A morph target: offsets to some of a part's streams. A vertex in it stands at its position with the offset.
+/* A morph target: offsets to some of a part's streams. A vertex in it is at its position plus the offset.
  */
 typedef struct mesh_shape {
     bool has[MESH_STREAMS];
@@ -33,7 +33,7 @@ typedef struct mesh_shape {
 typedef struct mesh_part {
     size_t vertex_count;
     size_t normal_count; /* 0 where there are none */
-    /* Normals stand in the order of their vertices: those of vertex i are normal_start[i] ..
+    /* Normals are in the order of their vertices: those of vertex i are normal_start[i] ..
        normal_start[i+1]-1. NULL: normal i belongs to vertex i (normal_count is then vertex_count or 0). Lent
        by the document. */
     const uint32_t *normal_start;
@@ -47,7 +47,7 @@ typedef struct mesh_part {
     bool repeats_positions;
     size_t repeats; /* that part's number */
 
-    bool identity; /* the part stands in the lattice's space itself; the matrices are then not used */
+    bool identity; /* the part is in the lattice's space itself; the matrices are then not used */
     double linear[9], offset[3]; /* x = linear p + offset */
     double inverse[9];           /* of linear */
     bool singular;               /* linear has no inverse: the part's vertices are kept */
@@ -209,10 +209,10 @@ typedef struct mesh_format {
        show no morph targets. At most once, before begin_results. NULL: the format has no morph targets. */
     mesh_keep_base_function *keep_base;
 
-    /* Results. begin_results must come first: it makes room, and lets go what an earlier deformation of the
-       document has left. The writers may run in several threads on disjoint ranges, which begin at
-       multiples of MESH_RANGE_STEP where a vector stands at each vertex. changed: one byte a vector, 0: kept
-       as it was (its values are then not read). A vector is handed over once at most. */
+    /* Results. begin_results must come first: it allocates memory, and frees what an earlier deformation of
+       the document has left. The writers may run in several threads on disjoint ranges, which begin at
+       multiples of MESH_RANGE_STEP where there is a vector for each vertex. changed: one byte a vector, 0:
+       kept as it was (its values are then not read). A vector is handed over once at most. */
     mesh_begin_results_function *begin_results;
     mesh_write_function *write_positions;
     mesh_write_function *write_normals;

@@ -365,7 +365,7 @@ def refused(run):
         check(not run.exists("q.ply"), "an output of a failure")
     run.write("p.ply", head + face + "end_header\n0 0 0\n1 1 1\n3 0 1 2\n")
     for command in (["info", "p.ply"], ["check", "p.ply", "-l", "l.json"], ["deform", "p.ply", "q.ply", "-l", "l.json"]):
-        run.ffd(*command, code=INVALID, err="p.ply:12: face 0 (counted from 0): 2 is no index of the 2 vertices")
+        run.ffd(*command, code=INVALID, err="p.ply:12: face 0 (counted from 0): 2 is not an index of the 2 vertices")
     run.folder_of("d.ply")
     run.ffd("deform", "d.ply", "r.ply", "-l", "l.json", code=IO)
 

@@ -542,7 +542,7 @@ static void test_bad_faces(void **state)
         {LITTLE "element face 1\nproperty list char int vertex_index\nelement vertex 1\n" XYZ
                 "end_header\n\x01\xff\xff\xff\xff"
                 "0123456789ab",
-         FFD_E_INVALID, 0, "-1 is no index of the 1 vertices"},
+         FFD_E_INVALID, 0, "-1 is not an index of the 1 vertices"},
         {ONE "element tristrips 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n3 0 0 0\n",
          FFD_E_UNSUPPORTED, 7, "tristrips"},
     };

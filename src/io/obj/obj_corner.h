@@ -27,7 +27,7 @@ bool ffd_obj_corner(text_word word, obj_corner *corner);
 /* So many bytes must be there for the following. */
 #define OBJ_CORNER_ROOM 40
 
-/* How many digits the three indices of a corner have, and the place behind the last. */
+/* How many digits the three indices of a corner have, and the position behind the last. */
 typedef struct obj_corner_form {
     int vertex, texcoord, normal, end;
 } obj_corner_form;

@@ -1,4 +1,4 @@
-/* obj_document.h - an OBJ file as a mesh document: one part that stands in the lattice's space.
+/* obj_document.h - an OBJ file as a mesh document: one part, in the lattice's space.
 
    Every `v` is a vertex, in the order of the file. The normals of a vertex are the distinct `vn` that face
    corners name together with it. Coordinates are held as numbers; all else stays in the file's bytes, which

@@ -66,7 +66,7 @@ void ffd_obj_scan_pass_blanks(obj_scan *scan);
    does. (Here, for callers to be one with them: they are called for every number of a file.) */
 static inline const char *ffd_obj_scan_argument(obj_scan *scan)
 {
-    /* Most often one blank stands before it. */
+    /* Most often there is one blank before it. */
     if (scan->last - scan->at > 1 && *scan->at == ' ' && ffd_obj_class(scan->at + 1) == OBJ_ORDINARY)
         scan->at++;
     else
@@ -74,7 +74,7 @@ static inline const char *ffd_obj_scan_argument(obj_scan *scan)
     return scan->at;
 }
 
-/* Whether a character ends words wherever it stands. */
+/* Whether a character ends words wherever it is. */
 static inline bool ffd_obj_ends_any_word(const char *at)
 {
     return ffd_obj_class(at) == OBJ_BLANK || ffd_obj_class(at) == OBJ_LINE_END;

@@ -157,7 +157,7 @@ static ffd_status read_statement(const block_reader *r, obj_scan *scan, obj_bloc
     }
 }
 
-/* Makes room for the first normals of so many vertices; those that are there stay. */
+/* Makes memory for the first normals of so many vertices; those that are there stay. */
 static bool grow_firsts(obj_users *users, size_t count)
 {
     if (count <= users->first_count)
@@ -187,7 +187,7 @@ ffd_status ffd_obj_users_begin(const obj_document *d, size_t vertices, size_t no
 
 void ffd_obj_users_look(const obj_document *d, const obj_users *users, obj_scan *scan, obj_block_users *block)
 {
-    /* Counting back is out of range: how many stand before is not known. */
+    /* Counting back is out of range: how many come before is not known. */
     const size_t all = OBJ_ELEMENTS_MAX, normals = users->firsts || d->only_positions ? all : 0;
     const block_reader r = {.document = d,
                             .users = users,

@@ -1,4 +1,4 @@
-/* off_document.h - an OFF file as a mesh document: one part that stands in the lattice's space.
+/* off_document.h - an OFF file as a mesh document: one part, in the lattice's space.
 
    Every vertex of the file is one, in its order; that of NOFF has its normal. Coordinates are held as
    numbers; all else stays in the file's bytes, which are walked through again where it is needed. */

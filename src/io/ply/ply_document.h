@@ -1,4 +1,4 @@
-/* ply_document.h - a PLY file as a mesh document: one part that stands in the lattice's space.
+/* ply_document.h - a PLY file as a mesh document: one part, in the lattice's space.
 
    Every row of element vertex is a vertex, in the order of the file; its normal is nx ny nz. Their numbers
    are held as doubles (each one that its type has); all else stays in the file's bytes, which are walked

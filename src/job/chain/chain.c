@@ -114,7 +114,7 @@ static ffd_status extend(const chain_link *link, const chain_run *run, const dis
     return FFD_OK;
 }
 
-/* Notes what is known of the points, and lists those that have a place in the link. */
+/* Notes what is known of the points, and lists those that have u,v,w in the link. */
 static ffd_status note_locations(const chain_link *link, bool is_first, const chain_run *run,
                                  displacement_batch *batch, ffd_error *error)
 {

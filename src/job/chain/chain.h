@@ -23,7 +23,7 @@ typedef struct chain_outside {
 
 typedef struct chain_link {
     ffd_lattice *lattice;
-    ffd_locator *locator;                                  /* NULL until the lattice has its place */
+    ffd_locator *locator;                                  /* NULL until the lattice is fitted to the mesh */
     bool lattice_is_lent, locator_is_lent, border_is_lent; /* by the chain's share */
     const char *path; /* the caller's: of a file in which no values are set; or NULL */
     file_stamp stamp; /* its, from before it was read */
@@ -32,7 +32,7 @@ typedef struct chain_link {
     boundary *border; /* likewise; NULL too where points outside stay */
     double falloff;   /* chain_outside's */
     bool has_folds;   /* they were looked for: */
-    ffd_folds folds;  /* of the lattice, which had its place then */
+    ffd_folds folds;  /* of the lattice, which was fitted then */
 } chain_link;
 
 typedef struct lattice_chain {
@@ -46,7 +46,7 @@ typedef struct lattice_chain {
 /* Frees what the chain owns: what is lent stays. Leaves an empty chain. */
 void ffd_chain_free(lattice_chain *chain);
 
-/* Beyond it a link, whose lattice has its place, moves nothing: the bounds of the control points hold the
+/* Beyond it a link, whose lattice is fitted, moves nothing: the bounds of the control points hold the
    volume, and what is extended goes on from there. */
 bounds ffd_chain_reach(const lattice_chain *chain, size_t link);
 
@@ -71,14 +71,14 @@ typedef struct chain_note {
 typedef struct chain_scratch {
     ffd_location locations[CHAIN_RUN]; /* in the link that was last */
     double delta[3 * CHAIN_RUN], gradient[9 * CHAIN_RUN];
-    uint32_t inside[CHAIN_RUN]; /* points that have a place */
+    uint32_t inside[CHAIN_RUN]; /* points that have u,v,w */
     uint8_t moves[CHAIN_RUN];
     displacement_scratch displacement;
 } chain_scratch;
 
 /* A run of points on its way through the chain. */
 typedef struct chain_run {
-    double *x;    /* 3 a point, changed to their new places */
+    double *x;    /* 3 a point, changed to their new positions */
     size_t count; /* CHAIN_RUN at most */
     bool located; /* the first link's locations are there already */
     chain_scratch *scratch;

@@ -17,7 +17,7 @@ typedef struct chain_files {
 ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
                           ffd_share *share, lattice_chain *chain, ffd_error *error);
 
-/* Makes what a link whose lattice has its place searches with. */
+/* Makes the locator and border of a link whose lattice is fitted. */
 ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error);
 
 #endif

@@ -270,7 +270,7 @@ static void keep_border(kept_rest *rest, chain_link *link)
 }
 
 /* Takes locator and border, if there are none yet for such a rest volume. Returns whether they look at the
-   link's own lattice. There is room for one more. */
+   link's own lattice. There is memory for one more. */
 static bool keep_rest(ffd_share *share, chain_link *link, ffd_isa isa)
 {
     if (link->locator_is_lent)
@@ -284,7 +284,7 @@ static bool keep_rest(ffd_share *share, chain_link *link, ffd_isa isa)
     return true;
 }
 
-/* There is room for one more of each. */
+/* There is memory for one more of each. */
 static void keep_link(ffd_share *share, chain_link *link, ffd_isa isa)
 {
     const bool is_looked_at = keep_rest(share, link, isa);

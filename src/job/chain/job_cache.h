@@ -25,7 +25,7 @@ void ffd_cache_put_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_docu
    when it had this stamp, with the hash of its rest volume and, where they are known, its folds: lent, and
    not to be changed, until the next ffd_cache_put_chain. Else the link stays as it is. */
 void ffd_cache_lend_lattice(const ffd_share *share, chain_link *link);
-/* Lets those lattices go that are not lent, nor looked at by a locator: there is room for others then. */
+/* Lets those lattices go that are not lent, nor used by a locator: there is memory for others then. */
 void ffd_cache_evict_lattices(ffd_share *share);
 /* Gives the link, of which the hash of the rest volume is known, the locator of such a volume for the chain's
    instructions, and its border where the chain needs one: lent until the next ffd_cache_put_chain. What is
@@ -34,9 +34,9 @@ void ffd_cache_lend_locator(const ffd_share *share, const lattice_chain *chain, 
 /* Takes the lattices and locators that the chain made, and lets those go that it did not use. */
 void ffd_cache_put_chain(ffd_share *share, lattice_chain *chain);
 
-/* Room for the locations of a document's vertices in a rest volume, for ffd_pass_run to fill or, *filled, to
-   take from. NULL: they are not kept. `taken` tells whether the document was one of
-   ffd_cache_take_mesh. */
+/* Memory for the locations of a document's vertices in a rest volume, for ffd_pass_run to fill or, *filled,
+   to take from. NULL: they are not kept. `taken` tells whether the document was one of ffd_cache_take_mesh.
+ */
 ffd_location *ffd_cache_locations(ffd_share *share, mesh_document *document, bool taken, const hash128 *rest,
                                   bool *filled);
 /* They are there. */

@@ -12,7 +12,7 @@
 #define TILE ((size_t)1024)
 #define FORMAT_VERSION 1
 
-/* The footer: where its members stand. */
+/* The footer: the offsets of its members. */
 enum {
     POSITIONS = 0,
     LATTICE = 16,

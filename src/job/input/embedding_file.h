@@ -67,7 +67,7 @@ void ffd_embedding_close(embedding_file *file);
 ffd_status ffd_embedding_reuse(const char *path, const mesh_document *document, const ffd_lattice *lattice,
                                int threads, embedding_file *file, ffd_error *error);
 
-/* What a search has found for a vertex, which stands at p: u,v,w taken to the domain, the residual anew, no
+/* What a search has found for a vertex at p: u,v,w taken to the domain, the residual anew, no
    evaluations. */
 void ffd_embedding_locate(const embedding_file *file, size_t vertex, const ffd_lattice *lattice,
                           const double p[3], ffd_location *location);

@@ -15,7 +15,7 @@ typedef struct figure_arrays {
 } figure_arrays;
 
 /* Reads the mesh's faces (at rest: before the pass) and makes the arrays, out of arrays->budget. Faces that
-   are not valid, or that the document has no room for, refuse a check and normals that are to be computed
+   are not valid, or that the memory budget does not allow, refuse a check and normals that are to be computed
    from them; else a deformation goes on without their figures after a warning. */
 ffd_status ffd_figures_prepare(const deform_job *job, figure_arrays *arrays, ffd_error *error);
 /* Frees the arrays and the faces. */

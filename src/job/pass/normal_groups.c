@@ -183,7 +183,7 @@ static bool has_moved(const grouping *g, size_t vertex)
     return q[0] < p[0] || q[0] > p[0] || q[1] < p[1] || q[1] > p[1] || q[2] < p[2] || q[2] > p[2];
 }
 
-/* Puts groups in the place of the corners' normals, and finds those with a face that changed. */
+/* Replaces the corners' normals by their groups, and finds those with a face that changed. */
 static void touch_groups(grouping *g)
 {
     const mesh_faces *faces = g->faces;

@@ -53,7 +53,7 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
         if (pass->statuses)
             pass->statuses[number] = note->status;
         if (pass->deformed) {
-            memcpy(pass->deformed + 3 * number, scratch->place + 3 * i, 3 * sizeof *scratch->place);
+            memcpy(pass->deformed + 3 * number, scratch->position + 3 * i, 3 * sizeof *scratch->position);
             if (singular)
                 fill_nan(pass->deformed + 3 * number, 3);
         }
@@ -94,7 +94,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
                                                 scratch->changed);
 }
 
-/* Lists the points that normals [from, to) of a tile stand at; vertex is the place to go on from. */
+/* Lists the points that normals [from, to) of a tile belong to; vertex is where to go on. */
 static void list_points(const part_work *work, tile_scratch *scratch, size_t first, size_t from, size_t to,
                         size_t *vertex)
 {
@@ -130,7 +130,7 @@ static void deform_normals(const part_work *work, tile_scratch *scratch, size_t 
                                     scratch->normals_changed);
 }
 
-/* Normals that do not stand one a vertex: as many at once as there is room for. */
+/* Normals that are not one for each vertex: as many at once as a tile holds. */
 static void deform_listed_normals(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
                                   pass_totals *totals)
 {
@@ -144,7 +144,7 @@ static void deform_listed_normals(const part_work *work, tile_scratch *scratch, 
     }
 }
 
-/* Tangents stand one a vertex, as the normals before them, which scratch still holds. */
+/* There is one tangent for each vertex, as for the normals before them, which scratch still holds. */
 static void deform_tangents(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
 {
     mesh_document *document = work->pass->document;
@@ -194,7 +194,7 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
             scratch->chain.locations[i] = pass->locations[vertex];
         else
             ffd_embedding_locate(pass->embedding, vertex, pass->chain->links[0].lattice,
-                                 scratch->place + 3 * i, &scratch->chain.locations[i]);
+                                 scratch->position + 3 * i, &scratch->chain.locations[i]);
     }
     return true;
 }
@@ -216,7 +216,7 @@ static void keep_locations(const part_work *work, const tile_scratch *scratch, s
                3 * sizeof *pass->uvw);
 }
 
-/* Puts the selected vertices' places at the front. */
+/* Moves the positions of the selected vertices to the front. */
 static void choose(const part_work *work, tile_scratch *scratch, size_t first, size_t count)
 {
     size_t chosen = 0;
@@ -227,29 +227,30 @@ static void choose(const part_work *work, tile_scratch *scratch, size_t first, s
     for (size_t i = 0; i < count; i++)
         if (ffd_part_selects(work->part, first + i)) {
             if (chosen < i)
-                memcpy(scratch->place + 3 * chosen, scratch->place + 3 * i, 3 * sizeof *scratch->place);
+                memcpy(scratch->position + 3 * chosen, scratch->position + 3 * i,
+                       3 * sizeof *scratch->position);
             scratch->chosen[chosen++] = (uint32_t)i;
         }
     scratch->chosen_count = chosen;
 }
 
-/* Brings what has become of the selected vertices to where they stand in the tile; the others stay. */
+/* Spreads the results of the selected vertices to their slots in the tile; the others stay. */
 static void spread(tile_scratch *scratch, size_t count)
 {
     size_t left = scratch->chosen_count;
     for (size_t i = count; i-- > left;) {
-        double *const place = scratch->place + 3 * i, *const delta = scratch->delta + 3 * i,
+        double *const position = scratch->position + 3 * i, *const delta = scratch->delta + 3 * i,
                       *const gradient = scratch->gradient + 9 * i;
         if (left > 0 && scratch->chosen[left - 1] == i) {
             left--;
-            memcpy(place, scratch->place + 3 * left, 3 * sizeof *place);
+            memcpy(position, scratch->position + 3 * left, 3 * sizeof *position);
             memcpy(delta, scratch->delta + 3 * left, 3 * sizeof *delta);
             memcpy(gradient, scratch->gradient + 9 * left, 9 * sizeof *gradient);
             scratch->notes[i] = scratch->notes[left];
         } else {
             const vertex_transform own = ffd_vertex_transform_of(&scratch->transforms, i);
-            memcpy(place, scratch->raw + 3 * i, 3 * sizeof *place);
-            ffd_vertex_transform_point(&own, place);
+            memcpy(position, scratch->raw + 3 * i, 3 * sizeof *position);
+            ffd_vertex_transform_point(&own, position);
             memset(delta, 0, 3 * sizeof *delta);
             memset(gradient, 0, 9 * sizeof *gradient);
             scratch->notes[i] = (chain_note){.status = FFD_OUTSIDE};
@@ -274,12 +275,12 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     if (atomic_load(&work->stopped))
         return;
     pass->document->format->read_positions(pass->document, work->part_number, first, count, scratch->raw);
-    memcpy(scratch->place, scratch->raw, 3 * count * sizeof(double));
-    place_points(work, scratch, first, count, scratch->place);
+    memcpy(scratch->position, scratch->raw, 3 * count * sizeof(double));
+    place_points(work, scratch, first, count, scratch->position);
     choose(work, scratch, first, count);
     if (!part->repeats_positions)
         ffd_totals_count_rest(work, scratch, first, totals);
-    chain_run run = {.x = scratch->place,
+    chain_run run = {.x = scratch->position,
                      .count = scratch->chosen_count,
                      .located = recall(work, scratch, first),
                      .scratch = &scratch->chain,

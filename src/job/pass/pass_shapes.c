@@ -48,14 +48,14 @@ static void write_offsets(const shape_work *work, mesh_stream stream)
                                     work->count, work->scratch->offsets, work->scratch->changed);
 }
 
-/* Lists the vertices that the target moves, with their places in the lattice's space. */
+/* Lists the vertices that the target moves, with their positions in the lattice's space. */
 static void place_moved(const shape_work *work)
 {
     shape_scratch *s = work->scratch;
     s->moved_count = 0;
     for (size_t i = 0; i < work->count; i++) {
         const double *m = s->offsets + 3 * i;
-        double *x = s->place + 3 * s->moved_count;
+        double *x = s->position + 3 * s->moved_count;
         s->gradients[i] = work->tile->gradient + 9 * i;
         if (!ffd_part_selects(work->part->part, work->first + i) || (m[0] == 0 && m[1] == 0 && m[2] == 0))
             continue;
@@ -75,7 +75,7 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
 {
     shape_scratch *s = work->scratch;
     const mesh_pass *pass = work->part->pass;
-    chain_run run = {.x = s->place,
+    chain_run run = {.x = s->position,
                      .count = s->moved_count,
                      .scratch = &work->tile->chain,
                      .delta = s->moved_delta,

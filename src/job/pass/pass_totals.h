@@ -17,7 +17,7 @@ typedef struct pass_totals {
     uint64_t multiple_any;                                 /* likewise */
     uint64_t unresolved;                                   /* whose search ended at its limits */
     uint64_t first_outside, first_invalid, first_overflow; /* vertex numbers; UINT64_MAX: none */
-    uint64_t shapes_outside; /* vertices that a morph target moves to a place outside of a lattice */
+    uint64_t shapes_outside; /* vertices that a morph target moves to a position outside of a lattice */
     uint64_t first_shape_outside, first_shape_invalid; /* of morph targets; UINT64_MAX: none */
     uint64_t extended; /* of those with status outside: displaced as the border is */
     uint64_t normals_collapsed, transforms_singular;

@@ -55,7 +55,7 @@ static bool carry(const recomputing *r, const vertex_transform *transform, size_
     return changed;
 }
 
-/* Normal number `normal` of the part, which stands in n, at a vertex. Returns whether it changed. */
+/* Normal number `normal` of the part, which is in n, at a vertex. Returns whether it changed. */
 static bool recompute(const recomputing *r, const vertex_transform *transform, size_t vertex, size_t normal,
                       double n[3])
 {
@@ -73,7 +73,7 @@ static bool recompute(const recomputing *r, const vertex_transform *transform, s
     return true;
 }
 
-/* Tangents stand one a vertex, as the normals, which are there. */
+/* There is one tangent for each vertex, as for the normals, which are there. */
 static void recompute_tangents(recomputing *r, size_t first, size_t count)
 {
     mesh_document *document = r->document;
@@ -89,7 +89,7 @@ static void recompute_tangents(recomputing *r, size_t first, size_t count)
     document->format->write_tangents(document, r->part, first, count, r->tangents, r->changed);
 }
 
-/* Normals [from, to) of the part, whose vertices are [first, ..); *vertex is the place to go on from. */
+/* Normals [from, to) of the part, whose vertices are [first, ..); *vertex is where to go on. */
 static void recompute_run(recomputing *r, size_t first, size_t from, size_t to, size_t *vertex)
 {
     mesh_document *document = r->document;

@@ -9,11 +9,11 @@
 
 #define PASS_TILE VERTEX_TRANSFORMS /* at most */
 
-/* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, place and
-   what the chain says stand one behind the other. */
+/* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, position
+   and what the chain says stand one behind the other. */
 typedef struct shape_scratch {
     double offsets[3 * PASS_TILE]; /* as the file has them, then what becomes of them */
-    double place[3 * PASS_TILE];
+    double position[3 * PASS_TILE];
     size_t moved[PASS_TILE];
     size_t moved_count;
     double moved_delta[3 * PASS_TILE], moved_gradient[9 * PASS_TILE];
@@ -32,15 +32,15 @@ typedef struct tile_scratch {
     uint32_t chosen[PASS_TILE];
     size_t chosen_count;
     chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
-    /* Of the chosen ones, one behind the other, until they are spread to where they stand in the tile. */
-    double place[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
+    /* Of the chosen ones, one behind the other, until they are spread to their slots in the tile. */
+    double position[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
     chain_note notes[PASS_TILE];
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
-    uint32_t of_points[PASS_TILE]; /* the points that normals stand at, where they are not one a vertex */
+    uint32_t of_points[PASS_TILE]; /* the points that normals belong to, where they are not one a vertex */
     uint8_t outcomes[PASS_TILE];   /* what became of these */
     shape_scratch *shape;          /* NULL where the document has no morph targets */
     ffd_status status;             /* of the first tile of this worker that failed, and what it said */

@@ -8,7 +8,7 @@ static uint64_t least(uint64_t a, uint64_t b)
     return a < b ? a : b;
 }
 
-/* Finite points widen the box (places that the chain brings beyond all numbers are refused as too large).
+/* Finite points widen the box (positions that the chain brings beyond all numbers are refused as too large).
    Returns whether all were. */
 static bool widen_all(const part_work *work, const double *points, size_t count, ffd_bounds *box)
 {
@@ -29,10 +29,10 @@ void ffd_totals_count_rest(const part_work *work, const tile_scratch *scratch, s
                            pass_totals *totals)
 {
     totals->vertices += scratch->chosen_count;
-    if (widen_all(work, scratch->place, scratch->chosen_count, &totals->before))
+    if (widen_all(work, scratch->position, scratch->chosen_count, &totals->before))
         return;
     for (size_t i = 0; i < scratch->chosen_count; i++)
-        if (!vec_is_finite(scratch->place + 3 * i))
+        if (!vec_is_finite(scratch->position + 3 * i))
             totals->first_invalid = least(totals->first_invalid, number_of(work, scratch, first, i));
 }
 
@@ -58,7 +58,7 @@ static void count_notes(const part_work *work, const tile_scratch *scratch, size
     size_t inside = 0, located = 0;
     for (size_t i = 0; i < scratch->chosen_count; i++) {
         const chain_note *const note = &notes[i];
-        square_max = larger_of(square_max, note->residual_square); /* 0 where there is no place */
+        square_max = larger_of(square_max, note->residual_square); /* 0 where there is no u,v,w */
         square_sum += note->residual_square;
         located += note->located;
         evaluations += note->evaluations;
@@ -82,7 +82,7 @@ static bool stays(const tile_scratch *scratch, size_t i, pass_totals *totals)
 {
     if (!ffd_vertex_transform_of(&scratch->transforms, ffd_tile_chosen(scratch, i)).singular)
         return false;
-    totals->transforms_singular += vec_is_finite(scratch->place + 3 * i);
+    totals->transforms_singular += vec_is_finite(scratch->position + 3 * i);
     return true;
 }
 
@@ -106,5 +106,5 @@ void ffd_totals_count_deformed(const part_work *work, const tile_scratch *scratc
 {
     count_notes(work, scratch, first, totals);
     count_displacements(work, scratch, totals);
-    widen_all(work, scratch->place, scratch->chosen_count, &totals->after);
+    widen_all(work, scratch->position, scratch->chosen_count, &totals->after);
 }

@@ -1,4 +1,4 @@
-/* vertex_transform.h - how the vertices of a part stand in the lattice's space, one by one. */
+/* vertex_transform.h - the transforms of a part's vertices into the lattice's space. */
 #ifndef FFD_JOB_PASS_VERTEX_TRANSFORM_H
 #define FFD_JOB_PASS_VERTEX_TRANSFORM_H
 

@@ -12,7 +12,7 @@ ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_bu
                             ffd_error *error);
 /* Whether a name has a character that make or ninja cannot read in a depfile, however it is written. */
 bool ffd_depfile_troubles(const char *name);
-/* Adds rules that are complete. A lack of memory is told of by ffd_depfile_write. */
+/* Adds rules that are complete. A lack of memory is reported by ffd_depfile_write. */
 void ffd_depfile_add(ffd_depfile *depfile, const byte_buffer *rules);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/file/input.h"
 
-/* Refuses (FFD_E_EXISTS) a path under which a file stands that is not empty and not of the own kind, which
+/* Refuses (FFD_E_EXISTS) the path of a file that is not empty and not of the own kind, which
    `kind` names in the message. Streams are free. Errors: those of reading it too. */
 ffd_status ffd_replace_check(const char *path, bool (*is_own)(const file_input *old), const char *kind,
                              ffd_error *error);

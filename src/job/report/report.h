@@ -14,7 +14,7 @@ typedef struct report_entry {
     bool stable;  /* without times */
 } report_entry;
 
-/* Appends the entry's text as it stands in a report. */
+/* Appends the entry's text as it is in a report. */
 void ffd_report_entry_text(const report_entry *entry, byte_buffer *text);
 /* Adds an entry by its text. Errors: as ffd_report_add. */
 ffd_status ffd_report_add_text(ffd_report *report, const char *text, size_t size, ffd_error *error);
