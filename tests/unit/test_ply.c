@@ -535,10 +535,11 @@ static void test_bad_faces(void **state)
 {
     (void)state;
     static const refused_text cases[] = {
-        {ONE FACE "end_header\n1 2 3\n2 0 1\n", FFD_E_INVALID, 11, "face 0 (counted from 0): 1 is no index"},
-        {ONE FACE "end_header\n1 2 3\n1 -1\n", FFD_E_INVALID, 11, "-1 is no index"},
-        {ONE FACE "end_header\n1 2 3\n1 0.5\n", FFD_E_INVALID, 11, "0.5 is no index"},
-        {ONE FACE "end_header\n1 2 3\n1 a\n", FFD_E_INVALID, 11, "a is no index"},
+        {ONE FACE "end_header\n1 2 3\n2 0 1\n", FFD_E_INVALID, 11,
+         "face 0 (counted from 0): 1 is not an index"},
+        {ONE FACE "end_header\n1 2 3\n1 -1\n", FFD_E_INVALID, 11, "-1 is not an index"},
+        {ONE FACE "end_header\n1 2 3\n1 0.5\n", FFD_E_INVALID, 11, "0.5 is not an index"},
+        {ONE FACE "end_header\n1 2 3\n1 a\n", FFD_E_INVALID, 11, "a is not an index"},
         {LITTLE "element face 1\nproperty list char int vertex_index\nelement vertex 1\n" XYZ
                 "end_header\n\x01\xff\xff\xff\xff"
                 "0123456789ab",
