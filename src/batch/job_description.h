@@ -36,6 +36,7 @@ void ffd_description_set(job_description *description, const char *name, const j
                          uint32_t value);
 /* The name or the value of a statement, valid until the next one is added. */
 const char *ffd_description_name(const job_description *description, const job_statement *statement);
+/* The value of a statement, likewise. */
 const char *ffd_description_value(const job_description *description, const job_statement *statement);
 /* The value of the first such part; NULL where there is none. */
 const char *ffd_description_find(const job_description *description, job_part part);

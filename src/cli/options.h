@@ -57,15 +57,21 @@ typedef struct cli_words {
     size_t count;
 } cli_words;
 
-/* Common setters. The field at offset is a bool; const char *, given once and not empty; int (a
-   number of threads); int (index into choices); ffd_format; double, positive and finite; uint64_t (bytes, as
-   700M or 4G). */
+/* Common setters, each for a kind of field at offset. */
+
+/* Sets a bool to true. */
 bool cli_set_flag(void *settings, const cli_option *option, const char *value);
+/* A const char *, given once and not empty. */
 bool cli_set_text(void *settings, const cli_option *option, const char *value);
+/* An int: a number of threads. */
 bool cli_set_count(void *settings, const cli_option *option, const char *value);
+/* An int: the index into choices. */
 bool cli_set_choice(void *settings, const cli_option *option, const char *value);
+/* An ffd_format. */
 bool cli_set_format(void *settings, const cli_option *option, const char *value);
+/* A double, positive and finite. */
 bool cli_set_positive(void *settings, const cli_option *option, const char *value);
+/* A uint64_t: bytes, as 700M or 4G. */
 bool cli_set_bytes(void *settings, const cli_option *option, const char *value);
 
 /* The whole text as a number. */
@@ -77,10 +83,10 @@ bool cli_parse_number(const char *text, double *value);
 bool cli_parse(const cli_table *options, void *settings, const bool *help, int count, char **arguments,
                cli_words *words);
 
-/* One line "ffd: ..." on stderr. */
 #ifdef __GNUC__
 __attribute__((__format__(__printf__, 1, 2)))
 #endif
+/* Prints one line "ffd: ..." to stderr. */
 void cli_complain(const char *format, ...);
 
 /* From now on a complaint goes to text, without "ffd: "; NULL: to stderr again. */

@@ -31,8 +31,9 @@ typedef struct json_cursor {
 json_cursor ffd_cursor_top(const json_file *file);
 /* The member of an object; no value where it is missing or the cursor is not at an object. */
 json_cursor ffd_cursor_member(json_cursor object, const char *key);
-/* The first element or member of a container, and the one after this; no value at the end. */
+/* The first element or member of a container; no value where there is none. */
 json_cursor ffd_cursor_first(json_cursor container);
+/* The element or member after this; no value at the end. */
 json_cursor ffd_cursor_next(json_cursor element);
 
 /* Whether there is a value. */
@@ -57,6 +58,7 @@ static inline size_t ffd_cursor_count(json_cursor cursor)
 void ffd_cursor_pointer(json_cursor cursor, char *text, size_t capacity);
 /* A failure at the value: FFD_E_INVALID, or another status. Returns it. */
 ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...) FFD_PRINTF(2, 3);
+/* The same with another status. */
 ffd_status ffd_cursor_fail_as(json_cursor cursor, ffd_status status, const char *format, ...)
     FFD_PRINTF(3, 4);
 
@@ -85,8 +87,9 @@ ffd_status ffd_json_read_word(json_cursor cursor, const char *const *words, size
 
 /* The member of an object; fails where it is missing. */
 ffd_status ffd_json_require(json_cursor object, const char *key, json_cursor *member);
-/* The same, and reads it: a number, or an array of count numbers. */
+/* The same, and reads it as a number. */
 ffd_status ffd_json_member_double(json_cursor object, const char *key, double *number);
+/* The same for an array of count numbers. */
 ffd_status ffd_json_member_doubles(json_cursor object, const char *key, size_t count, double *numbers);
 
 #endif

@@ -47,8 +47,9 @@ uint32_t ffd_json_span_member(const json_span *tree, uint32_t object, const char
    ffd_json_span_after. */
 uint32_t ffd_json_span_element(const json_span *tree, uint32_t array, size_t i);
 
-/* The first member or element of a container and the one after `value`; JSON_NONE at the end. */
+/* The first member or element of a container; JSON_NONE where there is none. */
 uint32_t ffd_json_span_first(const json_span *tree, uint32_t container);
+/* The member or element after `value`; JSON_NONE at the end. */
 uint32_t ffd_json_span_after(const json_span *tree, uint32_t value);
 
 /* The number of a value; false where it is not a number. Too large ones give an infinity. */
@@ -58,8 +59,9 @@ bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number)
 char *ffd_json_span_string(const json_span *tree, uint32_t value, size_t *size);
 /* The same of its key. */
 char *ffd_json_span_key(const json_span *tree, uint32_t value);
-/* Whether the key of value, or the string value itself, is text. */
+/* Whether the key of value is text. */
 bool ffd_json_span_key_is(const json_span *tree, uint32_t value, const char *text);
+/* Whether the string value is text. */
 bool ffd_json_span_string_is(const json_span *tree, uint32_t value, const char *text);
 
 /* A member of an object. */

@@ -25,8 +25,9 @@ typedef struct json_text {
 void ffd_json_begin(json_text *json, byte_buffer *out);
 /* Each of the following appends a member with this key, or an element or the top (key NULL). */
 
-/* Opens an object or array, whose members follow. */
+/* Opens an object, whose members follow. */
 void ffd_json_object(json_text *json, const char *key, bool on_one_line);
+/* The same for an array. */
 void ffd_json_array(json_text *json, const char *key, bool on_one_line);
 /* Closes it by '}' or ']'; the top with a line break. */
 void ffd_json_end(json_text *json, char bracket);
@@ -34,10 +35,13 @@ void ffd_json_end(json_text *json, char bracket);
 void ffd_json_string(json_text *json, const char *key, const char *value);
 /* A number that is not finite gives null. */
 void ffd_json_number(json_text *json, const char *key, double value);
+/* A whole number. */
 void ffd_json_count(json_text *json, const char *key, uint64_t value);
 /* Several members at once. */
 void ffd_json_counts(json_text *json, const json_count *members, size_t count);
+/* true or false. */
 void ffd_json_bool(json_text *json, const char *key, bool value);
+/* null. */
 void ffd_json_null(json_text *json, const char *key);
 /* A value that is JSON already, with its line breaks. */
 void ffd_json_raw(json_text *json, const char *key, const char *text, size_t size);

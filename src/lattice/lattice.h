@@ -69,6 +69,7 @@ void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *b
    basis functions start at first[a] = span[a] - degree[a], u fastest: (d_u+1)(d_v+1)(d_w+1) points. */
 void ffd_lattice_cell_points(const ffd_lattice *lattice, const double *field, const int span[3],
                              double *points);
+/* The same for the weights alone. */
 void ffd_lattice_cell_weights(const ffd_lattice *lattice, const double *weights, const int span[3],
                               double *cell_weights);
 

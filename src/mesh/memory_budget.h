@@ -27,8 +27,9 @@ void ffd_budget_add_file(memory_budget *budget, uint64_t size, uint64_t kept_per
 /* The budget of a document of one file, beside whose bytes its numbers are kept, and again when they have
    moved. text: the numbers are text, which may be shorter than they are. */
 memory_budget ffd_budget_for_file(uint64_t size, bool text, uint64_t asked);
-/* What is allowed in all, and what is left of it. */
+/* Bytes that are allowed in all. */
 uint64_t ffd_budget_most(const memory_budget *budget);
+/* Bytes that are left. */
 uint64_t ffd_budget_left(const memory_budget *budget);
 /* Whether count * size bytes fit in. Errors: FFD_E_LIMIT. */
 ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);

@@ -143,9 +143,10 @@ static inline const char *model_name(const mesh_model *model, uint32_t name)
     return name == MODEL_NONE ? NULL : ffd_intern_key(&model->names, name);
 }
 
-/* The texture coordinate or normal of every position: numbers[i] is that of the first corner at position i,
+/* The texture coordinate of every position: numbers[i] is that of the first corner at position i,
    MODEL_NONE where no corner has one. Tells whether some other corner has one of another value. */
 bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *numbers);
+/* The same for normals. */
 bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers);
 
 /* Whether all colours are multiples of 1/255, as nearly as a text of six digits says it. */

@@ -14,8 +14,9 @@ ffd_status ffd_knots_make(knot_kind kind, int degree, size_t points, const doubl
 /* Leaves an empty one, which can be freed again. */
 void ffd_knots_free(knot_vector *knots);
 
-/* The ends of the domain. */
+/* The start of the domain. */
 double ffd_knots_first(const knot_vector *knots);
+/* The end of the domain. */
 double ffd_knots_last(const knot_vector *knots);
 
 /* The following for what is not in the domain, or is its end. */

@@ -2,17 +2,27 @@
 #ifndef FFD_CLI_PAGES_PAGES_H
 #define FFD_CLI_PAGES_PAGES_H
 
-/* Each prints the lines that stand in a template for @NAME@ (main.c) to stdout. */
+/* Each prints to stdout the lines that replace @NAME@ in a template (main.c). */
+
+/* The version and its date. */
 void pages_man_version(void);
+/* The synopsis of every command. */
 void pages_man_synopsis(void);
+/* Every command with its options and examples. */
 void pages_man_commands(void);
 
+/* The names of the commands, for bash. */
 void pages_bash_commands(void);
+/* The options of each command. */
 void pages_bash_options(void);
+/* The values of options. */
 void pages_bash_values(void);
+/* What arguments that are not options can be. */
 void pages_bash_arguments(void);
 
+/* The commands with their summaries, for zsh. */
 void pages_zsh_commands(void);
+/* The options and arguments of each command. */
 void pages_zsh_arguments(void);
 
 #endif

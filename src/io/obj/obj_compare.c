@@ -1,7 +1,8 @@
-/* Two OBJ files are the same mesh when their statements are, one by one: the keyword, and each argument as
-   text, as a number (1.0 and 1, NaN and NaN) or, in f, l and p, as the element it names (-1 and 8). The
-   coordinates of `v` and `vn` may differ by their tolerances; other numbers may not. Comments, empty lines,
-   blanks, continuations and line ends are no part of the mesh; names and mtllib are. */
+/* obj_compare.c - compares two OBJ files. Two OBJ files are the same mesh when their statements are, one by
+   one: the keyword, and each argument as text, as a number (1.0 and 1, NaN and NaN) or, in f, l and p, as the
+   element it names (-1 and 8). The coordinates of `v` and `vn` may differ by their tolerances; other numbers
+   may not. Comments, empty lines, blanks, continuations and line ends are no part of the mesh; names and
+   mtllib are. */
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_number.h"
 #include "mesh/difference.h"

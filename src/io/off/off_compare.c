@@ -1,8 +1,8 @@
-/* Two OFF files are the same mesh when their vertices have the same attributes, and vertices and faces are
-   the same one by one. Positions and normals may differ by their tolerances; other numbers may not. Colours
-   are equal where they are the same numbers and written in the same of the two ways, whole (0 to 255) or not
-   (0 to 1). Comments, blanks, the number of edges, where lines end, and what stands behind the last face are
-   no part of the mesh. */
+/* off_compare.c - compares two OFF files. Two OFF files are the same mesh when their vertices have the same
+   attributes, and vertices and faces are the same one by one. Positions and normals may differ by their
+   tolerances; other numbers may not. Colours are equal where they are the same numbers and written in the
+   same of the two ways, whole (0 to 255) or not (0 to 1). Comments, blanks, the number of edges, where lines
+   end, and what stands behind the last face are no part of the mesh. */
 #include "io/off/off_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>

@@ -35,8 +35,9 @@ static inline size_t off_header_numbers(const off_header *header)
     return header->has_normals ? 6 : 3;
 }
 
-/* How many words may follow them: a colour of up to 4, also where the keyword does not tell, and u v. */
+/* The fewest words that follow them: a colour of up to 4, also where the keyword does not tell, and u v. */
 size_t ffd_off_header_rest_min(const off_header *header);
+/* The most of these words. */
 size_t ffd_off_header_rest_max(const off_header *header);
 
 #endif

@@ -34,6 +34,7 @@ bool ffd_off_walk_rest(off_walk *walk, text_word *word);
 
 /* The same two in a file that was read: numbers. */
 size_t ffd_off_walk_face_size(off_walk *walk);
+/* The number of a corner's vertex. */
 uint32_t ffd_off_walk_corner_index(off_walk *walk);
 
 #endif

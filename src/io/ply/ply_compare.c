@@ -1,7 +1,8 @@
-/* Two PLY files are the same mesh when their elements, properties and types are, in their order, and their
-   values as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the vertices may differ by their
-   tolerances; other numbers may not. How the numbers are written (ascii, either binary order), comments,
-   blanks and line ends are no part of the mesh; obj_info and the names of texture files are. */
+/* ply_compare.c - compares two PLY files. Two PLY files are the same mesh when their elements, properties and
+   types are, in their order, and their values as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the
+   vertices may differ by their tolerances; other numbers may not. How the numbers are written (ascii, either
+   binary order), comments, blanks and line ends are no part of the mesh; obj_info and the names of texture
+   files are. */
 #include "io/ply/ply_document.h"
 #include "mesh/difference.h"
 #include <inttypes.h>

@@ -55,8 +55,9 @@ ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_he
 /* Frees the elements and properties. */
 void ffd_ply_header_free(ply_header *header);
 
-/* NULL where there is none. */
+/* The element of this name; NULL where there is none. */
 const ply_element *ffd_ply_find_element(const ply_header *header, const char *name);
+/* The property of this name; NULL where there is none. */
 const ply_property *ffd_ply_find_property(const ply_element *element, const char *name);
 
 #endif

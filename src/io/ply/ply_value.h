@@ -24,8 +24,9 @@ typedef enum ply_type {
 
 /* "float" and "float32" are the same type; the former is its name here. */
 bool ffd_ply_type_of(text_word word, ply_type *type);
-/* The name of a type in messages, and the bytes of its values. */
+/* The name of a type in messages. */
 const char *ffd_ply_type_name(ply_type type);
+/* The bytes of a type's values. */
 size_t ffd_ply_type_size(ply_type type);
 
 static inline bool ply_is_whole(ply_type type)

@@ -44,6 +44,7 @@ static inline const unsigned char *ffd_stl_facet(const stl_document *document, s
 
 /* Three floats of a binary file. */
 void ffd_stl_load(const unsigned char *bytes, double xyz[3]);
+/* Stores count numbers as floats of a binary file. */
 void ffd_stl_store(unsigned char *bytes, const double *values, size_t count);
 
 /* The right-hand normal of a facet with 9 coordinates, of length 1. False where they have no area beyond what

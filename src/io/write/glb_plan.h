@@ -39,8 +39,9 @@ void ffd_glb_texcoord(const mesh_model *model, uint32_t number, float values[2])
 bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3]);
 /* The position of a vertex, as the file has it. */
 void ffd_glb_position(const mesh_model *model, uint32_t number, float values[3]);
-/* What the morph target adds to them. */
+/* What the morph target adds to it. */
 void ffd_glb_position_offset(const mesh_model *model, uint32_t number, float values[3]);
+/* What it adds to the normal. */
 void ffd_glb_normal_offset(const mesh_model *model, uint32_t number, float values[3]);
 
 #endif

@@ -13,14 +13,20 @@ typedef struct model_sink {
 } model_sink;
 
 /* Each appends to the output; after a failure, which sink holds, none does anything more. */
+
+/* Appends size bytes. */
 void ffd_sink_bytes(model_sink *sink, const void *bytes, size_t size);
+/* Appends a string. */
 void ffd_sink_text(model_sink *sink, const char *text);
+/* Appends a whole number in decimal digits. */
 void ffd_sink_count(model_sink *sink, uint64_t count);
 /* The shortest text of each number, with a blank before it. */
 void ffd_sink_numbers(model_sink *sink, const double *numbers, size_t count);
-/* Little endian. */
+/* A whole number of 32 bits, little endian. */
 void ffd_sink_u32(model_sink *sink, uint32_t value);
+/* The nearest float, little endian. */
 void ffd_sink_float(model_sink *sink, double value);
+/* A double, little endian. */
 void ffd_sink_double(model_sink *sink, double value);
 
 #endif
