@@ -34,12 +34,12 @@ static const unsigned char nothing[1] = {0};
 #define FROM_HERE ((off_t)-1)
 
 /* As many bytes as come at once. *got: 0 at the end. */
-static ffd_status read_piece(int fd, const char *name, off_t place, void *to, size_t room, size_t *got,
+static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, size_t size, size_t *got,
                              ffd_error *error)
 {
     ssize_t count;
     do
-        count = place == FROM_HERE ? read(fd, to, room) : pread(fd, to, room, place);
+        count = offset == FROM_HERE ? read(fd, to, size) : pread(fd, to, size, offset);
     while (count < 0 && errno == EINTR);
     if (count < 0)
         return ffd_fail_file(error, FFD_E_IO, name, "cannot be read: %s", strerror(errno));
@@ -248,9 +248,9 @@ void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
         madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
 }
 
-void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten)
+void ffd_file_forget_until(const file_input *input, const void *end, size_t *forgotten)
 {
-    const size_t until = (size_t)((const unsigned char *)place - input->data) / FORGOTTEN * FORGOTTEN;
+    const size_t until = (size_t)((const unsigned char *)end - input->data) / FORGOTTEN * FORGOTTEN;
     if (until <= *forgotten)
         return;
     ffd_file_forget(input, input->data + *forgotten, until - *forgotten);

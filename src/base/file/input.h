@@ -35,11 +35,11 @@ void ffd_file_bring_in(const void *bytes, size_t size);
 /* For bytes that are not needed for a while: gives back the memory that they take where the system can read
    them again, by itself, from the file. Any thread. */
 void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
-/* For a file that is read from start to end: gives back the pages before `place` that have not
+/* For a file that is read from start to end: gives back the pages before `end` that have not
    been given back, behind *forgotten bytes, where that is worth the call, which stops the other threads for a
    moment; what is left in the end is the caller's to give back. Pages that another thread still reads come
    again. One thread at a time. */
-void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten);
+void ffd_file_forget_until(const file_input *input, const void *end, size_t *forgotten);
 
 /* Whether path names a stream of this process or the null device, not a file: "-",
    /dev/stdin, /dev/fd/N, /dev/null. */

@@ -112,8 +112,8 @@ static ALWAYS_INLINE digits find(words bits)
                     fits};
 }
 
-/* Of eight digits, how many stand up to the last that is not 0; of none such, something below 0. A double's
-   exponent tells: it cannot be rounded into the next byte. */
+/* Of eight digits, how many there are up to the last that is not 0; below 0 if all are 0. A double's
+   exponent shows it: it cannot be rounded into the next byte. */
 static ALWAYS_INLINE mask last_of(words eight)
 {
     return (((mask) __builtin_convertvector(eight, lanes) >> MANTISSA_BITS) - 1023 + 8) >> 3;

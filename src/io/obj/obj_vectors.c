@@ -58,7 +58,7 @@ static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char 
         if (!ffd_obj_number(word, value))
             return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
                                  "coordinate %c of a %s is not a number: \"%.*s\"", "xyz"[a], what,
-                                 ffd_text_shown(word), word.first);
+                                 ffd_text_display_size(word), word.first);
     }
     list->count++;
     return FFD_OK;

@@ -79,7 +79,7 @@ static void replace_in_text(file_splice *splice, const text_word *words, const d
                             unsigned changes, size_t count, decimal_run *run)
 {
     const size_t before = (size_t)(words[count - 1].last - splice->copied);
-    char *const room = ffd_buffer_room(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = room;
+    char *const room = ffd_buffer_reserve(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = room;
     if (!room)
         return;
     for (size_t i = 0; i < count; i++)
