@@ -159,7 +159,7 @@ static void note_ends(batch_run *run)
     }
 }
 
-/* What is told in the order of the jobs. */
+/* What is reported in the order of the jobs. */
 static ffd_status tell_task(batch_run *run, const pool_task *task, ffd_error *error)
 {
     if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
