@@ -175,7 +175,7 @@ static ffd_status read_columns(job_source *source, ffd_error *error)
     do {
         ffd_stream_wait(source->reader.stream);
         status = next_row(source, &source->columns, &state, &valid, error);
-    } while (!status && state == LINE_LATER && ffd_interrupt_wished() == INTERRUPT_NONE);
+    } while (!status && state == LINE_LATER && ffd_interrupt_requested() == INTERRUPT_NONE);
     if (status)
         return status;
     if (state != LINE_READ || !valid)

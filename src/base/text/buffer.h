@@ -12,7 +12,7 @@ typedef struct byte_buffer {
     bool failed; /* memory ran out: everything appended since is lost */
 } byte_buffer;
 
-/* Where size more bytes can be written by the caller, who adds what he did write to the buffer's size; NULL
+/* Where size more bytes can be written by the caller, who adds what was written to the buffer's size; NULL
    when memory ran out. */
 char *ffd_buffer_reserve(byte_buffer *buffer, size_t size);
 /* Appends size bytes. */

@@ -241,10 +241,10 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
         if (!is_to_be_read(r->document, &r->users->blocks[i]))
             continue;
         ffd_obj_free_block_users(&r->users->blocks[i]);
-        ffd_file_bring_in(text->first, (size_t)(text->last - text->first));
+        ffd_file_prefault(text->first, (size_t)(text->last - text->first));
         block.status = read_block(r->document, r->users, i, &block, NULL);
         r->users->blocks[i] = block;
-        ffd_file_forget(&r->document->input, text->first, (size_t)(text->last - text->first));
+        ffd_file_release_pages(&r->document->input, text->first, (size_t)(text->last - text->first));
     }
 }
 
