@@ -19,7 +19,7 @@ typedef struct cli_command {
     const char *summary;  /* one line */
     const char *synopsis; /* lines of usage, each ended by a line break */
     cli_table options;
-    /* Gets the arguments behind the name. Returns the exit code. */
+    /* Gets the arguments after the name. Returns the exit code. */
     int (*run)(const struct cli_command *command, int count, char **arguments);
     /* What the positional arguments are, in the words of options' values: "MESH". */
     const char *arguments;

@@ -48,7 +48,7 @@ typedef struct cli_option_walk {
 /* Begins a walk over the options that count. */
 cli_option_walk cli_begin_walk(const cli_table *options);
 
-/* The next option that counts; NULL behind the last. */
+/* The next option that counts; NULL after the last. */
 const cli_option *cli_next_option(cli_option_walk *walk);
 
 /* Positional arguments, in their order. */

@@ -90,7 +90,7 @@ static void find_cells(const ffd_lattice *lattice, const displacement_batch *bat
     scratch->stretch_count = stretches;
 }
 
-/* Puts the wanted points [first, end), a stretch, behind those that their cell has. */
+/* Puts the wanted points [first, end), a stretch, after those that their cell has. */
 static void add_stretch(const ffd_lattice *lattice, const displacement_batch *batch, size_t first, size_t end,
                         batch_cell *cell, displacement_scratch *scratch)
 {

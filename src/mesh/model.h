@@ -132,7 +132,7 @@ static inline const model_corner *model_element(const model_list *list, size_t i
     return list->corners + list->starts[i];
 }
 
-/* One behind the last element of a kind in a run. */
+/* One past the last element of a kind in a run. */
 static inline size_t model_run_end(const mesh_model *model, size_t run, model_kind kind)
 {
     return run + 1 < model->run_count ? model->runs[run + 1].first[kind] : model->lists[kind].count;

@@ -36,7 +36,7 @@ void ffd_file_prefault(const void *bytes, size_t size);
    them again, by itself, from the file. Any thread. */
 void ffd_file_release_pages(const file_input *input, const void *bytes, size_t size);
 /* For a file that is read from start to end: gives back the pages before `end` that have not
-   been given back, behind *released bytes, where that is worth the call, which stops the other threads for a
+   been given back, after *released bytes, where that is worth the call, which stops the other threads for a
    moment; what is left in the end is the caller's to give back. Pages that another thread still reads come
    again. One thread at a time. */
 void ffd_file_release_until(const file_input *input, const void *end, size_t *released);

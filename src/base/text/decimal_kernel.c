@@ -120,7 +120,7 @@ static ALWAYS_INLINE mask last_of(words eight)
 }
 
 /* The digits with zeros in front of them where the number is below 1, a point among them and a sign in front:
-   those behind the point are moved to where they belong, then those before it back by one. */
+   those after the point are moved to where they belong, then those before it back by one. */
 static ALWAYS_INLINE void write_numbers(const digits *d, words is_negative, decimal_batch *batch, size_t at)
 {
     const words has_first = (words)(d->first != 0) & 1, sign = is_negative & 1;

@@ -30,7 +30,7 @@
 
 /* Hashes the positions in the lattice's space: each run of 1024 vertices of each part (the last may be
    shorter; parts that repeat positions are left out) for itself; then the list of these hashes with the
-   number of vertices behind it. The same for any number of threads. Errors: FFD_E_MEMORY. */
+   number of vertices after it. The same for any number of threads. Errors: FFD_E_MEMORY. */
 ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
                                         ffd_error *error);
 

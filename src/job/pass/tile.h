@@ -32,7 +32,7 @@ typedef struct tile_scratch {
     uint32_t chosen[PASS_TILE];
     size_t chosen_count;
     chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
-    /* Of the chosen ones, one behind the other, until they are spread to their slots in the tile. */
+    /* Of the chosen ones, one after the other, until they are spread to their slots in the tile. */
     double position[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
     point_outcome point_outcomes[PASS_TILE];
