@@ -165,7 +165,7 @@ static ALWAYS_INLINE uint64_t bytes_digits_around_sse2(const char *text, int bef
 #define bytes_digits_around bytes_digits_around_by_words
 #endif
 
-/* Of 64 bytes, a bit for each that is no digit. */
+/* Of 64 bytes, a bit for each that is not a digit. */
 static ALWAYS_INLINE uint64_t bytes_not_digits_of_64(const char *at)
 {
     return bytes_not_digits_of_32(at) | (uint64_t)bytes_not_digits_of_32(at + 32) << 32;

@@ -159,7 +159,7 @@ static void note_ends(batch_run *run)
     }
 }
 
-/* What is told in the order of the jobs. */
+/* What is reported in the order of the jobs. */
 static ffd_status tell_task(batch_run *run, const pool_task *task, ffd_error *error)
 {
     if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
@@ -209,12 +209,12 @@ static void drop_waiting(batch_run *run)
 
 static void heed_interrupts(batch_run *run)
 {
-    const interrupt_wish wish = ffd_interrupt_wished();
-    if (wish != INTERRUPT_NONE)
+    const interrupt_request request = ffd_interrupt_requested();
+    if (request != INTERRUPT_NONE)
         run->ending = true;
     if (run->ending)
         drop_waiting(run);
-    if (wish == INTERRUPT_STOP)
+    if (request == INTERRUPT_STOP)
         ffd_pool_stop(run->pool);
 }
 
@@ -298,8 +298,8 @@ static const char *remark_of(const batch_run *run)
 {
     if (!run->dropped)
         return "";
-    return ffd_interrupt_wished() == INTERRUPT_NONE ? "; the others were not begun (--stop)"
-                                                    : "; interrupted, the others were not begun";
+    return ffd_interrupt_requested() == INTERRUPT_NONE ? "; the others were not begun (--stop)"
+                                                       : "; interrupted, the others were not begun";
 }
 
 ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)

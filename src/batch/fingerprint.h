@@ -1,4 +1,4 @@
-/* fingerprint.h - what tells whether an output is up to date: by content, not by time. */
+/* fingerprint.h - decides whether an output is up to date: by content, not by time. */
 #ifndef FFD_BATCH_FINGERPRINT_H
 #define FFD_BATCH_FINGERPRINT_H
 

@@ -158,7 +158,7 @@ ffd_status ffd_journal_open(const char *path, job_journal **journal, ffd_error *
     return status;
 }
 
-/* Targets are told apart by their full paths. */
+/* Targets are distinguished by their full paths. */
 static hash128 hash_target(const char *target)
 {
     char *const folder = ffd_path_folder(target);

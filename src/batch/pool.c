@@ -212,7 +212,7 @@ static bool take_answer(pool_worker *worker)
     return true;
 }
 
-/* A job's failure that its worker could not tell. */
+/* A job's failure that its worker could not report. */
 static void describe_failure(const worker_pool *pool, const pool_worker *worker, const process_end *end,
                              ffd_error *error)
 {

@@ -1,4 +1,4 @@
-/* progress.h - tells people on standard error how far a batch is: a bar that is drawn again and again on a
+/* progress.h - shows people on standard error how far a batch is: a bar that is drawn again and again on a
    terminal, else a line now and then. */
 #ifndef FFD_BATCH_PROGRESS_H
 #define FFD_BATCH_PROGRESS_H

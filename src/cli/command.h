@@ -19,9 +19,9 @@ typedef struct cli_command {
     const char *summary;  /* one line */
     const char *synopsis; /* lines of usage, each ended by a line break */
     cli_table options;
-    /* Gets the arguments behind the name. Returns the exit code. */
+    /* Gets the arguments after the name. Returns the exit code. */
     int (*run)(const struct cli_command *command, int count, char **arguments);
-    /* What arguments that are no options stand for, in the words of options' values: "MESH". */
+    /* What the positional arguments are, in the words of options' values: "MESH". */
     const char *arguments;
     const cli_example *examples; /* ended by NULL; a test runs them, one after the other */
 } cli_command;
@@ -30,7 +30,7 @@ typedef struct cli_command {
 extern const cli_command cli_batch, cli_deform, cli_check, cli_embed, cli_compare, cli_info, cli_lattice_new,
     cli_report_merge;
 
-/* Prints what --help tells. */
+/* Prints the help text of the command. */
 void cli_print_help(const cli_command *command);
 
 /* What is common to commands that log: filled by the options -q, -v. */

@@ -94,7 +94,7 @@ static int print_json(const ffd_comparison *comparison, const char *a, const cha
     return comparison->equal ? EXIT_DONE : EXIT_NO;
 }
 
-static int tell(const settings *s, const ffd_comparison *comparison, const char *a, const char *b)
+static int print_verdict(const settings *s, const ffd_comparison *comparison, const char *a, const char *b)
 {
     if (s->logging.verbose && !s->logging.quiet)
         cli_complain("%llu positions compared, largest difference of a coordinate %g",
@@ -126,7 +126,7 @@ static int compare(const settings *s, const char *a, const char *b)
     ffd_error error;
     if (ffd_compare_run(&desc, &comparison, &error))
         return cli_fail(&error);
-    return tell(s, &comparison, a, b);
+    return print_verdict(s, &comparison, a, b);
 }
 
 static int act(const cli_command *command, void *context, const cli_words *words)

@@ -16,7 +16,7 @@ static const char *const space_names[] = {"scene", "mesh", NULL};
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"lattice", 'l', "LATTICE", "lattice file", cli_set_text, AT(lattice), NULL},
-    {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside; statuses and hashes behind it",
+    {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside; statuses and hashes after it",
      cli_set_text, AT(output), NULL},
     {"status", 0, "FILE.npy", "uint8 for each vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
      cli_set_text, AT(status), NULL},

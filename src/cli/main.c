@@ -13,7 +13,7 @@ static void print_overview(void)
     printf("ffd %s - free-form deformation of meshes with B-spline lattices\n\nCommands:\n", ffd_version());
     for (int i = 0; cli_commands[i]; i++)
         printf("  ffd %-12s  %s\n", cli_commands[i]->name, cli_commands[i]->summary);
-    printf("  ffd %-12s  %s\n  ffd %-12s  %s\n\nffd help COMMAND and ffd COMMAND --help tell more.\n", "help",
+    printf("  ffd %-12s  %s\n  ffd %-12s  %s\n\nffd help COMMAND and ffd COMMAND --help show more.\n", "help",
            "what there is, or one command", "--version", "the version");
 }
 
@@ -39,7 +39,7 @@ static const cli_command *find_command(int count, char **arguments, int *words)
     return NULL;
 }
 
-/* "lattice" or "report" alone stands for its only command where help is asked for. */
+/* "lattice" or "report" alone means its only command where help is asked for. */
 static const cli_command *only_command_of(const char *word)
 {
     return strcmp(word, "lattice") == 0  ? &cli_lattice_new
@@ -97,7 +97,7 @@ static int run_help(int count, char **arguments)
     if (!command)
         return unknown_command(count, arguments);
     if (words && words != count) {
-        cli_complain("help: \"%s\" is one word too many", arguments[words]);
+        cli_complain("help: unexpected argument \"%s\"", arguments[words]);
         return EXIT_USAGE;
     }
     cli_print_help(command);
@@ -107,7 +107,7 @@ static int run_help(int count, char **arguments)
 static int run_version(int count, char **arguments)
 {
     if (count > 0) {
-        cli_complain("--version: \"%s\" is one word too many", arguments[0]);
+        cli_complain("--version: unexpected argument \"%s\"", arguments[0]);
         return EXIT_USAGE;
     }
     printf("ffd %s\n", ffd_version());

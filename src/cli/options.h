@@ -48,10 +48,10 @@ typedef struct cli_option_walk {
 /* Begins a walk over the options that count. */
 cli_option_walk cli_begin_walk(const cli_table *options);
 
-/* The next option that counts; NULL behind the last. */
+/* The next option that counts; NULL after the last. */
 const cli_option *cli_next_option(cli_option_walk *walk);
 
-/* Arguments that are no options, in their order. */
+/* Positional arguments, in their order. */
 typedef struct cli_words {
     const char **words;
     size_t count;
@@ -77,7 +77,7 @@ bool cli_set_bytes(void *settings, const cli_option *option, const char *value);
 /* The whole text as a number. */
 bool cli_parse_number(const char *text, double *value);
 
-/* Sorts the arguments of a command (without its name) into settings and words. words->words must have room
+/* Sorts the arguments of a command (without its name) into settings and words. words->words must have space
    for count entries. Stops where *help (a field of settings) becomes true: what follows is not looked at.
    False after a complaint. */
 bool cli_parse(const cli_table *options, void *settings, const bool *help, int count, char **arguments,

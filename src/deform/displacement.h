@@ -59,7 +59,7 @@ typedef struct displacement_scratch {
     size_t stretch_count;
     uint16_t buckets[2 * DISPLACEMENT_BATCH]; /* cells by their keys */
     uint32_t sorted[DISPLACEMENT_BATCH];      /* the wanted points' numbers, cell by cell */
-    double uvw[3 * DISPLACEMENT_BATCH];       /* and their places */
+    double uvw[3 * DISPLACEMENT_BATCH];       /* and their u,v,w */
 } displacement_scratch;
 
 typedef struct displacement_batch {

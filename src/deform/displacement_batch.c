@@ -90,13 +90,13 @@ static void find_cells(const ffd_lattice *lattice, const displacement_batch *bat
     scratch->stretch_count = stretches;
 }
 
-/* Puts the wanted points [first, end), a stretch, behind those that their cell has. */
+/* Puts the wanted points [first, end), a stretch, after those that their cell has. */
 static void add_stretch(const ffd_lattice *lattice, const displacement_batch *batch, size_t first, size_t end,
                         batch_cell *cell, displacement_scratch *scratch)
 {
-    const size_t place = cell->first + cell->count;
-    double *const uvw = scratch->uvw + 3 * place;
-    memcpy(scratch->sorted + place, batch->which + first, (end - first) * sizeof *batch->which);
+    const size_t slot = cell->first + cell->count;
+    double *const uvw = scratch->uvw + 3 * slot;
+    memcpy(scratch->sorted + slot, batch->which + first, (end - first) * sizeof *batch->which);
     ffd_displacement_wrap(lattice, uvw_of(batch, first), uvw);
     for (size_t k = first + 1; k < end; k++)
         memcpy(uvw + 3 * (k - first), uvw_of(batch, k), 3 * sizeof *uvw);
@@ -154,13 +154,13 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *ke
 static const double *find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
                                   const batch_cell *cell, kept_cells *kept)
 {
-    const size_t place = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
-    double *const numbers = kept->all_numbers + place * kept->numbers;
-    if (kept->keys[place] != cell->key + 1) {
-        kept->keys[place] = cell->key + 1;
-        kept->acts[place] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, numbers);
+    const size_t slot = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
+    double *const numbers = kept->all_numbers + slot * kept->numbers;
+    if (kept->keys[slot] != cell->key + 1) {
+        kept->keys[slot] = cell->key + 1;
+        kept->acts[slot] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, numbers);
     }
-    return kept->acts[place] ? numbers : NULL;
+    return kept->acts[slot] ? numbers : NULL;
 }
 
 static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,

@@ -203,10 +203,10 @@ static ALWAYS_INLINE void put_matrix(const lanes m[9], double *to, const uint32_
     for (int i = 0; i < 9; i++)
         to[9 * (size_t)which[0] + (size_t)i] = m[i];
 #else
-    double *place[FFD_LANES];
+    double *rows[FFD_LANES];
     for (int l = 0; l < FFD_LANES; l++)
-        place[l] = to + 9 * (size_t)which[l];
-    lanes_store_nines(m, place);
+        rows[l] = to + 9 * (size_t)which[l];
+    lanes_store_nines(m, rows);
 #endif
 }
 
@@ -234,12 +234,12 @@ static ALWAYS_INLINE void put_product(const field_sum *sum, const double m[9], d
 
 /* FFD_LANES points with these numbers. */
 static ALWAYS_INLINE void displace(const kernel_cell *cell, const int degree[3], const kernel_points *points,
-                                   const double *places, const uint32_t *which, bool derivatives,
+                                   const double *parameters, const uint32_t *which, bool derivatives,
                                    bool jacobian)
 {
     span_basis basis[3];
     lanes uvw[3];
-    take(places, uvw);
+    take(parameters, uvw);
 #pragma GCC unroll 3
     for (int a = 0; a < 3; a++)
         find_basis(cell, a, degree[a], uvw[a], derivatives, &basis[a]);
@@ -270,13 +270,13 @@ static ALWAYS_INLINE void displace_all(const kernel_cell *cell, const int degree
     if (first == points->count)
         return;
     uint32_t rest[FFD_LANES];
-    double places[3 * FFD_LANES];
+    double parameters[3 * FFD_LANES];
     for (size_t l = 0; l < FFD_LANES; l++) {
         const size_t k = first + l < points->count ? first + l : first;
         rest[l] = points->which[k];
-        memcpy(places + 3 * l, points->uvw + 3 * k, 3 * sizeof *places);
+        memcpy(parameters + 3 * l, points->uvw + 3 * k, 3 * sizeof *parameters);
     }
-    displace(cell, degree, points, places, rest, derivatives, jacobian);
+    displace(cell, degree, points, parameters, rest, derivatives, jacobian);
 }
 
 void FFD_KERNEL(const kernel_cell *cell, const kernel_points *points)

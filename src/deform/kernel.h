@@ -41,8 +41,8 @@ typedef struct kernel_points {
 
 /* Turns a cell's control points into a kernel_field's points: u fastest and 3 numbers each, both. Weighted:
    those with the index i along a direction of degree d have the factor binomial(d, i). extraction: of the
-   span in each direction (basis.h). One number behind the points is read. slopes: NULL, or where those go;
-   one number behind them is written. */
+   span in each direction (basis.h). One number after the points is read. slopes: NULL, or where those go;
+   one number after them is written. */
 typedef void extraction_kernel(const int degree[3], const double *const extraction[3], double *points,
                                double *slopes);
 

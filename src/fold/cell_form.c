@@ -161,23 +161,15 @@ static void measure_hull(const bezier_box *box, const double rounding[N], cell_f
 void ffd_cell_form_make(const fold_plan *plan, ffd_volume volume, const size_t index[3], bool rational,
                         double *memory, double *scratch, cell_form *form)
 {
-    const ffd_lattice *lattice = plan->lattice;
     const size_t count = ffd_bernstein_count(plan->order);
     double *points = scratch + ffd_bezier_size(plan->order), *weights = points + 3 * count;
     bezier_box box = {.rational = rational, .coefficients = scratch};
     double known[3], rounding[N], coarse[N];
     const double *matrix[3];
-    int span[3];
-    for (int a = 0; a < 3; a++) {
-        box.order[a] = plan->order[a];
-        span[a] = lattice->knots[a].spans[index[a]];
-        matrix[a] = plan->extraction[a] + index[a] * (size_t)plan->order[a] * (size_t)plan->order[a];
-    }
-    ffd_lattice_cell_points(lattice, ffd_lattice_get_points(lattice, volume), span, points);
-    if (rational) {
-        ffd_lattice_cell_weights(lattice, ffd_lattice_get_weights(lattice, volume), span, weights);
+    memcpy(box.order, plan->order, sizeof box.order);
+    ffd_fold_cell_read(plan, volume, index, points, rational ? weights : NULL, matrix);
+    if (rational)
         localise_weights(weights, count);
-    }
     form->exponent = 0;
     for (int r = 0; r < 3; r++)
         form->exponent += localise(points, count, r, &known[r]);

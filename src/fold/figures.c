@@ -29,11 +29,11 @@ void ffd_search_lower_to(cell_search *search, double relative)
         search->result.lower = relative;
 }
 
-void ffd_search_set_folded(cell_search *search, const double place[3], double relative)
+void ffd_search_set_folded(cell_search *search, const double local[3], double relative)
 {
     search->result.verdict = FFD_FOLDS_SOME;
     for (int a = 0; a < 3; a++)
-        search->result.place[a] = place[a];
+        search->result.local[a] = local[a];
     search->result.value = relative < 0 ? relative : 0;
     ffd_search_see(search, search->result.value);
 }

@@ -114,7 +114,7 @@ static void report_witness(const fold_plan *plan, const tile_verdict *tile, ffd_
     int span[3];
     ffd_fold_cell_at(plan, tile->first, index, span);
     for (int a = 0; a < 3; a++)
-        folds->witness_uvw[a] = parameter_at(&plan->lattice->knots[a], index[a], tile->witness.place[a]);
+        folds->witness_uvw[a] = parameter_at(&plan->lattice->knots[a], index[a], tile->witness.local[a]);
     ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_DEFORMED, folds->witness_uvw, folds->witness_xyz, NULL);
     ffd_lattice_evaluate(plan->lattice, FFD_VOLUME_REST, folds->witness_uvw, folds->witness_rest, NULL);
     folds->witness_det = tile->witness.value;

@@ -33,3 +33,17 @@ void ffd_fold_cell_at(const fold_plan *plan, size_t number, size_t index[3], int
     for (int a = 0; a < 3; a++)
         span[a] = plan->lattice->knots[a].spans[index[a]];
 }
+
+void ffd_fold_cell_read(const fold_plan *plan, ffd_volume volume, const size_t index[3], double *points,
+                        double *weights, const double *matrix[3])
+{
+    const ffd_lattice *lattice = plan->lattice;
+    int span[3];
+    for (int a = 0; a < 3; a++) {
+        span[a] = lattice->knots[a].spans[index[a]];
+        matrix[a] = plan->extraction[a] + index[a] * (size_t)plan->order[a] * (size_t)plan->order[a];
+    }
+    ffd_lattice_cell_points(lattice, ffd_lattice_get_points(lattice, volume), span, points);
+    if (weights)
+        ffd_lattice_cell_weights(lattice, ffd_lattice_get_weights(lattice, volume), span, weights);
+}

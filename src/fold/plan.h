@@ -32,6 +32,11 @@ void ffd_fold_plan_free(fold_plan *plan);
 /* The spans of a cell by its number, u fastest; index is the cell's number in each direction. */
 void ffd_fold_cell_at(const fold_plan *plan, size_t number, size_t index[3], int span[3]);
 
+/* Copies the control points of a cell of one volume, by the cell's number in each direction, and their
+   weights unless weights is NULL. matrix: the cell's extraction matrices, lent by the plan. */
+void ffd_fold_cell_read(const fold_plan *plan, ffd_volume volume, const size_t index[3], double *points,
+                        double *weights, const double *matrix[3]);
+
 /* volume.c */
 ffd_status ffd_fold_volume(const fold_plan *plan, signed_volume *volume, ffd_error *error);
 

@@ -3,10 +3,10 @@
 
 #define UNIT (0.5 * DBL_EPSILON)
 
-static void place_in(const box *part, const double t[3], double place[3])
+static void local_of(const box *part, const double t[3], double local[3])
 {
     for (int a = 0; a < 3; a++)
-        place[a] = part->lo[a] + t[a] * (part->hi[a] - part->lo[a]);
+        local[a] = part->lo[a] + t[a] * (part->hi[a] - part->lo[a]);
 }
 
 /* Looks at the corners, whose coefficients are values. Returns whether one of them is so near to zero that
@@ -16,7 +16,7 @@ static bool look_at_corners(cell_search *search, const box *part, const box_view
     const int *order = search->order;
     bool doubtful = false;
     for (int corner = 0; corner < 8; corner++) {
-        double t[3], place[3];
+        double t[3], local[3];
         size_t at = 0, stride = 1;
         for (int a = 0; a < 3; a++) {
             t[a] = corner >> a & 1;
@@ -30,8 +30,8 @@ static bool look_at_corners(cell_search *search, const box *part, const box_view
             continue;
         doubtful |= fabs(value) <= part->rounding;
         if (value < -part->rounding && search->result.verdict != FFD_FOLDS_SOME) {
-            place_in(part, t, place);
-            ffd_search_set_folded(search, place, relative);
+            local_of(part, t, local);
+            ffd_search_set_folded(search, local, relative);
         }
     }
     return doubtful;
@@ -40,7 +40,7 @@ static bool look_at_corners(cell_search *search, const box *part, const box_view
 /* Looks where the least coefficient has its greatest influence. */
 static void look_at_least(cell_search *search, const box *part, const box_view *view)
 {
-    double t[3], place[3];
+    double t[3], local[3];
     int orders = 0;
     for (int a = 0; a < 3; a++) {
         t[a] = (double)view->at[a] / (search->order[a] - 1);
@@ -51,8 +51,8 @@ static void look_at_least(cell_search *search, const box *part, const box_view *
     ffd_search_see(search, relative);
     if (value < -part->rounding - 8 * orders * UNIT * search->greatest &&
         search->result.verdict != FFD_FOLDS_SOME) {
-        place_in(part, t, place);
-        ffd_search_set_folded(search, place, relative);
+        local_of(part, t, local);
+        ffd_search_set_folded(search, local, relative);
     }
 }
 
@@ -64,7 +64,7 @@ static bool is_lost(const cell_search *search, const box *part)
 }
 
 /* Nothing is surely negative, and no smaller box can show more. A whole cell that is lost is flat as far as
-   numbers can tell, unless its computed determinant has the right sign all over. */
+   numbers can show, unless its computed determinant has the right sign all over. */
 static void give_up(cell_search *search, const box *part, int depth)
 {
     static const double centre[3] = {0.5, 0.5, 0.5};

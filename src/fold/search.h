@@ -52,12 +52,12 @@ typedef struct box_view {
 double ffd_search_relative(const cell_search *search, double value, double weight);
 /* The same for a lower bound, which stays one: the mean is known to a doubt only. */
 double ffd_search_lower(const cell_search *search, double value, double least_weight, double greatest_weight);
-/* A determinant that was computed at a place; a lower bound for a part; a witness. */
+/* A determinant that was computed at a point; a lower bound for a part; a witness. */
 void ffd_search_see(cell_search *search, double relative);
 /* Lowers the bound of the result to this value, if that is less. */
 void ffd_search_lower_to(cell_search *search, double relative);
 /* Records the witness of a fold: t in the cell's [0,1]^3, and the relative value there. */
-void ffd_search_set_folded(cell_search *search, const double place[3], double relative);
+void ffd_search_set_folded(cell_search *search, const double local[3], double relative);
 /* The factor from a cell's scaled determinant to values relative to the rest volume's mean. */
 scaled ffd_search_unit(const fold_plan *plan, const size_t index[3], int exponent);
 

@@ -9,7 +9,7 @@ typedef struct cell_verdict {
     ffd_fold_verdict verdict;
     double lower;      /* a lower bound of the determinant in the cell; relative, as everything here */
     double least_seen; /* the least value that was computed at a point of it */
-    double place[3];   /* some: of the witness, in the cell's [0,1]^3 */
+    double local[3];   /* some: of the witness, in the cell's [0,1]^3 */
     double value;      /* some: there, <= 0 */
 } cell_verdict;
 

@@ -96,20 +96,12 @@ static void multiply(const double *a, const int order_a[3], const double *b, con
 static const double *mark_determinant(const fold_plan *plan, ffd_volume volume, const size_t index[3],
                                       bool rational, double *memory)
 {
-    const ffd_lattice *lattice = plan->lattice;
     const size_t count = ffd_bernstein_count(plan->order);
     bezier_box box = {.rational = true, .coefficients = memory};
     double *points = memory + ffd_bezier_size(plan->order), *weights = points + 3 * count;
     const double *matrix[3];
-    int span[3];
-    for (int a = 0; a < 3; a++) {
-        box.order[a] = plan->order[a];
-        span[a] = lattice->knots[a].spans[index[a]];
-        matrix[a] = plan->extraction[a] + index[a] * (size_t)plan->order[a] * (size_t)plan->order[a];
-    }
-    ffd_lattice_cell_points(lattice, ffd_lattice_get_points(lattice, volume), span, points);
-    if (rational)
-        ffd_lattice_cell_weights(lattice, ffd_lattice_get_weights(lattice, volume), span, weights);
+    memcpy(box.order, plan->order, sizeof box.order);
+    ffd_fold_cell_read(plan, volume, index, points, rational ? weights : NULL, matrix);
     memset(memory, 0, ffd_bezier_size(plan->order) * sizeof(double));
     mark_lines(points, rational ? weights : NULL, &box);
     ffd_bezier_extract(&box, matrix); /* by matrices without negative entries */

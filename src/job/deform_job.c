@@ -130,7 +130,7 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     return status;
 }
 
-static ffd_status place(deform_job *job, ffd_error *error)
+static ffd_status locate(deform_job *job, ffd_error *error)
 {
     const char *embedding = job->desc->embedding;
     const ffd_status status = ffd_chain_fit(&job->chain, job->document, job->threads, error);
@@ -196,7 +196,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     const double prepared = ffd_clock_seconds();
     result->seconds_read += prepared - start;
     if (!status)
-        status = place(job, error);
+        status = locate(job, error);
     if (!status)
         status = deform(job, &arrays, error);
     if (!status) {

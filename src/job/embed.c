@@ -60,14 +60,14 @@ static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd
 }
 
 /* Where a file that need not exist will appear; NULL where there is no folder for it, or no memory. */
-static char *place_of(const char *path)
+static char *path_of(const char *path)
 {
     char *folder = ffd_path_folder(path);
     char *resolved = folder ? ffd_path_resolve(folder) : NULL;
-    char *place = resolved ? ffd_path_join(resolved, ffd_path_name(path)) : NULL;
+    char *target = resolved ? ffd_path_join(resolved, ffd_path_name(path)) : NULL;
     ffd_free(folder);
     ffd_free(resolved);
-    return place;
+    return target;
 }
 
 static bool is_one_file(const char *a, const char *b)
@@ -78,7 +78,7 @@ static bool is_one_file(const char *a, const char *b)
         return false;
     if (ffd_file_same(a, b))
         return true;
-    char *x = place_of(a), *y = place_of(b);
+    char *x = path_of(a), *y = path_of(b);
     const bool one = x && y && strcmp(x, y) == 0;
     ffd_free(x);
     ffd_free(y);
@@ -98,7 +98,7 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
     return status;
 }
 
-/* Reads the mesh and places the lattice, which has been read, in it. */
+/* Reads the mesh and fits the lattice, which has been read, to it. */
 static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
     ffd_status status = ffd_source_open(&desc->input, threads, &made->document, error);

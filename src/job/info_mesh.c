@@ -6,7 +6,7 @@
 
 typedef struct vertex_facts {
     size_t vertices, normals, tangents;
-    size_t not_finite; /* vertices with a coordinate that is no finite number: in no bounds */
+    size_t not_finite; /* vertices with a coordinate that is not finite: left out of the bounds */
     ffd_bounds bounds;
 } vertex_facts;
 

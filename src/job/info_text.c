@@ -74,7 +74,7 @@ static bool has_inner_parts(const renderer *r, uint32_t array)
     return false;
 }
 
-/* Numbers are told apart by spaces, names (which may hold spaces) by commas. */
+/* Numbers are separated by spaces, names (which may hold spaces) by commas. */
 static void write_value(renderer *r, uint32_t value)
 {
     const uint32_t first = ffd_json_span_first(r->facts, value);

@@ -54,7 +54,7 @@ uint32_t ffd_json_span_after(const json_span *tree, uint32_t value);
 
 /* The number of a value; false where it is not a number. Too large ones give an infinity. */
 bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number);
-/* The characters of a string, UTF-8, ended by 0 (size, which may be NULL, tells of 0 inside). Free with
+/* The characters of a string, UTF-8, ended by 0 (size, which may be NULL, shows a 0 inside). Free with
    ffd_free. NULL: no memory. */
 char *ffd_json_span_string(const json_span *tree, uint32_t value, size_t *size);
 /* The same of its key. */

@@ -18,7 +18,7 @@
 #define LEAST_RADIUS (1.0 / 32)
 #define WEIGHT_TOLERANCE 1e-9
 
-/* The factor g(v) of the weights; false where they are no such product. */
+/* The factor g(v) of the weights; false where they are not such a product. */
 static bool weights_along_v(const lattice_spec *spec, ring_point *points)
 {
     const size_t *const size = spec->size;
@@ -41,7 +41,7 @@ static ffd_status place_ring(const ffd_lattice *lattice, const lattice_spec *spe
         for (size_t j = 0; j < knots->points; j++)
             points[j].weight = 1;
     const ffd_status status =
-        ffd_ring_place(knots, spec->angle[0], spec->angle[1], ffd_spec_full_turn(spec), points, error);
+        ffd_ring_rotate(knots, spec->angle[0], spec->angle[1], ffd_spec_full_turn(spec), points, error);
     if (status)
         return status;
     double least, greatest;

@@ -60,10 +60,10 @@ static void rotate(double a[9], double vectors[9], int p, int q)
 static void sort_falling(const double value[3], int order[3])
 {
     for (int i = 0; i < 3; i++) {
-        int place = i;
-        for (; place > 0 && value[order[place - 1]] < value[i]; place--)
-            order[place] = order[place - 1];
-        order[place] = i;
+        int slot = i;
+        for (; slot > 0 && value[order[slot - 1]] < value[i]; slot--)
+            order[slot] = order[slot - 1];
+        order[slot] = i;
     }
 }
 

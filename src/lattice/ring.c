@@ -202,8 +202,8 @@ static void arc_of_span(const knot_vector *knots, const ring_point *points, int 
 #define TURN_DEPTH 60
 
 /* The degrees by which the arc turns round the origin. Where its control points lie on one side of a line
-   through the origin, so does the arc, and its ends tell; else it is halved. False where it comes too near to
-   the origin. */
+   through the origin, so does the arc, and its ends show the turn; else it is halved. False where it comes
+   too near to the origin. */
 static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
 {
     const double *const first = arc->point[0], *const last = arc->point[arc->degree];
@@ -241,8 +241,8 @@ static bool turns_by(const knot_vector *knots, const ring_point *points, double 
     return fabs(turn - degrees) < 1;
 }
 
-ffd_status ffd_ring_place(const knot_vector *knots, double first, double last, bool full_turn,
-                          ring_point *points, ffd_error *error)
+ffd_status ffd_ring_rotate(const knot_vector *knots, double first, double last, bool full_turn,
+                           ring_point *points, ffd_error *error)
 {
     const bool closed = ffd_knots_closed(knots), clamped = ffd_shape_is_clamped(knots);
     bool placed = true;

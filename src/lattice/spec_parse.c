@@ -38,7 +38,8 @@ static ffd_status read_version(json_cursor root)
                                   "version %.0f is newer than %d, the newest known here", version,
                                   SPEC_VERSION);
     if (version < SPEC_VERSION)
-        return ffd_cursor_fail(cursor, "there is no version %.0f; the only one is %d", version, SPEC_VERSION);
+        return ffd_cursor_fail(cursor, "version %.0f does not exist; the only version is %d", version,
+                               SPEC_VERSION);
     return FFD_OK;
 }
 

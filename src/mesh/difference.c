@@ -52,12 +52,12 @@ double ffd_difference_of(double a, double b)
     return a < b || a > b ? fabs(a - b) : 0;
 }
 
-static void describe(ffd_difference *difference, int axis, difference_place *place, const void *context)
+static void describe(ffd_difference *difference, int axis, difference_label *label, const void *context)
 {
     static const char *const subjects[] = {"", " of the normal", " of the tangent"};
     const char *subject = subjects[difference->kind];
     char where[320];
-    place(context, where, sizeof where);
+    label(context, where, sizeof where);
     if (isfinite(difference->amount))
         snprintf(difference->text, sizeof difference->text, "%s: %c%s differs by %s", where, "xyzw"[axis],
                  subject, ffd_number_text(difference->amount).text);
@@ -73,7 +73,7 @@ static bool is_worse(const ffd_difference *worst, ffd_difference_kind kind, doub
 }
 
 void ffd_difference_vector(ffd_comparison *comparison, ffd_difference_kind kind, int components,
-                           const double *a, const double *b, difference_place *place, const void *context)
+                           const double *a, const double *b, difference_label *label, const void *context)
 {
     const bool is_position = kind == FFD_DIFFERENCE_POSITION;
     double *largest =
@@ -96,7 +96,7 @@ void ffd_difference_vector(ffd_comparison *comparison, ffd_difference_kind kind,
         return;
     found.a = a[axis];
     found.b = b[axis];
-    describe(&found, axis, place, context);
+    describe(&found, axis, label, context);
     if (is_first)
         comparison->first = found;
     if (is_worse(&comparison->worst, kind, found.amount))

@@ -42,8 +42,8 @@ typedef struct mesh_part {
     const mesh_shape *shapes; /* only with normal_start NULL. Lent by the document. */
     size_t shape_count;
 
-    /* The vertices are those of an earlier part (same positions, same place), listed again for other normals
-       or tangents: they are not counted, embedded or written a second time. */
+    /* The vertices are those of an earlier part (same positions, same transform), listed again for other
+       normals or tangents: they are not counted, embedded or written a second time. */
     bool repeats_positions;
     size_t repeats; /* that part's number */
 
@@ -72,8 +72,8 @@ typedef struct mesh_faces {
     double *positions;    /* 3*vertex_count, in the lattice's space */
     size_t *start;        /* face_count+1 */
     uint32_t *corners;    /* start[face_count] vertex numbers */
-    size_t lines, points; /* primitives that are no faces: counted only */
-    /* Vertices in no face because an earlier one at the same position stands for them (formats that list a
+    size_t lines, points; /* primitives other than faces: counted only */
+    /* Vertices in no face because an earlier one at the same position represents them (formats that list a
        vertex for every corner): topology does not count them. */
     size_t repeated;
 } mesh_faces;
@@ -99,7 +99,7 @@ typedef struct mesh_save_options {
     bool force;
     ffd_resources resources;
     const char *input; /* the document's file, which a conversion must not replace; NULL or "-": none */
-    /* Gets the further files that the output holds as they are: images that are copied beside it, or stand
+    /* Gets the further files that the output holds as they are: images that are copied beside it, or are
        there already. NULL: not wanted. */
     path_list *copied;
 } mesh_save_options;
@@ -166,14 +166,14 @@ typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_docu
 typedef struct mesh_format {
     ffd_format format;
     const char *name; /* "OBJ" */
-    /* Reads the document from input, whose ownership passes to the document on success only. name stands in
-       messages and says where relative references lead ("-": nowhere). */
+    /* Reads the document from input, whose ownership passes to the document on success only. name is shown
+       in messages; relative references are relative to it ("-": there are none). */
     mesh_open_function *open;
     mesh_close_function *close;
     /* Adds the files that open has read beside the one it was given: a .gltf's buffers. One that is named
        twice is added twice. NULL: there are none. */
     mesh_list_files_function *list_files;
-    /* Adds the images that stand beside the file or below, whether they are there or not. NULL: none. */
+    /* Adds the images beside the file or below, whether they are there or not. NULL: none. */
     mesh_list_files_function *list_images;
     /* Refuses (FFD_E_UNSUPPORTED) what the parts' streams do not show as it is, before anything is embedded
        or deformed: skins, morph targets, compressed data. A document that only is to be described need not
@@ -230,8 +230,8 @@ typedef struct mesh_format {
        parts in order. Of documents with normals only. NULL: the normal of the corner's vertex, in the one
        part. */
     mesh_corner_normals_function *corner_normals;
-    /* Fills an empty model (which the caller frees in every case) with the mesh as the parts place it, with
-       the results where there are some. */
+    /* Fills an empty model (which the caller frees in every case) with the mesh as the parts transform it,
+       and with the results where there are some. */
     mesh_model_function *model;
     mesh_describe_function *describe;
 
@@ -251,7 +251,7 @@ struct mesh_document {
        steps of its integers. */
     bool converted;
     /* Set before the first results, and not changed: nobody looks at what the document was before once they
-       are written, so that they may take its place. */
+       are written, so that they may replace it. */
     bool results_replace;
 };
 

@@ -4,7 +4,7 @@
    the other formats are special cases of that. Positions and normals are those of the deformed scene.
 
    What a source has is noted as features. Some of them are the model's own content, others are only words for
-   what was left behind; a target says which of them it holds, and the user is told of the rest. */
+   what was left behind; a target says which of them it holds, and a warning names the rest. */
 #ifndef FFD_MESH_MODEL_H
 #define FFD_MESH_MODEL_H
 
@@ -70,10 +70,10 @@ typedef enum model_feature {
     MODEL_HAS_MORPHS = 1 << 24,
     MODEL_HAS_ANIMATIONS = 1 << 25,
     MODEL_HAS_CAMERAS = 1 << 26,
-    MODEL_HAS_HIDDEN = 1 << 27,   /* what the source's scene does not show */
-    MODEL_HAS_PLACES = 1 << 28,   /* nodes' places, where each mesh was taken in its own space */
-    MODEL_HAS_MORE = 1 << 29,     /* attributes that no other format knows */
-    MODEL_HAS_RATIONAL = 1 << 30, /* a fourth coordinate, w, other than 1 */
+    MODEL_HAS_HIDDEN = 1 << 27,     /* what the source's scene does not show */
+    MODEL_HAS_TRANSFORMS = 1 << 28, /* transforms of nodes, where each mesh is read in its own space */
+    MODEL_HAS_MORE = 1 << 29,       /* attributes that no other format knows */
+    MODEL_HAS_RATIONAL = 1 << 30,   /* a fourth coordinate, w, other than 1 */
 } model_feature;
 
 typedef struct mesh_model {
@@ -116,7 +116,7 @@ ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_
 ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, size_t run_bytes,
                                   ffd_error *error);
 /* Completes a model: colours on a scale of 255 are brought to that of 1; vertices alone become points; and
-   features tell of the content. */
+   features describe the content. */
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error);
 
 /* Makes what the same document gave before and after it got results one model: the shape before, with a morph
@@ -132,7 +132,7 @@ static inline const model_corner *model_element(const model_list *list, size_t i
     return list->corners + list->starts[i];
 }
 
-/* One behind the last element of a kind in a run. */
+/* One past the last element of a kind in a run. */
 static inline size_t model_run_end(const mesh_model *model, size_t run, model_kind kind)
 {
     return run + 1 < model->run_count ? model->runs[run + 1].first[kind] : model->lists[kind].count;

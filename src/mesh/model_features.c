@@ -86,7 +86,7 @@ static void scale_colours(mesh_model *model)
 }
 
 /* Vertices without anything that uses them are a cloud of points, unless they are control points; normals, if
-   any, stand in their order. */
+   any, are in their order. */
 static ffd_status make_cloud(mesh_model *model, ffd_error *error)
 {
     const bool normals = model->normal_count == model->position_count,
@@ -234,7 +234,7 @@ static const struct {
     {MODEL_HAS_TEXTURES, 0, "textures"},
     {MODEL_HAS_FREE_FORM, 0, "free-form curves and surfaces"},
     {MODEL_HAS_HIERARCHY, 0, "the node hierarchy"},
-    {MODEL_HAS_PLACES, 0, "the places of nodes (--space mesh)"},
+    {MODEL_HAS_TRANSFORMS, 0, "the transforms of nodes (--space mesh)"},
     {MODEL_HAS_SKINS, 0, "skins"},
     {MODEL_HAS_MORPHS, 0, "morph targets"},
     {MODEL_HAS_ANIMATIONS, 0, "animations"},

@@ -39,12 +39,12 @@ bool ffd_polygon_normal(const double *xyz, const uint32_t *corners, size_t count
     return vec_length(normal) > 4 * DBL_EPSILON * (reach / largest) * lengths;
 }
 
-static const double *place(const double *xyz, const uint32_t *corners, size_t i)
+static const double *position(const double *xyz, const uint32_t *corners, size_t i)
 {
     return xyz + 3 * (size_t)corners[i];
 }
 
-static bool same_place(const double a[3], const double b[3])
+static bool same_position(const double a[3], const double b[3])
 {
     return !(a[0] < b[0] || a[0] > b[0] || a[1] < b[1] || a[1] > b[1] || a[2] < b[2] || a[2] > b[2]);
 }
@@ -69,12 +69,12 @@ static double interior_angle(const double before[3], const double p[3], const do
     return vec_dot(cross, normal) < 0 ? ffd_arc_tangent(0, -1) * 2 - angle : angle;
 }
 
-/* The first corners of the runs of corners at one place, in the polygon's circle; how many there are. */
+/* The first corners of the runs of corners at one position, in the polygon's circle; how many there are. */
 static size_t find_runs(const double *xyz, const uint32_t *corners, size_t count, size_t *runs)
 {
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
-        if (!same_place(place(xyz, corners, i), place(xyz, corners, (i + count - 1) % count)))
+        if (!same_position(position(xyz, corners, i), position(xyz, corners, (i + count - 1) % count)))
             runs[found++] = i;
     return found;
 }
@@ -88,8 +88,9 @@ void ffd_polygon_angles(const double *xyz, const uint32_t *corners, size_t count
     for (size_t r = 0; r < runs && runs >= 3; r++) {
         const size_t first = scratch[r], next = scratch[(r + 1) % runs];
         const size_t size = next > first ? next - first : next + count - first;
-        const double angle = interior_angle(place(xyz, corners, scratch[(r + runs - 1) % runs]),
-                                            place(xyz, corners, first), place(xyz, corners, next), normal);
+        const double angle =
+            interior_angle(position(xyz, corners, scratch[(r + runs - 1) % runs]),
+                           position(xyz, corners, first), position(xyz, corners, next), normal);
         for (size_t i = 0; i < size; i++)
             angles[(first + i) % count] = angle / (double)size;
     }

@@ -21,7 +21,8 @@ static ffd_status make_room(polygon_cutter *cutter, size_t count, ffd_error *err
         ffd_grow((void **)&cutter->previous, &cutter->previous_capacity, count, sizeof *cutter->previous) &&
         ffd_grow((void **)&cutter->next, &cutter->next_capacity, count, sizeof *cutter->next) &&
         ffd_grow((void **)&cutter->reflex, &cutter->reflex_capacity, count, sizeof *cutter->reflex) &&
-        ffd_grow((void **)&cutter->place, &cutter->place_capacity, count, sizeof *cutter->place))
+        ffd_grow((void **)&cutter->reflex_slot, &cutter->reflex_slot_capacity, count,
+                 sizeof *cutter->reflex_slot))
         return FFD_OK;
     return ffd_fail_memory(error);
 }
@@ -61,7 +62,7 @@ static double area(const polygon_cutter *cutter, uint32_t a, uint32_t b, uint32_
     return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
 }
 
-static bool same_place(const polygon_cutter *cutter, uint32_t a, uint32_t b)
+static bool same_position(const polygon_cutter *cutter, uint32_t a, uint32_t b)
 {
     const double *p = cutter->plane + 2 * (size_t)a, *q = cutter->plane + 2 * (size_t)b;
     return !(p[0] < q[0] || p[0] > q[0] || p[1] < q[1] || p[1] > q[1]);
@@ -87,17 +88,17 @@ static bool is_convex(const polygon_cutter *cutter, uint32_t count)
 static void set_reflex(polygon_cutter *cutter, uint32_t i)
 {
     const bool reflex = !(area(cutter, cutter->previous[i], i, cutter->next[i]) > 0);
-    if (reflex == (cutter->place[i] != NOT_REFLEX))
+    if (reflex == (cutter->reflex_slot[i] != NOT_REFLEX))
         return;
     if (reflex) {
-        cutter->place[i] = (uint32_t)cutter->reflex_count;
+        cutter->reflex_slot[i] = (uint32_t)cutter->reflex_count;
         cutter->reflex[cutter->reflex_count++] = i;
         return;
     }
     const uint32_t last = cutter->reflex[--cutter->reflex_count];
-    cutter->reflex[cutter->place[i]] = last;
-    cutter->place[last] = cutter->place[i];
-    cutter->place[i] = NOT_REFLEX;
+    cutter->reflex[cutter->reflex_slot[i]] = last;
+    cutter->reflex_slot[last] = cutter->reflex_slot[i];
+    cutter->reflex_slot[i] = NOT_REFLEX;
 }
 
 static void link_corners(polygon_cutter *cutter, uint32_t count)
@@ -106,14 +107,14 @@ static void link_corners(polygon_cutter *cutter, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         cutter->previous[i] = i > 0 ? i - 1 : count - 1;
         cutter->next[i] = i + 1 < count ? i + 1 : 0;
-        cutter->place[i] = NOT_REFLEX;
+        cutter->reflex_slot[i] = NOT_REFLEX;
     }
     for (uint32_t i = 0; i < count; i++)
         set_reflex(cutter, i);
 }
 
-/* Whether corner p keeps the triangle a b c from being an ear. Corners at the same place as a, b or c do not:
-   a hole that is joined to the outline by a double edge has such. */
+/* Whether corner p keeps the triangle a b c from being an ear. Corners at the same position as a, b or c do
+   not: a hole that is joined to the outline by a double edge has such. */
 static bool obstructs(const polygon_cutter *cutter, uint32_t p, const uint32_t abc[3], int demand)
 {
     if (p == abc[0] || p == abc[1] || p == abc[2])
@@ -122,7 +123,8 @@ static bool obstructs(const polygon_cutter *cutter, uint32_t p, const uint32_t a
                               fmin(area(cutter, abc[1], abc[2], p), area(cutter, abc[2], abc[0], p)));
     if (demand == EAR_CLEAR ? !(least >= 0) : !(least > 0))
         return false;
-    return !same_place(cutter, p, abc[0]) && !same_place(cutter, p, abc[1]) && !same_place(cutter, p, abc[2]);
+    return !same_position(cutter, p, abc[0]) && !same_position(cutter, p, abc[1]) &&
+           !same_position(cutter, p, abc[2]);
 }
 
 static bool is_ear(const polygon_cutter *cutter, uint32_t i, int demand, uint64_t *looks)
@@ -146,10 +148,10 @@ static void unlink_corner(polygon_cutter *cutter, uint32_t i)
     const uint32_t before = cutter->previous[i], behind = cutter->next[i];
     cutter->next[before] = behind;
     cutter->previous[behind] = before;
-    if (cutter->place[i] != NOT_REFLEX) {
+    if (cutter->reflex_slot[i] != NOT_REFLEX) {
         const uint32_t last = cutter->reflex[--cutter->reflex_count];
-        cutter->reflex[cutter->place[i]] = last;
-        cutter->place[last] = cutter->place[i];
+        cutter->reflex[cutter->reflex_slot[i]] = last;
+        cutter->reflex_slot[last] = cutter->reflex_slot[i];
     }
     set_reflex(cutter, before);
     set_reflex(cutter, behind);
@@ -209,6 +211,6 @@ void ffd_polygon_cutter_free(polygon_cutter *cutter)
     ffd_free(cutter->previous);
     ffd_free(cutter->next);
     ffd_free(cutter->reflex);
-    ffd_free(cutter->place);
+    ffd_free(cutter->reflex_slot);
     *cutter = (polygon_cutter){0};
 }

@@ -10,9 +10,9 @@
 typedef struct polygon_cutter {
     double *plane; /* 2 a corner: the polygon seen against its normal */
     uint32_t *previous, *next;
-    uint32_t *reflex, *place; /* the reflex corners in any order, and where each one stands among them */
+    uint32_t *reflex, *reflex_slot; /* the reflex corners in any order, and the index of each among them */
     size_t reflex_count;
-    size_t plane_capacity, previous_capacity, next_capacity, reflex_capacity, place_capacity;
+    size_t plane_capacity, previous_capacity, next_capacity, reflex_capacity, reflex_slot_capacity;
 } polygon_cutter;
 
 /* Cuts the polygon with the corners points (3 * count doubles, count at least 3) into count - 2 triangles,

@@ -17,7 +17,7 @@ ffd_status ffd_selector_parse(const char *text, mesh_selector *selector, ffd_err
     for (int kind = 0; kind < SELECTOR_KINDS; kind++)
         if (strcmp(kind_names[kind], word) == 0) {
             if (!colon[1])
-                return ffd_fail(error, FFD_E_ARGUMENT, "--only: \"%s\" has no name behind the colon", text);
+                return ffd_fail(error, FFD_E_ARGUMENT, "--only: \"%s\" has no name after the colon", text);
             *selector = (mesh_selector){(selector_kind)kind, colon + 1, strlen(colon + 1)};
             return FFD_OK;
         }

@@ -20,7 +20,7 @@ typedef enum selector_kind {
 
 typedef struct mesh_selector {
     selector_kind kind;
-    const char *name; /* behind the colon; lent by the text */
+    const char *name; /* after the colon; lent by the text */
     size_t size;
 } mesh_selector;
 

@@ -10,7 +10,7 @@ void ffd_basis_values(const knot_vector *knots, int span, double u, double value
 /* Values and first derivatives (P&T A2.3 for one derivative). */
 void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double value[MAX_ORDER],
                            double derivative[MAX_ORDER]);
-/* The same at u = t_span + offset, where offset may be finer than a double near u can tell. */
+/* The same at u = t_span + offset, where offset may be finer than the spacing of doubles near u. */
 void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset, double value[MAX_ORDER],
                               double derivative[MAX_ORDER]);
 

@@ -17,7 +17,7 @@ typedef enum knot_kind {
     KNOTS_CLOSED_LIST /* the n+1 breakpoints of one period as given */
 } knot_kind;
 
-/* A closed direction is held as the equal open one: its first d control points are repeated behind the last,
+/* A closed direction is held as the equal open one: its first d control points are repeated after the last,
    so there are functions = n + d basis functions and control point of function i is i mod n. Else functions =
    n. All that takes knots speaks of basis functions and knots t_0 .. t_{functions+d}; the domain is [t_d,
    t_functions]. */

@@ -383,7 +383,7 @@ def scenes_are_placed(run):
     equal([line for line in run.text("b.obj").splitlines() if line.startswith("o")], ["o shifted", "o node 1", "o low_"])
     # In its own space a mesh stands once, and that is said.
     run.ffd("deform", "a.glb", "c.obj", "-l", "still.json", "--space", "mesh",
-            err="a.glb: OBJ cannot hold: the node hierarchy, the places of nodes (--space mesh)")
+            err="a.glb: OBJ cannot hold: the node hierarchy, the transforms of nodes (--space mesh)")
     equal(places(read_faces(run, "c.obj")), [[(0, 0, 0), (1, 0, 0), (0, 1, 0)]])
 
 

@@ -258,7 +258,7 @@ def what_cannot_be_selected(run):
     for file, selector, text in [
             ("a.obj", "left", '--only: "left" is not KIND:NAME (node, mesh, material, group or object)'),
             ("a.obj", "grup:left", '--only: unknown kind "grup" (nearest: group)'),
-            ("a.obj", "group:", '--only: "group:" has no name behind the colon'),
+            ("a.obj", "group:", '--only: "group:" has no name after the colon'),
             ("a.obj", ":left", '--only: unknown kind "" (nearest: node)'),
             ("a.obj", "group:lefd", 'a.obj: --only: no group is called "lefd" (nearest: "left")'),
             ("a.obj", "material:dark", 'a.obj: --only: no material is called "dark" (nearest: "red")'),

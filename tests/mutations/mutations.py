@@ -126,8 +126,8 @@ m("tangent", "sign", "deform, attribute_batch",
   "const double along = vec_dot(carried, normal); for (int a = 0; a < 3; a++) carried[a] += along * normal[a];")
 m("cells-of-gradients", "check left out", "displacement, pass", "kept->lattice == lattice && kept->use == use",
   "kept->lattice == lattice")
-m("kept-cell-of-another", "check left out", "displacement, deform", "if (kept->keys[place] != cell->key + 1)",
-  "if (kept->keys[place] == 0)")
+m("kept-cell-of-another", "check left out", "displacement, deform", "if (kept->keys[slot] != cell->key + 1)",
+  "if (kept->keys[slot] == 0)")
 m("fade-slope", "sign", "extension", "*slope = -30 * (s * s) * (rest * rest) / falloff;",
   "*slope = 30 * (s * s) * (rest * rest) / falloff;")
 m("lanes-of-tangents", "kernel", "attribute_batch", "const lanes along = lanes_dot(carried, normal);",

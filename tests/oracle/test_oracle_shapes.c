@@ -72,30 +72,75 @@ static void judge_shape(judge *j, random_source *random)
     judge_order(j, random);
 }
 
-/* share: the largest part of the points that may be left out. */
-static void run(const char *name, shape_kind kind, long cases, double share)
+/* A lattice of a known shape, and what is judged in it. */
+typedef struct shape_case {
+    long number; /* from 0 in its trial */
+    random_source random;
+    sample s;
+    shape x;
+    judge j;
+} shape_case;
+
+/* Makes the lattice of a case, then judges points in it. */
+typedef struct case_steps {
+    void (*make)(shape_case *c, shape_kind kind);
+    void (*judge)(shape_case *c);
+} case_steps;
+
+static void run_case(trial *t, const case_steps *steps, shape_kind kind, long number, judge *totals)
+{
+    shape_case c = {.number = number};
+    sample_init(&c.s, trial_seed() + (uint64_t)number);
+    c.random = (random_source){c.s.seed};
+    steps->make(&c, kind);
+    if (judge_open(&c.j, t, &c.s)) {
+        steps->judge(&c);
+        add_totals(totals, &c.j);
+        judge_close(&c.j);
+    }
+    sample_free(&c.s);
+    t->cases++;
+}
+
+static void end_cases(const trial *t, const judge *totals)
+{
+    print_totals(t->name, totals);
+    trial_end(t);
+}
+
+/* Runs so many cases of one kind of shape at the most, and returns what was counted. */
+static judge run_cases(const char *name, const case_steps *steps, shape_kind kind, long cases)
 {
     trial t = {.name = name};
     judge totals = {.count = 0};
-    for (long k = 0; trial_next(&t, cases); k++, t.cases++) {
-        sample s;
-        shape x;
-        judge j;
-        sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
-        const shape_place place = place_of(s.seed);
-        shape_make(&x, &s, &random, kind, &place);
-        if (random_chance(&random, 0.2))
-            sample_weights(&s, &random, 1.1);
-        if (judge_open(&j, &t, &s)) {
-            judge_shape(&j, &random);
-            add_totals(&totals, &j);
-            judge_close(&j);
-        }
-        sample_free(&s);
-    }
-    print_totals(name, &totals);
-    trial_end(&t);
+    for (long k = 0; trial_next(&t, cases); k++)
+        run_case(&t, steps, kind, k, &totals);
+    end_cases(&t, &totals);
+    return totals;
+}
+
+static void make_shape(shape_case *c, shape_kind kind)
+{
+    const shape_place place = place_of(c->s.seed);
+    shape_make(&c->x, &c->s, &c->random, kind, &place);
+}
+
+static void make_weighted_shape(shape_case *c, shape_kind kind)
+{
+    make_shape(c, kind);
+    if (random_chance(&c->random, 0.2))
+        sample_weights(&c->s, &c->random, 1.1);
+}
+
+static void judge_case(shape_case *c)
+{
+    judge_shape(&c->j, &c->random);
+}
+
+/* share: the largest part of the points that may be left out. */
+static void run(const char *name, shape_kind kind, long cases, double share)
+{
+    const judge totals = run_cases(name, &(case_steps){make_weighted_shape, judge_case}, kind, cases);
     assert_true((double)totals.left_out <= share * (double)totals.judged);
     assert_true((kind != SHAPE_OVERLAP && kind != SHAPE_FOLD) || totals.seen[FFD_MULTIPLE] > 0);
 }
@@ -164,32 +209,31 @@ static void judge_known(judge *j, random_source *random)
     judge_order(j, random);
 }
 
+/* The case's number is the degree. */
+static void make_degree(shape_case *c, shape_kind kind)
+{
+    (void)kind;
+    const shape_place place = place_of(c->s.seed);
+    shape_make_degree(&c->x, &c->s, &c->random, (int)c->number, &place);
+}
+
+static void judge_degree(shape_case *c)
+{
+    enum { MOST_COUNTED = 5 };
+    if (c->number <= MOST_COUNTED)
+        judge_shape(&c->j, &c->random);
+    else
+        judge_known(&c->j, &c->random);
+}
+
 static void degrees(void **state)
 {
     (void)state;
-    enum { MOST_COUNTED = 5 };
     trial t = {.name = "degrees"};
     judge totals = {.count = 0};
-    for (int degree = 1; degree <= FFD_MAX_DEGREE; degree++, t.cases++) {
-        sample s;
-        shape x;
-        judge j;
-        sample_init(&s, trial_seed() + (uint64_t)degree);
-        random_source random = {s.seed};
-        const shape_place place = place_of(s.seed);
-        shape_make_degree(&x, &s, &random, degree, &place);
-        if (judge_open(&j, &t, &s)) {
-            if (degree <= MOST_COUNTED)
-                judge_shape(&j, &random);
-            else
-                judge_known(&j, &random);
-            add_totals(&totals, &j);
-            judge_close(&j);
-        }
-        sample_free(&s);
-    }
-    print_totals("degrees", &totals);
-    trial_end(&t);
+    for (int degree = 1; degree <= FFD_MAX_DEGREE; degree++)
+        run_case(&t, &(case_steps){make_degree, judge_degree}, SHAPE_C, degree, &totals);
+    end_cases(&t, &totals);
     assert_true(totals.left_out <= totals.judged / 3);
 }
 
@@ -219,32 +263,23 @@ static void judge_faces(judge *j, random_source *random)
         judge_far(j, i);
 }
 
+static void make_one_of_all(shape_case *c, shape_kind kind)
+{
+    static const shape_kind kinds[] = {SHAPE_C,          SHAPE_SPIRAL, SHAPE_TWIST,
+                                       SHAPE_HALF_TORUS, SHAPE_TORUS,  SHAPE_KINKED};
+    (void)kind;
+    make_weighted_shape(c, kinds[c->number % 6]);
+}
+
+static void judge_case_faces(shape_case *c)
+{
+    judge_faces(&c->j, &c->random);
+}
+
 static void faces(void **state)
 {
     (void)state;
-    static const shape_kind kinds[] = {SHAPE_C,          SHAPE_SPIRAL, SHAPE_TWIST,
-                                       SHAPE_HALF_TORUS, SHAPE_TORUS,  SHAPE_KINKED};
-    trial t = {.name = "faces"};
-    judge totals = {.count = 0};
-    for (long k = 0; trial_next(&t, 42); k++, t.cases++) {
-        sample s;
-        shape x;
-        judge j;
-        sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
-        const shape_place place = place_of(s.seed);
-        shape_make(&x, &s, &random, kinds[k % 6], &place);
-        if (random_chance(&random, 0.2))
-            sample_weights(&s, &random, 1.1);
-        if (judge_open(&j, &t, &s)) {
-            judge_faces(&j, &random);
-            add_totals(&totals, &j);
-            judge_close(&j);
-        }
-        sample_free(&s);
-    }
-    print_totals("faces", &totals);
-    trial_end(&t);
+    const judge totals = run_cases("faces", &(case_steps){make_one_of_all, judge_case_faces}, SHAPE_C, 42);
     assert_true(totals.left_out <= totals.judged / 3);
     assert_true(totals.seen[FFD_INSIDE] > 0 && totals.seen[FFD_OUTSIDE] > 0);
 }
@@ -302,40 +337,35 @@ static void judge_torus_point(judge *j, const shape *x, int i)
                 torus[1], torus[2], radius, tube, ring);
 }
 
+static void make_bare_shape(shape_case *c, shape_kind kind)
+{
+    const shape_place place = {.bare = true};
+    shape_make(&c->x, &c->s, &c->random, kind, &place);
+}
+
+static void judge_torus(shape_case *c)
+{
+    judge *j = &c->j;
+    while (j->count < JUDGE_POINTS / 2)
+        judge_add_within(j, &c->random);
+    while (j->count < JUDGE_POINTS) {
+        long double uvw[3];
+        sample_parameters(&c->s, &c->random, uvw);
+        judge_add_near(j, &c->random, uvw, 1e-2);
+    }
+    if (!judge_find(j))
+        return;
+    for (int i = 0; i < j->count; i++)
+        judge_torus_point(j, &c->x, i);
+    judge_order(j, &c->random);
+}
+
 /* Rational lattices whose inverse is known: u,v,w of any point in closed form. */
 static void quarter_tori(void **state)
 {
     (void)state;
-    trial t = {.name = "quarter_tori"};
-    judge totals = {.count = 0};
-    for (long k = 0; trial_next(&t, 20); k++, t.cases++) {
-        sample s;
-        shape x;
-        judge j;
-        const shape_place place = {.bare = true};
-        sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
-        shape_make(&x, &s, &random, SHAPE_QUARTER_TORUS, &place);
-        if (judge_open(&j, &t, &s)) {
-            while (j.count < JUDGE_POINTS / 2)
-                judge_add_within(&j, &random);
-            while (j.count < JUDGE_POINTS) {
-                long double uvw[3];
-                sample_parameters(&s, &random, uvw);
-                judge_add_near(&j, &random, uvw, 1e-2);
-            }
-            if (judge_find(&j)) {
-                for (int i = 0; i < j.count; i++)
-                    judge_torus_point(&j, &x, i);
-                judge_order(&j, &random);
-            }
-            add_totals(&totals, &j);
-            judge_close(&j);
-        }
-        sample_free(&s);
-    }
-    print_totals("quarter_tori", &totals);
-    trial_end(&t);
+    const judge totals =
+        run_cases("quarter_tori", &(case_steps){make_bare_shape, judge_torus}, SHAPE_QUARTER_TORUS, 20);
     assert_true(totals.seen[FFD_INSIDE] > 0 && totals.seen[FFD_OUTSIDE] > 0);
 }
 
@@ -389,27 +419,14 @@ static void judge_collapsed(judge *j, const shape *x, random_source *random)
     judge_order(j, random);
 }
 
+static void judge_collapsed_case(shape_case *c)
+{
+    judge_collapsed(&c->j, &c->x, &c->random);
+}
+
 static void run_collapsed(const char *name, shape_kind kind, long cases)
 {
-    trial t = {.name = name};
-    judge totals = {.count = 0};
-    for (long k = 0; trial_next(&t, cases); k++, t.cases++) {
-        sample s;
-        shape x;
-        judge j;
-        sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
-        const shape_place place = place_of(s.seed);
-        shape_make(&x, &s, &random, kind, &place);
-        if (judge_open(&j, &t, &s)) {
-            judge_collapsed(&j, &x, &random);
-            add_totals(&totals, &j);
-            judge_close(&j);
-        }
-        sample_free(&s);
-    }
-    print_totals(name, &totals);
-    trial_end(&t);
+    const judge totals = run_cases(name, &(case_steps){make_shape, judge_collapsed_case}, kind, cases);
     assert_true(totals.seen[FFD_SINGULAR] > 0 && totals.left_out <= totals.judged / 2);
 }
 
@@ -451,7 +468,7 @@ static void prisms(void **state)
 
 typedef enum ends_kind { ENDS_AT_REST, ENDS_ALIKE, ENDS_APART } ends_kind;
 
-/* Moves every control point by its own vector, or by one that control points of one place share. */
+/* Moves every control point by its own vector, or by one that control points of one position share. */
 static void deform(sample *s, random_source *random, ends_kind kind, double size)
 {
     const size_t count = sample_count(s);
@@ -467,45 +484,45 @@ static void deform(sample *s, random_source *random, ends_kind kind, double size
         s->deformed_points[i] = s->points[i] + shift[i % 3];
 }
 
+static ends_kind ends_of(const shape_case *c)
+{
+    return (ends_kind)(c->number % 3);
+}
+
+static void make_seam(shape_case *c, shape_kind kind)
+{
+    static const volume_scale scales[] = {SCALE_PLAIN, SCALE_HUGE, SCALE_PLAIN, SCALE_TINY};
+    const shape_place place = {.scale = scales[c->number % 4], .rotated = c->number % 2 == 1};
+    shape_make_seam(&c->x, &c->s, &c->random, kind, &place, random_chance(&c->random, 0.7));
+    deform(&c->s, &c->random, ends_of(c),
+           place.scale == SCALE_HUGE   ? 1e9
+           : place.scale == SCALE_TINY ? 1e-6
+                                       : 1);
+}
+
 /* End faces that meet: a point there is one vertex with the least u,v,w as long as both ends move it alike.
  */
+static void judge_seam(shape_case *c)
+{
+    enum { ON = 16, OFF = 8 };
+    judge *j = &c->j;
+    long double uvw[ON + OFF][3];
+    for (int i = 0; i < ON + OFF; i++) {
+        somewhere(&c->s, &c->random, uvw[i]);
+        for (int part = 1; i < ON && part <= (c->x.kind == SHAPE_TORUS && i % 2 ? 2 : 1); part++)
+            uvw[i][c->x.role[part]] = oracle_first(&c->s.axis[c->x.role[part]]);
+        judge_add_known(j, uvw[i]);
+    }
+    if (!judge_find(j))
+        return;
+    for (int i = 0; i < ON + OFF; i++)
+        judge_expect(j, i, i < ON && ends_of(c) == ENDS_APART ? FFD_MULTIPLE : FFD_INSIDE, uvw[i], NULL);
+    judge_order(j, &c->random);
+}
+
 static void run_seams(const char *name, shape_kind kind, long cases)
 {
-    trial t = {.name = name};
-    judge totals = {.count = 0};
-    for (long k = 0; trial_next(&t, cases); k++, t.cases++) {
-        static const volume_scale scales[] = {SCALE_PLAIN, SCALE_HUGE, SCALE_PLAIN, SCALE_TINY};
-        enum { ON = 16, OFF = 8 };
-        sample s;
-        shape x;
-        judge j;
-        sample_init(&s, trial_seed() + (uint64_t)k);
-        random_source random = {s.seed};
-        const shape_place place = {.scale = scales[k % 4], .rotated = k % 2 == 1};
-        const ends_kind ends = (ends_kind)(k % 3);
-        shape_make_seam(&x, &s, &random, kind, &place, random_chance(&random, 0.7));
-        deform(&s, &random, ends, place.scale == SCALE_HUGE ? 1e9 : place.scale == SCALE_TINY ? 1e-6 : 1);
-        if (judge_open(&j, &t, &s)) {
-            long double uvw[ON + OFF][3];
-            for (int i = 0; i < ON + OFF; i++) {
-                somewhere(&s, &random, uvw[i]);
-                for (int part = 1; i < ON && part <= (kind == SHAPE_TORUS && i % 2 ? 2 : 1); part++)
-                    uvw[i][x.role[part]] = oracle_first(&s.axis[x.role[part]]);
-                judge_add_known(&j, uvw[i]);
-            }
-            if (judge_find(&j)) {
-                for (int i = 0; i < ON + OFF; i++)
-                    judge_expect(&j, i, i < ON && ends == ENDS_APART ? FFD_MULTIPLE : FFD_INSIDE, uvw[i],
-                                 NULL);
-                judge_order(&j, &random);
-            }
-            add_totals(&totals, &j);
-            judge_close(&j);
-        }
-        sample_free(&s);
-    }
-    print_totals(name, &totals);
-    trial_end(&t);
+    const judge totals = run_cases(name, &(case_steps){make_seam, judge_seam}, kind, cases);
     assert_int_equal(totals.left_out, 0);
 }
 

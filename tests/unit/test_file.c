@@ -110,8 +110,8 @@ static void test_sizes(void **state)
     (void)state;
 }
 
-/* What is forgotten is there when it is read. */
-static void test_forget(void **state)
+/* What is released is there when it is read. */
+static void test_release_pages(void **state)
 {
     enum { SIZE = 100000 };
     char *text = malloc(SIZE + 1);
@@ -123,14 +123,14 @@ static void test_forget(void **state)
     put_text("long", text);
     assert_int_equal(ffd_file_map(in_folder("long"), &input, NULL), FFD_OK);
     assert_memory_equal(input.data, text, SIZE);
-    ffd_file_forget(&input, input.data + 1, SIZE - 1);
-    ffd_file_forget(&input, input.data, SIZE);
-    ffd_file_forget(&input, input.data + 5000, 10);
-    ffd_file_forget(&input, input.data + SIZE, 0);
+    ffd_file_release_pages(&input, input.data + 1, SIZE - 1);
+    ffd_file_release_pages(&input, input.data, SIZE);
+    ffd_file_release_pages(&input, input.data + 5000, 10);
+    ffd_file_release_pages(&input, input.data + SIZE, 0);
     assert_memory_equal(input.data, text, SIZE);
     ffd_file_unload(&input);
     file_input held = {.data = (unsigned char *)text, .size = SIZE}; /* not mapped: nothing happens */
-    ffd_file_forget(&held, text, SIZE);
+    ffd_file_release_pages(&held, text, SIZE);
     assert_int_equal(text[SIZE - 1], 'a' + (SIZE - 1) % 23);
     free(text);
     (void)state;
@@ -150,24 +150,24 @@ static size_t resident_bytes(void)
 }
 
 /* What is gone through is given back in large pieces, and is there when it is read. */
-static void test_forget_until(void **state)
+static void test_release_until(void **state)
 {
     enum { SIZE = 20000000, STEP = 700001, PIECE = 1 << 23 };
     file_input input;
-    size_t forgotten = 0;
+    size_t released = 0;
     const size_t before = resident_bytes();
     put_text("gone through", "");
     assert_int_equal(truncate(in_folder("gone through"), SIZE), 0);
     assert_int_equal(ffd_file_load(in_folder("gone through"), &input, NULL), FFD_OK);
     for (size_t at = 0; at < SIZE; at += STEP) {
-        ffd_file_bring_in(input.data + at, SIZE - at < STEP ? SIZE - at : STEP);
+        ffd_file_prefault(input.data + at, SIZE - at < STEP ? SIZE - at : STEP);
         assert_int_equal(input.data[at], 0);
-        ffd_file_forget_until(&input, input.data + at, &forgotten);
-        assert_int_equal(forgotten, at / PIECE * PIECE);
+        ffd_file_release_until(&input, input.data + at, &released);
+        assert_int_equal(released, at / PIECE * PIECE);
         assert_true(before == 0 || resident_bytes() < before + PIECE + 4 * STEP);
     }
-    ffd_file_forget_until(&input, input.data, &forgotten); /* not back again */
-    assert_int_equal(forgotten, 2 * PIECE);
+    ffd_file_release_until(&input, input.data, &released); /* not back again */
+    assert_int_equal(released, 2 * PIECE);
     assert_int_equal(input.data[0] | input.data[SIZE - 1], 0);
     ffd_file_unload(&input);
     (void)state;
@@ -533,8 +533,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_load),
         cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_forget),
-        cmocka_unit_test(test_forget_until),
+        cmocka_unit_test(test_release_pages),
+        cmocka_unit_test(test_release_until),
         cmocka_unit_test(test_load_within),
         cmocka_unit_test(test_appears_when_committed),
         cmocka_unit_test(test_pieces_of_any_size),

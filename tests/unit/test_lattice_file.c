@@ -218,7 +218,7 @@ static void test_refuses_frame(void **state)
         {"{\"format\":\"ffd-lattice\",\"version\":2,\"news\":1}", FFD_E_UNSUPPORTED,
          "f.json:/version: version 2 is newer than 1, the newest known here"},
         {"{\"format\":\"ffd-lattice\",\"version\":0}", FFD_E_INVALID,
-         "f.json:/version: there is no version 0; the only one is 1"},
+         "f.json:/version: version 0 does not exist; the only version is 1"},
         {"{\"format\":\"ffd-lattice\",\"version\":\"1\"}", FFD_E_INVALID,
          "f.json:/version: must be a whole number, not the text \"1\""},
         {HEAD "\"sise\":[2,2,2]," UNIT "}", FFD_E_INVALID,

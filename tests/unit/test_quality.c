@@ -58,7 +58,7 @@ static void set_mesh(sample *s, size_t vertices, const double *positions, size_t
 static void apply(const lattice_chain *chain, double *x, size_t count, double *gradients)
 {
     chain_scratch *scratch = checked(ffd_alloc_zero(1, sizeof *scratch));
-    chain_note *notes = checked(ffd_alloc(CHAIN_RUN, sizeof *notes));
+    point_outcome *outcomes = checked(ffd_alloc(CHAIN_RUN, sizeof *outcomes));
     double *delta = checked(ffd_alloc(CHAIN_RUN, 3 * sizeof *delta));
     for (size_t first = 0; first < count; first += CHAIN_RUN) {
         const size_t size = count - first < CHAIN_RUN ? count - first : CHAIN_RUN;
@@ -67,12 +67,12 @@ static void apply(const lattice_chain *chain, double *x, size_t count, double *g
                          .scratch = scratch,
                          .delta = delta,
                          .gradient = gradients ? gradients + 9 * first : NULL,
-                         .notes = notes};
+                         .outcomes = outcomes};
         assert_int_equal(ffd_chain_apply(chain, chain->count, &run, NULL), FFD_OK);
     }
     ffd_free(scratch);
     ffd_free(delta);
-    ffd_free(notes);
+    ffd_free(outcomes);
 }
 
 static void deform(sample *s)

@@ -9,10 +9,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The end of the next folder's name in a path, at or after offset `place`; 0: there is none. */
-static size_t next_folder(const char *path, size_t place)
+/* The end of the next folder's name in a path, at or after offset `at`; 0: there is none. */
+static size_t next_folder(const char *path, size_t at)
 {
-    for (size_t i = place; path[i]; i++)
+    for (size_t i = at; path[i]; i++)
         if (path[i + 1] == '/' || path[i + 1] == 0)
             return i + 1;
     return 0;

@@ -20,7 +20,7 @@ void ffd_output_record(file_output *output, written_files *written);
 /* Whether path names an open stream of this process: "-" (standard output), /dev/stdout, /dev/stderr,
    /dev/fd/N. */
 bool ffd_output_is_stream(const char *path);
-/* Starts the next file. To a stream bytes go at the commit's time or before, behind what it holds. An
+/* Starts the next file. To a stream bytes go at the commit's time or before, after what it holds. An
    existing target is refused with FFD_E_EXISTS unless force. Permission bits of an existing target are kept.
    Targets that are neither file nor link (/dev/null) are written straight. */
 ffd_status ffd_output_begin(file_output *output, const char *path, bool force, ffd_error *error);

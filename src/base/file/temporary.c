@@ -42,7 +42,7 @@ char *ffd_temporary_name(const char *target)
 }
 
 /* Locks a file against other runs. 1: done; 0: it is no longer the one of that name, as its owner has renamed
-   or removed it between our open and our lock; -1: errno tells why not, EBUSY of a run that lives. */
+   or removed it between our open and our lock; -1: errno says why not; EBUSY: another run holds it. */
 static int lock_named(int fd, const char *path)
 {
     struct stat ours, there;
@@ -103,9 +103,9 @@ static void discard_one(const char *target)
 
 void ffd_temporary_discard(const char *path)
 {
-    char *const place = realpath(path, NULL), *const stem = ffd_path_stem(path);
-    discard_one(place ? place : path);
-    free(place);
+    char *const target = realpath(path, NULL), *const stem = ffd_path_stem(path);
+    discard_one(target ? target : path);
+    free(target);
     const size_t capacity = stem ? strlen(stem) + 40 : 0;
     char *const name = stem ? ffd_alloc(capacity, 1) : NULL;
     bool more = name && ffd_path_has_ending(path, ".gltf");

@@ -8,7 +8,7 @@
 char *ffd_temporary_name(const char *target);
 /* Makes the file of that name and locks it, so that a run that was killed leaves no obstacle and one that
    still lives is not disturbed. A file that is there and not locked was left behind: it is removed, since its
-   permission bits are outdated. Returns its descriptor; -1: errno tells why not, EBUSY of a run that lives.
+   permission bits are outdated. Returns its descriptor; -1: errno says why not; EBUSY: another run holds it.
  */
 int ffd_temporary_open(const char *name);
 /* Removes what a process that ended in the middle of writing path left beside it (and of the buffers beside a

@@ -6,14 +6,14 @@
 
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
 
-static volatile sig_atomic_t wished = INTERRUPT_NONE;
+static volatile sig_atomic_t requested = INTERRUPT_NONE;
 static int stream[2] = {-1, -1};
 
 static void notice(int number)
 {
     const int before = errno;
-    wished = number == SIGINT && wished == INTERRUPT_NONE ? INTERRUPT_FINISH : INTERRUPT_STOP;
-    /* It stays readable from the first wish on; a pipe that is full says as much. */
+    requested = number == SIGINT && requested == INTERRUPT_NONE ? INTERRUPT_FINISH : INTERRUPT_STOP;
+    /* It stays readable from the first request on; a pipe that is full says as much. */
     const ssize_t written = write(stream[1], "", 1);
     (void)written;
     errno = before;
@@ -38,14 +38,14 @@ void ffd_interrupt_watch(void)
             sigaction(numbers[i], &action, NULL);
 }
 
-interrupt_wish ffd_interrupt_wished(void)
+interrupt_request ffd_interrupt_requested(void)
 {
-    return (interrupt_wish)wished;
+    return (interrupt_request)requested;
 }
 
 int ffd_interrupt_stream(void)
 {
-    return wished == INTERRUPT_NONE ? stream[0] : -1;
+    return requested == INTERRUPT_NONE ? stream[0] : -1;
 }
 
 void ffd_interrupt_ignore(void)

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool make_room(byte_buffer *buffer, size_t more)
+static bool reserve(byte_buffer *buffer, size_t more)
 {
     size_t needed;
     if (!buffer->failed && more <= buffer->capacity - buffer->size)
@@ -18,14 +18,14 @@ static bool make_room(byte_buffer *buffer, size_t more)
     return true;
 }
 
-char *ffd_buffer_room(byte_buffer *buffer, size_t size)
+char *ffd_buffer_reserve(byte_buffer *buffer, size_t size)
 {
-    return make_room(buffer, size) ? buffer->data + buffer->size : NULL;
+    return reserve(buffer, size) ? buffer->data + buffer->size : NULL;
 }
 
 void ffd_buffer_append(byte_buffer *buffer, const void *bytes, size_t size)
 {
-    if (size == 0 || !make_room(buffer, size))
+    if (size == 0 || !reserve(buffer, size))
         return;
     memcpy(buffer->data + buffer->size, bytes, size);
     buffer->size += size;
@@ -42,7 +42,7 @@ void ffd_buffer_format(byte_buffer *buffer, const char *format, ...)
     va_start(arguments, format);
     const int length = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
-    if (length < 0 || !make_room(buffer, (size_t)length + 1))
+    if (length < 0 || !reserve(buffer, (size_t)length + 1))
         return;
     va_start(arguments, format);
     vsnprintf(buffer->data + buffer->size, (size_t)length + 1, format, arguments);
@@ -52,9 +52,9 @@ void ffd_buffer_format(byte_buffer *buffer, const char *format, ...)
 
 void ffd_buffer_number(byte_buffer *buffer, double value)
 {
-    char *const room = ffd_buffer_room(buffer, FFD_NUMBER_CAPACITY);
-    if (room)
-        buffer->size += ffd_number_format(value, room);
+    char *const space = ffd_buffer_reserve(buffer, FFD_NUMBER_CAPACITY);
+    if (space)
+        buffer->size += ffd_number_format(value, space);
 }
 
 char *ffd_buffer_finish(byte_buffer *buffer)

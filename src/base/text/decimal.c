@@ -126,7 +126,7 @@ static characters characters_of(const number_digits *digits)
                          (digits->low >> 1 >> (63 - shift)) + text}};
 }
 
-/* With a point behind the first 1 to 7. */
+/* With a point after the first 1 to 7. */
 static characters with_point(const characters *digits, int before_point)
 {
     const int at = 8 * before_point;

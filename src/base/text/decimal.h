@@ -42,7 +42,7 @@ size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY]);
  * numbers must not change meanwhile. */
 typedef struct decimal_run {
     decimal_kernel *kernel;
-    const double *first;  /* the texts of this number and of those behind it are there; NULL: of none */
+    const double *first;  /* the texts of this number and of those after it are there; NULL: of none */
     const double *before; /* the number that was wanted last; NULL: none */
     const double *end;    /* of the array */
     decimal_batch batch;

@@ -112,15 +112,15 @@ static ALWAYS_INLINE digits find(words bits)
                     fits};
 }
 
-/* Of eight digits, how many stand up to the last that is not 0; of none such, something below 0. A double's
-   exponent tells: it cannot be rounded into the next byte. */
+/* Of eight digits, how many there are up to the last that is not 0; below 0 if all are 0. A double's
+   exponent shows it: it cannot be rounded into the next byte. */
 static ALWAYS_INLINE mask last_of(words eight)
 {
     return (((mask) __builtin_convertvector(eight, lanes) >> MANTISSA_BITS) - 1023 + 8) >> 3;
 }
 
 /* The digits with zeros in front of them where the number is below 1, a point among them and a sign in front:
-   those behind the point are moved to where they belong, then those before it back by one. */
+   those after the point are moved to where they belong, then those before it back by one. */
 static ALWAYS_INLINE void write_numbers(const digits *d, words is_negative, decimal_batch *batch, size_t at)
 {
     const words has_first = (words)(d->first != 0) & 1, sign = is_negative & 1;

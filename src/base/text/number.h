@@ -1,5 +1,5 @@
-/* number.h - number text: exact both ways, whatever the locale (C++17 <charconv> behind C, and decimal.h for
-   what meshes mostly hold). */
+/* number.h - number text: exact both ways, whatever the locale (C++17 <charconv> behind C functions, and
+   decimal.h for what meshes mostly hold). */
 #ifndef FFD_BASE_TEXT_NUMBER_H
 #define FFD_BASE_TEXT_NUMBER_H
 

@@ -32,5 +32,5 @@ ffd_isa ffd_isa_best(void)
 const char *ffd_isa_name(ffd_isa isa)
 {
     static const char *const names[] = {"auto", "scalar", "sse2", "avx2", "avx512"};
-    return (unsigned)isa < sizeof names / sizeof *names ? names[isa] : "of this number";
+    return (unsigned)isa < sizeof names / sizeof *names ? names[isa] : "unknown";
 }

@@ -43,7 +43,7 @@ void pages_man_version(void)
     printf(".Os ffd %s\n", ffd_version());
 }
 
-/* The next line of a synopsis, without "usage:" and spaces; its length, 0 behind the last. */
+/* The next line of a synopsis, without "usage:" and spaces; its length, 0 after the last. */
 static size_t next_line(const char **rest, const char **line)
 {
     *line = *rest + strspn(*rest, " ");

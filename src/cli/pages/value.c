@@ -22,7 +22,7 @@ static void append(char text[200], const char *separator, const char *more, size
     const int needed =
         snprintf(text + before, 200 - before, "%s%.*s", before ? separator : "", (int)length, more);
     if (before + (size_t)needed >= 200) {
-        fprintf(stderr, "ffd-pages: no room for \"%s\"\n", more);
+        fprintf(stderr, "ffd-pages: no space for \"%s\"\n", more);
         exit(1);
     }
 }

@@ -30,7 +30,7 @@ typedef struct waiting {
 } waiting;
 
 typedef struct candidate {
-    boundary_place place;
+    boundary_location location;
     double uvw[3];
     double excess;
 } candidate;
@@ -168,18 +168,18 @@ static candidate *seat(border_search *search, const candidate *found)
 static void add_candidate(border_search *search, const face_patch *patch, const double t[2],
                           const patch_sample *sample)
 {
-    candidate found = {.place = {.face = patch->face}, .excess = excess_of(search, sample)};
+    candidate found = {.location = {.face = patch->face}, .excess = excess_of(search, sample)};
     if (!(found.excess <= search->least + TIE))
         return;
     for (int f = 0; f < 2; f++) {
-        found.place.cell[f] = patch->cell[f];
-        found.place.t[f] = t[f] == 0   ? patch->lo[f]
-                           : t[f] == 1 ? patch->hi[f]
-                                       : patch->lo[f] + t[f] * (patch->hi[f] - patch->lo[f]);
+        found.location.cell[f] = patch->cell[f];
+        found.location.t[f] = t[f] == 0   ? patch->lo[f]
+                              : t[f] == 1 ? patch->hi[f]
+                                          : patch->lo[f] + t[f] * (patch->hi[f] - patch->lo[f]);
     }
     if (found.excess < search->least)
         search->least = found.excess;
-    ffd_boundary_uvw(search->border, &found.place, found.uvw);
+    ffd_boundary_uvw(search->border, &found.location, found.uvw);
     candidate *at = seat(search, &found);
     if (at)
         *at = found;
@@ -370,7 +370,7 @@ ffd_status ffd_boundary_search(const boundary *border, const boundary_query *que
     if (best)
         status = make_scratch(&search);
     if (best && !status) {
-        ffd_boundary_settle(border, query->x, &best->place, search.scratch, foot);
+        ffd_boundary_settle(border, query->x, &best->location, search.scratch, foot);
         *found = true;
     }
     ffd_boundary_free_patches(search.parts);

@@ -18,19 +18,19 @@
 typedef struct settling {
     const boundary *border;
     const double *x;
-    boundary_place place;
+    boundary_location location;
     face_patch *patch; /* of the point's cell */
     patch_sample sample;
 } settling;
 
-void ffd_boundary_uvw(const boundary *border, const boundary_place *place, double uvw[3])
+void ffd_boundary_uvw(const boundary *border, const boundary_location *location, double uvw[3])
 {
-    const boundary_face *face = &border->faces[place->face];
+    const boundary_face *face = &border->faces[location->face];
     const knot_vector *across = &border->lattice->knots[face->direction];
     uvw[face->direction] = face->end ? ffd_knots_last(across) : ffd_knots_first(across);
     for (int f = 0; f < 2; f++) {
-        const knot_vector *knots = boundary_knots(border, place->face, f);
-        const double *knot = knots->t + knots->spans[place->cell[f]], t = place->t[f];
+        const knot_vector *knots = boundary_knots(border, location->face, f);
+        const double *knot = knots->t + knots->spans[location->cell[f]], t = location->t[f];
         const double u = t == 0 ? knot[0] : t == 1 ? knot[1] : knot[0] + t * (knot[1] - knot[0]);
         uvw[face->along[f]] = ffd_knots_wrap(knots, u > knot[1] ? knot[1] : u);
     }
@@ -49,15 +49,15 @@ bool ffd_boundary_before(const boundary *border, const double a[3], const double
 
 static void project(settling *at)
 {
-    ffd_boundary_patch(at->border, at->place.face, at->place.cell, at->patch);
-    ffd_patch_project(at->patch, at->x, at->place.t, &at->sample);
+    ffd_boundary_patch(at->border, at->location.face, at->location.cell, at->patch);
+    ffd_patch_project(at->patch, at->x, at->location.t, &at->sample);
 }
 
 /* Whether coordinate f is at an end of the patch beyond which the distance decreases. */
 static bool leads_out(const settling *at, int f)
 {
     double gradient[2], hessian[3];
-    const double t = at->place.t[f];
+    const double t = at->location.t[f];
     if (t != 0 && t != 1)
         return false;
     ffd_patch_gradient(&at->sample, gradient, hessian);
@@ -67,16 +67,16 @@ static bool leads_out(const settling *at, int f)
 }
 
 /* Whether the patch's end at which coordinate f is lies on an edge of the face. */
-static bool is_edge(const boundary *border, const boundary_place *place, int f)
+static bool is_edge(const boundary *border, const boundary_location *location, int f)
 {
-    const size_t cells = border->faces[place->face].cells[f];
-    return !ffd_knots_closed(boundary_knots(border, place->face, f)) &&
-           place->cell[f] == (place->t[f] == 0 ? 0 : cells - 1);
+    const size_t cells = border->faces[location->face].cells[f];
+    return !ffd_knots_closed(boundary_knots(border, location->face, f)) &&
+           location->cell[f] == (location->t[f] == 0 ? 0 : cells - 1);
 }
 
 /* The same point as one of the next patch beyond coordinate f: of the same face, or beyond an edge of the
    face that meets it there. The coordinate that may then move is *moving. */
-static void neighbour(const boundary *border, const boundary_place *from, int f, boundary_place *to,
+static void neighbour(const boundary *border, const boundary_location *from, int f, boundary_location *to,
                       int *moving)
 {
     const boundary_face *face = &border->faces[from->face];
@@ -112,10 +112,10 @@ static bool cross(settling *at)
             continue;
         settling next = *at;
         int moving;
-        neighbour(at->border, &at->place, f, &next.place, &moving);
-        const double start = next.place.t[moving];
+        neighbour(at->border, &at->location, f, &next.location, &moving);
+        const double start = next.location.t[moving];
         project(&next);
-        if (next.place.t[moving] != start) {
+        if (next.location.t[moving] != start) {
             *at = next;
             return true;
         }
@@ -129,9 +129,9 @@ static int free_coordinates(const settling *at, int free[2])
 {
     int count = 0;
     for (int f = 0; f < 2; f++) {
-        const double t = at->place.t[f];
+        const double t = at->location.t[f];
         const bool at_end = t == 0 || t == 1;
-        if (at_end && (is_edge(at->border, &at->place, f) || leads_out(at, f)))
+        if (at_end && (is_edge(at->border, &at->location, f) || leads_out(at, f)))
             continue;
         if (vec_length(at->sample.first[f]) > SLOPE_ROUNDINGS * DBL_EPSILON)
             free[count++] = f;
@@ -166,24 +166,24 @@ static void follow(const settling *at, boundary_foot *foot)
             rows[0][c] = sample->first[free[0]][c] / h[2 * free[0]];
     }
     for (int i = 0; i < count; i++) {
-        const knot_vector *knots = boundary_knots(at->border, at->place.face, free[i]);
-        const double *knot = knots->t + knots->spans[at->place.cell[free[i]]];
-        foot->free[i] = at->border->faces[at->place.face].along[free[i]];
+        const knot_vector *knots = boundary_knots(at->border, at->location.face, free[i]);
+        const double *knot = knots->t + knots->spans[at->location.cell[free[i]]];
+        foot->free[i] = at->border->faces[at->location.face].along[free[i]];
         for (int c = 0; c < 3; c++)
             foot->by_x[i][c] = rows[i][c] * (knot[1] - knot[0]);
     }
     foot->free_count = count;
 }
 
-void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_place *place,
+void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_location *location,
                          face_patch *scratch, boundary_foot *foot)
 {
-    settling at = {.border = border, .x = x, .place = *place, .patch = scratch};
+    settling at = {.border = border, .x = x, .location = *location, .patch = scratch};
     project(&at);
     for (int i = 0; i < CROSSINGS && cross(&at); i++)
         continue;
     memset(foot, 0, sizeof *foot);
-    ffd_boundary_uvw(border, &at.place, foot->uvw);
+    ffd_boundary_uvw(border, &at.location, foot->uvw);
     for (int c = 0; c < 3; c++)
         foot->residual[c] = -at.sample.residual[c];
     follow(&at, foot);

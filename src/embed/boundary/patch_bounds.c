@@ -54,10 +54,10 @@ static void set_second_axis(double axis[9])
     to_unit(axis + 3);
 }
 
-static void place_of(const double *point, double place[3])
+static void position_of(const double *point, double position[3])
 {
     for (int c = 0; c < 3; c++)
-        place[c] = point[c] / point[3];
+        position[c] = point[c] / point[3];
 }
 
 /* The first axis goes along s, the last is the normal, both of the corners' bilinear patch. */
@@ -65,10 +65,10 @@ static void set_axes(face_patch *patch)
 {
     const size_t os = (size_t)patch->order[0], count = os * (size_t)patch->order[1];
     double corner[4][3], chord[2][3], normal[3];
-    place_of(patch->points, corner[0]);
-    place_of(patch->points + N * (os - 1), corner[1]);
-    place_of(patch->points + N * (count - os), corner[2]);
-    place_of(patch->points + N * (count - 1), corner[3]);
+    position_of(patch->points, corner[0]);
+    position_of(patch->points + N * (os - 1), corner[1]);
+    position_of(patch->points + N * (count - os), corner[2]);
+    position_of(patch->points + N * (count - 1), corner[3]);
     for (int c = 0; c < 3; c++) {
         chord[0][c] = corner[1][c] - corner[0][c] + (corner[3][c] - corner[2][c]);
         chord[1][c] = corner[2][c] - corner[0][c] + (corner[3][c] - corner[1][c]);
@@ -98,14 +98,14 @@ static void set_box(face_patch *patch)
     const size_t count = (size_t)patch->order[0] * (size_t)patch->order[1];
     double start[3], middle[3];
     bounds box = {{0, 0, 0}, {0, 0, 0}};
-    place_of(patch->points, start);
+    position_of(patch->points, start);
     for (size_t i = 1; i < count; i++) {
-        double place[3];
-        place_of(patch->points + N * i, place);
+        double position[3];
+        position_of(patch->points + N * i, position);
         for (int c = 0; c < 3; c++)
-            place[c] -= start[c];
-        mat_apply(patch->axis, place, place);
-        bounds_add(&box, place);
+            position[c] -= start[c];
+        mat_apply(patch->axis, position, position);
+        bounds_add(&box, position);
     }
     for (int k = 0; k < 3; k++) {
         middle[k] = 0.5 * (box.lo[k] + box.hi[k]);
@@ -226,12 +226,12 @@ bounds ffd_patch_hull(const face_patch *patch)
 {
     const size_t count = (size_t)patch->order[0] * (size_t)patch->order[1];
     bounds hull;
-    place_of(patch->points, hull.lo);
-    place_of(patch->points, hull.hi);
+    position_of(patch->points, hull.lo);
+    position_of(patch->points, hull.hi);
     for (size_t i = 1; i < count; i++) {
-        double place[3];
-        place_of(patch->points + N * i, place);
-        bounds_add(&hull, place);
+        double position[3];
+        position_of(patch->points + N * i, position);
+        bounds_add(&hull, position);
     }
     return hull;
 }

@@ -177,7 +177,7 @@ static bool rests(double t, double gradient)
 
 /* The next t; false where both coordinates are held at an end. Where the second derivatives are not positive
    definite each coordinate goes its own way. */
-static bool next_place(const patch_sample *sample, const double t[2], double to[2])
+static bool next_parameters(const patch_sample *sample, const double t[2], double to[2])
 {
     double gradient[2], hessian[3], step[2] = {0, 0};
     ffd_patch_gradient(sample, gradient, hessian);
@@ -213,7 +213,7 @@ void ffd_patch_project(const face_patch *patch, const double x[3], double t[2], 
     for (int round = 0; round < STEPS; round++) {
         double to[2];
         patch_sample ahead;
-        if (!next_place(sample, t, to))
+        if (!next_parameters(sample, t, to))
             return;
         /* Points are of size 1 at most, and so are their roundings eps. */
         const double noise = 16 * DBL_EPSILON * vec_length(sample->residual);

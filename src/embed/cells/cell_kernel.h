@@ -17,7 +17,7 @@ typedef struct cell_basis {
     double value[3][MAX_ORDER], slope[3][MAX_ORDER];
 } cell_basis;
 
-/* The rows of its control points along u, by w and v: BEZIER_COMPONENTS numbers a point, one behind the
+/* The rows of its control points along u, by w and v: BEZIER_COMPONENTS numbers a point, one after the
    other. */
 typedef const double *cell_rows[MAX_ORDER][MAX_ORDER];
 

@@ -46,13 +46,13 @@ static bool is_flat_at(const ffd_locator *locator, const int span[3], const doub
 
 static bool is_flat(const ffd_locator *locator, const size_t cell[3])
 {
-    static const double places[9][3] = {{0.5, 0.5, 0.5},    {0.25, 0.25, 0.25}, {0.75, 0.25, 0.25},
-                                        {0.25, 0.75, 0.25}, {0.75, 0.75, 0.25}, {0.25, 0.25, 0.75},
-                                        {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}, {0.75, 0.75, 0.75}};
+    static const double samples[9][3] = {{0.5, 0.5, 0.5},    {0.25, 0.25, 0.25}, {0.75, 0.25, 0.25},
+                                         {0.25, 0.75, 0.25}, {0.75, 0.75, 0.25}, {0.25, 0.25, 0.75},
+                                         {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}, {0.75, 0.75, 0.75}};
     int span[3];
     ffd_cell_spans(locator->lattice, cell, span);
     for (int i = 0; i < 9; i++)
-        if (!is_flat_at(locator, span, places[i]))
+        if (!is_flat_at(locator, span, samples[i]))
             return false;
     return true;
 }

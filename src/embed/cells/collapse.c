@@ -70,12 +70,12 @@ static bool face_collapses(const ffd_locator *locator, const border_face *face, 
 
 static void note_point(collapse *set, const double point[N], size_t number)
 {
-    const double place[3] = {point[0] / point[3], point[1] / point[3], point[2] / point[3]};
+    const double position[3] = {point[0] / point[3], point[1] / point[3], point[2] / point[3]};
     memcpy(set->points + N * number, point, N * sizeof *point);
     if (number == 0)
         for (int a = 0; a < 3; a++)
-            set->box.lo[a] = set->box.hi[a] = place[a];
-    bounds_add(&set->box, place);
+            set->box.lo[a] = set->box.hi[a] = position[a];
+    bounds_add(&set->box, position);
 }
 
 static double end_of(const ffd_locator *locator, int direction, int end)

@@ -60,9 +60,10 @@ static void centre_jacobian(const bezier_box *box, const double p[3], double jac
     }
 }
 
-/* A column of Y J_F: the coefficients that its three rows have, and the derivative's of W, in each place. */
+/* A column of Y J_F: the coefficients that its three rows have, and the derivative's of W, one after the
+ * other. */
 typedef struct column_form {
-    double *numbers; /* N a place */
+    double *numbers; /* N a coefficient */
     int size[3];     /* the box's orders, one less along the column's own direction */
 } column_form;
 
@@ -135,8 +136,8 @@ static void column_spread(const column_form *column, int a, double spread[3][3])
     for (size_t first = 0; first < count; first += slab)
         for (size_t n = first; n < first + stride; n++) {
             quad least = quad_load(column->numbers + N * n), greatest = least;
-            for (size_t place = n + stride; place < first + slab; place += stride) {
-                const quad value = quad_load(column->numbers + N * place);
+            for (size_t m = n + stride; m < first + slab; m += stride) {
+                const quad value = quad_load(column->numbers + N * m);
                 least = quad_lesser(&least, &value);
                 greatest = quad_larger(&greatest, &value);
             }

@@ -14,7 +14,7 @@ static double greatest(const double v[3])
     return x > y ? (x > z ? x : z) : (y > z ? y : z);
 }
 
-static void place(const cell_region *region, const double t[3], double offset[3])
+static void offset_of(const cell_region *region, const double t[3], double offset[3])
 {
     for (int a = 0; a < 3; a++)
         offset[a] = region->lo[a] + t[a] * region->width[a];
@@ -23,7 +23,7 @@ static void place(const cell_region *region, const double t[3], double offset[3]
 void ffd_search_evaluate_in(point_search *search, const cell_region *region, const double t[3], sample *at)
 {
     double offset[3];
-    place(region, t, offset);
+    offset_of(region, t, offset);
     ffd_search_evaluate(search, region->span, offset, at);
     for (int i = 0; i < 9; i++)
         at->jacobian[i] *= region->width[i % 3];
@@ -83,7 +83,7 @@ void ffd_search_record(point_search *search, const cell_region *region, const do
     root found = {.residual = vec_length(at->residual)};
     double inverse[9], offset[3];
     found.singular = is_singular(at->jacobian, &found.determinant) || singular;
-    place(region, t, offset);
+    offset_of(region, t, offset);
     for (int a = 0; a < 3; a++) {
         const knot_vector *knots = &search->locator->knots[a];
         found.uvw[a] = ffd_knots_wrap(knots, knots->t[region->span[a]] + offset[a]);
@@ -163,11 +163,11 @@ void ffd_search_region(point_search *search, const cell_region *region)
             ffd_search_evaluate_in(search, region, ahead.t, &ahead.at);
             ahead.radius = shorter;
         }
-        const bool stands = memcmp(t, ahead.t, sizeof t) == 0;
+        const bool unmoved = memcmp(t, ahead.t, sizeof t) == 0;
         memcpy(t, ahead.t, sizeof t);
         at = ahead.at;
         e = ahead.radius;
-        if (stands)
+        if (unmoved)
             break;
     }
     face_search face = {.search = search, .region = region, .at = at};

@@ -15,7 +15,7 @@ void ffd_packet_begin(point_packet *packet, const ffd_locator *locator)
 static bool is_near(const point_packet *packet, const double x[3])
 {
     for (int a = 0; a < 3; a++)
-        if (x[a] - packet->places.lo[a] > packet->side || packet->places.hi[a] - x[a] > packet->side)
+        if (x[a] - packet->hull.lo[a] > packet->side || packet->hull.hi[a] - x[a] > packet->side)
             return false;
     return true;
 }
@@ -23,11 +23,11 @@ static bool is_near(const point_packet *packet, const double x[3])
 static void widen(point_packet *packet, const point_search *added)
 {
     if (packet->count == 0) {
-        memcpy(packet->places.lo, added->x, sizeof added->x);
-        memcpy(packet->places.hi, added->x, sizeof added->x);
+        memcpy(packet->hull.lo, added->x, sizeof added->x);
+        memcpy(packet->hull.hi, added->x, sizeof added->x);
         memcpy(packet->slack, added->slack, sizeof added->slack);
     }
-    bounds_add(&packet->places, added->x);
+    bounds_add(&packet->hull, added->x);
     for (int a = 0; a < 3; a++)
         packet->slack[a] = added->slack[a] > packet->slack[a] ? added->slack[a] : packet->slack[a];
 }
@@ -38,7 +38,7 @@ bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t number)
         return false;
     packet_point *const point = &packet->points[packet->count];
     ffd_search_begin(&point->search, packet->locator);
-    if (!ffd_search_place(&point->search, p))
+    if (!ffd_search_set_point(&point->search, p))
         return true;
     if (packet->count > 0 && !is_near(packet, point->search.x))
         return false;
@@ -85,12 +85,12 @@ static bool visit_brick(void *context, uint32_t number)
         any = any || packet->enter[i];
     }
     return !any || !packet->brick ||
-           ffd_box_tree_visit_box(&packet->brick->tree, &packet->places, packet->slack, visit_leaf, packet);
+           ffd_box_tree_visit_box(&packet->brick->tree, &packet->hull, packet->slack, visit_leaf, packet);
 }
 
 void ffd_packet_find_leaves(point_packet *packet)
 {
     if (packet->count > 0)
-        ffd_box_tree_visit_box(&packet->locator->cells->brick_tree, &packet->places, packet->slack,
-                               visit_brick, packet);
+        ffd_box_tree_visit_box(&packet->locator->cells->brick_tree, &packet->hull, packet->slack, visit_brick,
+                               packet);
 }

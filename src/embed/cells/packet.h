@@ -23,7 +23,7 @@ typedef struct point_packet {
     double side; /* of a box that all must lie in, in the search's units */
     packet_point points[PACKET_SIZE];
     int count; /* the caller empties it */
-    bounds places;
+    bounds hull;
     double slack[3]; /* the largest */
     /* Of the brick that is being looked into: */
     const cell_brick *brick;

@@ -85,7 +85,7 @@ bool ffd_search_scratch_make(search_scratch **scratch)
     return *scratch;
 }
 
-bool ffd_search_place(point_search *search, const double p[3])
+bool ffd_search_set_point(point_search *search, const double p[3])
 {
     const cell_search *cells = search->locator->cells;
     for (int a = 0; a < 3; a++)

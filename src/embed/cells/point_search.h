@@ -54,7 +54,7 @@ static inline void ffd_search_begin(point_search *search, const ffd_locator *loc
 
 /* Sets the point, with the origin subtracted. False where it is farther away than the search's doubles reach.
  */
-bool ffd_search_place(point_search *search, const double p[3]);
+bool ffd_search_set_point(point_search *search, const double p[3]);
 
 /* Whether a leaf that is not hard can hold the point, by the image of its control points. */
 bool ffd_search_image_holds(const point_search *search, const cell_leaf *leaf);

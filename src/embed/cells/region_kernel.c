@@ -284,9 +284,9 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
             count_evaluation(slow, result);
             radius = lanes_choose(slow, shorter, radius);
         }
-        const mask stands =
+        const mask unmoved =
             ((mask)t[0] == (mask)now.t[0]) & ((mask)t[1] == (mask)now.t[1]) & ((mask)t[2] == (mask)now.t[2]);
-        settle(&now, stands, REGION_UNCERTAIN, result);
+        settle(&now, unmoved, REGION_UNCERTAIN, result);
         move(&now, now.open, t, &at);
         now.e = lanes_choose(now.open, radius, now.e);
     }

@@ -33,7 +33,7 @@ static bool are_one(const ffd_locator *locator, const root *a, const root *b)
 }
 
 /* -1, 0, 1 as a comes before, with or after b by (u,v,w), coordinates being equal within the tolerance. */
-static int compare_places(const ffd_locator *locator, const root *a, const root *b)
+static int compare_within_tolerance(const ffd_locator *locator, const root *a, const root *b)
 {
     for (int d = 0; d < 3; d++)
         if (fabs(a->uvw[d] - b->uvw[d]) > tolerance_of(locator, a, b, d))
@@ -55,7 +55,7 @@ static bool is_preferred(const ffd_locator *locator, const root *a, const root *
     const bool a_agrees = a->determinant * sign > 0, b_agrees = b->determinant * sign > 0;
     if (a_agrees != b_agrees)
         return a_agrees;
-    return compare_places(locator, a, b) < 0;
+    return compare_within_tolerance(locator, a, b) < 0;
 }
 
 /* Of two finds of one root: across a seam the one at the start; else the one that meets the point better. */

@@ -119,7 +119,7 @@ ffd_status ffd_cells_find(const ffd_locator *locator, const double p[3], search_
         return ffd_fail_memory(error);
     point_search search = {
         .locator = locator, .scratch = *scratch, .hard_boxes = hard_boxes_of(cells), .error = error};
-    if (!ffd_search_place(&search, p))
+    if (!ffd_search_set_point(&search, p))
         return FFD_OK;
     if (!is_on_collapse(&search, location)) {
         ffd_box_tree_visit(&cells->brick_tree, search.x, search.slack, visit_brick, &search);

@@ -138,7 +138,7 @@ static void judge(const ffd_locator *locator, const double p[3], const leaf_resu
 {
     point_search search;
     ffd_search_begin(&search, locator);
-    ffd_search_place(&search, p);
+    ffd_search_set_point(&search, p);
     search.leaves = count;
     for (uint32_t i = 0; i < count; i++) {
         search.evaluations += results[i].evaluations;
@@ -169,7 +169,7 @@ static ffd_status find_in_cell(const ffd_locator *locator, const double *p, cons
             const waiting_point *const point = &waiting[first + (l < filled ? l : filled - 1)];
             point_search search;
             ffd_search_begin(&search, locator);
-            ffd_search_place(&search, p + 3 * (size_t)point->number);
+            ffd_search_set_point(&search, p + 3 * (size_t)point->number);
             load_point(&search, point->leaf, (int)l, lanes);
         }
         locator->cells->region_kernel(&(*scratch)->many->cell, lanes);

@@ -11,7 +11,7 @@
 #define DEPTH 20
 
 typedef struct box_tree_child {
-    uint32_t first; /* leaf: its place in items; else its node */
+    uint32_t first; /* leaf: its first item; else its node */
     uint32_t count; /* of a leaf's items; 0: a node */
 } box_tree_child;
 
@@ -84,16 +84,16 @@ static void sort_items(const tree_builder *builder, size_t first, size_t count)
 
 static uint32_t add_node(const tree_builder *builder, size_t first, size_t count);
 
-static void set_child(const tree_builder *builder, uint32_t parent, int place, size_t first, size_t count)
+static void set_child(const tree_builder *builder, uint32_t parent, int slot, size_t first, size_t count)
 {
     box_tree_node *const node = &builder->tree->nodes[parent];
     const bounds box = enclose(builder->boxes, builder->tree->items + first, count);
     for (int a = 0; a < 3; a++) {
-        node->lo[a][place] = box.lo[a];
-        node->hi[a][place] = box.hi[a];
+        node->lo[a][slot] = box.lo[a];
+        node->hi[a][slot] = box.hi[a];
     }
-    node->children[place] = count <= ITEMS_A_LEAF ? (box_tree_child){(uint32_t)first, (uint32_t)count}
-                                                  : (box_tree_child){add_node(builder, first, count), 0};
+    node->children[slot] = count <= ITEMS_A_LEAF ? (box_tree_child){(uint32_t)first, (uint32_t)count}
+                                                 : (box_tree_child){add_node(builder, first, count), 0};
 }
 
 /* Returns its number. */
@@ -105,7 +105,7 @@ static uint32_t add_node(const tree_builder *builder, size_t first, size_t count
     for (int a = 0; a < 3; a++)
         for (int i = 0; i < CHILDREN; i++)
             node->lo[a][i] = node->hi[a][i] = NAN;
-    int place = 0;
+    int slot = 0;
     if (count > ITEMS_A_LEAF)
         sort_items(builder, first, count);
     for (int h = 0; h < 2; h++) {
@@ -113,9 +113,9 @@ static uint32_t add_node(const tree_builder *builder, size_t first, size_t count
         if (half > ITEMS_A_LEAF)
             sort_items(builder, ends[h], half);
         if (quarter > 0)
-            set_child(builder, number, place++, ends[h], quarter);
+            set_child(builder, number, slot++, ends[h], quarter);
         if (quarter < half)
-            set_child(builder, number, place++, ends[h] + quarter, half - quarter);
+            set_child(builder, number, slot++, ends[h] + quarter, half - quarter);
     }
     return number;
 }
@@ -152,8 +152,8 @@ void ffd_box_tree_free(box_tree *tree)
 bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double slack[3],
                         box_tree_visitor visit, void *context)
 {
-    const bounds place = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
-    return ffd_box_tree_visit_box(tree, &place, slack, visit, context);
+    const bounds query = {{p[0], p[1], p[2]}, {p[0], p[1], p[2]}};
+    return ffd_box_tree_visit_box(tree, &query, slack, visit, context);
 }
 
 /* Two are tested at once where the processor can, and every one has such registers or does without. */
@@ -167,21 +167,21 @@ static pair load_pair(const double *numbers)
     return loaded;
 }
 
-/* One bit a child whose box, grown by slack, meets places. */
-static unsigned meet_children(const box_tree_node *node, const bounds *places, const double slack[3])
+/* One bit a child whose box, grown by slack, meets query. */
+static unsigned meet_children(const box_tree_node *node, const bounds *query, const double slack[3])
 {
     unsigned met = 0;
     for (int i = 0; i < CHILDREN; i += 2) {
         pair_mask meets = {-1, -1};
         for (int a = 0; a < 3; a++)
-            meets &= (places->hi[a] >= load_pair(node->lo[a] + i) - slack[a]) &
-                     (places->lo[a] <= load_pair(node->hi[a] + i) + slack[a]);
+            meets &= (query->hi[a] >= load_pair(node->lo[a] + i) - slack[a]) &
+                     (query->lo[a] <= load_pair(node->hi[a] + i) + slack[a]);
         met |= ((unsigned)meets[0] & 1) << i | ((unsigned)meets[1] & 2) << i;
     }
     return met;
 }
 
-bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *places, const double slack[3],
+bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *query, const double slack[3],
                             box_tree_visitor visit, void *context)
 {
     box_tree_child stack[CHILDREN * DEPTH];
@@ -196,7 +196,7 @@ bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *places, const do
         if (at.count > 0)
             continue;
         const box_tree_node *const node = &tree->nodes[at.first];
-        const unsigned met = meet_children(node, places, slack);
+        const unsigned met = meet_children(node, query, slack);
         for (int i = CHILDREN - 1; i >= 0; i--)
             if (met >> i & 1)
                 stack[height++] = node->children[i];

@@ -29,16 +29,16 @@ typedef bool (*box_tree_visitor)(void *context, uint32_t item);
 bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double slack[3],
                         box_tree_visitor visit, void *context);
 
-/* The same for every box that meets another one, `places`: one traversal for points that are neighbours.
+/* The same for every box that meets another one, `query`: one traversal for points that are neighbours.
    What it visits for a point alone, it visits for the box too, if slack is no less. */
-bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *places, const double slack[3],
+bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *query, const double slack[3],
                             box_tree_visitor visit, void *context);
 
-static inline bool bounds_meet(const bounds *box, const bounds *places, const double slack[3])
+static inline bool bounds_meet(const bounds *box, const bounds *query, const double slack[3])
 {
-    return places->hi[0] >= box->lo[0] - slack[0] && places->lo[0] <= box->hi[0] + slack[0] &&
-           places->hi[1] >= box->lo[1] - slack[1] && places->lo[1] <= box->hi[1] + slack[1] &&
-           places->hi[2] >= box->lo[2] - slack[2] && places->lo[2] <= box->hi[2] + slack[2];
+    return query->hi[0] >= box->lo[0] - slack[0] && query->lo[0] <= box->hi[0] + slack[0] &&
+           query->hi[1] >= box->lo[1] - slack[1] && query->lo[1] <= box->hi[1] + slack[1] &&
+           query->hi[2] >= box->lo[2] - slack[2] && query->lo[2] <= box->hi[2] + slack[2];
 }
 
 static inline bool bounds_hold(const bounds *box, const double p[3], const double slack[3])

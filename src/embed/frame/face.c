@@ -116,12 +116,12 @@ bool ffd_face_settle(const double tolerance[3], face_function function, void *co
             near |= 1 << a;
     for (int resting = 1; resting < 8; resting++) {
         const bool rests[3] = {resting & 1, resting & 2, resting & 4};
-        double place[3];
+        double settled[3];
         if ((resting & near) != resting)
             continue;
-        memcpy(place, t, sizeof place);
-        if (settle_with(tolerance, function, context, rests, place)) {
-            memcpy(t, place, sizeof place);
+        memcpy(settled, t, sizeof settled);
+        if (settle_with(tolerance, function, context, rests, settled)) {
+            memcpy(t, settled, sizeof settled);
             return true;
         }
     }

@@ -75,7 +75,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
     d->input = *input;
     d->threads = threads_for(source, input->size);
     d->only_positions = source->only_positions;
-    d->name = ffd_text_copy(ffd_path_shown(source->path));
+    d->name = ffd_text_copy(ffd_path_display_name(source->path));
     ffd_status status = d->name ? check_encoding(d, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
         status = read_elements(d, error);

@@ -42,7 +42,7 @@ ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return ffd_fail_memory(error);
     d->input = *input;
-    d->name = ffd_text_copy(ffd_path_shown(source->path));
+    d->name = ffd_text_copy(ffd_path_display_name(source->path));
     ffd_status status =
         d->name ? ffd_off_header_read(&d->input, d->name, &d->header, error) : ffd_fail_memory(error);
     if (status == FFD_OK)

@@ -20,8 +20,8 @@ static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_p
         return FFD_OK;
     return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->line,
                          "%.*s of vertex %" PRIu64 " (counted from 0) is not a number: \"%.*s\"",
-                         ffd_text_shown(property->name), property->name.first, row, ffd_text_shown(word),
-                         word.first);
+                         ffd_text_display_size(property->name), property->name.first, row,
+                         ffd_text_display_size(word), word.first);
 }
 
 static ffd_status read_vertex(ply_document *d, ply_walk *walk, uint64_t row, ffd_error *error)
@@ -85,7 +85,7 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return ffd_fail_memory(error);
     d->input = *input;
-    d->name = ffd_text_copy(ffd_path_shown(source->path));
+    d->name = ffd_text_copy(ffd_path_display_name(source->path));
     ffd_status status =
         d->name ? ffd_ply_header_read(input, d->name, &d->header, error) : ffd_fail_memory(error);
     if (status == FFD_OK)

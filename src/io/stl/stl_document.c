@@ -110,7 +110,7 @@ ffd_status ffd_stl_open(file_input *input, const ffd_source *source, mesh_docume
         return ffd_fail_memory(error);
     d->input = *input;
     d->binary = is_binary(input);
-    d->name = ffd_text_copy(ffd_path_shown(source->path));
+    d->name = ffd_text_copy(ffd_path_display_name(source->path));
     ffd_status status = FFD_OK;
     if (!d->name)
         status = ffd_fail_memory(error);

@@ -15,7 +15,7 @@ typedef struct file_splice {
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
     const char *copied, *last; /* the file is copied up to here, and ends there */
-    size_t forgotten;          /* bytes of the file that are given back (ffd_file_forget_until) */
+    size_t released;           /* bytes of the file that are given back (ffd_file_release_until) */
     byte_buffer *text;         /* of a part: what takes its bytes; NULL: output does */
 } file_splice;
 

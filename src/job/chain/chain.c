@@ -50,31 +50,31 @@ static void compose(double gradient[9], const double next[9])
 }
 
 /* Member by member: a record that is made on the stack and copied has to wait for its own bytes. */
-static void make_note(const ffd_lattice *lattice, const ffd_location *location, chain_note *note)
+static void make_outcome(const ffd_lattice *lattice, const ffd_location *location, point_outcome *outcome)
 {
     const bool invalid = location->status == FFD_POINT_INVALID;
     const bool placed = location->status != FFD_OUTSIDE && !invalid && vec_is_finite(location->uvw);
     const double relative = location->residual / lattice->diagonal;
-    note->residual_square = relative * relative;
-    note->evaluations = location->evaluations;
-    note->status = location->status;
-    note->moved = false;
-    note->located = placed;
-    note->outside = !placed && !invalid;
-    note->multiple = location->status == FFD_MULTIPLE;
-    note->unresolved = location->unresolved;
-    note->extended = false;
+    outcome->residual_square = relative * relative;
+    outcome->evaluations = location->evaluations;
+    outcome->status = location->status;
+    outcome->moved = false;
+    outcome->located = placed;
+    outcome->outside = !placed && !invalid;
+    outcome->multiple = location->status == FFD_MULTIPLE;
+    outcome->unresolved = location->unresolved;
+    outcome->extended = false;
 }
 
-static void join_note(const chain_note *now, chain_note *note)
+static void join_outcome(const point_outcome *now, point_outcome *outcome)
 {
-    note->residual_square = larger_of(note->residual_square, now->residual_square);
-    note->evaluations += now->evaluations;
-    note->status = now->status > note->status ? now->status : note->status;
-    note->located |= now->located;
-    note->outside |= now->outside;
-    note->multiple |= now->multiple;
-    note->unresolved |= now->unresolved;
+    outcome->residual_square = larger_of(outcome->residual_square, now->residual_square);
+    outcome->evaluations += now->evaluations;
+    outcome->status = now->status > outcome->status ? now->status : outcome->status;
+    outcome->located |= now->located;
+    outcome->outside |= now->outside;
+    outcome->multiple |= now->multiple;
+    outcome->unresolved |= now->unresolved;
 }
 
 /* Where a link's displacements go: those of the first straight to the run. */
@@ -108,7 +108,7 @@ static ffd_status extend(const chain_link *link, const chain_run *run, const dis
     const ffd_status status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
     if (status || !nearest.found)
         return status;
-    run->notes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
+    run->outcomes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
     run->scratch->moves[i] =
         (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
     return FFD_OK;
@@ -121,11 +121,11 @@ static ffd_status note_locations(const chain_link *link, bool is_first, const ch
     const ffd_location *const locations = run->scratch->locations;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < run->count && !status; i++) {
-        chain_note later, *const note = is_first ? &run->notes[i] : &later;
-        make_note(link->lattice, &locations[i], note);
+        point_outcome later, *const outcome = is_first ? &run->outcomes[i] : &later;
+        make_outcome(link->lattice, &locations[i], outcome);
         if (!is_first)
-            join_note(note, &run->notes[i]);
-        if (note->located)
+            join_outcome(outcome, &run->outcomes[i]);
+        if (outcome->located)
             run->scratch->inside[batch->count++] = (uint32_t)i;
         else
             status = extend(link, run, batch, i, error);
@@ -140,7 +140,7 @@ static void add_link(const chain_run *run, const array_kernel *arrays)
     arrays->add(scratch->delta, 3 * run->count, run->delta);
     for (size_t i = 0; i < run->count && run->gradient; i++) {
         const double *const next = scratch->gradient + 9 * i;
-        if (scratch->moves[i] && run->notes[i].moved)
+        if (scratch->moves[i] && run->outcomes[i].moved)
             compose(run->gradient + 9 * i, next);
         else if (scratch->moves[i])
             memcpy(run->gradient + 9 * i, next, 9 * sizeof *next);
@@ -161,7 +161,7 @@ static ffd_status apply_link(const lattice_chain *chain, size_t l, const chain_r
     if (l > 0)
         add_link(run, arrays);
     for (size_t i = 0; i < run->count; i++)
-        run->notes[i].moved |= scratch->moves[i];
+        run->outcomes[i].moved |= scratch->moves[i];
     return FFD_OK;
 }
 
@@ -170,7 +170,7 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
     ffd_status status = FFD_OK;
     if (links == 0) {
         memset(run->delta, 0, 3 * run->count * sizeof *run->delta);
-        memset(run->notes, 0, run->count * sizeof *run->notes);
+        memset(run->outcomes, 0, run->count * sizeof *run->outcomes);
         if (run->gradient)
             memset(run->gradient, 0, 9 * run->count * sizeof *run->gradient);
     }

@@ -178,7 +178,7 @@ static bool note_source(ffd_share *share, const ffd_deform_desc *desc, bool only
     return true;
 }
 
-/* Its own stamp is from before it was opened; those of the files that it refers to were taken right behind
+/* Its own stamp is from before it was opened; those of the files that it refers to were taken right after
  * that.
  */
 static bool note_files(ffd_share *share, const ffd_source *source, const file_stamp *stamp,

@@ -35,7 +35,7 @@ void ffd_cache_lend_locator(const ffd_share *share, const lattice_chain *chain, 
 void ffd_cache_put_chain(ffd_share *share, lattice_chain *chain);
 
 /* Memory for the locations of a document's vertices in a rest volume, for ffd_pass_run to fill or, *filled,
-   to take from. NULL: they are not kept. `taken` tells whether the document was one of ffd_cache_take_mesh.
+   to take from. NULL: they are not kept. `taken` says whether the document was one of ffd_cache_take_mesh.
  */
 ffd_location *ffd_cache_locations(ffd_share *share, mesh_document *document, bool taken, const hash128 *rest,
                                   bool *filled);

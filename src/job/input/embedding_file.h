@@ -30,15 +30,15 @@
 
 /* Hashes the positions in the lattice's space: each run of 1024 vertices of each part (the last may be
    shorter; parts that repeat positions are left out) for itself; then the list of these hashes with the
-   number of vertices behind it. The same for any number of threads. Errors: FFD_E_MEMORY. */
+   number of vertices after it. The same for any number of threads. Errors: FFD_E_MEMORY. */
 ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
                                         ffd_error *error);
 
 /* Hashes what decides u,v,w, and nothing else of what is moved. For each direction: degree, number of control
    points, 1 if closed or else 0, 1 if its first and last face are a seam (lattice/border.h; this also depends
    on what is moved) or else 0, number of knots (8 bytes each) and the hash of the knots; then the hash of the
-   rest points; then, where a rest weight is not 1, the hash of the weights. The lattice must have its
-   place. */
+   rest points; then, where a rest weight is not 1, the hash of the weights. The lattice must be fitted
+   to its mesh. */
 hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice);
 
 /* Appends an embedding of count vertices to the file that output began last. */
@@ -63,7 +63,7 @@ ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *pos
 void ffd_embedding_close(embedding_file *file);
 
 /* Opens the embedding that `ffd embed` made of this document and lattice, as ffd_embedding_open. The lattice
-   must have its place. Errors: the same. */
+   must be fitted to its mesh. Errors: the same. */
 ffd_status ffd_embedding_reuse(const char *path, const mesh_document *document, const ffd_lattice *lattice,
                                int threads, embedding_file *file, ffd_error *error);
 

@@ -12,7 +12,7 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
 ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document **document, ffd_error *error);
 
 /* Adds the files that the source's document was read from: its own, then those that it refers to. A stream
-   is no file. Errors: FFD_E_MEMORY. */
+   is not a file. Errors: FFD_E_MEMORY. */
 ffd_status ffd_source_files(const ffd_source *source, const mesh_document *document, path_list *files,
                             ffd_error *error);
 

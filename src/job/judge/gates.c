@@ -47,10 +47,10 @@ typedef struct complaint {
 
 static void add(complaint *line, const char *text, const char *gate)
 {
-    const size_t room = sizeof line->text - line->length;
-    const int length = snprintf(line->text + line->length, room, "%s%s (--fail-on %s)",
+    const size_t space = sizeof line->text - line->length;
+    const int length = snprintf(line->text + line->length, space, "%s%s (--fail-on %s)",
                                 line->length ? "; " : "", text, gate);
-    line->length += length < 0 ? 0 : (size_t)length < room ? (size_t)length : room - 1;
+    line->length += length < 0 ? 0 : (size_t)length < space ? (size_t)length : space - 1;
 }
 
 static void add_count(complaint *line, uint64_t count, const pass_totals *totals, const char *what,

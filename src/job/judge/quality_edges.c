@@ -25,7 +25,7 @@
 #define WIDEST_PIECE (1.0 / 2)
 #define DIAGONAL_EXTENT 4.0
 #define OVERSHOOT (1 + 1.0 / 64)
-/* Deviations that are less than this part of the coordinates may be rounding: they are no ground to look
+/* Deviations that are less than this part of the coordinates may be rounding: they are no reason to look
    closer. */
 #define ROUNDING (256 * DBL_EPSILON)
 
@@ -55,7 +55,7 @@ typedef struct edge_scratch {
     sample_request requests[BATCH];
     double x[3 * BATCH], delta[3 * BATCH]; /* delta: of all links */
     double link_delta[3 * BATCH];
-    chain_note notes[BATCH];
+    point_outcome point_outcomes[BATCH];
     chain_scratch chain;
 } edge_scratch;
 
@@ -155,7 +155,7 @@ static void find_window(const edge_work *work, sampled_edge *edge)
     edge->share = passes ? last - first : 1;
 }
 
-static double place_of(const sampled_edge *edge, size_t slot)
+static double parameter_of(const sampled_edge *edge, size_t slot)
 {
     return edge->first + (double)slot / PIECES * edge->share;
 }
@@ -209,7 +209,7 @@ static void keep_sample(const sample_request *request, const double delta[3], ed
     double *offset = scratch->offset[request->edge][request->slot];
     if (is_end(edge, request->slot)) /* only u,v,w are new */
         return;
-    find_offset(edge, place_of(edge, request->slot), delta, offset);
+    find_offset(edge, parameter_of(edge, request->slot), delta, offset);
     const double deviation = vec_length(offset);
     if (request->slot < PIECES)
         edge->sampled |= (uint64_t)1 << request->slot;
@@ -242,7 +242,7 @@ static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
                          .count = scratch->requested,
                          .scratch = &scratch->chain,
                          .delta = scratch->link_delta,
-                         .notes = scratch->notes};
+                         .outcomes = scratch->point_outcomes};
         const ffd_status status = ffd_chain_apply(&link, 1, &run, NULL);
         if (status)
             return status;
@@ -259,10 +259,10 @@ static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
 static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, size_t number, size_t slot)
 {
     const sampled_edge *edge = &scratch->edges[number];
-    const size_t place = scratch->requested++;
-    scratch->requests[place] = (sample_request){(uint16_t)number, (uint8_t)slot};
+    const size_t request = scratch->requested++;
+    scratch->requests[request] = (sample_request){(uint16_t)number, (uint8_t)slot};
     for (size_t a = 0; a < 3; a++)
-        scratch->x[3 * place + a] = edge->start[a] + place_of(edge, slot) * edge->along[a];
+        scratch->x[3 * request + a] = edge->start[a] + parameter_of(edge, slot) * edge->along[a];
     return scratch->requested == BATCH ? take_samples(work, scratch) : FFD_OK;
 }
 
@@ -343,7 +343,7 @@ static ffd_status begin_window(const edge_work *work, edge_scratch *scratch, siz
         double offset[3];
         if (is_end(edge, slot) || edge->left_out)
             continue;
-        find_offset(edge, place_of(edge, slot), still, offset);
+        find_offset(edge, parameter_of(edge, slot), still, offset);
         edge->largest = fmax(edge->largest, vec_length(offset));
         status = request_sample(work, scratch, number, slot);
     }

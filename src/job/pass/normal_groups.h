@@ -24,7 +24,7 @@ typedef struct normal_groups {
     uint8_t *outcomes;  /* of each group, normal_outcome */
 } normal_groups;
 
-/* Corners belong together whose vertices stand at one place (of 0 and -0 either), are brought to one place
+/* Corners belong together whose vertices are at one position (0 and -0 are equal), are moved to one position
    and have one normal, all three equal in bits, in the lattice's space. Their new normal is the direction of
    the sum over them of (area of the face) (angle) (unit normal of the face), of the deformed faces; of faces
    with one unit normal it is that one to the bit.

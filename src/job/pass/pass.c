@@ -48,10 +48,10 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
     for (size_t i = 0; i < count; i++) {
         const size_t number = (size_t)work->first_vertex + first + i;
         const bool singular = ffd_vertex_transform_of(&scratch->transforms, i).singular;
-        const chain_note *note = &scratch->notes[i];
+        const point_outcome *outcome = &scratch->point_outcomes[i];
         const double *gradient = scratch->gradient + 9 * i;
         if (pass->statuses)
-            pass->statuses[number] = note->status;
+            pass->statuses[number] = outcome->status;
         if (pass->deformed) {
             memcpy(pass->deformed + 3 * number, scratch->position + 3 * i, 3 * sizeof *scratch->position);
             if (singular)
@@ -62,8 +62,8 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
             if (singular)
                 fill_nan(pass->gradients + 9 * number, 9);
         }
-        if (pass->determinants && !singular && note->status != FFD_SINGULAR &&
-            (note->located || note->extended))
+        if (pass->determinants && !singular && outcome->status != FFD_SINGULAR &&
+            (outcome->located || outcome->extended))
             note_determinant(gradient, totals);
     }
 }
@@ -180,8 +180,8 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
         deform_tangents(work, scratch, first, count);
 }
 
-/* Takes the first link's locations from the embedding, or from those that are there, in which repeated
-   positions do not stand again. Returns whether it did. */
+/* Takes the first link's locations from the embedding, or from those that are there, in which a
+   position that is repeated is not listed again. Returns whether it did. */
 static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
 {
     const mesh_pass *pass = work->pass;
@@ -246,14 +246,14 @@ static void spread(tile_scratch *scratch, size_t count)
             memcpy(position, scratch->position + 3 * left, 3 * sizeof *position);
             memcpy(delta, scratch->delta + 3 * left, 3 * sizeof *delta);
             memcpy(gradient, scratch->gradient + 9 * left, 9 * sizeof *gradient);
-            scratch->notes[i] = scratch->notes[left];
+            scratch->point_outcomes[i] = scratch->point_outcomes[left];
         } else {
             const vertex_transform own = ffd_vertex_transform_of(&scratch->transforms, i);
             memcpy(position, scratch->raw + 3 * i, 3 * sizeof *position);
             ffd_vertex_transform_point(&own, position);
             memset(delta, 0, 3 * sizeof *delta);
             memset(gradient, 0, 9 * sizeof *gradient);
-            scratch->notes[i] = (chain_note){.status = FFD_OUTSIDE};
+            scratch->point_outcomes[i] = (point_outcome){.status = FFD_OUTSIDE};
         }
     }
 }
@@ -286,7 +286,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
                      .scratch = &scratch->chain,
                      .delta = scratch->delta,
                      .gradient = gradients ? scratch->gradient : NULL,
-                     .notes = scratch->notes};
+                     .outcomes = scratch->point_outcomes};
     scratch->status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
     totals->embed_seconds = run.embed_seconds;
     totals->deform_seconds = run.deform_seconds;

@@ -80,7 +80,7 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
                      .scratch = &work->tile->chain,
                      .delta = s->moved_delta,
                      .gradient = gradients ? s->moved_gradient : NULL,
-                     .notes = s->moved_notes};
+                     .outcomes = s->moved_outcomes};
     const ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, error);
     work->totals->embed_seconds += run.embed_seconds;
     work->totals->deform_seconds += run.deform_seconds;
@@ -90,7 +90,7 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
         if (gradients)
             ffd_gradient_to_file(&transform, s->moved_gradient + 9 * k);
         s->gradients[i] = s->moved_gradient + 9 * k;
-        if (s->moved_notes[k].outside) {
+        if (s->moved_outcomes[k].outside) {
             work->totals->shapes_outside++;
             note_first(&work->totals->first_shape_outside, number_of(work, i));
         }

@@ -30,7 +30,7 @@ typedef struct pass_totals {
 /* No figures yet. */
 void ffd_totals_clear(pass_totals *totals);
 
-/* Adds those of a tile, which comes behind the ones that are there. */
+/* Adds those of a tile, which comes after the ones that are there. */
 void ffd_totals_join(const pass_totals *tile, pass_totals *all);
 
 #endif

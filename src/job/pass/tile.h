@@ -10,14 +10,14 @@
 #define PASS_TILE VERTEX_TRANSFORMS /* at most */
 
 /* What a morph target of a tile needs. Of the vertices that it moves, the ones listed in `moved`, position
-   and what the chain says stand one behind the other. */
+   and outcome are stored one after the other. */
 typedef struct shape_scratch {
     double offsets[3 * PASS_TILE]; /* as the file has them, then what becomes of them */
     double position[3 * PASS_TILE];
     size_t moved[PASS_TILE];
     size_t moved_count;
     double moved_delta[3 * PASS_TILE], moved_gradient[9 * PASS_TILE];
-    chain_note moved_notes[PASS_TILE];
+    point_outcome moved_outcomes[PASS_TILE];
     const double *gradients[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
     double base[3 * PASS_TILE];         /* positions or directions without the target */
     double normals[3 * PASS_TILE];      /* deformed, with the target */
@@ -32,10 +32,10 @@ typedef struct tile_scratch {
     uint32_t chosen[PASS_TILE];
     size_t chosen_count;
     chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
-    /* Of the chosen ones, one behind the other, until they are spread to their slots in the tile. */
+    /* Of the chosen ones, one after the other, until they are spread to their slots in the tile. */
     double position[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
-    chain_note notes[PASS_TILE];
+    point_outcome point_outcomes[PASS_TILE];
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];

@@ -37,36 +37,37 @@ void ffd_totals_count_rest(const part_work *work, const tile_scratch *scratch, s
 }
 
 /* Of a vertex that is not simply inside. */
-static void count_other(const chain_note *note, uint64_t number, pass_totals *totals)
+static void count_other(const point_outcome *outcome, uint64_t number, pass_totals *totals)
 {
-    totals->counts[note->status]++;
-    if (note->outside) {
+    totals->counts[outcome->status]++;
+    if (outcome->outside) {
         totals->outside_any++;
         totals->first_outside = least(totals->first_outside, number);
     }
-    totals->extended += note->status == FFD_OUTSIDE && note->extended;
-    totals->multiple_any += note->multiple;
-    totals->unresolved += note->unresolved;
+    totals->extended += outcome->status == FFD_OUTSIDE && outcome->extended;
+    totals->multiple_any += outcome->multiple;
+    totals->unresolved += outcome->unresolved;
 }
 
-static void count_notes(const part_work *work, const tile_scratch *scratch, size_t first, pass_totals *totals)
+static void count_point_outcomes(const part_work *work, const tile_scratch *scratch, size_t first,
+                                 pass_totals *totals)
 {
-    const chain_note *const notes = scratch->notes;
+    const point_outcome *const point_outcomes = scratch->point_outcomes;
     double square_max = 0, square_sum = 0;
     uint64_t evaluations = 0;
     uint32_t evaluations_max = 0;
     size_t inside = 0, located = 0;
     for (size_t i = 0; i < scratch->chosen_count; i++) {
-        const chain_note *const note = &notes[i];
-        square_max = larger_of(square_max, note->residual_square); /* 0 where there is no u,v,w */
-        square_sum += note->residual_square;
-        located += note->located;
-        evaluations += note->evaluations;
-        evaluations_max = note->evaluations > evaluations_max ? note->evaluations : evaluations_max;
-        if (note->status == FFD_INSIDE)
+        const point_outcome *const outcome = &point_outcomes[i];
+        square_max = larger_of(square_max, outcome->residual_square); /* 0 where there is no u,v,w */
+        square_sum += outcome->residual_square;
+        located += outcome->located;
+        evaluations += outcome->evaluations;
+        evaluations_max = outcome->evaluations > evaluations_max ? outcome->evaluations : evaluations_max;
+        if (outcome->status == FFD_INSIDE)
             inside++;
         else
-            count_other(note, number_of(work, scratch, first, i), totals);
+            count_other(outcome, number_of(work, scratch, first, i), totals);
     }
     totals->counts[FFD_INSIDE] += inside;
     totals->located += located;
@@ -104,7 +105,7 @@ static void count_displacements(const part_work *work, const tile_scratch *scrat
 void ffd_totals_count_deformed(const part_work *work, const tile_scratch *scratch, size_t first,
                                pass_totals *totals)
 {
-    count_notes(work, scratch, first, totals);
+    count_point_outcomes(work, scratch, first, totals);
     count_displacements(work, scratch, totals);
     widen_all(work, scratch->position, scratch->chosen_count, &totals->after);
 }

@@ -4,8 +4,8 @@
 
 #include "job/pass/tile.h"
 
-/* What there is to know of a tile's chosen vertices before they move: to be called when their places are
-   there. first: the tile's first vertex in the part. */
+/* Adds up what is known of a tile's chosen vertices before they move: to be called when their
+   positions have been read. first: the tile's first vertex in the part. */
 void ffd_totals_count_rest(const part_work *work, const tile_scratch *scratch, size_t first,
                            pass_totals *totals);
 /* And after it: when the chain has been through them. */

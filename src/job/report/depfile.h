@@ -7,7 +7,7 @@
 #include <ffd/job.h>
 
 /* Appends the rule "OUT: INPUT INPUT ..." to rules. Errors: FFD_E_IO, for a name with a line break, which
-   cannot stand there. */
+   a depfile cannot hold. */
 ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules,
                             ffd_error *error);
 /* Whether a name has a character that make or ninja cannot read in a depfile, however it is written. */

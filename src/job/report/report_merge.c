@@ -1,4 +1,4 @@
-/* report_merge.c - several reports to one, for jobs that ran in several places. */
+/* report_merge.c - merges several reports into one, for jobs that ran on several machines. */
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
