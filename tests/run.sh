@@ -2,6 +2,7 @@
 # Builds ffd and runs its tests, in build folders of its own under .build-test/.
 #     sh tests/run.sh                 the gcc build, every quick suite
 #     sh tests/run.sh --suite NAME    the gcc build, one suite (unit property oracle fuzz golden cli rules bench slow)
+#                                     or one tag (threads compilers text)
 #     sh tests/run.sh --all           and: slow suites, release, clang with sanitizers, valgrind, fuzzing, the demo, the wraps
 #     sh tests/run.sh --soak          the gcc build, what takes hours, with other random numbers every time
 #     --keep                          keeps the build folders of the stages that only --all has
@@ -32,7 +33,7 @@ while [ $# -gt 0 ]; do
     esac
     shift
 done
-[ "$all$soak" != 11 ] && { [ -z "$all$soak" ] || [ -z "$suite" ]; } || usage
+[ "$suite" != soak ] && [ "$all$soak" != 11 ] && { [ -z "$all$soak" ] || [ -z "$suite" ]; } || usage
 
 root=$(cd "$(dirname "$0")/.." && pwd) || exit 1
 work=$root/.build-test

@@ -156,7 +156,10 @@ class Run:
 
     def done(self, arguments, code, stdin, options):
         """A finished run: of a process of its own, or forked."""
-        kind = (*arguments[:2 if arguments[:1] in (("lattice",), ("report",)) else 1], code)
+        head = arguments[:2 if arguments[:1] in (("lattice",), ("report",)) else 1]
+        # Batches are not forked: each set of options is a kind of its own.
+        modes = sorted({a for a in arguments if a.startswith("--")}) if head == ("batch",) else []
+        kind = (*head, *modes, code)
         is_first = kind not in _seen
         forked = _driver and not options and not is_first and arguments[:1] != ("batch",)
         _seen.add(kind)

@@ -1,4 +1,4 @@
-/* failing_new.h - makes C++'s operator new fail, as base/memory.h makes ffd_alloc. */
+/* failing_new.h - makes C++'s operator new fail, as base/memory/memory.h makes ffd_alloc. */
 #ifndef FFD_TESTS_FAILING_NEW_H
 #define FFD_TESTS_FAILING_NEW_H
 

@@ -16,6 +16,13 @@ typedef struct seen {
     size_t count, stop; /* after so many, if any */
 } seen;
 
+static bool bounds_meet(const bounds *box, const bounds *query, const double slack[3])
+{
+    return query->hi[0] >= box->lo[0] - slack[0] && query->lo[0] <= box->hi[0] + slack[0] &&
+           query->hi[1] >= box->lo[1] - slack[1] && query->lo[1] <= box->hi[1] + slack[1] &&
+           query->hi[2] >= box->lo[2] - slack[2] && query->lo[2] <= box->hi[2] + slack[2];
+}
+
 static bool note(void *context, uint32_t item)
 {
     seen *const s = context;

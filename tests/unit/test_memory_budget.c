@@ -1,4 +1,4 @@
-/* test_room.c - how much memory a document may take. */
+/* test_memory_budget.c - how much memory a document may take. */
 #include "mesh/memory_budget.h"
 #include <setjmp.h>
 #include <stdarg.h>

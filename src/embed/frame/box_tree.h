@@ -34,13 +34,6 @@ bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double sl
 bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *query, const double slack[3],
                             box_tree_visitor visit, void *context);
 
-static inline bool bounds_meet(const bounds *box, const bounds *query, const double slack[3])
-{
-    return query->hi[0] >= box->lo[0] - slack[0] && query->lo[0] <= box->hi[0] + slack[0] &&
-           query->hi[1] >= box->lo[1] - slack[1] && query->lo[1] <= box->hi[1] + slack[1] &&
-           query->hi[2] >= box->lo[2] - slack[2] && query->lo[2] <= box->hi[2] + slack[2];
-}
-
 static inline bool bounds_hold(const bounds *box, const double p[3], const double slack[3])
 {
     return p[0] >= box->lo[0] - slack[0] && p[0] <= box->hi[0] + slack[0] && p[1] >= box->lo[1] - slack[1] &&

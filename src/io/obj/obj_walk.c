@@ -1,11 +1,5 @@
 #include "io/obj/obj_walk.h"
 
-void ffd_obj_walk_begin(obj_walk *walk, const void *data, size_t size)
-{
-    *walk = (obj_walk){0};
-    ffd_obj_scan_begin(&walk->scan, data, size);
-}
-
 bool ffd_obj_walk_next(obj_walk *walk)
 {
     if (!ffd_obj_scan_next(&walk->scan))

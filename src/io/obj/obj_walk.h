@@ -10,13 +10,12 @@ typedef struct obj_count {
     size_t total, seen;
 } obj_count;
 
+/* The caller sets the totals, which may be 0 where no positive index is looked up. */
 typedef struct obj_walk {
     obj_scan scan;
     obj_count vertices, texcoords, normals;
 } obj_walk;
 
-/* The totals are set by the caller, who may leave them 0 where no positive index is looked up. */
-void ffd_obj_walk_begin(obj_walk *walk, const void *data, size_t size);
 /* Goes to the next statement and counts it. False at the end of the file. */
 bool ffd_obj_walk_next(obj_walk *walk);
 

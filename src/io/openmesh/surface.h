@@ -20,7 +20,7 @@
 namespace ffd_openmesh
 {
 
-/* Arrays whose memory comes from base/memory.h. */
+/* Arrays whose memory comes from base/memory/memory.h. */
 template <class T> struct base_allocator {
     typedef T value_type;
     base_allocator() = default;

@@ -1,4 +1,5 @@
-/* test_share.c - a mesh or a lattice that is kept for the next job is not taken for one that has changed. */
+/* test_job_cache.c - a mesh or a lattice that is kept for the next job is not taken for one that has changed.
+ */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
