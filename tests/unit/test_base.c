@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void test_sizes(void **state)
+static void sizes_that_overflow_are_refused(void **state)
 {
     size_t result = 1;
     assert_true(ffd_multiply_size(3, 4, &result));
@@ -34,7 +34,7 @@ static void test_sizes(void **state)
 }
 
 /* Around the size from which blocks have large pages: each has all its bytes, and grows as any other. */
-static void test_whole(void **state)
+static void blocks_of_any_size_hold_their_bytes_and_grow(void **state)
 {
     static const size_t sizes[] = {0, 1, ((size_t)4 << 20) - 1, (size_t)4 << 20, ((size_t)6 << 20) + 1};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
@@ -55,7 +55,7 @@ static void test_whole(void **state)
     (void)state;
 }
 
-static void test_slots(void **state)
+static void slots_start_empty_and_at_most_half_full(void **state)
 {
     static const size_t masks[][2] = {{0, 15}, {8, 15}, {9, 31}, {16, 31}, {1000, 2047}};
     for (size_t i = 0; i < sizeof masks / sizeof *masks; i++) {
@@ -70,7 +70,7 @@ static void test_slots(void **state)
     (void)state;
 }
 
-static void test_grow(void **state)
+static void an_array_that_cannot_grow_stays_as_it_is(void **state)
 {
     int *numbers = NULL;
     size_t capacity = 0;
@@ -90,7 +90,7 @@ static void test_grow(void **state)
     (void)state;
 }
 
-static void test_buffer(void **state)
+static void a_buffer_gives_all_its_text_or_none(void **state)
 {
     byte_buffer buffer = {0};
     for (int i = 0; i < 100; i++)
@@ -111,7 +111,7 @@ static void test_buffer(void **state)
     (void)state;
 }
 
-static void test_words(void **state)
+static void a_misspelled_word_finds_its_nearest(void **state)
 {
     static const char *const known[] = {"rest",    "size",     "degree", "knots",
                                         "weights", "deformed", "units",  "moves"};
@@ -134,7 +134,7 @@ static void check_text(char *text, const char *expected)
     ffd_free(text);
 }
 
-static void test_paths(void **state)
+static void paths_are_split_and_joined(void **state)
 {
     assert_string_equal(ffd_path_name("a/b.obj"), "b.obj");
     assert_string_equal(ffd_path_display_name("-"), "standard input");
@@ -155,7 +155,7 @@ static void test_paths(void **state)
     (void)state;
 }
 
-static void test_json_text(void **state)
+static void json_is_indented_escaped_and_has_no_nan(void **state)
 {
     byte_buffer out = {0};
     json_text json;
@@ -183,7 +183,7 @@ static void test_json_text(void **state)
     (void)state;
 }
 
-static void test_json_text_is_utf8(void **state)
+static void broken_utf8_is_replaced_in_json(void **state)
 {
     byte_buffer out = {0};
     json_text json;
@@ -196,7 +196,7 @@ static void test_json_text_is_utf8(void **state)
     (void)state;
 }
 
-static void test_messages(void **state)
+static void messages_name_their_place_in_one_line(void **state)
 {
     ffd_error error = {0};
     char line[200];
@@ -226,7 +226,7 @@ static void test_messages(void **state)
     (void)state;
 }
 
-static void test_exit_codes(void **state)
+static void each_status_has_its_exit_code(void **state)
 {
     assert_int_equal(ffd_status_exit_code(FFD_OK), 0);
     assert_int_equal(ffd_status_exit_code(FFD_E_GATE), 1);
@@ -255,7 +255,7 @@ static void mark_tile(void *context, size_t tile, size_t begin, size_t end, int 
         log->seen[i]++;
 }
 
-static void test_tiles(void **state)
+static void tiles_visit_each_item_once(void **state)
 {
     static const int threads[] = {1, 2, 8, 1000};
     static tile_log log;
@@ -298,7 +298,7 @@ static void finish_in_order(void *context, size_t tile, size_t begin, size_t end
     log->finished++;
 }
 
-static void test_tiles_in_order(void **state)
+static void tiles_are_finished_in_their_order(void **state)
 {
     static const int threads[] = {1, 2, 3, 16};
     for (size_t t = 0; t < 4; t++) {
@@ -319,13 +319,19 @@ static void test_tiles_in_order(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),          cmocka_unit_test(test_whole),
-        cmocka_unit_test(test_slots),          cmocka_unit_test(test_grow),
-        cmocka_unit_test(test_buffer),         cmocka_unit_test(test_words),
-        cmocka_unit_test(test_paths),          cmocka_unit_test(test_json_text),
-        cmocka_unit_test(test_messages),       cmocka_unit_test(test_json_text_is_utf8),
-        cmocka_unit_test(test_exit_codes),     cmocka_unit_test(test_tiles),
-        cmocka_unit_test(test_tiles_in_order),
+        cmocka_unit_test(sizes_that_overflow_are_refused),
+        cmocka_unit_test(blocks_of_any_size_hold_their_bytes_and_grow),
+        cmocka_unit_test(slots_start_empty_and_at_most_half_full),
+        cmocka_unit_test(an_array_that_cannot_grow_stays_as_it_is),
+        cmocka_unit_test(a_buffer_gives_all_its_text_or_none),
+        cmocka_unit_test(a_misspelled_word_finds_its_nearest),
+        cmocka_unit_test(paths_are_split_and_joined),
+        cmocka_unit_test(json_is_indented_escaped_and_has_no_nan),
+        cmocka_unit_test(messages_name_their_place_in_one_line),
+        cmocka_unit_test(broken_utf8_is_replaced_in_json),
+        cmocka_unit_test(each_status_has_its_exit_code),
+        cmocka_unit_test(tiles_visit_each_item_once),
+        cmocka_unit_test(tiles_are_finished_in_their_order),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

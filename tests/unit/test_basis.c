@@ -37,7 +37,7 @@ static void check_values(const double *values, const double *expected, size_t co
 }
 
 /* Over one span between clamped ends the functions are Bernstein's: binomial(9, i) / 2^9 in the middle. */
-static void test_one_span_is_bernstein(void **state)
+static void one_clamped_span_is_bernstein(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_CLAMPED, 9, 10);
@@ -54,7 +54,7 @@ static void test_one_span_is_bernstein(void **state)
 }
 
 /* The uniform cubic: (1, 4, 1, 0)/6 at a knot, (1, 23, 23, 1)/48 between two. */
-static void test_uniform_cubic(void **state)
+static void the_uniform_cubic_has_its_known_values(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_OPEN, 3, 8);
@@ -70,7 +70,7 @@ static void test_uniform_cubic(void **state)
 
 /* Degree 1 is no special case: slopes +1/width and -1/width, the right-hand ones at an inner knot, the
    left-hand ones at the end of the domain. */
-static void test_degree_one(void **state)
+static void slopes_at_degree_one_are_one_sided_at_knots(void **state)
 {
     (void)state;
     const double list[] = {0, 0, 0.5, 2, 2};
@@ -90,7 +90,7 @@ static void test_degree_one(void **state)
 }
 
 /* Clamped ends are met to the bit, with any knots between. */
-static void test_clamped_ends_are_exact(void **state)
+static void clamped_ends_are_exact(void **state)
 {
     (void)state;
     for (int degree = 1; degree <= MAX_DEGREE; degree++)
@@ -109,7 +109,7 @@ static void test_clamped_ends_are_exact(void **state)
 
 /* First d+1 times, inside d times, last d+1 times, unevenly: at the inner knot the control point between is
  * met. */
-static void test_repeated_first_inside_last(void **state)
+static void a_knot_repeated_d_times_meets_its_control_point(void **state)
 {
     (void)state;
     const double list[] = {-3, -3, -3, -3, 0.1, 0.1, 0.1, 7, 7, 7, 7};
@@ -133,7 +133,7 @@ static void test_repeated_first_inside_last(void **state)
 
 /* An end knot d+1 times, but one place too far in: the first control point has no effect, the second is met.
  */
-static void test_shifted_clamp(void **state)
+static void a_shifted_clamp_meets_the_second_control_point(void **state)
 {
     (void)state;
     const double list[] = {-1, 0, 0, 0, 1, 2, 3};
@@ -146,7 +146,7 @@ static void test_shifted_clamp(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_values_alone_are_the_same_bits(void **state)
+static void values_alone_are_the_same_bits(void **state)
 {
     (void)state;
     for (int degree = 1; degree <= MAX_DEGREE; degree++) {
@@ -166,7 +166,7 @@ static void test_values_alone_are_the_same_bits(void **state)
 }
 
 /* Against the recursion, on every preset kind and degree, at the knots themselves and between. */
-static void test_recursion(void **state)
+static void values_and_slopes_are_those_of_the_recursion(void **state)
 {
     (void)state;
     const knot_kind kinds[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLOSED};
@@ -196,7 +196,7 @@ static void test_recursion(void **state)
 }
 
 /* The cubic between clamped ends, first of two spans: knot insertion by hand (Boehm). */
-static void test_bezier_of_two_spans(void **state)
+static void extraction_of_two_spans_is_knot_insertion(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_CLAMPED, 3, 5);
@@ -208,7 +208,7 @@ static void test_bezier_of_two_spans(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_bezier_of_uniform_cubic(void **state)
+static void extraction_of_the_uniform_cubic_is_the_known_one(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_UNIFORM, 3, 9);
@@ -221,7 +221,7 @@ static void test_bezier_of_uniform_cubic(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_bezier_of_one_span_is_itself(void **state)
+static void extraction_of_one_span_is_the_identity(void **state)
 {
     (void)state;
     for (int degree = 1; degree <= MAX_DEGREE; degree++) {
@@ -238,17 +238,17 @@ static void test_bezier_of_one_span_is_itself(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_span_is_bernstein),
-        cmocka_unit_test(test_uniform_cubic),
-        cmocka_unit_test(test_degree_one),
-        cmocka_unit_test(test_clamped_ends_are_exact),
-        cmocka_unit_test(test_repeated_first_inside_last),
-        cmocka_unit_test(test_shifted_clamp),
-        cmocka_unit_test(test_values_alone_are_the_same_bits),
-        cmocka_unit_test(test_recursion),
-        cmocka_unit_test(test_bezier_of_two_spans),
-        cmocka_unit_test(test_bezier_of_uniform_cubic),
-        cmocka_unit_test(test_bezier_of_one_span_is_itself),
+        cmocka_unit_test(one_clamped_span_is_bernstein),
+        cmocka_unit_test(the_uniform_cubic_has_its_known_values),
+        cmocka_unit_test(slopes_at_degree_one_are_one_sided_at_knots),
+        cmocka_unit_test(clamped_ends_are_exact),
+        cmocka_unit_test(a_knot_repeated_d_times_meets_its_control_point),
+        cmocka_unit_test(a_shifted_clamp_meets_the_second_control_point),
+        cmocka_unit_test(values_alone_are_the_same_bits),
+        cmocka_unit_test(values_and_slopes_are_those_of_the_recursion),
+        cmocka_unit_test(extraction_of_two_spans_is_knot_insertion),
+        cmocka_unit_test(extraction_of_the_uniform_cubic_is_the_known_one),
+        cmocka_unit_test(extraction_of_one_span_is_the_identity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -361,7 +361,7 @@ static ffd_lattice *make_case(const warped_case *one, draw *d)
     return lattice;
 }
 
-static void test_never_farther_than_samples(void **state)
+static void the_foot_is_never_farther_than_samples(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -381,7 +381,7 @@ static const char *const cylinders[] = {
     "\"axis\":[0,1,1],\"radius\":[0,2],\"height\":1,\"angle\":[20,200]}}}",
 };
 
-static void test_cylinders(void **state)
+static void feet_on_cylinders_are_as_near_as_samples(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -394,7 +394,7 @@ static void test_cylinders(void **state)
 
 /* Above the end of a collapsed axis every v is equally near: the least counts. On the axis of a tube a whole
    circle, or several places of it, are equally near. */
-static void test_least_of_equally_near(void **state)
+static void the_least_of_equally_near_feet_is_taken(void **state)
 {
     (void)state;
     boundary *border;
@@ -439,7 +439,7 @@ static void test_least_of_equally_near(void **state)
 
 /* A valley z = x^2 seen from its centre of curvature: the second derivative is 0, and how the point moves is
    not defined. */
-static void test_centre_of_curvature(void **state)
+static void the_derivative_at_a_centre_of_curvature_is_zero(void **state)
 {
     (void)state;
     boundary *border;
@@ -519,7 +519,7 @@ static void check_box(const char *text, const double origin[3], const double sid
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_boxes(void **state)
+static void feet_of_a_box_are_those_of_the_clip(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -541,7 +541,7 @@ static void test_boxes(void **state)
 }
 
 /* The search agrees with the clip where the box is given by its points. */
-static void test_box_of_points(void **state)
+static void the_search_agrees_with_the_clip(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -604,7 +604,7 @@ static void compare_derivative(const ffd_lattice *lattice, const boundary *borde
     }
 }
 
-static void test_derivative(void **state)
+static void the_derivative_agrees_with_differences(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -629,7 +629,7 @@ static void test_derivative(void **state)
 }
 
 /* At the answer no step along a face that the point rests on goes nearer, to rounding. */
-static void test_stationary(void **state)
+static void no_step_along_a_face_goes_nearer(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -666,7 +666,7 @@ static void test_stationary(void **state)
     }
 }
 
-static void test_same_bits_in_any_order(void **state)
+static void feet_are_the_same_bits_in_any_order(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -693,7 +693,7 @@ static void test_same_bits_in_any_order(void **state)
 }
 
 /* A reach changes nothing but whether the point is found. */
-static void test_reach(void **state)
+static void a_reach_decides_only_whether_a_foot_is_found(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -726,7 +726,7 @@ static void test_reach(void **state)
 }
 
 /* Far points: the answer is the farthest extent in their direction, and no number overflows. */
-static void test_far_points(void **state)
+static void far_points_find_their_foot_without_overflow(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -759,7 +759,7 @@ static void test_far_points(void **state)
 }
 
 /* Points of the border itself. */
-static void test_points_on_the_border(void **state)
+static void points_on_the_border_are_their_own_feet(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -787,7 +787,7 @@ static void test_points_on_the_border(void **state)
 }
 
 /* All directions closed: no border. */
-static void test_no_border(void **state)
+static void an_all_closed_lattice_has_no_border(void **state)
 {
     (void)state;
     const kinds shape = {{KNOTS_CLOSED, KNOTS_CLOSED, KNOTS_CLOSED}, {2, 2, 2}, {4, 4, 4}};
@@ -808,7 +808,7 @@ static void test_no_border(void **state)
 }
 
 /* Inner knots at which the faces have ridges: the foot rests on a ridge from a whole range of points. */
-static void test_ridges(void **state)
+static void a_foot_rests_on_a_ridge(void **state)
 {
     (void)state;
     static const double list[] = {5, 5, 5, 6, 6, 8, 8, 8}, linear[] = {0, 0, 1, 2, 2};
@@ -844,7 +844,7 @@ static void test_ridges(void **state)
 }
 
 /* More patches than are kept, each search makes its own; and leaves of several cells. */
-static void test_many_cells(void **state)
+static void lattices_of_many_cells_are_searched_right(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -859,7 +859,7 @@ static void test_many_cells(void **state)
 }
 
 /* Every allocation may fail. */
-static void test_no_memory(void **state)
+static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -898,22 +898,22 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_boxes),
-        cmocka_unit_test(test_box_of_points),
-        cmocka_unit_test(test_never_farther_than_samples),
-        cmocka_unit_test(test_cylinders),
-        cmocka_unit_test(test_least_of_equally_near),
-        cmocka_unit_test(test_centre_of_curvature),
-        cmocka_unit_test(test_derivative),
-        cmocka_unit_test(test_stationary),
-        cmocka_unit_test(test_same_bits_in_any_order),
-        cmocka_unit_test(test_reach),
-        cmocka_unit_test(test_far_points),
-        cmocka_unit_test(test_points_on_the_border),
-        cmocka_unit_test(test_no_border),
-        cmocka_unit_test(test_ridges),
-        cmocka_unit_test(test_many_cells),
-        cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(feet_of_a_box_are_those_of_the_clip),
+        cmocka_unit_test(the_search_agrees_with_the_clip),
+        cmocka_unit_test(the_foot_is_never_farther_than_samples),
+        cmocka_unit_test(feet_on_cylinders_are_as_near_as_samples),
+        cmocka_unit_test(the_least_of_equally_near_feet_is_taken),
+        cmocka_unit_test(the_derivative_at_a_centre_of_curvature_is_zero),
+        cmocka_unit_test(the_derivative_agrees_with_differences),
+        cmocka_unit_test(no_step_along_a_face_goes_nearer),
+        cmocka_unit_test(feet_are_the_same_bits_in_any_order),
+        cmocka_unit_test(a_reach_decides_only_whether_a_foot_is_found),
+        cmocka_unit_test(far_points_find_their_foot_without_overflow),
+        cmocka_unit_test(points_on_the_border_are_their_own_feet),
+        cmocka_unit_test(an_all_closed_lattice_has_no_border),
+        cmocka_unit_test(a_foot_rests_on_a_ridge),
+        cmocka_unit_test(lattices_of_many_cells_are_searched_right),
+        cmocka_unit_test(each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -51,7 +51,7 @@ static bool has(const seen *s, uint32_t item)
     return false;
 }
 
-static void test_none_is_missed(void **state)
+static void no_box_that_meets_is_missed(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -93,7 +93,7 @@ static void test_none_is_missed(void **state)
 }
 
 /* The order is that of the tree: the same in every walk, whatever is asked for. */
-static void test_order(void **state)
+static void boxes_come_in_the_order_of_the_tree(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -121,7 +121,7 @@ static void test_order(void **state)
 }
 
 /* However many boxes there are, each is in the tree once. */
-static void test_every_count(void **state)
+static void each_box_is_in_the_tree_once(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -141,7 +141,7 @@ static void test_every_count(void **state)
     }
 }
 
-static void test_stops(void **state)
+static void a_visit_stops_when_told(void **state)
 {
     (void)state;
     static bounds boxes[MOST];
@@ -156,7 +156,7 @@ static void test_stops(void **state)
     ffd_box_tree_free(&tree);
 }
 
-static void test_no_boxes(void **state)
+static void a_tree_without_boxes_visits_nothing(void **state)
 {
     (void)state;
     const double p[3] = {0, 0, 0}, slack[3] = {1, 1, 1};
@@ -171,9 +171,11 @@ static void test_no_boxes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_none_is_missed), cmocka_unit_test(test_order),
-        cmocka_unit_test(test_every_count),    cmocka_unit_test(test_stops),
-        cmocka_unit_test(test_no_boxes),
+        cmocka_unit_test(no_box_that_meets_is_missed),
+        cmocka_unit_test(boxes_come_in_the_order_of_the_tree),
+        cmocka_unit_test(each_box_is_in_the_tree_once),
+        cmocka_unit_test(a_visit_stops_when_told),
+        cmocka_unit_test(a_tree_without_boxes_visits_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

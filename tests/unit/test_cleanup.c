@@ -81,7 +81,7 @@ static void begin_two_files_as_a_worker(void)
     begin_two_files();
 }
 
-static void test_each_signal(void **state)
+static void a_signal_leaves_no_temporary_file(void **state)
 {
     put_text("old", "old");
     for (int i = 0; i < SIGNALS; i++) {
@@ -97,7 +97,7 @@ static void test_each_signal(void **state)
 }
 
 /* A worker of a batch, which may crash and which its batch may stop. */
-static void test_each_crash(void **state)
+static void a_crashed_worker_leaves_no_temporary_file(void **state)
 {
     static const int crashes[] = {SIGABRT, SIGALRM, SIGBUS, SIGFPE, SIGILL, SIGSEGV};
     for (size_t i = 0; i < sizeof crashes / sizeof *crashes; i++) {
@@ -117,7 +117,7 @@ static void ignore_hangup(void)
 static void do_nothing(void) {}
 
 /* What a program ignores it goes on to ignore, and without a call nothing is changed. */
-static void test_dispositions(void **state)
+static void ignored_signals_stay_ignored(void **state)
 {
     assert_int_equal(end_of(ignore_hangup, SIGHUP), 108);
     assert_int_equal(end_of(do_nothing, SIGTERM), SIGTERM);
@@ -125,7 +125,7 @@ static void test_dispositions(void **state)
 }
 
 /* A forked child leaves the files of its parent alone. */
-static void test_files_of_a_parent(void **state)
+static void a_child_leaves_the_files_of_its_parent(void **state)
 {
     file_output *output;
     assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
@@ -157,7 +157,7 @@ static void run_writers(void)
 }
 
 /* Whatever the threads of a program are at: every name that is there is a complete file. */
-static void test_threads_at_work(void **state)
+static void threads_at_work_leave_only_complete_files(void **state)
 {
     for (int n = 0; n < 60; n++) {
         int ready[2], status;
@@ -218,7 +218,7 @@ static void wait_for(const char *name)
 }
 
 /* A signal between the renames of a set waits until all its files are there. */
-static void test_set_is_whole(void **state)
+static void a_signal_never_tears_a_set(void **state)
 {
     enum { FILES = 500 };
     int status;
@@ -247,9 +247,12 @@ static void test_set_is_whole(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_each_signal),     cmocka_unit_test(test_each_crash),
-        cmocka_unit_test(test_dispositions),    cmocka_unit_test(test_files_of_a_parent),
-        cmocka_unit_test(test_threads_at_work), cmocka_unit_test(test_set_is_whole),
+        cmocka_unit_test(a_signal_leaves_no_temporary_file),
+        cmocka_unit_test(a_crashed_worker_leaves_no_temporary_file),
+        cmocka_unit_test(ignored_signals_stay_ignored),
+        cmocka_unit_test(a_child_leaves_the_files_of_its_parent),
+        cmocka_unit_test(threads_at_work_leave_only_complete_files),
+        cmocka_unit_test(a_signal_never_tears_a_set),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

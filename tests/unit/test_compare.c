@@ -37,7 +37,7 @@ static ffd_comparison run(const ffd_compare_desc *desc)
     return comparison;
 }
 
-static void test_tolerances(void **state)
+static void tolerances_decide_what_counts_as_different(void **state)
 {
     (void)state;
     static const struct {
@@ -73,7 +73,7 @@ static void test_tolerances(void **state)
 }
 
 /* The source's own wish not to see normals does not hide them. */
-static void test_only_positions(void **state)
+static void only_positions_does_not_hide_normals(void **state)
 {
     (void)state;
     ffd_compare_desc desc = description();
@@ -81,7 +81,7 @@ static void test_only_positions(void **state)
     assert_int_equal(run(&desc).counts[FFD_DIFFERENCE_NORMAL], 1);
 }
 
-static void test_refused(void **state)
+static void wrong_descriptions_and_missing_files_are_refused(void **state)
 {
     (void)state;
     ffd_comparison comparison;
@@ -101,7 +101,7 @@ static void test_refused(void **state)
     assert_int_equal(ffd_compare_run(&desc, &comparison, NULL), FFD_E_IO);
 }
 
-static void test_kinds(void **state)
+static void each_kind_has_its_own_name(void **state)
 {
     (void)state;
     for (int i = 0; i < FFD_DIFFERENCE_KIND_COUNT; i++)
@@ -117,7 +117,7 @@ static void say_nothing(const void *context, char *text, size_t capacity)
 }
 
 /* The worst is that of the first kind that differs, and of its amounts the first of the largest. */
-static void test_worst(void **state)
+static void the_worst_is_the_first_largest_of_the_first_kind(void **state)
 {
     (void)state;
     static const struct {
@@ -146,7 +146,7 @@ static void test_worst(void **state)
     }
 }
 
-static void test_json(void **state)
+static void the_json_names_files_and_worst_difference(void **state)
 {
     (void)state;
     ffd_compare_desc desc = description();
@@ -165,9 +165,12 @@ static void test_json(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tolerances), cmocka_unit_test(test_only_positions),
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_kinds),
-        cmocka_unit_test(test_worst),      cmocka_unit_test(test_json),
+        cmocka_unit_test(tolerances_decide_what_counts_as_different),
+        cmocka_unit_test(only_positions_does_not_hide_normals),
+        cmocka_unit_test(wrong_descriptions_and_missing_files_are_refused),
+        cmocka_unit_test(each_kind_has_its_own_name),
+        cmocka_unit_test(the_worst_is_the_first_largest_of_the_first_kind),
+        cmocka_unit_test(the_json_names_files_and_worst_difference),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

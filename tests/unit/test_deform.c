@@ -42,7 +42,7 @@ static void check_close(const double *a, const double *b, int count, double allo
             fail_msg("value %d: %.17g is not %.17g", i, a[i], b[i]);
 }
 
-static void test_identity(void **state)
+static void an_undeformed_lattice_moves_nothing(void **state)
 {
     ffd_lattice *lattice = cube();
     assert_int_equal(ffd_lattice_finish(lattice, NULL), FFD_OK);
@@ -55,7 +55,7 @@ static void test_identity(void **state)
     (void)state;
 }
 
-static void test_translation(void **state)
+static void a_translation_moves_every_point_alike(void **state)
 {
     draw d = {draw_seed()};
     ffd_lattice *lattice = cube();
@@ -76,7 +76,7 @@ static void test_translation(void **state)
     (void)state;
 }
 
-static void test_linear_map(void **state)
+static void linear_maps_carry_points_normals_and_tangents(void **state)
 {
     draw d = {draw_seed()};
     static const double maps[][9] = {
@@ -118,7 +118,7 @@ static void test_linear_map(void **state)
     (void)state;
 }
 
-static void test_local_support(void **state)
+static void a_control_point_acts_in_its_spans_only(void **state)
 {
     ffd_lattice *lattice = cube();
     lattice->deformed[0] -= 0.1; /* control point 0,0,0 acts in the first span of each direction only */
@@ -133,7 +133,7 @@ static void test_local_support(void **state)
     (void)state;
 }
 
-static void test_moved_weights(void **state)
+static void a_moved_weight_moves_points_near_it_only(void **state)
 {
     ffd_lattice *lattice = cube();
     lattice_add_weights(lattice);
@@ -152,7 +152,7 @@ static void test_moved_weights(void **state)
     (void)state;
 }
 
-static void test_collapse(void **state)
+static void a_collapsed_direction_keeps_its_bits(void **state)
 {
     /* Everything flattened into z = 0: the normal of a vertical face has no direction, that of a level one
      * has. */
@@ -178,7 +178,7 @@ static void test_collapse(void **state)
 }
 
 /* Everything comes to a line: all that is left of a normal, or of a tangent across it, is rounding. */
-static void test_collapse_to_rounding(void **state)
+static void a_collapse_to_rounding_counts_as_collapsed(void **state)
 {
     draw d = {draw_seed()};
     for (int i = 0; i < 50; i++) {
@@ -202,7 +202,7 @@ static void test_collapse_to_rounding(void **state)
 }
 
 /* What had no direction before has not lost one. */
-static void test_no_direction(void **state)
+static void what_had_no_direction_has_not_collapsed(void **state)
 {
     const double gradient[9] = {0, 0, 0, 0, 1, 0, 0, 0, -0.5};
     const double without[][3] = {{0, -0.0, 0}, {1, NAN, 0}, {0, 0, INFINITY}};
@@ -223,10 +223,14 @@ static void test_no_direction(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_identity),      cmocka_unit_test(test_translation),
-        cmocka_unit_test(test_linear_map),    cmocka_unit_test(test_local_support),
-        cmocka_unit_test(test_moved_weights), cmocka_unit_test(test_collapse),
-        cmocka_unit_test(test_no_direction),  cmocka_unit_test(test_collapse_to_rounding),
+        cmocka_unit_test(an_undeformed_lattice_moves_nothing),
+        cmocka_unit_test(a_translation_moves_every_point_alike),
+        cmocka_unit_test(linear_maps_carry_points_normals_and_tangents),
+        cmocka_unit_test(a_control_point_acts_in_its_spans_only),
+        cmocka_unit_test(a_moved_weight_moves_points_near_it_only),
+        cmocka_unit_test(a_collapsed_direction_keeps_its_bits),
+        cmocka_unit_test(what_had_no_direction_has_not_collapsed),
+        cmocka_unit_test(a_collapse_to_rounding_counts_as_collapsed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

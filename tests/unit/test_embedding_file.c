@@ -32,7 +32,7 @@ static void assert_hash(hash128 hash, const char *expected)
 }
 
 /* XXH3, 128 bits, seed 0; the values are what libxxhash itself computes. */
-static void test_hash_is_xxh3(void **state)
+static void the_hash_is_xxh3(void **state)
 {
     (void)state;
     assert_hash(ffd_hash(NULL, 0), "99aa06d3014798d86001c324468d497f");
@@ -43,7 +43,7 @@ static void test_hash_is_xxh3(void **state)
     assert_hash(ffd_hash(many, sizeof many), "b92ec02c39d33ce7b418500fc42320ee");
 }
 
-static void test_hash_of_blocks_is_that_of_the_whole(void **state)
+static void the_hash_of_blocks_is_that_of_the_whole(void **state)
 {
     (void)state;
     unsigned char bytes[3000];
@@ -57,7 +57,7 @@ static void test_hash_of_blocks_is_that_of_the_whole(void **state)
     }
 }
 
-static void test_hash_of_doubles_is_that_of_their_bytes(void **state)
+static void the_hash_of_doubles_is_that_of_their_bytes(void **state)
 {
     (void)state;
     double values[1500];
@@ -125,7 +125,7 @@ static void assert_positions(const cloud *mesh, const hash128 *expected, bool sa
     assert_int_equal(ffd_hash_equal(&hash, expected), same);
 }
 
-static void test_positions_are_hashed_the_same_by_any_threads(void **state)
+static void positions_are_hashed_the_same_by_any_threads(void **state)
 {
     (void)state;
     cloud *mesh = make_cloud();
@@ -146,7 +146,7 @@ static void swap_vertices(cloud *mesh, size_t part, size_t a, size_t b)
     }
 }
 
-static void test_other_positions_have_other_hashes(void **state)
+static void other_positions_have_other_hashes(void **state)
 {
     (void)state;
     cloud *mesh = make_cloud();
@@ -177,7 +177,7 @@ static void test_other_positions_have_other_hashes(void **state)
     free(mesh);
 }
 
-static void test_repeated_positions_do_not_count(void **state)
+static void repeated_positions_do_not_count(void **state)
 {
     (void)state;
     cloud *mesh = make_cloud();
@@ -192,7 +192,7 @@ static void test_repeated_positions_do_not_count(void **state)
     free(mesh);
 }
 
-static void test_memory_for_the_hashes_of_tiles(void **state)
+static void hashing_without_memory_is_reported(void **state)
 {
     (void)state;
     cloud *mesh = make_cloud();
@@ -228,7 +228,7 @@ static hash128 hash_of_lattice(const char *members)
     return hash;
 }
 
-static void test_moves_do_not_change_the_rest_lattice(void **state)
+static void moves_do_not_change_the_rest_lattice(void **state)
 {
     (void)state;
     static const char *const same[][2] = {
@@ -248,7 +248,7 @@ static void test_moves_do_not_change_the_rest_lattice(void **state)
     }
 }
 
-static void test_other_rest_lattices_have_other_hashes(void **state)
+static void other_rest_lattices_have_other_hashes(void **state)
 {
     (void)state;
     static const char *const all[] = {
@@ -279,7 +279,7 @@ static void test_other_rest_lattices_have_other_hashes(void **state)
 }
 
 /* A closed direction is held as the equal open one: kind and knots tell them apart. */
-static void test_closed_is_not_open(void **state)
+static void closed_lattices_hash_unlike_open_ones(void **state)
 {
     (void)state;
     static const char points[] =
@@ -299,7 +299,7 @@ static void test_closed_is_not_open(void **state)
 }
 
 /* A ring whose ends meet: where they also meet when deformed, points there have one u,v,w and not two. */
-static void test_seams_that_moves_open(void **state)
+static void a_seam_that_a_move_opens_changes_the_hash(void **state)
 {
     (void)state;
     static const double corner[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
@@ -387,7 +387,7 @@ static void seal(unsigned char *bytes, size_t size)
     memcpy(bytes + size - FOOTER + 32, &content, sizeof content);
 }
 
-static void test_layout(void **state)
+static void a_file_is_header_arrays_and_footer(void **state)
 {
     (void)state;
     size_t size;
@@ -405,7 +405,7 @@ static void test_layout(void **state)
     free(bytes);
 }
 
-static void test_round_trip(void **state)
+static void what_is_written_is_read_back(void **state)
 {
     (void)state;
     static const size_t counts[] = {0, 1, 2, 1000, 70000};
@@ -435,7 +435,7 @@ static void test_round_trip(void **state)
     }
 }
 
-static void test_every_changed_bit_is_refused(void **state)
+static void every_changed_bit_is_refused(void **state)
 {
     (void)state;
     size_t size;
@@ -452,7 +452,7 @@ static void test_every_changed_bit_is_refused(void **state)
     free(bytes);
 }
 
-static void test_every_other_length_is_refused(void **state)
+static void every_other_length_is_refused(void **state)
 {
     (void)state;
     size_t size;
@@ -468,7 +468,7 @@ static void test_every_other_length_is_refused(void **state)
     free(bytes);
 }
 
-static void test_stale_files_are_refused(void **state)
+static void stale_files_are_refused(void **state)
 {
     (void)state;
     embedding_file file;
@@ -484,7 +484,7 @@ static void test_stale_files_are_refused(void **state)
     assert_string_equal(error.file, path);
 }
 
-static void test_other_versions_are_refused(void **state)
+static void other_versions_are_refused(void **state)
 {
     (void)state;
     size_t size;
@@ -504,7 +504,7 @@ static void test_other_versions_are_refused(void **state)
 
 /* Files that somebody made: the hashes hold, the content does not. */
 
-static void test_headers_of_other_arrays_are_refused(void **state)
+static void headers_of_other_arrays_are_refused(void **state)
 {
     (void)state;
     static const char *const texts[] = {
@@ -528,7 +528,7 @@ static void test_headers_of_other_arrays_are_refused(void **state)
 }
 
 /* A count and a header that agree, but not with the file's size. */
-static void test_counts_beyond_the_file_are_refused(void **state)
+static void counts_beyond_the_file_are_refused(void **state)
 {
     (void)state;
     static const uint64_t counts[] = {2, 4, 1u << 20, (uint64_t)1 << 60, ((uint64_t)1 << 63) + 3, UINT64_MAX};
@@ -552,7 +552,7 @@ static void test_counts_beyond_the_file_are_refused(void **state)
     free(bytes);
 }
 
-static void test_statuses_are_looked_at(void **state)
+static void statuses_that_do_not_fit_are_refused(void **state)
 {
     (void)state;
     static const uint8_t unknown[3] = {0, 1, 5}, inside[3] = {0, 0, 2}, multiple[3] = {0, 2, 0};
@@ -576,7 +576,7 @@ static void test_statuses_are_looked_at(void **state)
     free(bytes);
 }
 
-static void test_the_other_byte_order(void **state)
+static void the_other_byte_order_is_read(void **state)
 {
     (void)state;
     size_t size;
@@ -604,7 +604,7 @@ static void test_the_other_byte_order(void **state)
     free(bytes);
 }
 
-static void test_files_that_are_none(void **state)
+static void files_that_are_no_embedding_are_refused(void **state)
 {
     (void)state;
     embedding_file file;
@@ -629,7 +629,7 @@ static void test_files_that_are_none(void **state)
 
 /* The job */
 
-static void test_embed_writes_what_belongs_to_mesh_and_lattice(void **state)
+static void embed_writes_what_belongs_to_mesh_and_lattice(void **state)
 {
     (void)state;
     static const char lattice_text[] = "{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,4,4],"
@@ -678,29 +678,29 @@ static void test_embed_writes_what_belongs_to_mesh_and_lattice(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hash_is_xxh3),
-        cmocka_unit_test(test_hash_of_blocks_is_that_of_the_whole),
-        cmocka_unit_test(test_hash_of_doubles_is_that_of_their_bytes),
-        cmocka_unit_test(test_positions_are_hashed_the_same_by_any_threads),
-        cmocka_unit_test(test_other_positions_have_other_hashes),
-        cmocka_unit_test(test_repeated_positions_do_not_count),
-        cmocka_unit_test(test_memory_for_the_hashes_of_tiles),
-        cmocka_unit_test(test_moves_do_not_change_the_rest_lattice),
-        cmocka_unit_test(test_other_rest_lattices_have_other_hashes),
-        cmocka_unit_test(test_closed_is_not_open),
-        cmocka_unit_test(test_seams_that_moves_open),
-        cmocka_unit_test(test_layout),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_every_changed_bit_is_refused),
-        cmocka_unit_test(test_every_other_length_is_refused),
-        cmocka_unit_test(test_stale_files_are_refused),
-        cmocka_unit_test(test_other_versions_are_refused),
-        cmocka_unit_test(test_headers_of_other_arrays_are_refused),
-        cmocka_unit_test(test_counts_beyond_the_file_are_refused),
-        cmocka_unit_test(test_statuses_are_looked_at),
-        cmocka_unit_test(test_the_other_byte_order),
-        cmocka_unit_test(test_files_that_are_none),
-        cmocka_unit_test(test_embed_writes_what_belongs_to_mesh_and_lattice),
+        cmocka_unit_test(the_hash_is_xxh3),
+        cmocka_unit_test(the_hash_of_blocks_is_that_of_the_whole),
+        cmocka_unit_test(the_hash_of_doubles_is_that_of_their_bytes),
+        cmocka_unit_test(positions_are_hashed_the_same_by_any_threads),
+        cmocka_unit_test(other_positions_have_other_hashes),
+        cmocka_unit_test(repeated_positions_do_not_count),
+        cmocka_unit_test(hashing_without_memory_is_reported),
+        cmocka_unit_test(moves_do_not_change_the_rest_lattice),
+        cmocka_unit_test(other_rest_lattices_have_other_hashes),
+        cmocka_unit_test(closed_lattices_hash_unlike_open_ones),
+        cmocka_unit_test(a_seam_that_a_move_opens_changes_the_hash),
+        cmocka_unit_test(a_file_is_header_arrays_and_footer),
+        cmocka_unit_test(what_is_written_is_read_back),
+        cmocka_unit_test(every_changed_bit_is_refused),
+        cmocka_unit_test(every_other_length_is_refused),
+        cmocka_unit_test(stale_files_are_refused),
+        cmocka_unit_test(other_versions_are_refused),
+        cmocka_unit_test(headers_of_other_arrays_are_refused),
+        cmocka_unit_test(counts_beyond_the_file_are_refused),
+        cmocka_unit_test(statuses_that_do_not_fit_are_refused),
+        cmocka_unit_test(the_other_byte_order_is_read),
+        cmocka_unit_test(files_that_are_no_embedding_are_refused),
+        cmocka_unit_test(embed_writes_what_belongs_to_mesh_and_lattice),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -49,7 +49,7 @@ static void check_near(const double *a, const double *b, size_t count, double to
             fail_msg("entry %zu is %.17g, expected %.17g", i, a[i], b[i]);
 }
 
-static void test_shape(void **state)
+static void getters_return_what_the_lattice_holds(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_UNIFORM, 1, 2, 3, 4, 5, 6);
@@ -78,7 +78,7 @@ static void test_shape(void **state)
     ffd_lattice_destroy(NULL);
 }
 
-static void test_affine_map(void **state)
+static void points_at_greville_abscissae_give_an_affine_map(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_OPEN, 2, 3, 4, 5, 6, 7);
@@ -93,7 +93,7 @@ static void test_affine_map(void **state)
 }
 
 /* C = (u v, v w, u w) by 2 x 2 x 2 control points of degree 1; J by hand, rows are x, y, z. */
-static void test_trilinear(void **state)
+static void degree_one_is_trilinear(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_CLAMPED, 1, 1, 1, 2, 2, 2);
@@ -119,7 +119,7 @@ static void test_trilinear(void **state)
 
 /* The corners of a clamped volume are its corner control points, to the bit; parameters outside go to them.
  */
-static void test_corners_and_clamping(void **state)
+static void corners_are_exact_and_parameters_are_clamped(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_CLAMPED, 3, 2, 9, 7, 5, 12);
@@ -159,7 +159,7 @@ static ffd_lattice *quarter_cylinder(void)
     return lattice;
 }
 
-static void test_rational_circle(void **state)
+static void rational_arcs_are_exact_circles(void **state)
 {
     (void)state;
     ffd_lattice *lattice = quarter_cylinder();
@@ -181,7 +181,7 @@ static void test_rational_circle(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_closed_goes_round(void **state)
+static void a_closed_direction_goes_round(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_CLOSED, 3, 1, 2, 5, 4, 3);
@@ -202,7 +202,7 @@ static void test_closed_goes_round(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_cell_copies(void **state)
+static void a_cell_has_its_points_and_weights_in_order(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_CLOSED, 2, 1, 1, 3, 2, 2);
@@ -230,7 +230,7 @@ static void test_cell_copies(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_difference_and_moved(void **state)
+static void moved_points_and_weights_are_marked(void **state)
 {
     (void)state;
     ffd_lattice *lattice = quarter_cylinder();
@@ -257,7 +257,7 @@ static void test_difference_and_moved(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_diagonal_of_extreme_sizes(void **state)
+static void the_diagonal_survives_extreme_sizes(void **state)
 {
     (void)state;
     const double sizes[] = {1e200, 1e-200, 0};
@@ -278,7 +278,7 @@ static void check_refusal(ffd_lattice *lattice, const char *message)
     assert_string_equal(error.message, message);
 }
 
-static void test_refusals(void **state)
+static void broken_points_and_weights_are_refused(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_CLAMPED, 1, 1, 1, 2, 3, 4);
@@ -314,7 +314,7 @@ static void test_refusals(void **state)
 
 /* Points of a cubic cell are added up with factors of 27 at most: what these make of their numbers must be
    numbers too. */
-static void test_far_points(void **state)
+static void points_too_far_to_compute_with_are_refused(void **state)
 {
     (void)state;
     static const double middle[3] = {0.5, 0.5, 0.5};
@@ -334,7 +334,7 @@ static void test_far_points(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_no_memory(void **state)
+static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
     for (long successes = 0; successes < 2; successes++) {
@@ -348,7 +348,7 @@ static void test_no_memory(void **state)
     }
 }
 
-static void test_without_points(void **state)
+static void evaluating_without_points_gives_nan(void **state)
 {
     (void)state;
     ffd_lattice *lattice = make(KNOTS_CLAMPED, 1, 1, 1, 2, 2, 2);
@@ -366,19 +366,19 @@ static void test_without_points(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shape),
-        cmocka_unit_test(test_affine_map),
-        cmocka_unit_test(test_trilinear),
-        cmocka_unit_test(test_corners_and_clamping),
-        cmocka_unit_test(test_rational_circle),
-        cmocka_unit_test(test_closed_goes_round),
-        cmocka_unit_test(test_cell_copies),
-        cmocka_unit_test(test_difference_and_moved),
-        cmocka_unit_test(test_diagonal_of_extreme_sizes),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_far_points),
-        cmocka_unit_test(test_no_memory),
-        cmocka_unit_test(test_without_points),
+        cmocka_unit_test(getters_return_what_the_lattice_holds),
+        cmocka_unit_test(points_at_greville_abscissae_give_an_affine_map),
+        cmocka_unit_test(degree_one_is_trilinear),
+        cmocka_unit_test(corners_are_exact_and_parameters_are_clamped),
+        cmocka_unit_test(rational_arcs_are_exact_circles),
+        cmocka_unit_test(a_closed_direction_goes_round),
+        cmocka_unit_test(a_cell_has_its_points_and_weights_in_order),
+        cmocka_unit_test(moved_points_and_weights_are_marked),
+        cmocka_unit_test(the_diagonal_survives_extreme_sizes),
+        cmocka_unit_test(broken_points_and_weights_are_refused),
+        cmocka_unit_test(points_too_far_to_compute_with_are_refused),
+        cmocka_unit_test(each_failed_allocation_is_reported),
+        cmocka_unit_test(evaluating_without_points_gives_nan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,7 +88,7 @@ static void far_point(draw *d, double p[3])
         p[a] *= distance / length;
 }
 
-static void test_the_fade(void **state)
+static void the_fade_is_the_quintic_from_one_to_zero(void **state)
 {
     (void)state;
     double slope = 7;
@@ -120,7 +120,7 @@ static void test_the_fade(void **state)
 }
 
 /* Near its end the fade keeps its relative precision: 10 t^3 for small t = 1 - s. */
-static void test_the_fade_is_flat_at_its_end(void **state)
+static void the_fade_is_flat_at_its_ends(void **state)
 {
     (void)state;
     double slope;
@@ -132,7 +132,7 @@ static void test_the_fade_is_flat_at_its_end(void **state)
     }
 }
 
-static void test_the_derivative_by_u_v_w(void **state)
+static void the_derivative_by_uvw_agrees_with_differences(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -167,7 +167,7 @@ static void test_the_derivative_by_u_v_w(void **state)
     }
 }
 
-static void test_what_does_not_move(void **state)
+static void an_undeformed_lattice_moves_no_far_point(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -187,7 +187,7 @@ static void test_what_does_not_move(void **state)
 }
 
 /* Of all points of the border only those near the moved corner act. */
-static void test_local_support(void **state)
+static void only_points_near_the_moved_corner_act(void **state)
 {
     (void)state;
     sample s = make("\"size\":[6,6,6],\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[3,3,3]}},"
@@ -205,7 +205,7 @@ static void test_local_support(void **state)
     clear(&s);
 }
 
-static void test_zero_from_the_falloff_on(void **state)
+static void the_displacement_is_zero_from_the_falloff_on(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -290,7 +290,7 @@ static void check_gradients(const char *members, double falloff, draw *d)
     clear(&s);
 }
 
-static void test_gradients(void **state)
+static void gradients_agree_with_differences(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -325,7 +325,7 @@ static void draw_on_border(const sample *s, draw *d, double p[3], double outward
 }
 
 /* On both sides of the border displacements agree, and so does the gradient along the border. */
-static void test_the_border_is_no_step(void **state)
+static void the_displacement_has_no_step_at_the_border(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -365,14 +365,14 @@ static void test_the_border_is_no_step(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_fade),
-        cmocka_unit_test(test_the_fade_is_flat_at_its_end),
-        cmocka_unit_test(test_the_derivative_by_u_v_w),
-        cmocka_unit_test(test_what_does_not_move),
-        cmocka_unit_test(test_local_support),
-        cmocka_unit_test(test_zero_from_the_falloff_on),
-        cmocka_unit_test(test_gradients),
-        cmocka_unit_test(test_the_border_is_no_step),
+        cmocka_unit_test(the_fade_is_the_quintic_from_one_to_zero),
+        cmocka_unit_test(the_fade_is_flat_at_its_ends),
+        cmocka_unit_test(the_derivative_by_uvw_agrees_with_differences),
+        cmocka_unit_test(an_undeformed_lattice_moves_no_far_point),
+        cmocka_unit_test(only_points_near_the_moved_corner_act),
+        cmocka_unit_test(the_displacement_is_zero_from_the_falloff_on),
+        cmocka_unit_test(gradients_agree_with_differences),
+        cmocka_unit_test(the_displacement_has_no_step_at_the_border),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

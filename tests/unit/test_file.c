@@ -48,7 +48,7 @@ static file_output *begin(const char *name, bool force)
     return output;
 }
 
-static void test_load(void **state)
+static void files_load_and_folders_are_refused(void **state)
 {
     file_input input;
     ffd_error error;
@@ -99,7 +99,7 @@ static void check_loaded(size_t size, bool mapped)
 }
 
 /* Small files are read, but for those that are asked to be mapped. */
-static void test_sizes(void **state)
+static void small_files_are_read_and_large_ones_mapped(void **state)
 {
     enum { SMALL = 1 << 18 };
     check_loaded(1, false);
@@ -111,7 +111,7 @@ static void test_sizes(void **state)
 }
 
 /* What is released is there when it is read. */
-static void test_release_pages(void **state)
+static void released_pages_are_there_when_read_again(void **state)
 {
     enum { SIZE = 100000 };
     char *text = malloc(SIZE + 1);
@@ -150,7 +150,7 @@ static size_t resident_bytes(void)
 }
 
 /* What is gone through is given back in large pieces, and is there when it is read. */
-static void test_release_until(void **state)
+static void releasing_in_pieces_bounds_memory(void **state)
 {
     enum { SIZE = 20000000, STEP = 700001, PIECE = 1 << 23 };
     file_input input;
@@ -173,7 +173,7 @@ static void test_release_until(void **state)
     (void)state;
 }
 
-static void test_load_within(void **state)
+static void no_file_outside_the_folder_is_loaded(void **state)
 {
     file_input input;
     ffd_error error;
@@ -194,7 +194,7 @@ static void test_load_within(void **state)
     (void)state;
 }
 
-static void test_appears_when_committed(void **state)
+static void a_file_appears_only_when_committed(void **state)
 {
     file_output *output = begin("new.txt", false);
     assert_int_equal(ffd_output_write(output, "hello", 5, NULL), FFD_OK);
@@ -209,7 +209,7 @@ static void test_appears_when_committed(void **state)
 }
 
 /* Sizes around those at which bytes are held back or written straight, into two files of a set. */
-static void test_pieces_of_any_size(void **state)
+static void pieces_of_any_size_are_written_whole(void **state)
 {
     enum { HELD = 1 << 16, LARGEST = 3 * HELD + 1, PIECES = 60 };
     static const size_t sizes[] = {0, 1, 100, HELD - 1, HELD, HELD + 1, LARGEST};
@@ -253,7 +253,7 @@ static int next_descriptor(void)
     return fd;
 }
 
-static void test_dropped(void **state)
+static void a_dropped_output_leaves_the_old_file(void **state)
 {
     const int next = next_descriptor();
     put_text("old.txt", "old");
@@ -266,7 +266,7 @@ static void test_dropped(void **state)
     (void)state;
 }
 
-static void test_refusals(void **state)
+static void targets_that_cannot_be_written_are_refused(void **state)
 {
     file_output *output;
     ffd_error error;
@@ -285,7 +285,7 @@ static void test_refusals(void **state)
 }
 
 /* A temporary file that a killed run left is taken over; one of a living run is not. */
-static void test_leftover_and_lock(void **state)
+static void a_leftover_is_taken_over_but_not_a_locked_one(void **state)
 {
     ffd_error error;
     put_text(".locked.txt.ffd-tmp", "left by a run that was killed, and longer than what comes now");
@@ -301,7 +301,7 @@ static void test_leftover_and_lock(void **state)
     (void)state;
 }
 
-static void test_permissions_and_links(void **state)
+static void permissions_and_links_are_kept(void **state)
 {
     struct stat info;
     put_text("mode.txt", "old");
@@ -320,7 +320,7 @@ static void test_permissions_and_links(void **state)
 }
 
 /* What a run left has the bits of the target that it was for. */
-static void test_bits_of_a_leftover(void **state)
+static void a_leftover_gets_the_mode_of_its_target(void **state)
 {
     struct stat info;
     put_text(".fresh.txt.ffd-tmp", "left");
@@ -375,7 +375,7 @@ static void keep_equal(const char *a, const char *b, bool *replaced)
     assert_false(ffd_file_exists(in_folder(".keep-a.txt.ffd-tmp")));
 }
 
-static void test_keep_equal(void **state)
+static void equal_outputs_leave_the_old_files(void **state)
 {
     enum { LARGE = 9000000 };
     char *text = malloc(LARGE + 1);
@@ -400,7 +400,7 @@ static void test_keep_equal(void **state)
 }
 
 /* Several files appear together, large ones in many blocks. */
-static void test_set(void **state)
+static void files_of_a_set_are_all_committed(void **state)
 {
     enum { SIZE = 1000003 };
     unsigned char *bytes = malloc(SIZE);
@@ -427,7 +427,7 @@ static void test_set(void **state)
     (void)state;
 }
 
-static void test_folders(void **state)
+static void new_folders_go_unless_committed(void **state)
 {
     (void)state;
     for (int commit = 0; commit < 2; commit++) {
@@ -450,7 +450,7 @@ static void test_folders(void **state)
     assert_true(ffd_file_exists(in_folder("new/a/b/file")));
 }
 
-static void test_full_disk(void **state)
+static void a_full_disk_is_reported(void **state)
 {
     file_output *output;
     ffd_error error;
@@ -465,7 +465,7 @@ static void test_full_disk(void **state)
 }
 
 /* Whether the bytes have arrived is asked before the old file is replaced. */
-static void test_disk_that_is_full_at_the_close(void **state)
+static void a_failed_close_leaves_the_old_file(void **state)
 {
     ffd_error error;
     put_text("late.txt", "old");
@@ -496,7 +496,7 @@ static void write_file(const char *name, bool force, written_files *written, ffd
 }
 
 /* A file is known by whatever name leads to it, and one that others have put in its place is not it. */
-static void test_written(void **state)
+static void written_files_are_known_by_any_name(void **state)
 {
     written_files written = {0};
     char link_path[4096];
@@ -531,24 +531,24 @@ static void test_written(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_load),
-        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_release_pages),
-        cmocka_unit_test(test_release_until),
-        cmocka_unit_test(test_load_within),
-        cmocka_unit_test(test_appears_when_committed),
-        cmocka_unit_test(test_pieces_of_any_size),
-        cmocka_unit_test(test_dropped),
-        cmocka_unit_test(test_refusals),
-        cmocka_unit_test(test_leftover_and_lock),
-        cmocka_unit_test(test_permissions_and_links),
-        cmocka_unit_test(test_bits_of_a_leftover),
-        cmocka_unit_test(test_keep_equal),
-        cmocka_unit_test(test_set),
-        cmocka_unit_test(test_written),
-        cmocka_unit_test(test_folders),
-        cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_disk_that_is_full_at_the_close),
+        cmocka_unit_test(files_load_and_folders_are_refused),
+        cmocka_unit_test(small_files_are_read_and_large_ones_mapped),
+        cmocka_unit_test(released_pages_are_there_when_read_again),
+        cmocka_unit_test(releasing_in_pieces_bounds_memory),
+        cmocka_unit_test(no_file_outside_the_folder_is_loaded),
+        cmocka_unit_test(a_file_appears_only_when_committed),
+        cmocka_unit_test(pieces_of_any_size_are_written_whole),
+        cmocka_unit_test(a_dropped_output_leaves_the_old_file),
+        cmocka_unit_test(targets_that_cannot_be_written_are_refused),
+        cmocka_unit_test(a_leftover_is_taken_over_but_not_a_locked_one),
+        cmocka_unit_test(permissions_and_links_are_kept),
+        cmocka_unit_test(a_leftover_gets_the_mode_of_its_target),
+        cmocka_unit_test(equal_outputs_leave_the_old_files),
+        cmocka_unit_test(files_of_a_set_are_all_committed),
+        cmocka_unit_test(written_files_are_known_by_any_name),
+        cmocka_unit_test(new_folders_go_unless_committed),
+        cmocka_unit_test(a_full_disk_is_reported),
+        cmocka_unit_test(a_failed_close_leaves_the_old_file),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

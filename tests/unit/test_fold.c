@@ -331,7 +331,7 @@ static void assert_none_at_rest(ffd_lattice *lattice, int sign)
 
 /* Volumes that do not fold */
 
-static void test_identity(void **state)
+static void the_identity_and_its_mirror_have_no_folds(void **state)
 {
     (void)state;
     const knot_kind kind[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM};
@@ -348,7 +348,7 @@ static void test_identity(void **state)
                 assert_true(folds.min_det > 1 - 1e-8 && folds.min_det <= 1);
                 ffd_lattice_destroy(&lattice);
             }
-    if (is_under_valgrind()) /* test_rest_shapes has a lattice of such degrees */
+    if (is_under_valgrind()) /* undeformed_shapes_have_no_folds has a lattice of such degrees */
         return;
     const kinds nine = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {9, 9, 9}, {10, 10, 10}};
     ffd_lattice *lattice = mapped(&nine, identity);
@@ -357,7 +357,7 @@ static void test_identity(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_rest_shapes(void **state)
+static void undeformed_shapes_have_no_folds(void **state)
 {
     (void)state;
     const kinds shapes[] = {
@@ -379,7 +379,7 @@ static void test_rest_shapes(void **state)
 }
 
 /* C0 knots, and control points of lattices as files give them. */
-static void test_rest_files(void **state)
+static void a_kink_at_a_c0_knot_folds_one_side_only(void **state)
 {
     (void)state;
     ffd_lattice *lattice =
@@ -408,7 +408,7 @@ static bool has_long_double(void)
     return 1 + small != 1;
 }
 
-static void test_sizes(void **state)
+static void the_verdict_does_not_depend_on_size(void **state)
 {
     (void)state;
     static const double box[][6] = {{0, 0, 0, 1e-6, 1, 1},
@@ -434,7 +434,7 @@ static void test_sizes(void **state)
 }
 
 /* A thin box whose sides are not along the coordinate axes. */
-static void test_thin_and_turned(void **state)
+static void a_thin_turned_box_has_no_folds(void **state)
 {
     (void)state;
     const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {3, 3, 3}, {5, 5, 5}};
@@ -449,7 +449,7 @@ static void test_thin_and_turned(void **state)
 
 /* Weights */
 
-static void test_weights(void **state)
+static void verdicts_with_weights_agree_with_samples(void **state)
 {
     (void)state;
     draw d = {5};
@@ -486,7 +486,7 @@ static void test_weights(void **state)
 }
 
 /* Weights that are all equal change nothing. */
-static void test_equal_weights(void **state)
+static void equal_weights_change_nothing(void **state)
 {
     (void)state;
     const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 3}, {5, 4, 4}};
@@ -518,7 +518,7 @@ static ffd_lattice *one_point_moved(double move, bool mirrored)
     return lattice;
 }
 
-static void test_one_cell_of_a_thousand(void **state)
+static void one_folded_cell_of_a_thousand_is_found(void **state)
 {
     (void)state;
     for (int mirrored = 0; mirrored < 2; mirrored++)
@@ -540,7 +540,7 @@ static void test_one_cell_of_a_thousand(void **state)
         }
 }
 
-static void test_a_hair_before_folding(void **state)
+static void a_hair_before_folding_is_no_fold(void **state)
 {
     (void)state;
     for (int mirrored = 0; mirrored < 2; mirrored++)
@@ -555,7 +555,7 @@ static void test_a_hair_before_folding(void **state)
 }
 
 /* The least determinant at a corner: decided down to the rounding of one coefficient. */
-static void test_a_hair_at_a_corner(void **state)
+static void a_hair_at_a_corner_is_decided(void **state)
 {
     (void)state;
     static const double hair[] = {1e-6, 1e-10, 1e-12, 5e-13};
@@ -575,7 +575,7 @@ static void test_a_hair_at_a_corner(void **state)
 }
 
 /* det = 0 in one point and positive round it: nobody can tell, and nobody says "none". */
-static void test_exactly_on_the_edge(void **state)
+static void exactly_on_the_edge_is_never_called_free(void **state)
 {
     (void)state;
     ffd_lattice *lattice = one_point_moved(8.0 / 3, false);
@@ -594,7 +594,7 @@ static void test_exactly_on_the_edge(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_too_few_boxes(void **state)
+static void too_few_boxes_leave_a_cell_unknown(void **state)
 {
     (void)state;
     ffd_lattice *lattice = one_point_moved(8.0 / 3 * (1 - 1e-6), false);
@@ -616,7 +616,7 @@ static void test_too_few_boxes(void **state)
 }
 
 /* A fold in the closed direction's seam, and where a lattice meets itself again. */
-static void test_folds_at_the_seam(void **state)
+static void folds_at_the_seam_are_found(void **state)
 {
     (void)state;
     const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLOSED, KNOTS_CLAMPED}, {2, 2, 1}, {3, 10, 2}};
@@ -633,7 +633,7 @@ static void test_folds_at_the_seam(void **state)
     }
 }
 
-static void test_flat_and_mirrored(void **state)
+static void flat_and_mirrored_volumes_fold_everywhere(void **state)
 {
     (void)state;
     static const struct {
@@ -668,7 +668,7 @@ static void test_flat_and_mirrored(void **state)
         }
 }
 
-static void test_random_points(void **state)
+static void random_control_points_are_found_to_fold(void **state)
 {
     (void)state;
     draw d = {3};
@@ -708,7 +708,7 @@ static const char *const cylinder_text =
     ","
     "\"axis\":[1,%d,3],\"radius\":[0,2],\"height\":5,\"angle\":[0,360]}},\"moves\":[%s]}";
 
-static void test_collapsed_axis(void **state)
+static void a_collapsed_axis_is_no_fold(void **state)
 {
     (void)state;
     static const char *const moves[] = {
@@ -736,7 +736,7 @@ static void test_collapsed_axis(void **state)
             }
 }
 
-static void test_torn_axis(void **state)
+static void a_torn_axis_is_a_fold(void **state)
 {
     (void)state;
     static const char *const moves[] = {
@@ -754,7 +754,7 @@ static void test_torn_axis(void **state)
 }
 
 /* The axis' ring turned inside out, or opened to a tube: by much, and by a hair. */
-static void test_axis_pushed_through(void **state)
+static void an_axis_folds_inside_out_but_not_opened(void **state)
 {
     (void)state;
     static const double radius[] = {0.2, -0.2, 1e-6, -1e-6, 1e-9, -1e-9, 1e-11, -1e-11};
@@ -782,7 +782,7 @@ static void test_axis_pushed_through(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_balls(void **state)
+static void a_ball_folds_only_when_its_pole_is_pushed_in(void **state)
 {
     (void)state;
     const kinds shapes[] = {
@@ -812,7 +812,7 @@ static void test_balls(void **state)
 }
 
 /* A quarter of a solid cylinder, exact by weights: its axis is no line of equal homogeneous points. */
-static void test_rational_quarter(void **state)
+static void a_rational_quarter_folds_only_when_its_axis_tears(void **state)
 {
     (void)state;
     const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 2, 1}, {2, 3, 2}};
@@ -842,7 +842,7 @@ static void test_rational_quarter(void **state)
 }
 
 /* The rest volume is 0 across an inner plane too: that is no border. */
-static void test_zero_inside(void **state)
+static void a_volume_that_is_zero_inside_is_never_called_free(void **state)
 {
     (void)state;
     const kinds shape = {{KNOTS_CLAMPED, KNOTS_CLAMPED, KNOTS_CLAMPED}, {1, 1, 1}, {2, 3, 2}};
@@ -864,7 +864,7 @@ static double random_size(draw *d)
     return draw_between(d, -1, 1);
 }
 
-static void test_bernstein(void **state)
+static void bernstein_products_and_parts_keep_their_values(void **state)
 {
     (void)state;
     draw d = {11};
@@ -915,7 +915,7 @@ static void test_bernstein(void **state)
 
 /* Errors */
 
-static void test_needs_bounds(void **state)
+static void a_lattice_without_bounds_is_refused(void **state)
 {
     (void)state;
     ffd_lattice *lattice = parsed("{\"format\":\"ffd-lattice\",\"version\":1,\"size\":[4,4,4],"
@@ -931,7 +931,7 @@ static void test_needs_bounds(void **state)
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_no_memory(void **state)
+static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
     const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED}, {3, 2, 1}, {9, 9, 9}};
@@ -957,30 +957,30 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bernstein),
-        cmocka_unit_test(test_identity),
-        cmocka_unit_test(test_rest_shapes),
-        cmocka_unit_test(test_rest_files),
-        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_thin_and_turned),
-        cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_equal_weights),
-        cmocka_unit_test(test_one_cell_of_a_thousand),
-        cmocka_unit_test(test_a_hair_before_folding),
-        cmocka_unit_test(test_a_hair_at_a_corner),
-        cmocka_unit_test(test_exactly_on_the_edge),
-        cmocka_unit_test(test_too_few_boxes),
-        cmocka_unit_test(test_folds_at_the_seam),
-        cmocka_unit_test(test_flat_and_mirrored),
-        cmocka_unit_test(test_random_points),
-        cmocka_unit_test(test_collapsed_axis),
-        cmocka_unit_test(test_torn_axis),
-        cmocka_unit_test(test_axis_pushed_through),
-        cmocka_unit_test(test_balls),
-        cmocka_unit_test(test_rational_quarter),
-        cmocka_unit_test(test_zero_inside),
-        cmocka_unit_test(test_needs_bounds),
-        cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(bernstein_products_and_parts_keep_their_values),
+        cmocka_unit_test(the_identity_and_its_mirror_have_no_folds),
+        cmocka_unit_test(undeformed_shapes_have_no_folds),
+        cmocka_unit_test(a_kink_at_a_c0_knot_folds_one_side_only),
+        cmocka_unit_test(the_verdict_does_not_depend_on_size),
+        cmocka_unit_test(a_thin_turned_box_has_no_folds),
+        cmocka_unit_test(verdicts_with_weights_agree_with_samples),
+        cmocka_unit_test(equal_weights_change_nothing),
+        cmocka_unit_test(one_folded_cell_of_a_thousand_is_found),
+        cmocka_unit_test(a_hair_before_folding_is_no_fold),
+        cmocka_unit_test(a_hair_at_a_corner_is_decided),
+        cmocka_unit_test(exactly_on_the_edge_is_never_called_free),
+        cmocka_unit_test(too_few_boxes_leave_a_cell_unknown),
+        cmocka_unit_test(folds_at_the_seam_are_found),
+        cmocka_unit_test(flat_and_mirrored_volumes_fold_everywhere),
+        cmocka_unit_test(random_control_points_are_found_to_fold),
+        cmocka_unit_test(a_collapsed_axis_is_no_fold),
+        cmocka_unit_test(a_torn_axis_is_a_fold),
+        cmocka_unit_test(an_axis_folds_inside_out_but_not_opened),
+        cmocka_unit_test(a_ball_folds_only_when_its_pole_is_pushed_in),
+        cmocka_unit_test(a_rational_quarter_folds_only_when_its_axis_tears),
+        cmocka_unit_test(a_volume_that_is_zero_inside_is_never_called_free),
+        cmocka_unit_test(a_lattice_without_bounds_is_refused),
+        cmocka_unit_test(each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -160,7 +160,7 @@ static ffd_status fake_info(fake_document *fake, json_facts **json, ffd_error *e
     return status;
 }
 
-static void test_document(void **state)
+static void a_document_is_summed_up_over_its_parts(void **state)
 {
     (void)state;
     fake_document fake = make_fake();
@@ -181,7 +181,7 @@ static void test_document(void **state)
     facts_free(json);
 }
 
-static void test_repeated_positions_count_once(void **state)
+static void repeated_positions_count_once(void **state)
 {
     (void)state;
     fake_document fake = make_fake();
@@ -194,7 +194,7 @@ static void test_repeated_positions_count_once(void **state)
     facts_free(json);
 }
 
-static void test_faces_that_cannot_be_shown(void **state)
+static void unsupported_faces_leave_topology_unknown(void **state)
 {
     (void)state;
     fake_document fake = make_fake();
@@ -212,7 +212,7 @@ static void test_faces_that_cannot_be_shown(void **state)
     assert_string_equal(error.message, "these faces are too odd");
 }
 
-static void test_no_finite_vertex(void **state)
+static void no_finite_vertex_means_no_bounds(void **state)
 {
     (void)state;
     fake_document fake = make_fake();
@@ -236,7 +236,7 @@ static char *rendered(const char *json)
     return text;
 }
 
-static void test_text_of_json(void **state)
+static void json_becomes_aligned_text(void **state)
 {
     (void)state;
     char *text =
@@ -266,7 +266,7 @@ static void test_text_of_json(void **state)
 static const char cube[] = "o cube\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 2\nv 1 0 2\nv 0 1 2\nv 1 1 2\n"
                            "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
 
-static void test_obj_file(void **state)
+static void an_obj_file_is_described(void **state)
 {
     (void)state;
     put_text("cube.obj", cube);
@@ -302,7 +302,7 @@ static void assert_told(const char *text, const char *line_name, const char *val
     fail_msg("no line \"%s  %s\" in\n%s", line_name, value, text);
 }
 
-static void test_obj_file_as_text(void **state)
+static void an_obj_file_is_described_as_text(void **state)
 {
     (void)state;
     put_text("cube.obj", cube);
@@ -317,7 +317,7 @@ static void test_obj_file_as_text(void **state)
     ffd_text_free(text);
 }
 
-static void test_names_that_are_not_utf8(void **state)
+static void names_that_are_not_utf8_are_shown_as_utf8(void **state)
 {
     (void)state;
     put_text("caf\xe9.obj", "v 0 0 0\n");
@@ -330,7 +330,7 @@ static void test_names_that_are_not_utf8(void **state)
     }
 }
 
-static void test_files_that_cannot_be_told(void **state)
+static void unknown_absent_and_broken_files_are_refused(void **state)
 {
     (void)state;
     ffd_error error;
@@ -351,7 +351,7 @@ static void test_files_that_cannot_be_told(void **state)
 
 #define LATTICE "{\"format\": \"ffd-lattice\", \"version\": 1, "
 
-static void test_box_lattice(void **state)
+static void a_box_lattice_is_described(void **state)
 {
     (void)state;
     put_text("box.json",
@@ -388,7 +388,7 @@ static void test_box_lattice(void **state)
     ffd_text_free(text);
 }
 
-static void test_cylinder_lattice(void **state)
+static void a_cylinder_lattice_is_described(void **state)
 {
     (void)state;
     put_text("cylinder.json", LATTICE
@@ -403,7 +403,7 @@ static void test_cylinder_lattice(void **state)
     facts_free(json);
 }
 
-static void test_rational_points_lattice(void **state)
+static void a_rational_lattice_of_points_is_described(void **state)
 {
     (void)state;
     put_text("points.json", LATTICE
@@ -420,7 +420,7 @@ static void test_rational_points_lattice(void **state)
     facts_free(json);
 }
 
-static void test_lattice_of_a_mesh(void **state)
+static void a_lattice_awaiting_its_mesh_has_no_bounds(void **state)
 {
     (void)state;
     put_text("mesh.json", LATTICE "\"size\": [4, 4, 4], \"rest\": {\"box\": \"mesh\"},"
@@ -438,7 +438,7 @@ static void test_lattice_of_a_mesh(void **state)
 }
 
 /* A lattice without volume is described all the same. */
-static void test_lattice_that_cannot_be_inverted(void **state)
+static void a_lattice_without_volume_is_described(void **state)
 {
     (void)state;
     put_text("flat.json",
@@ -451,7 +451,7 @@ static void test_lattice_that_cannot_be_inverted(void **state)
     facts_free(json);
 }
 
-static void test_lattice_new(void **state)
+static void a_new_lattice_fits_its_mesh_and_margin(void **state)
 {
     (void)state;
     char mesh[128];
@@ -483,7 +483,7 @@ static void test_lattice_new(void **state)
     assert_int_equal(access(in_folder("none.json"), F_OK), -1);
 }
 
-static void test_memory_runs_out(void **state)
+static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
     put_text("cube.obj", cube);
@@ -507,22 +507,22 @@ static void test_memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_document),
-        cmocka_unit_test(test_repeated_positions_count_once),
-        cmocka_unit_test(test_faces_that_cannot_be_shown),
-        cmocka_unit_test(test_no_finite_vertex),
-        cmocka_unit_test(test_text_of_json),
-        cmocka_unit_test(test_obj_file),
-        cmocka_unit_test(test_obj_file_as_text),
-        cmocka_unit_test(test_names_that_are_not_utf8),
-        cmocka_unit_test(test_files_that_cannot_be_told),
-        cmocka_unit_test(test_box_lattice),
-        cmocka_unit_test(test_cylinder_lattice),
-        cmocka_unit_test(test_rational_points_lattice),
-        cmocka_unit_test(test_lattice_of_a_mesh),
-        cmocka_unit_test(test_lattice_that_cannot_be_inverted),
-        cmocka_unit_test(test_lattice_new),
-        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(a_document_is_summed_up_over_its_parts),
+        cmocka_unit_test(repeated_positions_count_once),
+        cmocka_unit_test(unsupported_faces_leave_topology_unknown),
+        cmocka_unit_test(no_finite_vertex_means_no_bounds),
+        cmocka_unit_test(json_becomes_aligned_text),
+        cmocka_unit_test(an_obj_file_is_described),
+        cmocka_unit_test(an_obj_file_is_described_as_text),
+        cmocka_unit_test(names_that_are_not_utf8_are_shown_as_utf8),
+        cmocka_unit_test(unknown_absent_and_broken_files_are_refused),
+        cmocka_unit_test(a_box_lattice_is_described),
+        cmocka_unit_test(a_cylinder_lattice_is_described),
+        cmocka_unit_test(a_rational_lattice_of_points_is_described),
+        cmocka_unit_test(a_lattice_awaiting_its_mesh_has_no_bounds),
+        cmocka_unit_test(a_lattice_without_volume_is_described),
+        cmocka_unit_test(a_new_lattice_fits_its_mesh_and_margin),
+        cmocka_unit_test(each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -67,7 +67,7 @@ static void refuse(const ffd_deform_desc *desc)
     assert_int_not_equal(access(output, F_OK), 0);
 }
 
-static void test_descriptions(void **state)
+static void wrong_descriptions_are_refused(void **state)
 {
     ffd_deform_desc desc = describe();
     desc.struct_size--;
@@ -96,7 +96,7 @@ static void test_descriptions(void **state)
 }
 
 /* Figures that cost are there when they are asked for. */
-static void test_figures(void **state)
+static void costly_figures_are_there_when_asked_for(void **state)
 {
     ffd_job_result result;
     ffd_deform_desc desc = describe();
@@ -169,7 +169,7 @@ static ffd_status run_with_depfile(const ffd_deform_desc *desc, ffd_job_result *
     return status;
 }
 
-static void test_depfile(void **state)
+static void a_depfile_names_output_and_inputs(void **state)
 {
     ffd_deform_desc desc = describe();
     ffd_job_result result;
@@ -189,7 +189,7 @@ static void test_depfile(void **state)
     (void)state;
 }
 
-static void test_memory(void **state)
+static void each_failed_allocation_is_reported(void **state)
 {
     ffd_deform_desc desc = describe();
     unlink(output);
@@ -209,7 +209,7 @@ static void test_memory(void **state)
 }
 
 /* Only what a selector names is counted; a kind or name that is not there is the caller's mistake. */
-static void test_selection(void **state)
+static void only_what_a_selector_names_is_counted(void **state)
 {
     ffd_job_result result;
     ffd_deform_desc desc = describe();
@@ -236,8 +236,11 @@ static void test_selection(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_descriptions), cmocka_unit_test(test_figures),   cmocka_unit_test(test_depfile),
-        cmocka_unit_test(test_memory),       cmocka_unit_test(test_selection),
+        cmocka_unit_test(wrong_descriptions_are_refused),
+        cmocka_unit_test(costly_figures_are_there_when_asked_for),
+        cmocka_unit_test(a_depfile_names_output_and_inputs),
+        cmocka_unit_test(each_failed_allocation_is_reported),
+        cmocka_unit_test(only_what_a_selector_names_is_counted),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

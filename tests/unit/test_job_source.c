@@ -44,7 +44,7 @@ static void check_words(const batch_frame *frame, const char *text, const char *
     ffd_job_free(&job);
 }
 
-static void test_words(void **state)
+static void a_job_becomes_words_and_content(void **state)
 {
     const batch_frame frame = {.name = "m", .folder = "f"}, here = {.name = "m", .folder = ""};
     check_words(&frame, "{\"in\": \"a.obj\", \"lattice\": \"l.json\", \"out\": \"o/b.obj\"}",
@@ -66,7 +66,7 @@ static void test_words(void **state)
 }
 
 /* A job's own options come in the place of the batch's. */
-static void test_defaults(void **state)
+static void a_jobs_own_options_replace_the_batchs(void **state)
 {
     static const batch_default defaults[] = {
         {"normals", "keep"}, {"force", NULL}, {"set", "A=1"}, {"set", "B=2"}};
@@ -83,7 +83,7 @@ static void test_defaults(void **state)
     (void)state;
 }
 
-static void test_refused(void **state)
+static void broken_jobs_are_refused(void **state)
 {
     static const struct {
         const char *text, *says;
@@ -147,7 +147,7 @@ static const char *listed(const job_source_desc *desc)
 
 #define JOB(in) "{\"in\": \"" in "\", \"lattice\": \"l\", \"out\": \"o\"}"
 
-static void test_manifest(void **state)
+static void shards_share_out_the_lines_of_a_manifest(void **state)
 {
     put_text("m.jsonl", "\xef\xbb\xbf" JOB("a") "\n\n \t\r\n" JOB("b") "\r\nnothing\n" JOB("c"));
     const char *const path = in_folder("m.jsonl");
@@ -164,7 +164,7 @@ static void test_manifest(void **state)
 }
 
 /* A line without end costs no more memory than is said. */
-static void test_long_line(void **state)
+static void a_line_too_long_is_refused_and_skipped(void **state)
 {
     const size_t size = LINE_MOST + 100;
     char *text = malloc(size);
@@ -178,7 +178,7 @@ static void test_long_line(void **state)
     (void)state;
 }
 
-static void test_table(void **state)
+static void rows_of_a_table_become_jobs(void **state)
 {
     put_text("t.csv",
              "in,out,A,\"B \"\"2\"\"\"\na,o1,1,x\n\n\"b\",o2,\"[1,\n2]\",\"y,z\"\nc,o3,1\nd\"e,o,1,2\n");
@@ -217,7 +217,7 @@ static void test_table(void **state)
     (void)state;
 }
 
-static void test_pattern(void **state)
+static void files_of_a_pattern_come_sorted(void **state)
 {
     static const char *const lattices[] = {"l.json"};
     put_text("g2.obj", "");
@@ -239,9 +239,13 @@ static void test_pattern(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_words),    cmocka_unit_test(test_defaults),  cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_manifest), cmocka_unit_test(test_long_line), cmocka_unit_test(test_table),
-        cmocka_unit_test(test_pattern),
+        cmocka_unit_test(a_job_becomes_words_and_content),
+        cmocka_unit_test(a_jobs_own_options_replace_the_batchs),
+        cmocka_unit_test(broken_jobs_are_refused),
+        cmocka_unit_test(shards_share_out_the_lines_of_a_manifest),
+        cmocka_unit_test(a_line_too_long_is_refused_and_skipped),
+        cmocka_unit_test(rows_of_a_table_become_jobs),
+        cmocka_unit_test(files_of_a_pattern_come_sorted),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

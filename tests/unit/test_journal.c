@@ -44,7 +44,7 @@ static job_journal *opened(const char *path)
 }
 
 /* More than the first table has room for, some of them twice. */
-static void test_records(void **state)
+static void records_are_found_after_reopening(void **state)
 {
     const unsigned count = 5000;
     job_journal *journal = opened(in_folder("made/too/journal"));
@@ -70,7 +70,7 @@ static void test_records(void **state)
 }
 
 /* Cut off anywhere, or with bytes that are not what was written: what is found is right, or nothing is. */
-static void test_damage(void **state)
+static void a_damaged_journal_never_gives_a_wrong_record(void **state)
 {
     const unsigned count = 40, seed = (unsigned)time(NULL);
     static char bytes[1 << 17];
@@ -108,7 +108,7 @@ static void test_damage(void **state)
     (void)state;
 }
 
-static void test_not_a_journal(void **state)
+static void a_file_that_is_no_journal_is_refused(void **state)
 {
     job_journal *journal;
     put_text("letter", "Dear Sir or Madam,");
@@ -118,7 +118,7 @@ static void test_not_a_journal(void **state)
     (void)state;
 }
 
-static void test_place(void **state)
+static void each_manifest_and_share_has_one_default_path(void **state)
 {
     assert_int_equal(setenv("XDG_CACHE_HOME", folder, 1), 0);
     char *a = ffd_journal_default_path("jobs.jsonl", 0, 1), *b = ffd_journal_default_path("jobs.jsonl", 0, 2),
@@ -135,10 +135,10 @@ static void test_place(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_records),
-        cmocka_unit_test(test_damage),
-        cmocka_unit_test(test_not_a_journal),
-        cmocka_unit_test(test_place),
+        cmocka_unit_test(records_are_found_after_reopening),
+        cmocka_unit_test(a_damaged_journal_never_gives_a_wrong_record),
+        cmocka_unit_test(a_file_that_is_no_journal_is_refused),
+        cmocka_unit_test(each_manifest_and_share_has_one_default_path),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -33,7 +33,7 @@ static knot_vector make_list(knot_kind kind, int degree, size_t points, const do
     return knots;
 }
 
-static void test_clamped(void **state)
+static void clamped_knots_repeat_at_both_ends(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_CLAMPED, 3, 6);
@@ -47,7 +47,7 @@ static void test_clamped(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_open(void **state)
+static void open_knots_run_on_evenly_beyond_the_domain(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_OPEN, 2, 5);
@@ -55,7 +55,7 @@ static void test_open(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_uniform(void **state)
+static void uniform_knots_divide_zero_to_one(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_UNIFORM, 3, 7);
@@ -66,7 +66,7 @@ static void test_uniform(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_closed(void **state)
+static void closed_knots_reuse_the_first_control_points(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_CLOSED, 3, 4);
@@ -79,7 +79,7 @@ static void test_closed(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_closed_list(void **state)
+static void a_closed_list_repeats_its_period(void **state)
 {
     (void)state;
     const double list[] = {10, 11, 11, 14, 18};
@@ -98,7 +98,7 @@ static void test_closed_list(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_domain_ends_of_presets(void **state)
+static void presets_have_exact_domain_ends(void **state)
 {
     (void)state;
     for (int degree = 1; degree <= MAX_DEGREE; degree++)
@@ -119,7 +119,7 @@ static void test_domain_ends_of_presets(void **state)
         }
 }
 
-static void test_repeated_knots(void **state)
+static void repeated_knots_bound_no_empty_span(void **state)
 {
     (void)state;
     /* First d+1 times from index 1, inside d times, last d times. */
@@ -135,7 +135,7 @@ static void test_repeated_knots(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_span_rule(void **state)
+static void a_knot_belongs_to_the_span_it_begins(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_CLAMPED, 3, 7);
@@ -150,7 +150,7 @@ static void test_span_rule(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_wrap(void **state)
+static void parameters_are_clamped_or_go_round(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_UNIFORM, 3, 7);
@@ -181,7 +181,7 @@ static void test_wrap(void **state)
     ffd_knots_free(&knots);
 }
 
-static void test_greville(void **state)
+static void greville_abscissae_of_equal_knots_are_exact(void **state)
 {
     (void)state;
     knot_vector knots = make(KNOTS_CLAMPED, 3, 5);
@@ -370,7 +370,7 @@ static const refusal refusals[] = {
      "direction v: breakpoints 0 and 1, 0 and 1e-310, are too close"},
 };
 
-static void test_refusals(void **state)
+static void broken_knots_are_refused(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(refusals); i++) {
@@ -392,7 +392,7 @@ static void test_refusals(void **state)
     }
 }
 
-static void test_no_memory(void **state)
+static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
     for (long successes = 0; successes < 2; successes++) {
@@ -410,12 +410,18 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_clamped),        cmocka_unit_test(test_open),
-        cmocka_unit_test(test_uniform),        cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_closed_list),    cmocka_unit_test(test_domain_ends_of_presets),
-        cmocka_unit_test(test_repeated_knots), cmocka_unit_test(test_span_rule),
-        cmocka_unit_test(test_wrap),           cmocka_unit_test(test_greville),
-        cmocka_unit_test(test_refusals),       cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(clamped_knots_repeat_at_both_ends),
+        cmocka_unit_test(open_knots_run_on_evenly_beyond_the_domain),
+        cmocka_unit_test(uniform_knots_divide_zero_to_one),
+        cmocka_unit_test(closed_knots_reuse_the_first_control_points),
+        cmocka_unit_test(a_closed_list_repeats_its_period),
+        cmocka_unit_test(presets_have_exact_domain_ends),
+        cmocka_unit_test(repeated_knots_bound_no_empty_span),
+        cmocka_unit_test(a_knot_belongs_to_the_span_it_begins),
+        cmocka_unit_test(parameters_are_clamped_or_go_round),
+        cmocka_unit_test(greville_abscissae_of_equal_knots_are_exact),
+        cmocka_unit_test(broken_knots_are_refused),
+        cmocka_unit_test(each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
