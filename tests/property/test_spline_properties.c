@@ -112,7 +112,7 @@ static void check_partition(draw *random, const knot_vector *knots)
     }
 }
 
-static void test_partition_of_unity(void **state)
+static void basis_values_sum_to_one(void **state)
 {
     (void)state;
     for_all_knots(check_partition);
@@ -144,7 +144,7 @@ static void check_recursion(draw *random, const knot_vector *knots)
     }
 }
 
-static void test_recursion(void **state)
+static void values_and_slopes_match_the_recursion(void **state)
 {
     (void)state;
     for_all_knots(check_recursion);
@@ -169,7 +169,7 @@ static void check_differences(draw *random, const knot_vector *knots)
     }
 }
 
-static void test_derivative_is_the_limit_of_differences(void **state)
+static void derivative_is_the_limit_of_differences(void **state)
 {
     (void)state;
     for_all_knots(check_differences);
@@ -194,7 +194,7 @@ static void check_greville(draw *random, const knot_vector *knots)
     }
 }
 
-static void test_linear_precision(void **state)
+static void greville_points_reproduce_the_parameter(void **state)
 {
     (void)state;
     for_all_knots(check_greville);
@@ -246,7 +246,7 @@ static void check_bezier(draw *random, const knot_vector *knots)
     }
 }
 
-static void test_bezier_form_is_the_curve(void **state)
+static void bezier_form_is_the_curve(void **state)
 {
     (void)state;
     for_all_knots(check_bezier);
@@ -277,7 +277,7 @@ static void check_wrap(draw *random, const knot_vector *knots)
     }
 }
 
-static void test_wrap(void **state)
+static void wrap_brings_parameters_into_the_domain(void **state)
 {
     (void)state;
     for_all_knots(check_wrap);
@@ -358,7 +358,7 @@ static void check_against_sums(const ffd_lattice *lattice, const double uvw[3])
     }
 }
 
-static void test_volume_is_the_sum_over_control_points(void **state)
+static void volume_is_the_sum_over_control_points(void **state)
 {
     (void)state;
     draw random = {seed + 1};
@@ -402,7 +402,7 @@ static ffd_lattice *unroll(const ffd_lattice *lattice)
     return open;
 }
 
-static void test_closed_is_open_with_points_appended(void **state)
+static void closed_is_open_with_points_appended(void **state)
 {
     (void)state;
     draw random = {seed + 2};
@@ -437,7 +437,7 @@ static void test_closed_is_open_with_points_appended(void **state)
 }
 
 /* An affine map of all control points maps the volume. */
-static void test_affine_invariance(void **state)
+static void an_affine_map_of_points_maps_the_volume(void **state)
 {
     (void)state;
     draw random = {seed + 3};
@@ -471,7 +471,7 @@ static void test_affine_invariance(void **state)
 
 /* A control point outside the d + 1 functions of each direction changes no bit; one inside does (it is moved
    so far that no small value of its function hides it). */
-static void test_local_support(void **state)
+static void a_control_point_acts_only_on_its_spans(void **state)
 {
     (void)state;
     draw random = {seed + 4};
@@ -507,16 +507,16 @@ int main(void)
 {
     seed = draw_seed();
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_partition_of_unity),
-        cmocka_unit_test(test_recursion),
-        cmocka_unit_test(test_derivative_is_the_limit_of_differences),
-        cmocka_unit_test(test_linear_precision),
-        cmocka_unit_test(test_bezier_form_is_the_curve),
-        cmocka_unit_test(test_wrap),
-        cmocka_unit_test(test_volume_is_the_sum_over_control_points),
-        cmocka_unit_test(test_closed_is_open_with_points_appended),
-        cmocka_unit_test(test_affine_invariance),
-        cmocka_unit_test(test_local_support),
+        cmocka_unit_test(basis_values_sum_to_one),
+        cmocka_unit_test(values_and_slopes_match_the_recursion),
+        cmocka_unit_test(derivative_is_the_limit_of_differences),
+        cmocka_unit_test(greville_points_reproduce_the_parameter),
+        cmocka_unit_test(bezier_form_is_the_curve),
+        cmocka_unit_test(wrap_brings_parameters_into_the_domain),
+        cmocka_unit_test(volume_is_the_sum_over_control_points),
+        cmocka_unit_test(closed_is_open_with_points_appended),
+        cmocka_unit_test(an_affine_map_of_points_maps_the_volume),
+        cmocka_unit_test(a_control_point_acts_only_on_its_spans),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -49,7 +49,7 @@ static bool takes(ffd_share *share, const ffd_deform_desc *desc, bool only_posit
     return taken;
 }
 
-static void test_mesh(void **state)
+static void a_mesh_is_lent_only_while_nothing_changed(void **state)
 {
     ffd_share *share;
     ffd_deform_desc desc, differs;
@@ -88,7 +88,7 @@ static void test_mesh(void **state)
     (void)state;
 }
 
-static void test_selection(void **state)
+static void a_mesh_is_lent_only_for_the_same_selection(void **state)
 {
     static const char *const only[] = {"group:a"}, *const others[] = {"group:b"};
     ffd_share *share;
@@ -159,7 +159,7 @@ static unsigned borrowed(ffd_share *share, const chain_files *files, ffd_isa isa
     return found;
 }
 
-static void test_lattices(void **state)
+static void only_lattices_of_unchanged_files_are_lent(void **state)
 {
     char a_path[4096], box_path[4096];
     snprintf(a_path, sizeof a_path, "%s", in_folder("a.json"));
@@ -192,7 +192,7 @@ static void test_lattices(void **state)
 }
 
 /* Whether the lattice folds, and its border, are there for the next job once one has asked. */
-static void test_folds_and_border(void **state)
+static void folds_and_border_are_lent_once_asked_for(void **state)
 {
     static const chain_outside keep_them, extend = {.extend = true};
     char path[4096];
@@ -225,7 +225,7 @@ static void test_folds_and_border(void **state)
     (void)state;
 }
 
-static void test_only_lattices(void **state)
+static void a_share_for_lattices_keeps_no_mesh(void **state)
 {
     static const chain_outside outside;
     char path[4096];
@@ -262,9 +262,11 @@ static void test_only_lattices(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_mesh),          cmocka_unit_test(test_selection),
-        cmocka_unit_test(test_lattices),      cmocka_unit_test(test_folds_and_border),
-        cmocka_unit_test(test_only_lattices),
+        cmocka_unit_test(a_mesh_is_lent_only_while_nothing_changed),
+        cmocka_unit_test(a_mesh_is_lent_only_for_the_same_selection),
+        cmocka_unit_test(only_lattices_of_unchanged_files_are_lent),
+        cmocka_unit_test(folds_and_border_are_lent_once_asked_for),
+        cmocka_unit_test(a_share_for_lattices_keeps_no_mesh),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -57,7 +57,7 @@ static const char rich[] = HEAD "\"size\":[4,5,3],\"degree\":[3,2,1],"
                                 "0,0,0,0,1,0,0,0,0,1]}]}";
 
 /* All forms that data/schema/lattice.md shows. */
-static void test_accepts(void **state)
+static void every_documented_form_is_accepted(void **state)
 {
     (void)state;
     static const char *const texts[] = {
@@ -97,7 +97,7 @@ static void test_accepts(void **state)
     }
 }
 
-static void test_meaning(void **state)
+static void omitted_values_have_their_defaults(void **state)
 {
     (void)state;
     ffd_lattice *l;
@@ -173,7 +173,7 @@ static void check_refusals(const refusal *refusals, size_t count)
     }
 }
 
-static void test_syntax(void **state)
+static void invalid_json_is_refused_with_its_line(void **state)
 {
     (void)state;
     static const refusal refusals[] = {
@@ -205,7 +205,7 @@ static void test_syntax(void **state)
     free(deep);
 }
 
-static void test_refuses_frame(void **state)
+static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
 {
     (void)state;
     static const refusal refusals[] = {
@@ -265,7 +265,7 @@ static void test_refuses_frame(void **state)
     check_refusals(refusals, COUNT(refusals));
 }
 
-static void test_refuses_knots(void **state)
+static void bad_knots_are_refused(void **state)
 {
     (void)state;
     static const refusal refusals[] = {
@@ -307,7 +307,7 @@ static void test_refuses_knots(void **state)
     check_refusals(refusals, COUNT(refusals));
 }
 
-static void test_refuses_rest(void **state)
+static void bad_rest_volumes_are_refused(void **state)
 {
     (void)state;
     static const refusal refusals[] = {
@@ -372,7 +372,7 @@ static void test_refuses_rest(void **state)
     check_refusals(refusals, COUNT(refusals));
 }
 
-static void test_refuses_moves(void **state)
+static void bad_moves_are_refused(void **state)
 {
     (void)state;
     static const refusal refusals[] = {
@@ -452,7 +452,7 @@ static void check_same_points(const ffd_lattice *a, const ffd_lattice *b)
 }
 
 /* parse(text(spec)) is the same lattice to the bit, and its text the same text. */
-static void test_round_trip(void **state)
+static void written_text_reads_back_to_the_bit(void **state)
 {
     (void)state;
     static const char *const texts[] = {
@@ -490,7 +490,7 @@ static void test_round_trip(void **state)
     }
 }
 
-static void test_text(void **state)
+static void text_is_written_in_a_fixed_layout(void **state)
 {
     (void)state;
     ffd_lattice *l;
@@ -520,7 +520,7 @@ static void test_text(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_load_and_save(void **state)
+static void a_saved_file_loads_and_is_kept_unless_forced(void **state)
 {
     (void)state;
     char folder[] = "/tmp/ffd-test-XXXXXX", path[64];
@@ -544,7 +544,7 @@ static void test_load_and_save(void **state)
 }
 
 /* Every allocation of ours fails once; nothing leaks (the sanitizers look) and the status is right. */
-static void test_no_memory(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
     long successes = 0;
@@ -573,7 +573,7 @@ static void test_no_memory(void **state)
 }
 
 /* Any beginning of a file, and any file with one byte changed, is read or refused with words. */
-static void test_broken(void **state)
+static void broken_text_is_read_or_refused_with_a_message(void **state)
 {
     (void)state;
     char text[sizeof rich];
@@ -600,12 +600,18 @@ static void test_broken(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_accepts),       cmocka_unit_test(test_meaning),
-        cmocka_unit_test(test_syntax),        cmocka_unit_test(test_refuses_frame),
-        cmocka_unit_test(test_refuses_knots), cmocka_unit_test(test_refuses_rest),
-        cmocka_unit_test(test_refuses_moves), cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_text),          cmocka_unit_test(test_load_and_save),
-        cmocka_unit_test(test_no_memory),     cmocka_unit_test(test_broken),
+        cmocka_unit_test(every_documented_form_is_accepted),
+        cmocka_unit_test(omitted_values_have_their_defaults),
+        cmocka_unit_test(invalid_json_is_refused_with_its_line),
+        cmocka_unit_test(bad_versions_sizes_degrees_and_weights_are_refused),
+        cmocka_unit_test(bad_knots_are_refused),
+        cmocka_unit_test(bad_rest_volumes_are_refused),
+        cmocka_unit_test(bad_moves_are_refused),
+        cmocka_unit_test(written_text_reads_back_to_the_bit),
+        cmocka_unit_test(text_is_written_in_a_fixed_layout),
+        cmocka_unit_test(a_saved_file_loads_and_is_kept_unless_forced),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+        cmocka_unit_test(broken_text_is_read_or_refused_with_a_message),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

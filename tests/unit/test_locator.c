@@ -173,7 +173,7 @@ static void check_round_trip(const ffd_lattice *lattice, const char *method, dra
     assert_null(locator);
 }
 
-static void test_round_trips(void **state)
+static void u_v_w_come_back_by_each_method(void **state)
 {
     static const locator_case cases[] = {
         {"box", box_map, "affine"},           {"sheared", sheared_map, "affine"},
@@ -193,7 +193,7 @@ static void test_round_trips(void **state)
     (void)state;
 }
 
-static void test_other_knots(void **state)
+static void u_v_w_come_back_with_mixed_knots(void **state)
 {
     draw d = {draw_seed()};
     const knot_kind kind[3] = {KNOTS_OPEN, KNOTS_UNIFORM, KNOTS_CLAMPED};
@@ -210,7 +210,7 @@ static void test_other_knots(void **state)
     (void)state;
 }
 
-static void test_bent_bar(void **state)
+static void u_v_w_come_back_in_a_bent_bar(void **state)
 {
     draw d = {draw_seed()};
     ffd_lattice *lattice = clamped(3, 10);
@@ -220,7 +220,7 @@ static void test_bent_bar(void **state)
     (void)state;
 }
 
-static void test_weights(void **state)
+static void u_v_w_come_back_with_weights(void **state)
 {
     draw d = {draw_seed()};
     ffd_lattice *lattice = clamped(3, 6);
@@ -241,7 +241,7 @@ static ffd_location find_one(const ffd_locator *locator, double x, double y, dou
     return location;
 }
 
-static void test_outside_and_invalid(void **state)
+static void far_points_are_outside_and_nan_is_invalid(void **state)
 {
     static const point_map maps[] = {box_map, separable_map, warped_map};
     for (size_t m = 0; m < 3; m++) {
@@ -271,7 +271,7 @@ static void test_outside_and_invalid(void **state)
 }
 
 /* Shuffled, in pieces, alone: the same bits. */
-static void test_company(void **state)
+static void a_point_has_the_same_bits_alone_and_in_company(void **state)
 {
     enum { COUNT = 500 };
     static double points[3 * COUNT];
@@ -306,7 +306,7 @@ static void folded_map(const double g[3], double out[3])
     out[2] = g[2];
 }
 
-static void test_folded(void **state)
+static void a_point_in_a_fold_is_multiple(void **state)
 {
     ffd_lattice *lattice = clamped(2, 6);
     ffd_locator *locator;
@@ -329,7 +329,7 @@ static void flat_map(const double g[3], double out[3])
     out[2] = 0.25 * g[0] - g[1];
 }
 
-static void test_flat_is_refused(void **state)
+static void a_flat_lattice_is_refused(void **state)
 {
     ffd_lattice *lattice = clamped(3, 5);
     ffd_locator *locator;
@@ -351,7 +351,7 @@ static void wedge_map(const double g[3], double out[3])
     out[2] = g[2];
 }
 
-static void test_collapsed_face(void **state)
+static void a_point_on_a_collapsed_face_is_singular(void **state)
 {
     draw d = {draw_seed()};
     ffd_lattice *lattice = clamped(2, 5);
@@ -378,7 +378,7 @@ static void test_collapsed_face(void **state)
 
 /* Memory that runs out anywhere is told, and nothing is lost. */
 /* The cost of a vertex, counted, not timed. */
-static void test_cost(void **state)
+static void a_point_takes_few_evaluations_and_leaves(void **state)
 {
     enum { POINTS = 4000 };
     ffd_lattice *lattice = clamped(3, 8);
@@ -418,7 +418,7 @@ static void whole_turn_map(const double g[3], double out[3])
     out[2] = g[2];
 }
 
-static void test_seam(void **state)
+static void a_seam_point_is_multiple_once_the_ends_part(void **state)
 {
     ffd_lattice *lattice = clamped(3, 10);
     ffd_locator *locator;
@@ -445,7 +445,7 @@ static void test_seam(void **state)
 }
 
 /* Bricks that are made again and again for want of room give what kept ones give. */
-static void test_bricks_without_room(void **state)
+static void bricks_without_room_give_the_same_results(void **state)
 {
     enum { POINTS = 500 };
     ffd_lattice *lattice = clamped(2, 20);
@@ -477,7 +477,7 @@ static void test_bricks_without_room(void **state)
 }
 
 /* A lattice that folds in every cell is refused once it would take too much memory, not before. */
-static void test_too_many_folds(void **state)
+static void folds_are_refused_only_beyond_the_limit(void **state)
 {
     ffd_lattice *lattice = clamped(3, 8);
     ffd_locator *locator;
@@ -503,7 +503,7 @@ static void test_too_many_folds(void **state)
 }
 
 /* The same lattice in other units has the same u,v,w, to the bit where the unit is a power of two. */
-static void test_sizes(void **state)
+static void u_v_w_do_not_depend_on_the_unit(void **state)
 {
     static const int exponents[] = {-900, -500, -100, 60, 330, 900};
     enum { POINTS = 60 };
@@ -565,7 +565,7 @@ static void check_all_inside(ffd_lattice *lattice, draw *d)
 
 /* In a narrow span at the far end of the domain neighbouring doubles u lie farther apart in space than the
    tolerance. */
-static void test_narrow_spans(void **state)
+static void points_in_narrow_spans_are_inside(void **state)
 {
     static const double widths[] = {0.1, 0.003, 0.0001};
     draw d = {draw_seed()};
@@ -601,7 +601,7 @@ static void steep_map(const double g[3], double out[3])
     out[2] = g[2];
 }
 
-static void test_steep_shear(void **state)
+static void points_in_a_steep_shear_are_inside(void **state)
 {
     draw d = {draw_seed()};
     ffd_lattice *lattice = clamped(3, 5);
@@ -620,7 +620,7 @@ static void product_map(const double g[3], double out[3])
     out[2] = g[2] + 0.2 * g[0];
 }
 
-static void test_symmetric_fold(void **state)
+static void points_of_a_symmetric_fold_are_multiple(void **state)
 {
     draw d = {draw_seed()};
     ffd_lattice *lattice = clamped(2, 3);
@@ -645,7 +645,7 @@ static void test_symmetric_fold(void **state)
 
 /* One trilinear cell whose determinant is negative in the middle and whose volume is positive: the root with
    a positive determinant is taken. */
-static void test_sign_of_volume(void **state)
+static void the_root_with_the_sign_of_the_volume_is_taken(void **state)
 {
     static const double points[] = {0.14,   0.498, 0.569, 0.347, 0.284, -0.553, -0.134, 0.834,
                                     -0.343, 0.317, 0.541, 0.31,  0.686, 0.614,  0.284,  1.104,
@@ -664,7 +664,7 @@ static void test_sign_of_volume(void **state)
     (void)state;
 }
 
-static void test_no_memory(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     ffd_lattice *lattice = clamped(3, 6);
     set_points(lattice, bent_map);
@@ -725,7 +725,7 @@ static void check_same(const ffd_location *a, const ffd_location *b, ffd_isa isa
                  b->evaluations);
 }
 
-static void test_instruction_sets(void **state)
+static void every_instruction_set_gives_the_same_bits(void **state)
 {
     enum { COUNT = 2311 };
     static const struct {
@@ -770,26 +770,26 @@ static void test_instruction_sets(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trips),
-        cmocka_unit_test(test_other_knots),
-        cmocka_unit_test(test_bent_bar),
-        cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_outside_and_invalid),
-        cmocka_unit_test(test_company),
-        cmocka_unit_test(test_folded),
-        cmocka_unit_test(test_flat_is_refused),
-        cmocka_unit_test(test_collapsed_face),
-        cmocka_unit_test(test_cost),
-        cmocka_unit_test(test_seam),
-        cmocka_unit_test(test_bricks_without_room),
-        cmocka_unit_test(test_too_many_folds),
-        cmocka_unit_test(test_sizes),
-        cmocka_unit_test(test_narrow_spans),
-        cmocka_unit_test(test_steep_shear),
-        cmocka_unit_test(test_symmetric_fold),
-        cmocka_unit_test(test_sign_of_volume),
-        cmocka_unit_test(test_no_memory),
-        cmocka_unit_test(test_instruction_sets),
+        cmocka_unit_test(u_v_w_come_back_by_each_method),
+        cmocka_unit_test(u_v_w_come_back_with_mixed_knots),
+        cmocka_unit_test(u_v_w_come_back_in_a_bent_bar),
+        cmocka_unit_test(u_v_w_come_back_with_weights),
+        cmocka_unit_test(far_points_are_outside_and_nan_is_invalid),
+        cmocka_unit_test(a_point_has_the_same_bits_alone_and_in_company),
+        cmocka_unit_test(a_point_in_a_fold_is_multiple),
+        cmocka_unit_test(a_flat_lattice_is_refused),
+        cmocka_unit_test(a_point_on_a_collapsed_face_is_singular),
+        cmocka_unit_test(a_point_takes_few_evaluations_and_leaves),
+        cmocka_unit_test(a_seam_point_is_multiple_once_the_ends_part),
+        cmocka_unit_test(bricks_without_room_give_the_same_results),
+        cmocka_unit_test(folds_are_refused_only_beyond_the_limit),
+        cmocka_unit_test(u_v_w_do_not_depend_on_the_unit),
+        cmocka_unit_test(points_in_narrow_spans_are_inside),
+        cmocka_unit_test(points_in_a_steep_shear_are_inside),
+        cmocka_unit_test(points_of_a_symmetric_fold_are_multiple),
+        cmocka_unit_test(the_root_with_the_sign_of_the_volume_is_taken),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+        cmocka_unit_test(every_instruction_set_gives_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

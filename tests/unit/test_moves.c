@@ -73,7 +73,7 @@ static size_t count_moved(const ffd_lattice *l)
     return moved;
 }
 
-static void test_selection(void **state)
+static void at_and_within_select_the_right_points(void **state)
 {
     (void)state;
     static const struct selection {
@@ -109,7 +109,7 @@ static void test_selection(void **state)
 
 /* Points that rest on a face of `within` are inside, also where their coordinate is rounded: thirds, and a
    box whose axes turn it. And it is the rest position that counts. */
-static void test_within_edges(void **state)
+static void points_on_a_face_of_within_are_selected(void **state)
 {
     (void)state;
     ffd_lattice *l = make(
@@ -130,7 +130,7 @@ static void test_within_edges(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_by_and_to(void **state)
+static void by_and_to_move_points_and_identities_do_not(void **state)
 {
     (void)state;
     ffd_lattice *l =
@@ -151,7 +151,7 @@ static void test_by_and_to(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_scale(void **state)
+static void scale_is_about_the_centroid_or_a_given_point(void **state)
 {
     (void)state;
     /* About the centroid, (1,1,2). */
@@ -171,7 +171,7 @@ static void test_scale(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_rotate(void **state)
+static void rotate_is_right_handed_about_its_axis(void **state)
 {
     (void)state;
     ffd_lattice *l = move_tower("{\"rotate\":{\"axis\":\"z\",\"degrees\":90,\"about\":[0,0,0]}}");
@@ -191,7 +191,7 @@ static void test_rotate(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_matrix(void **state)
+static void matrix_maps_points_and_weight_blends(void **state)
 {
     (void)state;
     ffd_lattice *l = move_tower("{\"matrix\":[1,2,0,10, 0,1,0,20, 0,0,3,30, 0,0,0,1]}");
@@ -202,7 +202,7 @@ static void test_matrix(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_twist(void **state)
+static void twist_grows_along_the_selected_extent(void **state)
 {
     (void)state;
     /* z from 0 to 4 about the middle line x = y = 1: 0, 90, 180, 270, 360 degrees. */
@@ -228,7 +228,7 @@ static void test_twist(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_taper(void **state)
+static void taper_scales_across_its_axis_from_the_low_end(void **state)
 {
     (void)state;
     ffd_lattice *l = move_tower("{\"taper\":{\"axis\":\"z\",\"factor\":0}}");
@@ -262,7 +262,7 @@ static void check_bend(const ffd_lattice *l, double degrees, double about_x)
         }
 }
 
-static void test_bend(void **state)
+static void bend_makes_a_circular_arc_from_the_low_end(void **state)
 {
     (void)state;
     static const double angles[] = {90, -90, 180, 30, 1, 1e-3, -250, 700};
@@ -291,7 +291,7 @@ static void test_bend(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_box_units(void **state)
+static void box_units_are_fractions_of_the_box(void **state)
 {
     (void)state;
     /* Sides 2, 2, 4 from (0,0,0): fractions. */
@@ -338,7 +338,7 @@ static void test_box_units(void **state)
 }
 
 /* Moves act on the deformed points; `within` looks at the rest. */
-static void test_on_deformed(void **state)
+static void moves_act_on_deformed_points_and_within_on_rest(void **state)
 {
     (void)state;
     ffd_lattice *l =
@@ -351,7 +351,7 @@ static void test_on_deformed(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_failures(void **state)
+static void moves_that_select_nothing_or_overflow_fail(void **state)
 {
     (void)state;
     static const struct failure {
@@ -378,12 +378,18 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_selection),   cmocka_unit_test(test_within_edges),
-        cmocka_unit_test(test_by_and_to),   cmocka_unit_test(test_scale),
-        cmocka_unit_test(test_rotate),      cmocka_unit_test(test_matrix),
-        cmocka_unit_test(test_twist),       cmocka_unit_test(test_taper),
-        cmocka_unit_test(test_bend),        cmocka_unit_test(test_box_units),
-        cmocka_unit_test(test_on_deformed), cmocka_unit_test(test_failures),
+        cmocka_unit_test(at_and_within_select_the_right_points),
+        cmocka_unit_test(points_on_a_face_of_within_are_selected),
+        cmocka_unit_test(by_and_to_move_points_and_identities_do_not),
+        cmocka_unit_test(scale_is_about_the_centroid_or_a_given_point),
+        cmocka_unit_test(rotate_is_right_handed_about_its_axis),
+        cmocka_unit_test(matrix_maps_points_and_weight_blends),
+        cmocka_unit_test(twist_grows_along_the_selected_extent),
+        cmocka_unit_test(taper_scales_across_its_axis_from_the_low_end),
+        cmocka_unit_test(bend_makes_a_circular_arc_from_the_low_end),
+        cmocka_unit_test(box_units_are_fractions_of_the_box),
+        cmocka_unit_test(moves_act_on_deformed_points_and_within_on_rest),
+        cmocka_unit_test(moves_that_select_nothing_or_overflow_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

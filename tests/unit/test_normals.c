@@ -29,7 +29,7 @@ static void check_angles(const double *xyz, size_t count, const double *degrees)
             fail_msg("corner %zu: %.17g, expected %g degrees", i, angles[i], degrees[i]);
 }
 
-static void test_angles(void **state)
+static void corner_angles_match_those_worked_out_by_hand(void **state)
 {
     (void)state;
     const double triangle[] = {0, 0, 5, 1, 0, 5, 0, 1, 5};
@@ -46,7 +46,7 @@ static void test_angles(void **state)
     check_angles(huge, 3, (const double[]){90, 45, 45});
 }
 
-static void test_no_area(void **state)
+static void a_polygon_without_area_has_no_normal(void **state)
 {
     (void)state;
     const uint32_t corners[] = {0, 1, 2};
@@ -87,7 +87,7 @@ static void check_direction(const double v[3], double x, double y, double z)
         fail_msg("%.17g %.17g %.17g, expected %.17g %.17g %.17g", v[0], v[1], v[2], x, y, z);
 }
 
-static void test_cube(void **state)
+static void cube_normals_follow_groups_and_mirroring(void **state)
 {
     (void)state;
     const mesh_faces faces = make_cube();
@@ -117,7 +117,7 @@ static void test_cube(void **state)
 }
 
 /* Positions are those that are given, whatever faces has; sizes far from 1 do no harm. */
-static void test_positions(void **state)
+static void normals_come_from_the_given_positions(void **state)
 {
     (void)state;
     const mesh_faces faces = make_cube();
@@ -135,7 +135,7 @@ static void test_positions(void **state)
 }
 
 /* What half-edges cannot join counts all the same: three faces at an edge, one twice, one back to front. */
-static void test_non_manifold(void **state)
+static void non_manifold_faces_count_like_others(void **state)
 {
     (void)state;
     double xyz[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1};
@@ -155,7 +155,7 @@ static void test_non_manifold(void **state)
 /* In a slanted plane: all corners of a face have its normal to the bit, whatever their angles, and so have
    corners of several faces with one normal, which a triangle and the same twice as large are; a face and its
    back cancel out. */
-static void test_one_direction(void **state)
+static void corners_of_one_plane_have_one_normal_to_the_bit(void **state)
 {
     (void)state;
     double xyz[] = {0, 0, 0, 1, 0.3, 0, 0.7, 1, 0, 2, 0.6, 0, 1.4, 2, 0, 2.1, 0.9, 0, 1.3, 3, 0};
@@ -183,7 +183,7 @@ static void test_one_direction(void **state)
     assert_true(found[0] == 0 && found[1] == 0 && found[2] == 0);
 }
 
-static void test_failures(void **state)
+static void bad_corners_and_failed_allocations_are_reported(void **state)
 {
     (void)state;
     const mesh_faces faces = make_cube();
@@ -210,10 +210,13 @@ static void test_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_angles),       cmocka_unit_test(test_no_area),
-        cmocka_unit_test(test_cube),         cmocka_unit_test(test_positions),
-        cmocka_unit_test(test_non_manifold), cmocka_unit_test(test_one_direction),
-        cmocka_unit_test(test_failures),
+        cmocka_unit_test(corner_angles_match_those_worked_out_by_hand),
+        cmocka_unit_test(a_polygon_without_area_has_no_normal),
+        cmocka_unit_test(cube_normals_follow_groups_and_mirroring),
+        cmocka_unit_test(normals_come_from_the_given_positions),
+        cmocka_unit_test(non_manifold_faces_count_like_others),
+        cmocka_unit_test(corners_of_one_plane_have_one_normal_to_the_bit),
+        cmocka_unit_test(bad_corners_and_failed_allocations_are_reported),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

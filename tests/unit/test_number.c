@@ -22,7 +22,7 @@ typedef struct number_case {
     size_t length; /* of what is read; 0: nothing */
 } number_case;
 
-static void test_parse(void **state)
+static void the_longest_number_at_the_start_is_read(void **state)
 {
     static const number_case cases[] = {
         {"0", 0, 1},
@@ -72,7 +72,7 @@ static void test_parse(void **state)
 }
 
 /* A float is rounded once, from the text: through a double 1.0000000596046448 would become 1. */
-static void test_parse_float(void **state)
+static void a_float_is_rounded_once_from_its_text(void **state)
 {
     static const struct {
         const char *text;
@@ -108,7 +108,7 @@ static void test_parse_float(void **state)
     }
 }
 
-static void test_stops_at_last(void **state)
+static void reading_stops_at_the_end_given(void **state)
 {
     const char text[] = "12345";
     double value = 0;
@@ -124,7 +124,7 @@ static const char *format(double value)
     return text;
 }
 
-static void test_format(void **state)
+static void known_numbers_have_their_shortest_text(void **state)
 {
     assert_string_equal(format(0.1), "0.1");
     assert_string_equal(format(1), "1");
@@ -141,7 +141,7 @@ static void test_format(void **state)
 }
 
 /* Any double comes back as itself, under a locale with a decimal comma too where there is one. */
-static void test_round_trip(void **state)
+static void any_double_comes_back_as_itself(void **state)
 {
     draw d = {draw_seed()};
     setlocale(LC_ALL, "de_DE.UTF-8");
@@ -189,7 +189,7 @@ static double draw_coordinate(draw *d)
     return side == 0 ? nextafter(value, -HUGE_VAL) : side == 1 ? nextafter(value, HUGE_VAL) : value;
 }
 
-static void test_shortest(void **state)
+static void text_is_the_shortest_that_reads_back(void **state)
 {
     draw d = {draw_seed()};
     setlocale(LC_ALL, "C");
@@ -215,7 +215,7 @@ static size_t draw_digits(draw *d, int most, char *text)
 }
 
 /* Texts of all lengths read as the C library reads them. */
-static void test_read(void **state)
+static void texts_read_as_the_c_library_reads_them(void **state)
 {
     draw d = {draw_seed()};
     setlocale(LC_ALL, "C");
@@ -268,7 +268,7 @@ static double any_number(draw *d)
 
 /* The texts of an array's numbers, whichever of them are wanted and in whatever order, are those that they
    have alone. */
-static void test_runs(void **state)
+static void a_run_gives_each_number_the_text_it_has_alone(void **state)
 {
     enum { MOST = 200 };
     draw d = {draw_seed()};
@@ -297,10 +297,14 @@ static void test_runs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_parse),         cmocka_unit_test(test_parse_float),
-        cmocka_unit_test(test_stops_at_last), cmocka_unit_test(test_format),
-        cmocka_unit_test(test_round_trip),    cmocka_unit_test(test_shortest),
-        cmocka_unit_test(test_read),          cmocka_unit_test(test_runs),
+        cmocka_unit_test(the_longest_number_at_the_start_is_read),
+        cmocka_unit_test(a_float_is_rounded_once_from_its_text),
+        cmocka_unit_test(reading_stops_at_the_end_given),
+        cmocka_unit_test(known_numbers_have_their_shortest_text),
+        cmocka_unit_test(any_double_comes_back_as_itself),
+        cmocka_unit_test(text_is_the_shortest_that_reads_back),
+        cmocka_unit_test(texts_read_as_the_c_library_reads_them),
+        cmocka_unit_test(a_run_gives_each_number_the_text_it_has_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

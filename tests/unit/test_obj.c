@@ -39,7 +39,7 @@ static void statements_of(const char *bytes, size_t size, char *text, size_t cap
     }
 }
 
-static void test_statements(void **state)
+static void statements_are_split_into_words_with_their_lines(void **state)
 {
     (void)state;
     static const struct {
@@ -76,7 +76,7 @@ static void test_statements(void **state)
 }
 
 /* Reading only some words must lead to the same next statement. */
-static void test_unread_words(void **state)
+static void unread_words_do_not_move_the_next_statement(void **state)
 {
     (void)state;
     static const char text[] = "v 1 2 \\\n 3 # \\\nusemtl a \\\n#b\nf 1\n";
@@ -103,7 +103,7 @@ static text_word word_of(const char *text)
     return (text_word){text, text + strlen(text)};
 }
 
-static void test_numbers(void **state)
+static void only_words_that_are_numbers_are_read(void **state)
 {
     (void)state;
     static const struct {
@@ -138,7 +138,7 @@ static void test_numbers(void **state)
         assert_false(ffd_obj_number(word_of(bad[i]), &value));
 }
 
-static void test_corners(void **state)
+static void only_words_that_are_corners_are_read(void **state)
 {
     (void)state;
     static const struct {
@@ -202,7 +202,7 @@ static void append_contents(const mesh_document *document, byte_buffer *text)
     }
 }
 
-static void test_dialects(void **state)
+static void every_dialect_is_read(void **state)
 {
     (void)state;
     static const read_text cases[] = {
@@ -225,7 +225,7 @@ static void test_dialects(void **state)
     assert_read(obj, cases, COUNT(cases), append_contents);
 }
 
-static void test_many_normals_of_one_vertex(void **state)
+static void a_vertex_can_have_a_hundred_normals(void **state)
 {
     (void)state;
     char text[4096] = "v 0 0 0\n";
@@ -244,7 +244,7 @@ static void test_many_normals_of_one_vertex(void **state)
     obj->close(document);
 }
 
-static void test_refused(void **state)
+static void broken_files_are_refused_with_their_line(void **state)
 {
     (void)state;
     static const refused_text cases[] = {
@@ -310,7 +310,7 @@ static void assert_edited(const char *text, const edit *edits, const char *expec
     obj->close(document);
 }
 
-static void test_save_positions(void **state)
+static void only_changed_coordinates_get_new_text(void **state)
 {
     (void)state;
     const edit nothing[] = {{0}};
@@ -331,7 +331,7 @@ static void test_save_positions(void **state)
     assert_edited("v 0 0 0\n", zero, "v -0 0 0\n");
 }
 
-static void test_kept_values_are_not_looked_at(void **state)
+static void kept_values_are_not_looked_at(void **state)
 {
     (void)state;
     const double xyz[6] = {9, 9, 9, 8, 8, 8};
@@ -347,7 +347,7 @@ static void test_kept_values_are_not_looked_at(void **state)
 
 #define CORNERS "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1.0\n"
 
-static void test_save_normals(void **state)
+static void shared_normals_are_split_only_where_they_differ(void **state)
 {
     (void)state;
     const edit all[] = {{'n', 0, {0, 1, 1}}, {'n', 1, {0, 1, 1}}, {'n', 2, {0, 1, 1}}, {0}};
@@ -406,7 +406,7 @@ static void test_save_normals(void **state)
         assert_edited(cases[i].text, cases[i].edits, cases[i].expected);
 }
 
-static void test_normals_kept(void **state)
+static void normals_stay_when_they_are_not_renewed(void **state)
 {
     (void)state;
     static const char text[] = CORNERS "f 1//1 2//1 3//1\n";
@@ -419,7 +419,7 @@ static void test_normals_kept(void **state)
     obj->close(document);
 }
 
-static void test_saved_without_results(void **state)
+static void without_results_the_same_bytes_are_saved(void **state)
 {
     (void)state;
     static const char text[] = CORNERS "f 1//1 2//1 3//1 # no end";
@@ -429,7 +429,7 @@ static void test_saved_without_results(void **state)
 }
 
 /* More text than a block, changed and not. */
-static void test_save_large(void **state)
+static void files_larger_than_a_block_are_saved_whole(void **state)
 {
     (void)state;
     const size_t count = 40000, capacity = count * 64 + 1000000;
@@ -458,7 +458,7 @@ static void test_save_large(void **state)
 
 /* Faces and description */
 
-static void test_faces(void **state)
+static void faces_are_read_and_lines_and_points_counted(void **state)
 {
     (void)state;
     mesh_document *document =
@@ -486,7 +486,7 @@ static void assert_text_described(const char *text, const char *expected)
     obj->close(document);
 }
 
-static void test_description(void **state)
+static void a_description_counts_what_the_file_has(void **state)
 {
     (void)state;
     assert_text_described("",
@@ -518,7 +518,7 @@ static void test_description(void **state)
 
 /* Comparison */
 
-static void test_compare(void **state)
+static void a_comparison_names_the_first_difference(void **state)
 {
     (void)state;
     static const struct {
@@ -581,14 +581,14 @@ static void test_compare(void **state)
 
 /* Broken files, and no memory */
 
-static void test_memory_failures(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
     static const byte_seed seed = BYTE_SEED(CORNERS "g a\no b\nusemtl c\nf 1//1 2//1 3//1\n");
     use_with_failing_memory(obj, &seed);
 }
 
-static void test_mutations(void **state)
+static void mutated_files_are_read_or_refused(void **state)
 {
     (void)state;
     static const byte_seed seeds[] = {
@@ -604,24 +604,24 @@ static void test_mutations(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_statements),
-        cmocka_unit_test(test_unread_words),
-        cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_corners),
-        cmocka_unit_test(test_dialects),
-        cmocka_unit_test(test_many_normals_of_one_vertex),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_save_positions),
-        cmocka_unit_test(test_kept_values_are_not_looked_at),
-        cmocka_unit_test(test_save_normals),
-        cmocka_unit_test(test_normals_kept),
-        cmocka_unit_test(test_saved_without_results),
-        cmocka_unit_test(test_save_large),
-        cmocka_unit_test(test_faces),
-        cmocka_unit_test(test_description),
-        cmocka_unit_test(test_compare),
-        cmocka_unit_test(test_memory_failures),
-        cmocka_unit_test(test_mutations),
+        cmocka_unit_test(statements_are_split_into_words_with_their_lines),
+        cmocka_unit_test(unread_words_do_not_move_the_next_statement),
+        cmocka_unit_test(only_words_that_are_numbers_are_read),
+        cmocka_unit_test(only_words_that_are_corners_are_read),
+        cmocka_unit_test(every_dialect_is_read),
+        cmocka_unit_test(a_vertex_can_have_a_hundred_normals),
+        cmocka_unit_test(broken_files_are_refused_with_their_line),
+        cmocka_unit_test(only_changed_coordinates_get_new_text),
+        cmocka_unit_test(kept_values_are_not_looked_at),
+        cmocka_unit_test(shared_normals_are_split_only_where_they_differ),
+        cmocka_unit_test(normals_stay_when_they_are_not_renewed),
+        cmocka_unit_test(without_results_the_same_bytes_are_saved),
+        cmocka_unit_test(files_larger_than_a_block_are_saved_whole),
+        cmocka_unit_test(faces_are_read_and_lines_and_points_counted),
+        cmocka_unit_test(a_description_counts_what_the_file_has),
+        cmocka_unit_test(a_comparison_names_the_first_difference),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+        cmocka_unit_test(mutated_files_are_read_or_refused),
     };
     return cmocka_run_group_tests(tests, NULL, remove_saved);
 }

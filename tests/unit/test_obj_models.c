@@ -75,7 +75,7 @@ static void check_unchanged(const char *path, mesh_document *document, const fil
     ffd_file_unload(&saved);
 }
 
-static void test_nothing_changed(void **state)
+static void unchanged_models_are_saved_to_the_byte(void **state)
 {
     (void)state;
     for_each_model(check_unchanged);
@@ -168,7 +168,7 @@ static void check_moved(const char *path, mesh_document *document, const file_in
     ffd_file_unload(&saved);
 }
 
-static void test_all_vertices_moved(void **state)
+static void moving_all_vertices_changes_only_coordinates(void **state)
 {
     (void)state;
     for_each_model(check_moved);
@@ -183,7 +183,7 @@ static void check_normals(const char *path, mesh_document *document, const file_
     check_new_normals(document, &drawn, false);
 }
 
-static void test_new_normals(void **state)
+static void saved_models_hold_their_new_normals(void **state)
 {
     (void)state;
     drawn.state = draw_seed();
@@ -207,9 +207,9 @@ static int free_paths(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_nothing_changed),
-        cmocka_unit_test(test_all_vertices_moved),
-        cmocka_unit_test(test_new_normals),
+        cmocka_unit_test(unchanged_models_are_saved_to_the_byte),
+        cmocka_unit_test(moving_all_vertices_changes_only_coordinates),
+        cmocka_unit_test(saved_models_hold_their_new_normals),
     };
     if (!getenv("FFD_MODELS"))
         return 77;

@@ -114,7 +114,7 @@ static void draw_file(writer *w)
     put(w, ends[draw_int(w->d, 0, 5)]);
 }
 
-static void test_random_files(void **state)
+static void random_files_hold_their_new_normals(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -215,7 +215,7 @@ static void results_in_place_give_the_same_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random_files),
+        cmocka_unit_test(random_files_hold_their_new_normals),
         cmocka_unit_test(results_in_place_give_the_same_file),
     };
     return cmocka_run_group_tests(tests, NULL, remove_saved);

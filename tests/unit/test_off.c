@@ -44,7 +44,7 @@ static void append_contents(const mesh_document *document, byte_buffer *text)
 #define TRIANGLE "0 0 0\n1 0 0\n0 1 0\n"
 #define IS_TRIANGLE "0,0,0 1,0,0 0,1,0 F 0,1,2"
 
-static void test_dialects(void **state)
+static void every_dialect_is_read(void **state)
 {
     (void)state;
     static const read_text cases[] = {
@@ -88,7 +88,7 @@ static void test_dialects(void **state)
     assert_read(off, cases, COUNT(cases), append_contents);
 }
 
-static void test_refused(void **state)
+static void broken_files_are_refused_with_their_line(void **state)
 {
     (void)state;
     static const refused_text cases[] = {
@@ -156,7 +156,7 @@ static void test_refused(void **state)
 
 /* Results */
 
-static void test_results(void **state)
+static void only_changed_values_get_new_text(void **state)
 {
     (void)state;
     static const struct {
@@ -179,7 +179,7 @@ static void test_results(void **state)
     }
 }
 
-static void test_normals_are_kept(void **state)
+static void normals_stay_when_they_are_not_renewed(void **state)
 {
     (void)state;
     static const char text[] = "NOFF 1 0 0\n1 2 3 0 0 1\n", expected[] = "NOFF 1 0 0\n-1 2 3.5 0 0 1\n";
@@ -193,7 +193,7 @@ static void test_normals_are_kept(void **state)
     off->close(document);
 }
 
-static void test_zero_signs(void **state)
+static void the_sign_of_zero_is_written(void **state)
 {
     (void)state;
     static const char text[] = "OFF 1 0 0\n0 -0 -0.0\n";
@@ -208,7 +208,7 @@ static void test_zero_signs(void **state)
 
 /* Description and comparison */
 
-static void test_description(void **state)
+static void a_description_counts_what_the_file_has(void **state)
 {
     (void)state;
     mesh_document *document =
@@ -223,7 +223,7 @@ static void test_description(void **state)
     off->close(document);
 }
 
-static void test_compare(void **state)
+static void a_comparison_names_the_first_difference(void **state)
 {
     (void)state;
     static const char base[] = "NOFF\n3 1 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1 255\n3 0 1 2 0.5\n";
@@ -282,19 +282,19 @@ static const byte_seed seeds[] = {
     BYTE_SEED("3 1 0\n0 0 0 1 2 3\n1 0 0\n0 1 0 9\n3 0 1 2\n"),
 };
 
-static void test_truncations(void **state)
+static void truncated_files_are_read_or_refused(void **state)
 {
     (void)state;
     use_truncations(off, seeds, COUNT(seeds));
 }
 
-static void test_mutations(void **state)
+static void mutated_files_are_read_or_refused(void **state)
 {
     (void)state;
     use_mutations(off, seeds, COUNT(seeds), 6000, "0123456789-+.#\r\n\t OFCNSTe4nB");
 }
 
-static void test_memory_failures(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
     for (size_t i = 0; i < COUNT(seeds); i++)
@@ -302,7 +302,7 @@ static void test_memory_failures(void **state)
 }
 
 /* What a message shows of a long word ends with a whole character. */
-static void test_shown_words(void **state)
+static void a_cut_word_ends_with_a_whole_character(void **state)
 {
     (void)state;
     char text[60];
@@ -320,12 +320,17 @@ static void test_shown_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_dialects),        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_results),         cmocka_unit_test(test_normals_are_kept),
-        cmocka_unit_test(test_zero_signs),      cmocka_unit_test(test_description),
-        cmocka_unit_test(test_compare),         cmocka_unit_test(test_truncations),
-        cmocka_unit_test(test_shown_words),     cmocka_unit_test(test_mutations),
-        cmocka_unit_test(test_memory_failures),
+        cmocka_unit_test(every_dialect_is_read),
+        cmocka_unit_test(broken_files_are_refused_with_their_line),
+        cmocka_unit_test(only_changed_values_get_new_text),
+        cmocka_unit_test(normals_stay_when_they_are_not_renewed),
+        cmocka_unit_test(the_sign_of_zero_is_written),
+        cmocka_unit_test(a_description_counts_what_the_file_has),
+        cmocka_unit_test(a_comparison_names_the_first_difference),
+        cmocka_unit_test(truncated_files_are_read_or_refused),
+        cmocka_unit_test(a_cut_word_ends_with_a_whole_character),
+        cmocka_unit_test(mutated_files_are_read_or_refused),
+        cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, remove_saved);
 }

@@ -170,7 +170,7 @@ static void select_some(cloud *mesh, uint8_t selected[MOST])
 
 /* Selected vertices get what they get without a selection, the others nothing; and the figures are of the
    selected ones. */
-static void test_selected_vertices(void **state)
+static void only_selected_vertices_move_and_are_counted(void **state)
 {
     (void)state;
     static uint8_t selected[MOST];
@@ -243,7 +243,7 @@ static void test_selected_vertices(void **state)
 }
 
 /* The first vertex that the file's numbers cannot hold is named; one that stays may be anywhere. */
-static void test_numbers_too_large(void **state)
+static void the_first_vertex_too_large_to_store_is_named(void **state)
 {
     (void)state;
     lattice_chain chain = {0};
@@ -271,7 +271,7 @@ static void test_numbers_too_large(void **state)
 }
 
 /* Every vertex by itself, with the library's own functions. */
-static void test_arrays(void **state)
+static void every_vertex_gets_what_the_library_gives_it_alone(void **state)
 {
     (void)state;
     lattice_chain chain = {0};
@@ -311,7 +311,7 @@ static void test_arrays(void **state)
 }
 
 /* Two links: what the second does is done at the first one's results, F = F2 F1. */
-static void test_gradients_of_a_chain(void **state)
+static void gradients_of_a_chain_multiply(void **state)
 {
     (void)state;
     lattice_chain chain = {0};
@@ -337,7 +337,7 @@ static void test_gradients_of_a_chain(void **state)
     ffd_chain_free(&chain);
 }
 
-static void test_no_gradients_no_determinants(void **state)
+static void without_gradients_there_are_no_determinants(void **state)
 {
     (void)state;
     lattice_chain chain = {0};
@@ -351,7 +351,7 @@ static void test_no_gradients_no_determinants(void **state)
     ffd_chain_free(&chain);
 }
 
-static void test_threads(void **state)
+static void any_number_of_threads_gives_the_same_bits(void **state)
 {
     (void)state;
     static const char *const members[] = {BOX MOVES, BENT MOVES};
@@ -379,7 +379,7 @@ static double distance_to_box(const double p[3])
 }
 
 /* A box that is moved as a whole: outside, the same displacement, faded. */
-static void test_points_outside(void **state)
+static void points_outside_stay_or_follow_with_falloff(void **state)
 {
     (void)state;
     static const double falloffs[] = {0, 1.25, 100};
@@ -461,7 +461,7 @@ static void write_embedding(const lattice_chain *chain, const double *uvw, const
     free(mesh);
 }
 
-static void test_u_v_w_of_a_file(void **state)
+static void u_v_w_of_a_file_give_what_a_search_gives(void **state)
 {
     (void)state;
     static const char *const members[] = {BOX MOVES, BENT MOVES};
@@ -486,7 +486,7 @@ static void test_u_v_w_of_a_file(void **state)
 }
 
 /* Whoever makes a file with hashes that hold can say anything of u,v,w. */
-static void test_forged_u_v_w(void **state)
+static void forged_u_v_w_stay_within_the_domain(void **state)
 {
     (void)state;
     static const double values[] = {-1, 2, 1e300, -1e300, 0.5, NAN, HUGE_VAL, 1e-320};
@@ -533,15 +533,15 @@ static void test_forged_u_v_w(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_arrays),
-        cmocka_unit_test(test_selected_vertices),
-        cmocka_unit_test(test_numbers_too_large),
-        cmocka_unit_test(test_gradients_of_a_chain),
-        cmocka_unit_test(test_no_gradients_no_determinants),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_points_outside),
-        cmocka_unit_test(test_u_v_w_of_a_file),
-        cmocka_unit_test(test_forged_u_v_w),
+        cmocka_unit_test(every_vertex_gets_what_the_library_gives_it_alone),
+        cmocka_unit_test(only_selected_vertices_move_and_are_counted),
+        cmocka_unit_test(the_first_vertex_too_large_to_store_is_named),
+        cmocka_unit_test(gradients_of_a_chain_multiply),
+        cmocka_unit_test(without_gradients_there_are_no_determinants),
+        cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
+        cmocka_unit_test(points_outside_stay_or_follow_with_falloff),
+        cmocka_unit_test(u_v_w_of_a_file_give_what_a_search_gives),
+        cmocka_unit_test(forged_u_v_w_stay_within_the_domain),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -31,7 +31,7 @@ static text_word word_of(const char *bytes, size_t size)
     return (text_word){bytes, bytes + size};
 }
 
-static void test_types(void **state)
+static void every_type_is_loaded_and_stored(void **state)
 {
     (void)state;
     static const struct {
@@ -86,7 +86,7 @@ static void test_types(void **state)
         assert_false(ffd_ply_type_of(word_of(unknown[i], strlen(unknown[i])), &type));
 }
 
-static void test_texts(void **state)
+static void ascii_numbers_are_rounded_and_written_by_type(void **state)
 {
     (void)state;
     /* Above the middle of 1 and the next float by less than a double can tell. */
@@ -109,7 +109,7 @@ static void test_texts(void **state)
     assert_memory_equal(text, "0.10000000149011612", 19);
 }
 
-static void test_counts(void **state)
+static void only_whole_counts_are_accepted(void **state)
 {
     (void)state;
     size_t count;
@@ -195,13 +195,13 @@ static const refused_text refused[] = {
      FFD_E_INVALID, 0, "row 0 (counted from 0) of element vertex: the file ends before or in"},
 };
 
-static void test_refused(void **state)
+static void broken_files_are_refused_with_their_line(void **state)
 {
     (void)state;
     assert_refused(ply, refused, COUNT(refused), has_words);
 }
 
-static void test_too_many_declarations(void **state)
+static void declarations_are_refused_only_beyond_the_limit(void **state)
 {
     (void)state;
     for (int elements = 0; elements < 2; elements++)
@@ -356,7 +356,7 @@ static sample_kind kind_of(size_t i)
     return (sample_kind){(ply_encoding)(i % 3), i / 9 == 1, line_ends[i / 3 % 3]};
 }
 
-static void test_samples(void **state)
+static void every_encoding_reads_and_saves_the_same_mesh(void **state)
 {
     (void)state;
     for (size_t k = 0; k < KINDS; k++) {
@@ -391,7 +391,7 @@ static void test_samples(void **state)
 }
 
 /* One vertex moves in two coordinates, another's normal turns: all other bytes stay. */
-static void test_results(void **state)
+static void only_changed_values_are_written(void **state)
 {
     (void)state;
     for (size_t k = 0; k < KINDS; k++) {
@@ -433,7 +433,7 @@ static void test_results(void **state)
     }
 }
 
-static void test_texts_are_kept(void **state)
+static void unchanged_numbers_keep_their_text(void **state)
 {
     (void)state;
     static const char header[] = ASCII "element vertex 2\nproperty float x\nproperty double y\n"
@@ -450,7 +450,7 @@ static void test_texts_are_kept(void **state)
     ply->close(d);
 }
 
-static void test_mixed_line_ends(void **state)
+static void mixed_line_ends_are_read_and_kept(void **state)
 {
     (void)state;
     static const char text[] = ASCII "element vertex 3\n" XYZ "end_header\n0 0 0\r1 0 0\r\n\n0 1 0";
@@ -464,7 +464,7 @@ static void test_mixed_line_ends(void **state)
 
 /* What the streams cannot show */
 
-static void test_whole_coordinates(void **state)
+static void coordinates_of_a_whole_type_are_refused(void **state)
 {
     (void)state;
     static const char text[] =
@@ -481,7 +481,7 @@ static void test_whole_coordinates(void **state)
     ply->close(d);
 }
 
-static void test_whole_normals(void **state)
+static void normals_of_a_whole_type_can_only_be_kept(void **state)
 {
     (void)state;
     static const char text[] =
@@ -495,7 +495,7 @@ static void test_whole_normals(void **state)
     ply->close(d);
 }
 
-static void test_two_of_three_normals(void **state)
+static void two_of_three_normal_properties_are_no_normals(void **state)
 {
     (void)state;
     static const char text[] = ASCII "element vertex 1\n" XYZ "property float nx\nproperty float nz\n"
@@ -507,7 +507,7 @@ static void test_two_of_three_normals(void **state)
     ply->close(d);
 }
 
-static void test_largest_coordinate(void **state)
+static void the_largest_coordinate_is_that_of_the_type(void **state)
 {
     (void)state;
     static const char narrow[] = ASCII "element vertex 0\n" XYZ "end_header\n";
@@ -531,7 +531,7 @@ static ffd_status faces_of(const char *text, mesh_faces *faces, ffd_error *error
     return status;
 }
 
-static void test_bad_faces(void **state)
+static void bad_faces_are_refused_with_their_line(void **state)
 {
     (void)state;
     static const refused_text cases[] = {
@@ -558,7 +558,7 @@ static void test_bad_faces(void **state)
     }
 }
 
-static void test_no_faces(void **state)
+static void missing_or_empty_face_lists_give_no_faces(void **state)
 {
     (void)state;
     static const char *const texts[] = {
@@ -589,7 +589,7 @@ static ffd_comparison compared_samples(const sample *a, const sample *b, double 
     return result;
 }
 
-static void test_encodings_are_equal(void **state)
+static void encodings_of_one_mesh_compare_equal(void **state)
 {
     (void)state;
     for (size_t i = 0; i < KINDS; i++)
@@ -613,7 +613,7 @@ static sample text_sample(const char *text)
     return s;
 }
 
-static void test_differences(void **state)
+static void a_comparison_names_the_first_difference(void **state)
 {
     (void)state;
     static const char base[] = ONE "property uchar red\n" FACE "end_header\n1 2 3 4\n2 0 0\n";
@@ -659,7 +659,7 @@ static void test_differences(void **state)
 
 /* Hostile files */
 
-static void test_every_truncation(void **state)
+static void truncated_files_are_refused(void **state)
 {
     (void)state;
     draw d = {draw_seed()};
@@ -676,7 +676,7 @@ static void test_every_truncation(void **state)
     }
 }
 
-static void test_changed_bytes(void **state)
+static void files_with_a_changed_byte_are_read_or_refused(void **state)
 {
     (void)state;
     static const char values[] = {0, '\n', '\r', ' ', '9', '-', 'e', (char)0x80, (char)0xff};
@@ -698,7 +698,7 @@ static void test_changed_bytes(void **state)
     assert_true(opened_files > 1000 && refused_files > 1000);
 }
 
-static void test_memory_runs_out(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
     for (size_t k = 0; k < 3; k++) {
@@ -712,26 +712,26 @@ static void test_memory_runs_out(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_types),
-        cmocka_unit_test(test_texts),
-        cmocka_unit_test(test_counts),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_too_many_declarations),
-        cmocka_unit_test(test_samples),
-        cmocka_unit_test(test_results),
-        cmocka_unit_test(test_texts_are_kept),
-        cmocka_unit_test(test_mixed_line_ends),
-        cmocka_unit_test(test_whole_coordinates),
-        cmocka_unit_test(test_whole_normals),
-        cmocka_unit_test(test_two_of_three_normals),
-        cmocka_unit_test(test_largest_coordinate),
-        cmocka_unit_test(test_bad_faces),
-        cmocka_unit_test(test_no_faces),
-        cmocka_unit_test(test_encodings_are_equal),
-        cmocka_unit_test(test_differences),
-        cmocka_unit_test(test_every_truncation),
-        cmocka_unit_test(test_changed_bytes),
-        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(every_type_is_loaded_and_stored),
+        cmocka_unit_test(ascii_numbers_are_rounded_and_written_by_type),
+        cmocka_unit_test(only_whole_counts_are_accepted),
+        cmocka_unit_test(broken_files_are_refused_with_their_line),
+        cmocka_unit_test(declarations_are_refused_only_beyond_the_limit),
+        cmocka_unit_test(every_encoding_reads_and_saves_the_same_mesh),
+        cmocka_unit_test(only_changed_values_are_written),
+        cmocka_unit_test(unchanged_numbers_keep_their_text),
+        cmocka_unit_test(mixed_line_ends_are_read_and_kept),
+        cmocka_unit_test(coordinates_of_a_whole_type_are_refused),
+        cmocka_unit_test(normals_of_a_whole_type_can_only_be_kept),
+        cmocka_unit_test(two_of_three_normal_properties_are_no_normals),
+        cmocka_unit_test(the_largest_coordinate_is_that_of_the_type),
+        cmocka_unit_test(bad_faces_are_refused_with_their_line),
+        cmocka_unit_test(missing_or_empty_face_lists_give_no_faces),
+        cmocka_unit_test(encodings_of_one_mesh_compare_equal),
+        cmocka_unit_test(a_comparison_names_the_first_difference),
+        cmocka_unit_test(truncated_files_are_refused),
+        cmocka_unit_test(files_with_a_changed_byte_are_read_or_refused),
+        cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, remove_saved);
 }

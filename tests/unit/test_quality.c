@@ -178,7 +178,7 @@ static void set_grid(sample *s, size_t n, double lo, double hi)
     ", \"rest\": {\"box\": {\"min\": [-0.5, -0.5, -0.5], \"max\": " max "}}, \"moves\": [" moves "]}"
 #define CUBE(moves) BOX("[4, 4, 4]", "[3, 3, 3]", "[1.5, 1.5, 1.5]", moves)
 
-static void test_translation(void **state)
+static void a_translation_bends_no_edge_and_flips_no_face(void **state)
 {
     sample s = {0};
     add_lattice(&s, CUBE("{\"by\": [0.3, -7, 11.1]}"));
@@ -203,7 +203,7 @@ static void test_translation(void **state)
 
 /* Edges across the axes, where points between the ends are rounded, are exactly straight where nothing moves.
  */
-static void test_nothing_moves(void **state)
+static void edges_that_do_not_move_are_exactly_straight(void **state)
 {
     sample s = {0};
     const double positions[9] = {0.1, 0.2, 0.3, 0.7, 0.9, 0.31, -0.4, 1.3, 0.77};
@@ -222,7 +222,7 @@ static void test_nothing_moves(void **state)
 }
 
 /* z rises by 2u(1-u), u = (x + 0.5)/4: a parabola of sagitta 0.5; and an edge that sees a quarter of it. */
-static void test_parabola(void **state)
+static void an_edge_on_a_parabola_deviates_by_its_sagitta(void **state)
 {
     sample s = {0};
     const double positions[12] = {-0.5, 0, 0, 3.5, 0, 0, 0.5, 1, 0, 1.5, 1, 0};
@@ -244,7 +244,7 @@ static void test_parabola(void **state)
 }
 
 /* A bar on a circular arc of 60 degrees: sagitta R (1 - cos 30 degrees), R = L / angle. */
-static void test_bend(void **state)
+static void an_edge_on_an_arc_deviates_by_its_sagitta(void **state)
 {
     sample s = {0};
     const double positions[6] = {0, 0, 0, 10, 0, 0}, radius = 10 / (3.14159265358979323846 / 3);
@@ -262,7 +262,7 @@ static void test_bend(void **state)
 }
 
 /* Eight cubic Bezier pieces along x, each 1 long; only one of the points inside the fifth is moved. */
-static void test_bump(void **state)
+static void a_bump_inside_one_span_is_found(void **state)
 {
     sample s = {0};
     const double positions[12] = {0, 0.5, 0.5, 8, 0.5, 0.5, 0.1, 0.3, 0.2, 7.7, 0.8, 0.6};
@@ -293,7 +293,7 @@ static void test_bump(void **state)
 
 /* Edges hundreds of lattices long are looked at where they pass it: the bump of height 0.3 (3/4)^3 in its
    middle is found wherever it falls on the edge. */
-static void test_edge_longer_than_lattice(void **state)
+static void a_bump_on_a_very_long_edge_is_found(void **state)
 {
     for (int shift = 0; shift < 8; shift++) {
         sample s = {0};
@@ -378,7 +378,7 @@ static double least_found(draw *d, int rounds, int lowest_degree, bool two_links
 }
 
 /* Kinks, which degree 1 makes, are harder to meet than waves. */
-static void test_random_edges(void **state)
+static void random_edges_come_close_to_the_true_deviation(void **state)
 {
     draw d = {20};
     const double smooth = least_found(&d, 6, 2, false), two = least_found(&d, 3, 2, true),
@@ -391,7 +391,7 @@ static void test_random_edges(void **state)
 }
 
 /* Across the border the deformed edge jumps; its end outside stays. */
-static void test_border(void **state)
+static void the_jump_at_the_border_is_measured(void **state)
 {
     sample s = {0};
     const double positions[6] = {0.5, 0.5, 0.5, 2.5, 0.5, 0.5};
@@ -407,7 +407,7 @@ static void test_border(void **state)
 }
 
 /* A closed direction: a ring of edges round a cylinder, over its seam too. */
-static void test_closed(void **state)
+static void edges_over_the_seam_are_measured(void **state)
 {
     sample s = {0};
     double positions[36];
@@ -436,7 +436,7 @@ static void test_closed(void **state)
     (void)state;
 }
 
-static void test_mirror(void **state)
+static void mirrored_faces_are_flipped_and_turned_ones_are_not(void **state)
 {
     sample s = {0};
     add_lattice(&s, CUBE("{\"scale\": {\"factor\": -1, \"about\": [0.5, 0.5, 0.5]}}"));
@@ -460,7 +460,7 @@ static void test_mirror(void **state)
 }
 
 /* x + 3 sum of the moved points' part: dx'/dx is below 0 in the middle of x only. */
-static void test_fold(void **state)
+static void flipped_faces_are_those_where_space_folds(void **state)
 {
     sample s = {0};
     add_lattice(&s, BOX("[9, 2, 2]", "[3, 1, 1]", "[1.5, 1.5, 1.5]",
@@ -488,7 +488,7 @@ static void test_fold(void **state)
 }
 
 /* y rises by 2u(1-u): det F = 1 everywhere, but the middle vertex passes the line between the others. */
-static void test_coarse_face(void **state)
+static void a_coarse_face_can_flip_without_a_fold(void **state)
 {
     sample s = {0};
     const double positions[9] = {-0.4, 0, 0, 1.5, 0, 0, 3.4, 0.1, 0};
@@ -509,7 +509,7 @@ static void test_coarse_face(void **state)
 }
 
 /* Faces with more corners than 4, without area, and with corners that are not numbers. */
-static void test_odd_faces(void **state)
+static void faces_without_area_or_with_nan_are_not_flipped(void **state)
 {
     sample s = {0};
     const double positions[24] = {0, 0,   0.5, 1,   0,   0.5, 1.2, 0.8, 0.5, 0.5, 1.3, 0.5,
@@ -557,7 +557,7 @@ static int compare_keys(const void *a, const void *b)
 }
 
 /* Against sorting by the C library; vertex numbers use all 32 bits. */
-static void test_edge_list(void **state)
+static void each_edge_is_listed_once_in_order(void **state)
 {
     draw d = {7};
     enum { FACES = 3000 };
@@ -593,7 +593,7 @@ static void test_edge_list(void **state)
     (void)state;
 }
 
-static void test_threads(void **state)
+static void any_number_of_threads_gives_the_same_bits(void **state)
 {
     sample s = {0};
     add_lattice(&s, BOX("[7, 6, 5]", "[3, 2, 2]", "[1.5, 1.5, 1.5]",
@@ -619,7 +619,7 @@ static void test_threads(void **state)
     (void)state;
 }
 
-static void test_memory(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     sample s = {0};
     long failures = 0;
@@ -645,14 +645,22 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_translation), cmocka_unit_test(test_nothing_moves),
-        cmocka_unit_test(test_parabola),    cmocka_unit_test(test_bend),
-        cmocka_unit_test(test_bump),        cmocka_unit_test(test_random_edges),
-        cmocka_unit_test(test_border),      cmocka_unit_test(test_closed),
-        cmocka_unit_test(test_mirror),      cmocka_unit_test(test_fold),
-        cmocka_unit_test(test_coarse_face), cmocka_unit_test(test_odd_faces),
-        cmocka_unit_test(test_edge_list),   cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_memory),      cmocka_unit_test(test_edge_longer_than_lattice),
+        cmocka_unit_test(a_translation_bends_no_edge_and_flips_no_face),
+        cmocka_unit_test(edges_that_do_not_move_are_exactly_straight),
+        cmocka_unit_test(an_edge_on_a_parabola_deviates_by_its_sagitta),
+        cmocka_unit_test(an_edge_on_an_arc_deviates_by_its_sagitta),
+        cmocka_unit_test(a_bump_inside_one_span_is_found),
+        cmocka_unit_test(random_edges_come_close_to_the_true_deviation),
+        cmocka_unit_test(the_jump_at_the_border_is_measured),
+        cmocka_unit_test(edges_over_the_seam_are_measured),
+        cmocka_unit_test(mirrored_faces_are_flipped_and_turned_ones_are_not),
+        cmocka_unit_test(flipped_faces_are_those_where_space_folds),
+        cmocka_unit_test(a_coarse_face_can_flip_without_a_fold),
+        cmocka_unit_test(faces_without_area_or_with_nan_are_not_flipped),
+        cmocka_unit_test(each_edge_is_listed_once_in_order),
+        cmocka_unit_test(any_number_of_threads_gives_the_same_bits),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+        cmocka_unit_test(a_bump_on_a_very_long_edge_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

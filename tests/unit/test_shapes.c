@@ -59,7 +59,7 @@ static const char *const knots_of_8[] = {
 };
 
 /* The volume of a box is the affine map of its domain onto the box, whatever the knots. */
-static void test_box_is_affine(void **state)
+static void a_box_is_affine_whatever_its_knots(void **state)
 {
     (void)state;
     double worst = 0;
@@ -93,7 +93,7 @@ static void test_box_is_affine(void **state)
 }
 
 /* All degrees, on the presets. */
-static void test_box_degrees(void **state)
+static void a_box_is_affine_at_every_degree(void **state)
 {
     (void)state;
     static const char *const kinds[] = {"clamped", "open", "uniform"};
@@ -131,7 +131,7 @@ static void check_points(const ffd_lattice *lattice, size_t step, int c, const d
             fail_msg("point %zu: %.17g, expected %.17g", i, p[3 * i * step + (size_t)c], expected[i]);
 }
 
-static void test_box_points(void **state)
+static void box_points_stand_where_spacing_and_axes_say(void **state)
 {
     (void)state;
     ffd_lattice *l = make("[5,5,5]", "[3,3,3]", "[\"clamped\",\"open\",\"uniform\"]",
@@ -165,7 +165,7 @@ static void test_box_points(void **state)
 }
 
 /* Weights: equal ones keep the map affine, others do not. */
-static void test_box_weights(void **state)
+static void only_equal_weights_keep_a_box_affine(void **state)
 {
     (void)state;
     static const char text[] =
@@ -273,7 +273,7 @@ static void check_one_cylinder(int n, int degree, const char *knots, turn range,
     ffd_lattice_destroy(&lattice);
 }
 
-static void test_cylinder_full(void **state)
+static void a_full_turn_covers_its_cylinder(void **state)
 {
     (void)state;
     static const turn turns[] = {{0, 360}, {-37.5, 322.5}, {90, 450}};
@@ -289,7 +289,7 @@ static void test_cylinder_full(void **state)
         }
 }
 
-static void test_cylinder_partial(void **state)
+static void a_partial_turn_covers_its_sector(void **state)
 {
     (void)state;
     static const turn turns[] = {{0, 90}, {-20, 33}, {10, 280}, {45, 45.5}, {100, 290}};
@@ -301,7 +301,7 @@ static void test_cylinder_partial(void **state)
                     check_one_cylinder(n, degree, kinds[k], turns[t], 1.5);
 }
 
-static void test_cylinder_lists(void **state)
+static void knot_lists_cover_their_cylinder(void **state)
 {
     (void)state;
     static const turn turns[] = {{0, 90}, {10, 280}, {0, 360}};
@@ -315,7 +315,7 @@ static void test_cylinder_lists(void **state)
 
 /* The radius by hand: quadratic closed splines are nearest at the knots, cos(pi/n); the outer control points
    stand at r1 / cos(pi/n), and v = 0 lies at angle a0, half a step after the first of them. */
-static void test_cylinder_by_hand(void **state)
+static void cylinder_points_match_those_worked_out_by_hand(void **state)
 {
     (void)state;
     ffd_lattice *l =
@@ -344,7 +344,7 @@ static void test_cylinder_by_hand(void **state)
 
 /* A rational full circle: nine points of degree 2 with double knots and weights 1, cos 45: the ring is exact,
    so that the control points' radius is r1 itself. */
-static void test_cylinder_exact_circle(void **state)
+static void a_rational_circle_has_the_given_radius(void **state)
 {
     (void)state;
     static const char text[] =
@@ -377,7 +377,7 @@ static void check_refused(const char *size, const char *degree, const char *knot
 }
 
 /* What cannot go round is refused, not placed at infinity. */
-static void test_cylinder_too_few(void **state)
+static void too_few_points_round_a_cylinder_are_refused(void **state)
 {
     (void)state;
     static const char rest[] =
@@ -392,7 +392,7 @@ static void test_cylinder_too_few(void **state)
         "cylinder");
 }
 
-static void test_mesh_box(void **state)
+static void a_mesh_box_fits_the_mesh_with_its_margin(void **state)
 {
     (void)state;
     ffd_lattice *l = make("[3,3,3]", "[2,2,2]", "[\"clamped\",\"clamped\",\"clamped\"]",
@@ -447,7 +447,7 @@ static void fill_bar(double points[24], double rows[9])
         }
 }
 
-static void test_create_principal(void **state)
+static void a_principal_box_lies_along_its_points(void **state)
 {
     (void)state;
     double points[24], rows[9];
@@ -479,7 +479,7 @@ static void test_create_principal(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_create_box(void **state)
+static void a_created_box_encloses_the_finite_points(void **state)
 {
     (void)state;
     static const double points[] = {0, 0, 0, 10, 20, 0, NAN, 1, 1, 5, 5, 40, INFINITY, 0, 0};
@@ -510,7 +510,7 @@ static void test_create_box(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_create_cylinder(void **state)
+static void a_created_cylinder_encloses_its_points(void **state)
 {
     (void)state;
     /* Points at radius 3 round the line through (1,2) along z; z from 0 to 8. */
@@ -553,7 +553,7 @@ static void test_create_cylinder(void **state)
     ffd_lattice_destroy(&l);
 }
 
-static void test_create_refuses(void **state)
+static void bad_lattice_descriptions_are_refused(void **state)
 {
     (void)state;
     static const double points[] = {0, 0, 0, 1, 1, 1};
@@ -605,21 +605,21 @@ static void test_create_refuses(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_box_is_affine),
-        cmocka_unit_test(test_box_degrees),
-        cmocka_unit_test(test_box_points),
-        cmocka_unit_test(test_box_weights),
-        cmocka_unit_test(test_cylinder_full),
-        cmocka_unit_test(test_cylinder_partial),
-        cmocka_unit_test(test_cylinder_lists),
-        cmocka_unit_test(test_cylinder_by_hand),
-        cmocka_unit_test(test_cylinder_exact_circle),
-        cmocka_unit_test(test_cylinder_too_few),
-        cmocka_unit_test(test_mesh_box),
-        cmocka_unit_test(test_create_box),
-        cmocka_unit_test(test_create_principal),
-        cmocka_unit_test(test_create_cylinder),
-        cmocka_unit_test(test_create_refuses),
+        cmocka_unit_test(a_box_is_affine_whatever_its_knots),
+        cmocka_unit_test(a_box_is_affine_at_every_degree),
+        cmocka_unit_test(box_points_stand_where_spacing_and_axes_say),
+        cmocka_unit_test(only_equal_weights_keep_a_box_affine),
+        cmocka_unit_test(a_full_turn_covers_its_cylinder),
+        cmocka_unit_test(a_partial_turn_covers_its_sector),
+        cmocka_unit_test(knot_lists_cover_their_cylinder),
+        cmocka_unit_test(cylinder_points_match_those_worked_out_by_hand),
+        cmocka_unit_test(a_rational_circle_has_the_given_radius),
+        cmocka_unit_test(too_few_points_round_a_cylinder_are_refused),
+        cmocka_unit_test(a_mesh_box_fits_the_mesh_with_its_margin),
+        cmocka_unit_test(a_created_box_encloses_the_finite_points),
+        cmocka_unit_test(a_principal_box_lies_along_its_points),
+        cmocka_unit_test(a_created_cylinder_encloses_its_points),
+        cmocka_unit_test(bad_lattice_descriptions_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,7 +36,7 @@ static void check_files(const ffd_source *source, const char *const *expected, s
     ffd_source_close(&document);
 }
 
-static void test_files(void **state)
+static void a_mesh_lists_the_files_it_is_read_from(void **state)
 {
     static const unsigned char point[12];
     assert_int_equal(mkdir(in_folder("in"), 0777), 0);
@@ -55,7 +55,7 @@ static void test_files(void **state)
     (void)state;
 }
 
-static void test_streams(void **state)
+static void standard_input_lists_no_file(void **state)
 {
     put_text("s.obj", "v 0 0 0\n");
     assert_non_null(freopen(in_folder("s.obj"), "r", stdin));
@@ -64,7 +64,7 @@ static void test_streams(void **state)
     (void)state;
 }
 
-static void test_memory(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     mesh_document *document;
     const ffd_source source = {.path = in_folder("m.gltf")};
@@ -87,9 +87,9 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_files),
-        cmocka_unit_test(test_streams),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(a_mesh_lists_the_files_it_is_read_from),
+        cmocka_unit_test(standard_input_lists_no_file),
+        cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

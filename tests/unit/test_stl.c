@@ -83,7 +83,7 @@ static void append_contents_of_text(const mesh_document *document, byte_buffer *
 #define TEXT "solid a\n" FACET("0 0 1", CORNERS) "endsolid a\n"
 #define IS_TEXT "0,0,0 1,0,0 0,1,0"
 
-static void test_texts(void **state)
+static void text_in_every_spacing_is_read(void **state)
 {
     (void)state;
     static const read_text cases[] = {
@@ -112,7 +112,7 @@ static void test_texts(void **state)
     assert_read(stl, cases, COUNT(cases), append_contents_of_text);
 }
 
-static void test_refused_texts(void **state)
+static void broken_texts_are_refused_with_their_line(void **state)
 {
     (void)state;
     static const refused_text cases[] = {
@@ -144,7 +144,7 @@ static void test_refused_texts(void **state)
 
 /* Binary files */
 
-static void test_binary(void **state)
+static void binary_is_read_whatever_its_header_says(void **state)
 {
     (void)state;
     static const record records[2] = {{UP, FLAT, 0x1234}, {{0, 0, 0}, {1, 2, 3, 4, 5, 6, -0.1F, 8, 9}, 0}};
@@ -170,7 +170,7 @@ static void test_binary(void **state)
 }
 
 /* A header of 80 letters that begins with "solid" has no 0 in it: the size tells. */
-static void test_full_header(void **state)
+static void a_full_header_that_says_solid_is_still_binary(void **state)
 {
     (void)state;
     static const record records[1] = {{UP, FLAT, 0}};
@@ -183,7 +183,7 @@ static void test_full_header(void **state)
     ffd_buffer_free(&file);
 }
 
-static void test_refused_binary(void **state)
+static void binary_that_is_too_short_is_refused(void **state)
 {
     (void)state;
     static const record records[1] = {{UP, FLAT, 0}};
@@ -219,7 +219,7 @@ static void test_refused_binary(void **state)
 
 /* Normals */
 
-static void test_normal(void **state)
+static void only_facets_of_finite_area_have_a_normal(void **state)
 {
     (void)state;
     static const struct {
@@ -266,7 +266,7 @@ static void assert_turned(const char *normal, bool renew, const char *expected)
     stl->close(document);
 }
 
-static void test_normals_are_renewed(void **state)
+static void normals_are_renewed_on_the_side_they_were(void **state)
 {
     (void)state;
     assert_turned("0 0 1.0", true, "1 0 0");
@@ -278,7 +278,7 @@ static void test_normals_are_renewed(void **state)
     assert_turned("-1.#IND -1.#IND -1.#IND", true, "1 0 0");
 }
 
-static void test_which_normals_are_renewed(void **state)
+static void only_facets_that_turn_get_new_normals(void **state)
 {
     (void)state;
     static const record records[4] = {
@@ -323,7 +323,7 @@ static void test_which_normals_are_renewed(void **state)
     ffd_buffer_free(&after_file);
 }
 
-static void test_texts_are_double(void **state)
+static void text_is_written_in_double_precision(void **state)
 {
     (void)state;
     static const char before[] =
@@ -341,7 +341,7 @@ static void test_texts_are_double(void **state)
 
 /* Topology, description, comparison */
 
-static void test_faces(void **state)
+static void facets_share_vertices_of_one_position(void **state)
 {
     (void)state;
     static const record records[3] = {
@@ -362,7 +362,7 @@ static void test_faces(void **state)
     ffd_buffer_free(&file);
 }
 
-static void test_description(void **state)
+static void a_description_counts_what_the_file_has(void **state)
 {
     (void)state;
     static const record records[2] = {{UP, FLAT, 0x8000}, {UP, {0}, 0}};
@@ -393,7 +393,7 @@ static void assert_compared(const byte_buffer *a, const byte_buffer *b, double t
     stl->close(y);
 }
 
-static void test_compare_texts(void **state)
+static void a_comparison_of_texts_names_the_difference(void **state)
 {
     (void)state;
     static const struct {
@@ -431,7 +431,7 @@ static void test_compare_texts(void **state)
     ffd_buffer_free(&a);
 }
 
-static void test_compare_binary(void **state)
+static void a_comparison_of_binary_names_the_difference(void **state)
 {
     (void)state;
     static const record one[1] = {{UP, FLAT, 7}}, none[1] = {{UP, FLAT, 0}};
@@ -484,19 +484,19 @@ static void starve_seeds(const byte_seed *seeds, size_t count)
         use_with_failing_memory(stl, &seeds[i]);
 }
 
-static void test_truncations(void **state)
+static void truncated_files_are_read_or_refused(void **state)
 {
     (void)state;
     with_seeds(truncate_seeds);
 }
 
-static void test_mutations(void **state)
+static void mutated_files_are_read_or_refused(void **state)
 {
     (void)state;
     with_seeds(mutate_seeds);
 }
 
-static void test_memory_failures(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
     with_seeds(starve_seeds);
@@ -505,22 +505,22 @@ static void test_memory_failures(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_texts),
-        cmocka_unit_test(test_refused_texts),
-        cmocka_unit_test(test_binary),
-        cmocka_unit_test(test_full_header),
-        cmocka_unit_test(test_refused_binary),
-        cmocka_unit_test(test_normal),
-        cmocka_unit_test(test_normals_are_renewed),
-        cmocka_unit_test(test_which_normals_are_renewed),
-        cmocka_unit_test(test_texts_are_double),
-        cmocka_unit_test(test_faces),
-        cmocka_unit_test(test_description),
-        cmocka_unit_test(test_compare_texts),
-        cmocka_unit_test(test_compare_binary),
-        cmocka_unit_test(test_truncations),
-        cmocka_unit_test(test_mutations),
-        cmocka_unit_test(test_memory_failures),
+        cmocka_unit_test(text_in_every_spacing_is_read),
+        cmocka_unit_test(broken_texts_are_refused_with_their_line),
+        cmocka_unit_test(binary_is_read_whatever_its_header_says),
+        cmocka_unit_test(a_full_header_that_says_solid_is_still_binary),
+        cmocka_unit_test(binary_that_is_too_short_is_refused),
+        cmocka_unit_test(only_facets_of_finite_area_have_a_normal),
+        cmocka_unit_test(normals_are_renewed_on_the_side_they_were),
+        cmocka_unit_test(only_facets_that_turn_get_new_normals),
+        cmocka_unit_test(text_is_written_in_double_precision),
+        cmocka_unit_test(facets_share_vertices_of_one_position),
+        cmocka_unit_test(a_description_counts_what_the_file_has),
+        cmocka_unit_test(a_comparison_of_texts_names_the_difference),
+        cmocka_unit_test(a_comparison_of_binary_names_the_difference),
+        cmocka_unit_test(truncated_files_are_read_or_refused),
+        cmocka_unit_test(mutated_files_are_read_or_refused),
+        cmocka_unit_test(every_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests(tests, NULL, remove_saved);
 }

@@ -129,7 +129,7 @@ static void make_cube(sample *s, size_t face_count)
         sample_add(s, 4, quads[f]);
 }
 
-static void test_cube(void **state)
+static void a_cube_is_closed(void **state)
 {
     (void)state;
     sample s;
@@ -138,7 +138,7 @@ static void test_cube(void **state)
            (mesh_topology){.vertices = 8, .faces = 6, .edges = 12, .components = 1, .euler = 2, .area = 6});
 }
 
-static void test_open_box(void **state)
+static void an_open_box_has_one_boundary(void **state)
 {
     (void)state;
     sample s;
@@ -153,7 +153,7 @@ static void test_open_box(void **state)
                                .area = 5});
 }
 
-static void test_tube(void **state)
+static void a_tube_has_two_boundaries(void **state)
 {
     (void)state;
     sample s;
@@ -170,7 +170,7 @@ static void test_tube(void **state)
                                .area = 4});
 }
 
-static void test_torus(void **state)
+static void a_torus_has_euler_number_zero(void **state)
 {
     (void)state;
     sample s;
@@ -185,7 +185,7 @@ static void test_torus(void **state)
 
 /* A ladder of quads whose last rung is joined upside down: one edge has both its faces in the same direction.
  */
-static void test_moebius_band(void **state)
+static void a_moebius_band_has_one_non_manifold_edge(void **state)
 {
     (void)state;
     sample s;
@@ -203,7 +203,7 @@ static void test_moebius_band(void **state)
                                .euler = 0});
 }
 
-static void test_two_faces_that_disagree(void **state)
+static void faces_that_disagree_make_a_non_manifold_edge(void **state)
 {
     (void)state;
     sample s;
@@ -220,7 +220,7 @@ static void test_two_faces_that_disagree(void **state)
                                .euler = 1});
 }
 
-static void test_bow_tie(void **state)
+static void a_bow_tie_has_one_non_manifold_vertex(void **state)
 {
     (void)state;
     sample s;
@@ -238,7 +238,7 @@ static void test_bow_tie(void **state)
 }
 
 /* Two closed tetrahedra that share one vertex: half-edges refuse every face of the second at that vertex. */
-static void test_closed_bow_tie(void **state)
+static void solids_that_touch_share_a_non_manifold_vertex(void **state)
 {
     (void)state;
     sample s;
@@ -255,7 +255,7 @@ static void test_closed_bow_tie(void **state)
             .vertices = 7, .faces = 8, .edges = 12, .components = 1, .non_manifold_vertices = 1, .euler = 3});
 }
 
-static void test_three_faces_on_an_edge(void **state)
+static void three_faces_make_an_edge_non_manifold(void **state)
 {
     (void)state;
     sample s;
@@ -280,7 +280,7 @@ static void test_three_faces_on_an_edge(void **state)
 }
 
 /* Faces without area in their numbers are counted apart; repeated neighbours are one corner. */
-static void test_degenerate_faces(void **state)
+static void degenerate_faces_are_counted_apart(void **state)
 {
     (void)state;
     sample s;
@@ -303,7 +303,7 @@ static void test_degenerate_faces(void **state)
 }
 
 /* A square ring as one face, cut open along 0-4: the cut is used twice and no boundary. */
-static void test_repeated_corners(void **state)
+static void a_cut_within_one_face_is_no_boundary(void **state)
 {
     (void)state;
     sample s;
@@ -326,7 +326,7 @@ static void test_repeated_corners(void **state)
                                .area = 12});
 }
 
-static void test_empty(void **state)
+static void a_mesh_without_faces_has_only_vertices(void **state)
 {
     (void)state;
     sample s;
@@ -340,7 +340,7 @@ static void test_empty(void **state)
 }
 
 /* Vertices for which others stand are no vertices at all; one that nobody needs still is. */
-static void test_repeated_vertices(void **state)
+static void repeated_vertices_are_not_counted(void **state)
 {
     (void)state;
     sample s;
@@ -358,7 +358,7 @@ static void test_repeated_vertices(void **state)
                                .area = 1});
 }
 
-static void test_polygon(void **state)
+static void a_concave_polygon_far_away_has_its_area(void **state)
 {
     (void)state;
     sample s;
@@ -378,7 +378,7 @@ static void test_polygon(void **state)
                                .area = 3});
 }
 
-static void test_two_components(void **state)
+static void separate_parts_are_separate_components(void **state)
 {
     (void)state;
     sample s;
@@ -396,7 +396,7 @@ static void test_two_components(void **state)
 }
 
 /* A cone of many faces: more than one half-edge vertex serves its tip, which must not show. */
-static void test_large_fan(void **state)
+static void the_tip_of_a_large_fan_is_one_vertex(void **state)
 {
     (void)state;
     enum { RIM = 20000 };
@@ -603,7 +603,7 @@ static void make_near_surface(sample *s)
     }
 }
 
-static void test_random_meshes(void **state)
+static void random_meshes_match_plain_counting(void **state)
 {
     (void)state;
     for (uint64_t seed = 1; seed <= 6000; seed++) {
@@ -623,7 +623,7 @@ static void test_random_meshes(void **state)
     print_message("seeds 1 to 6000\n");
 }
 
-static void test_refuses_unknown_vertices(void **state)
+static void a_face_with_an_unknown_vertex_is_refused(void **state)
 {
     (void)state;
     sample s;
@@ -635,7 +635,7 @@ static void test_refuses_unknown_vertices(void **state)
     assert_string_equal(error.message, "a face names vertex 3 of 3");
 }
 
-static void test_memory_runs_out(void **state)
+static void every_failed_allocation_is_reported(void **state)
 {
     (void)state;
     sample s;
@@ -657,7 +657,7 @@ static void test_memory_runs_out(void **state)
 }
 
 /* OpenMesh would complain on standard error. */
-static void test_says_nothing(void **state)
+static void nothing_is_written_to_standard_error(void **state)
 {
     (void)state;
     sample s;
@@ -684,26 +684,26 @@ static void test_says_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cube),
-        cmocka_unit_test(test_open_box),
-        cmocka_unit_test(test_tube),
-        cmocka_unit_test(test_torus),
-        cmocka_unit_test(test_moebius_band),
-        cmocka_unit_test(test_two_faces_that_disagree),
-        cmocka_unit_test(test_bow_tie),
-        cmocka_unit_test(test_closed_bow_tie),
-        cmocka_unit_test(test_three_faces_on_an_edge),
-        cmocka_unit_test(test_degenerate_faces),
-        cmocka_unit_test(test_repeated_corners),
-        cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_repeated_vertices),
-        cmocka_unit_test(test_polygon),
-        cmocka_unit_test(test_two_components),
-        cmocka_unit_test(test_large_fan),
-        cmocka_unit_test(test_random_meshes),
-        cmocka_unit_test(test_refuses_unknown_vertices),
-        cmocka_unit_test(test_memory_runs_out),
-        cmocka_unit_test(test_says_nothing),
+        cmocka_unit_test(a_cube_is_closed),
+        cmocka_unit_test(an_open_box_has_one_boundary),
+        cmocka_unit_test(a_tube_has_two_boundaries),
+        cmocka_unit_test(a_torus_has_euler_number_zero),
+        cmocka_unit_test(a_moebius_band_has_one_non_manifold_edge),
+        cmocka_unit_test(faces_that_disagree_make_a_non_manifold_edge),
+        cmocka_unit_test(a_bow_tie_has_one_non_manifold_vertex),
+        cmocka_unit_test(solids_that_touch_share_a_non_manifold_vertex),
+        cmocka_unit_test(three_faces_make_an_edge_non_manifold),
+        cmocka_unit_test(degenerate_faces_are_counted_apart),
+        cmocka_unit_test(a_cut_within_one_face_is_no_boundary),
+        cmocka_unit_test(a_mesh_without_faces_has_only_vertices),
+        cmocka_unit_test(repeated_vertices_are_not_counted),
+        cmocka_unit_test(a_concave_polygon_far_away_has_its_area),
+        cmocka_unit_test(separate_parts_are_separate_components),
+        cmocka_unit_test(the_tip_of_a_large_fan_is_one_vertex),
+        cmocka_unit_test(random_meshes_match_plain_counting),
+        cmocka_unit_test(a_face_with_an_unknown_vertex_is_refused),
+        cmocka_unit_test(every_failed_allocation_is_reported),
+        cmocka_unit_test(nothing_is_written_to_standard_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

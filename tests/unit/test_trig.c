@@ -16,7 +16,7 @@ static void check(double degrees, double sine, double cosine)
         fail_msg("%.17g degrees: sine %.17g cosine %.17g, expected %.17g %.17g", degrees, s, c, sine, cosine);
 }
 
-static void test_exact(void **state)
+static void multiples_of_30_and_45_degrees_are_exact(void **state)
 {
     (void)state;
     const double r = sqrt(0.5), h = sqrt(0.75);
@@ -57,7 +57,7 @@ static double ulps(double value, long double exact)
     return (double)(fabsl((long double)value - exact) / (nextafter(nearest, 2) - nearest));
 }
 
-static void test_random(void **state)
+static void random_angles_are_within_one_ulp(void **state)
 {
     (void)state;
     /* valgrind computes long double as double, which is too coarse to compare with. */
@@ -83,7 +83,7 @@ static void test_random(void **state)
     }
 }
 
-static void test_symmetry(void **state)
+static void sine_is_odd_and_cosine_is_even(void **state)
 {
     (void)state;
     uint64_t seed = 99;
@@ -98,7 +98,7 @@ static void test_symmetry(void **state)
 }
 
 /* Small angles keep their digits. */
-static void test_small(void **state)
+static void small_angles_keep_their_digits(void **state)
 {
     (void)state;
     for (double degrees = 40; degrees > 1e-290; degrees /= 7) {
@@ -110,7 +110,7 @@ static void test_small(void **state)
     }
 }
 
-static void test_arc_tangent_exact(void **state)
+static void the_arc_tangent_of_axes_and_diagonals_is_exact(void **state)
 {
     (void)state;
     const double pi = acos(-1);
@@ -126,7 +126,7 @@ static void test_arc_tangent_exact(void **state)
     }
 }
 
-static void test_arc_tangent(void **state)
+static void the_arc_tangent_matches_the_c_library(void **state)
 {
     (void)state;
     uint64_t seed = 54321;
@@ -148,12 +148,12 @@ static void test_arc_tangent(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_exact),
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_symmetry),
-        cmocka_unit_test(test_small),
-        cmocka_unit_test(test_arc_tangent_exact),
-        cmocka_unit_test(test_arc_tangent),
+        cmocka_unit_test(multiples_of_30_and_45_degrees_are_exact),
+        cmocka_unit_test(random_angles_are_within_one_ulp),
+        cmocka_unit_test(sine_is_odd_and_cosine_is_even),
+        cmocka_unit_test(small_angles_keep_their_digits),
+        cmocka_unit_test(the_arc_tangent_of_axes_and_diagonals_is_exact),
+        cmocka_unit_test(the_arc_tangent_matches_the_c_library),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
