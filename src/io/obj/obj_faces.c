@@ -15,7 +15,7 @@ static void join_blocks(obj_document *d, const obj_users *users)
         d->corners += block->corners;
         d->lines += block->lines;
         d->points += block->points;
-        d->addition = block->counts_back > d->addition ? d->input.size : d->addition;
+        d->addition = block->counts_back > d->addition ? d->file.input.size : d->addition;
     }
 }
 
@@ -140,8 +140,8 @@ static ffd_status make_lists(first_list *list, ffd_error *error)
     if (count == 0)
         return FFD_OK;
     if (count > UINT32_MAX)
-        return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more than %" PRIu32 " face corners with a normal",
-                             UINT32_MAX);
+        return ffd_fail_file(error, FFD_E_LIMIT, d->file.name,
+                             "more than %" PRIu32 " face corners with a normal", UINT32_MAX);
     d->pair_start = ffd_alloc_zero(d->vertices + 1, sizeof *d->pair_start);
     d->pair_normal = ffd_alloc((size_t)count, sizeof *d->pair_normal);
     if (!d->pair_start || !d->pair_normal)

@@ -133,7 +133,7 @@ static ffd_status refuse_unknown(const obj_document *d, const mesh_selector *sel
             ffd_selector_offer(&nearest, known.words[i].first,
                                (size_t)(known.words[i].last - known.words[i].first));
     ffd_obj_names_free(&known);
-    return room ? ffd_selector_unknown(&nearest, d->name, error) : ffd_fail_memory(error);
+    return room ? ffd_selector_unknown(&nearest, d->file.name, error) : ffd_fail_memory(error);
 }
 
 ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selectors, size_t count,
@@ -144,7 +144,7 @@ ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selector
     s.found = ffd_alloc_zero(count, sizeof *s.found);
     d->selected_vertices = ffd_alloc_zero(d->vertices, 1);
     d->selected_faces = ffd_alloc_zero(d->faces, 1);
-    d->selected_pairs = ffd_alloc_zero(d->part.normal_count, 1);
+    d->selected_pairs = ffd_alloc_zero(d->file.part.normal_count, 1);
     d->held_normals = ffd_alloc_zero(d->normals, 1);
     ffd_status status = FFD_OK;
     if (!s.found || !d->selected_vertices || !d->selected_faces || !d->selected_pairs || !d->held_normals)
@@ -154,8 +154,8 @@ ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selector
     for (size_t i = 0; i < count && status == FFD_OK; i++)
         if (!s.found[i])
             status = refuse_unknown(d, &selectors[i], error);
-    d->part.selected = d->selected_vertices;
-    d->part.selected_normals = d->selected_pairs;
+    d->file.part.selected = d->selected_vertices;
+    d->file.part.selected_normals = d->selected_pairs;
     ffd_free(s.found);
     return status;
 }

@@ -14,7 +14,7 @@ typedef struct block_reader {
 static ffd_status check_index(const block_reader *r, const obj_scan *scan, obj_index index, obj_count count,
                               const char *kind, size_t *element)
 {
-    const char *const name = r->document->name;
+    const char *const name = r->document->file.name;
     if (ffd_obj_find(index.value, count, element))
         return FFD_OK;
     const int shown = ffd_text_shown(index.text);
@@ -40,7 +40,7 @@ static void note_index(const block_reader *r, const obj_scan *scan, const obj_co
                        obj_block_users *block)
 {
     if (corner->normal.value < 0)
-        block->counts_back = (size_t)(scan->at - (const char *)r->document->input.data);
+        block->counts_back = (size_t)(scan->at - (const char *)r->document->file.input.data);
 }
 
 /* What is left alone may name normals too (surf). */
@@ -122,7 +122,7 @@ static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block
         if (!plain && !ffd_obj_scan_word(scan, &word))
             return FFD_OK;
         if (!plain && !ffd_obj_corner(word, &corner))
-            return ffd_fail_line(r->error, FFD_E_INVALID, r->document->name, scan->line,
+            return ffd_fail_line(r->error, FFD_E_INVALID, r->document->file.name, scan->line,
                                  "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"", ffd_text_shown(word),
                                  word.first);
         status = check_index(r, scan, corner.vertex, r->vertices, "vertex", &vertex);
@@ -244,7 +244,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
         ffd_file_bring_in(text->first, (size_t)(text->last - text->first));
         block.status = read_block(r->document, r->users, i, &block, NULL);
         r->users->blocks[i] = block;
-        ffd_file_forget(&r->document->input, text->first, (size_t)(text->last - text->first));
+        ffd_file_forget(&r->document->file.input, text->first, (size_t)(text->last - text->first));
     }
 }
 
@@ -257,7 +257,7 @@ static ffd_status find_failure(const obj_document *d, const obj_users *users, si
         return ffd_fail_memory(error);
     status = read_block(d, users, number, &block, error);
     ffd_obj_free_block_users(&block);
-    return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
+    return status ? status : ffd_fail_file(error, FFD_E_IO, d->file.name, "changes while it is read");
 }
 
 ffd_status ffd_obj_users_finish(const obj_document *d, obj_users *users, ffd_error *error)

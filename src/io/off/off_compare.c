@@ -61,11 +61,11 @@ static void compare_vectors(comparer *c)
 {
     const off_document *a = c->a, *b = c->b;
     const size_t at = 3 * c->number;
-    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, a->positions + at, b->positions + at,
-                          format_place, c);
-    if (a->directions)
-        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, a->directions + at, b->directions + at,
-                              format_place, c);
+    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, a->file.positions + at,
+                          b->file.positions + at, format_place, c);
+    if (a->file.directions)
+        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, a->file.directions + at,
+                              b->file.directions + at, format_place, c);
     c->result->positions_compared++;
 }
 

@@ -71,8 +71,8 @@ static ffd_status make_values(const extractor *e)
     const off_document *d = e->document;
     mesh_model *model = e->model;
     const size_t count = d->header.vertices;
-    const double *positions = d->new_positions ? d->new_positions : d->positions;
-    const double *normals = d->new_directions ? d->new_directions : d->directions;
+    const double *positions = d->file.new_positions ? d->file.new_positions : d->file.positions;
+    const double *normals = d->file.new_directions ? d->file.new_directions : d->file.directions;
     const ffd_status status = ffd_model_make_values(model, count, d->header.has_texcoords ? count : 0,
                                                     normals ? count : 0, e->error);
     if (status)

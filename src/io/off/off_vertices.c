@@ -5,7 +5,7 @@
 static ffd_status refuse_number(const off_document *d, size_t line, const char *what, text_word word,
                                 ffd_error *error)
 {
-    return ffd_fail_line(error, FFD_E_INVALID, d->name, line, "%s is not a number: \"%.*s\"", what,
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, line, "%s is not a number: \"%.*s\"", what,
                          ffd_text_shown(word), word.first);
 }
 
@@ -16,13 +16,13 @@ static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t numb
         "coordinate x of a normal", "coordinate y of a normal", "coordinate z of a normal"};
     const size_t needed = off_header_numbers(&d->header);
     for (size_t i = 0; i < v->found; i++) {
-        double *vectors = i < 3 ? d->positions : d->directions;
+        double *vectors = i < 3 ? d->file.positions : d->file.directions;
         if (!ffd_text_number(v->numbers[i], &vectors[3 * number + i % 3]))
             return refuse_number(d, v->line, names[i], v->numbers[i], error);
     }
     if (v->found < needed)
-        return ffd_fail_line(error, FFD_E_INVALID, d->name, v->line, "a vertex needs %zu numbers, found %zu",
-                             needed, v->found);
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, v->line,
+                             "a vertex needs %zu numbers, found %zu", needed, v->found);
     return FFD_OK;
 }
 
@@ -41,22 +41,22 @@ static ffd_status check_rest(const off_document *d, off_walk *walk, ffd_error *e
         return FFD_OK;
     const size_t numbers = off_header_numbers(&d->header);
     return ffd_fail_line(
-        error, FFD_E_INVALID, d->name, walk->scan.line, "a vertex has %zu numbers at %s, found %zu",
+        error, FFD_E_INVALID, d->file.name, walk->scan.line, "a vertex has %zu numbers at %s, found %zu",
         numbers + (found < least ? least : most), found < least ? "least" : "most", numbers + found);
 }
 
 ffd_status ffd_off_read_vertices(off_document *d, off_walk *walk, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    d->positions = ffd_alloc(d->header.vertices, 3 * sizeof *d->positions);
+    d->file.positions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.positions);
     if (d->header.has_normals)
-        d->directions = ffd_alloc(d->header.vertices, 3 * sizeof *d->directions);
-    if (!d->positions || (d->header.has_normals && !d->directions))
+        d->file.directions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.directions);
+    if (!d->file.positions || (d->header.has_normals && !d->file.directions))
         return ffd_fail_memory(error);
     for (size_t i = 0; status == FFD_OK && i < d->header.vertices; i++) {
         off_vertex vertex;
         if (!ffd_off_walk_vertex(walk, &vertex))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu vertices", i, d->header.vertices);
         status = read_numbers(d, &vertex, i, error);
         if (status == FFD_OK)

@@ -183,11 +183,11 @@ static void compare_scalar(comparer *c, const ply_property *property)
 static void compare_vectors(comparer *c)
 {
     const size_t at = 3 * (size_t)c->row;
-    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, c->a->positions + at, c->b->positions + at,
-                          format_place, c);
-    if (c->a->directions)
-        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, c->a->directions + at,
-                              c->b->directions + at, format_place, c);
+    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, c->a->file.positions + at,
+                          c->b->file.positions + at, format_place, c);
+    if (c->a->file.directions)
+        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, c->a->file.directions + at,
+                              c->b->file.directions + at, format_place, c);
     c->result->positions_compared++;
 }
 
@@ -208,8 +208,8 @@ static void compare_row(comparer *c)
 
 static void compare_rows(comparer *c)
 {
-    ffd_ply_walk_begin(&c->a->header, &c->a->input, &c->in_a);
-    ffd_ply_walk_begin(&c->b->header, &c->b->input, &c->in_b);
+    ffd_ply_walk_begin(&c->a->header, &c->a->file.input, &c->in_a);
+    ffd_ply_walk_begin(&c->b->header, &c->b->file.input, &c->in_b);
     for (size_t i = 0; i < c->a->header.element_count; i++) {
         c->element = &c->a->header.elements[i];
         if (c->element->property_count == 0)

@@ -7,13 +7,10 @@
 #define FFD_IO_PLY_PLY_DOCUMENT_H
 
 #include "io/ply/ply_walk.h"
-#include "mesh/mesh.h"
+#include "io/text/file_document.h"
 
 typedef struct ply_document {
-    mesh_document base;
-    mesh_part part;
-    file_input input;
-    char *name; /* for messages */
+    file_document file;
     ply_header header;
     const ply_element *vertex;
     const ply_element *face;             /* NULL: none that names vertices */
@@ -21,9 +18,6 @@ typedef struct ply_document {
     ply_type types[PLY_SLOT_COUNT];      /* of x y z nx ny nz */
     bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
     size_t behind;                       /* offset behind the last row */
-    double *positions, *directions;      /* 3 a vertex; directions: NULL without normals */
-    double *new_positions;               /* NULL before ffd_ply_begin_results */
-    double *new_directions;              /* NULL: normals are kept */
 } ply_document;
 
 static inline const ply_document *ffd_ply_of(const mesh_document *document)
@@ -51,8 +45,6 @@ ffd_status ffd_ply_check_faces(const ply_document *document, ffd_error *error);
 mesh_open_function ffd_ply_open;
 mesh_close_function ffd_ply_close;
 mesh_check_function ffd_ply_check;
-mesh_read_function ffd_ply_read_positions;
-mesh_read_function ffd_ply_read_normals;
 mesh_begin_results_function ffd_ply_begin_results;
 mesh_write_function ffd_ply_write_positions;
 mesh_write_function ffd_ply_write_normals;

@@ -50,9 +50,9 @@ static ffd_status make_values(const extractor *e)
 {
     const ply_document *d = e->document;
     mesh_model *model = e->model;
-    const size_t count = d->part.vertex_count;
-    const double *positions = d->new_positions ? d->new_positions : d->positions;
-    const double *normals = d->new_directions ? d->new_directions : d->directions;
+    const size_t count = d->file.part.vertex_count;
+    const double *positions = d->file.new_positions ? d->file.new_positions : d->file.positions;
+    const double *normals = d->file.new_directions ? d->file.new_directions : d->file.directions;
     const size_t corners = e->faces.start[e->faces.face_count];
     const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? count : 0;
     ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, e->error);
@@ -77,7 +77,7 @@ static ffd_status set_value(extractor *e, const ply_walk *walk, size_t vertex, i
     const ply_type type = e->roles[role]->type;
     double value;
     if (!ffd_ply_load(d->header.encoding, type, word, &value))
-        return ffd_fail_line(e->error, FFD_E_INVALID, d->name, walk->line,
+        return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, walk->line,
                              "%.*s of vertex %zu (counted from 0) is not a number: \"%.*s\"",
                              ffd_text_shown(e->roles[role]->name), e->roles[role]->name.first, vertex,
                              ffd_text_shown(word), word.first);
@@ -102,7 +102,7 @@ static ffd_status take_vertices(extractor *e)
     ply_walk walk;
     ffd_status status = FFD_OK;
     ffd_ply_document_walk(d, d->vertex, &walk);
-    for (size_t row = 0; row < d->part.vertex_count; row++) {
+    for (size_t row = 0; row < d->file.part.vertex_count; row++) {
         ffd_ply_walk_row(&walk);
         for (size_t i = 0; i < d->vertex->property_count && status == FFD_OK; i++) {
             const ply_property *property = &d->vertex->properties[i];
@@ -221,7 +221,7 @@ static ffd_status take_edges(extractor *e)
         model_corner ends[2] = {{0, 0, 0}, {0, 0, 0}};
         if (!take_ends(e, &walk, edges, ends))
             return ffd_fail_line(
-                e->error, FFD_E_INVALID, d->name, d->header.encoding == PLY_ASCII ? walk.line : 0,
+                e->error, FFD_E_INVALID, d->file.name, d->header.encoding == PLY_ASCII ? walk.line : 0,
                 "edge %llu (counted from 0) names a vertex that does not exist", (unsigned long long)row);
         status = ffd_model_add(e->model, MODEL_LINES, ends, 2, e->error);
     }

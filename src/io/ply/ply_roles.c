@@ -23,7 +23,7 @@ static ffd_status find_positions(ply_document *d, ffd_error *error)
 {
     for (size_t slot = 0; slot < PLY_NORMAL_SLOT; slot++)
         if (!fill_slot(d, slot))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, d->vertex->line,
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, d->vertex->line,
                                  "element vertex has no property %s that is one number", slot_names[slot]);
     return FFD_OK;
 }
@@ -61,9 +61,9 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
 {
     d->vertex = ffd_ply_find_element(&d->header, "vertex");
     if (!d->vertex)
-        return ffd_fail_file(error, FFD_E_INVALID, d->name, "the header has no element vertex");
+        return ffd_fail_file(error, FFD_E_INVALID, d->file.name, "the header has no element vertex");
     if (d->vertex->count > UINT32_MAX)
-        return ffd_fail_line(error, FFD_E_LIMIT, d->name, d->vertex->line, "more than %u vertices",
+        return ffd_fail_line(error, FFD_E_LIMIT, d->file.name, d->vertex->line, "more than %u vertices",
                              (unsigned)UINT32_MAX);
     const ffd_status status = find_positions(d, error);
     if (status)

@@ -25,10 +25,10 @@ static ffd_status add_facet(extractor *e, size_t facet)
     double places[9];
     model_corner corners[3];
     ffd_status status = FFD_OK;
-    if (e->document->new_positions)
-        memcpy(places, e->document->new_positions + 9 * facet, sizeof places);
+    if (e->document->file.new_positions)
+        memcpy(places, e->document->file.new_positions + 9 * facet, sizeof places);
     else
-        ffd_stl_read_positions(&e->document->base, 0, 3 * facet, 3, places);
+        ffd_stl_read_positions(&e->document->file.base, 0, 3 * facet, 3, places);
     for (size_t c = 0; c < 3 && status == FFD_OK; c++) {
         corners[c] = (model_corner){0, MODEL_NONE, MODEL_NONE};
         status = find_vertex(e, places + 3 * c, &corners[c].position);
@@ -53,9 +53,9 @@ static ffd_status take_text(extractor *e)
     stl_event event = STL_AT_SOLID;
     size_t seen = 0;
     ffd_status status = FFD_OK;
-    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
     while (status == FFD_OK && event != STL_AT_END) {
-        status = ffd_stl_text_step(&text, d->name, &facet, &event, e->error);
+        status = ffd_stl_text_step(&text, d->file.name, &facet, &event, e->error);
         if (status == FFD_OK && event == STL_AT_SOLID)
             status = begin_solid(e, text.name);
         else if (status == FFD_OK && event == STL_AT_FACET)

@@ -12,7 +12,7 @@ typedef struct stl_saver {
 
 static void corners_before(const stl_document *d, size_t facet, double corners[9])
 {
-    ffd_stl_read_positions(&d->base, 0, 3 * facet, 3, corners);
+    ffd_stl_read_positions(&d->file.base, 0, 3 * facet, 3, corners);
 }
 
 /* The normal of a moved facet, from its corners as they are written. It points to the side of the facet that
@@ -62,14 +62,14 @@ static void write_facets(stl_saver *s)
     stl_text text;
     stl_facet facet;
     bool found;
-    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
     for (size_t i = 0; s->splice.status == FFD_OK && i < d->facets; i++) {
-        const double *after = d->new_positions + 9 * i;
+        const double *after = d->file.new_positions + 9 * i;
         double before[9];
         corners_before(d, i, before);
         const bool moved = memcmp(before, after, sizeof before) != 0;
         if (!d->binary)
-            ffd_stl_text_next(&text, d->name, &facet, &found, NULL);
+            ffd_stl_text_next(&text, d->file.name, &facet, &found, NULL);
         if (moved && d->binary)
             write_binary_facet(s, i, before, after);
         else if (moved)
@@ -82,8 +82,8 @@ ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *option
 {
     stl_saver s = {.document = ffd_stl_of(document)};
     (void)log;
-    ffd_splice_begin(&s.splice, &s.document->input, options, output, error);
-    if (s.document->new_positions)
+    ffd_splice_begin(&s.splice, &s.document->file.input, options, output, error);
+    if (s.document->file.new_positions)
         write_facets(&s);
     return ffd_splice_end(&s.splice);
 }
