@@ -1,10 +1,74 @@
 #include "io/off/off_document.h"
+#include "base/memory/memory.h"
+
+static ffd_status refuse_number(const off_document *d, size_t line, const char *what, text_word word,
+                                ffd_error *error)
+{
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, line, "%s is not a number: \"%.*s\"", what,
+                         ffd_text_shown(word), word.first);
+}
+
+static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t number, ffd_error *error)
+{
+    static const char *const names[OFF_NUMBERS_MAX] = {
+        "coordinate x of a vertex", "coordinate y of a vertex", "coordinate z of a vertex",
+        "coordinate x of a normal", "coordinate y of a normal", "coordinate z of a normal"};
+    const size_t needed = off_header_numbers(&d->header);
+    for (size_t i = 0; i < v->found; i++) {
+        double *vectors = i < 3 ? d->file.positions : d->file.directions;
+        if (!ffd_text_number(v->numbers[i], &vectors[3 * number + i % 3]))
+            return refuse_number(d, v->line, names[i], v->numbers[i], error);
+    }
+    if (v->found < needed)
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, v->line,
+                             "a vertex needs %zu numbers, found %zu", needed, v->found);
+    return FFD_OK;
+}
+
+/* The colour and u v are left alone, but numbers they must be. */
+static ffd_status check_rest(const off_document *d, off_walk *walk, ffd_error *error)
+{
+    const size_t least = ffd_off_header_rest_min(&d->header), most = ffd_off_header_rest_max(&d->header);
+    size_t found = 0;
+    text_word word;
+    for (; ffd_off_walk_rest(walk, &word); found++) {
+        double value;
+        if (!ffd_text_number(word, &value))
+            return refuse_number(d, walk->scan.line, "what follows a vertex", word, error);
+    }
+    if (found >= least && found <= most)
+        return FFD_OK;
+    const size_t numbers = off_header_numbers(&d->header);
+    return ffd_fail_line(
+        error, FFD_E_INVALID, d->file.name, walk->scan.line, "a vertex has %zu numbers at %s, found %zu",
+        numbers + (found < least ? least : most), found < least ? "least" : "most", numbers + found);
+}
+
+static ffd_status read_vertices(off_document *d, off_walk *walk, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    d->file.positions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.positions);
+    if (d->header.has_normals)
+        d->file.directions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.directions);
+    if (!d->file.positions || (d->header.has_normals && !d->file.directions))
+        return ffd_fail_memory(error);
+    for (size_t i = 0; status == FFD_OK && i < d->header.vertices; i++) {
+        off_vertex vertex;
+        if (!ffd_off_walk_vertex(walk, &vertex))
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
+                                 "the file ends after %zu of %zu vertices", i, d->header.vertices);
+        status = read_numbers(d, &vertex, i, error);
+        if (status == FFD_OK)
+            status = check_rest(d, walk, error);
+    }
+    return status;
+}
 
 static ffd_status read_body(off_document *d, ffd_error *error)
 {
     off_walk walk;
     ffd_off_walk_begin(&d->header, &walk);
-    ffd_status status = ffd_off_read_vertices(d, &walk, error);
+    ffd_status status = read_vertices(d, &walk, error);
     if (status == FFD_OK)
         status = ffd_off_read_faces(d, &walk, error);
     if (status)

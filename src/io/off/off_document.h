@@ -21,8 +21,6 @@ static inline const off_document *ffd_off_of(const mesh_document *document)
     return (const off_document *)document;
 }
 
-/* Reads the vertices behind the header, or refuses them. */
-ffd_status ffd_off_read_vertices(off_document *document, off_walk *walk, ffd_error *error);
 /* Reads the faces behind the vertices, or refuses them. */
 ffd_status ffd_off_read_faces(off_document *document, off_walk *walk, ffd_error *error);
 
