@@ -16,31 +16,21 @@ typedef struct comparer {
     ffd_comparison *result;
 } comparer;
 
-/* The place in both files: "line 4" or "lines 4 and 5". */
-static void format_lines(const comparer *c, char *text, size_t capacity)
-{
-    const size_t a = c->a.scan.line, b = c->b.scan.line;
-    if (a == b)
-        snprintf(text, capacity, "line %zu", a);
-    else
-        snprintf(text, capacity, "lines %zu and %zu", a, b);
-}
-
 /* What is compared: "vertex 17 (line 4)", "normal 3 (line 4)", or the keyword. A difference_place. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
     const text_word name = c->a.scan.name;
-    char lines[64];
-    format_lines(c, lines, sizeof lines);
+    char lines[TEXT_LINES_CAPACITY];
+    ffd_text_lines(c->a.scan.line, c->b.scan.line, lines);
     if (c->a.scan.keyword == OBJ_VERTEX)
-        snprintf(text, capacity, "vertex %zu (%s)", c->a.vertices.seen, lines);
+        snprintf(text, capacity, "vertex %zu%s", c->a.vertices.seen, lines);
     else if (c->a.scan.keyword == OBJ_NORMAL)
-        snprintf(text, capacity, "normal %zu (%s)", c->a.normals.seen, lines);
+        snprintf(text, capacity, "normal %zu%s", c->a.normals.seen, lines);
     else if (c->a.scan.keyword == OBJ_TEXCOORD)
-        snprintf(text, capacity, "texcoord %zu (%s)", c->a.texcoords.seen, lines);
+        snprintf(text, capacity, "texcoord %zu%s", c->a.texcoords.seen, lines);
     else
-        snprintf(text, capacity, "%.*s (%s)", ffd_text_shown(name), name.first, lines);
+        snprintf(text, capacity, "%.*s%s", ffd_text_shown(name), name.first, lines);
 }
 
 /* What a statement says more than the coordinates of a vertex: its weight and colour. */

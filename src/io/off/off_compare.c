@@ -20,11 +20,9 @@ typedef struct comparer {
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
-    const size_t a = c->lines[0], b = c->lines[1];
-    if (a == b)
-        snprintf(text, capacity, "%s %zu counted from 0 (line %zu)", c->what, c->number, a);
-    else
-        snprintf(text, capacity, "%s %zu counted from 0 (lines %zu and %zu)", c->what, c->number, a, b);
+    char lines[TEXT_LINES_CAPACITY];
+    ffd_text_lines(c->lines[0], c->lines[1], lines);
+    snprintf(text, capacity, "%s %zu counted from 0%s", c->what, c->number, lines);
 }
 
 static void differ(comparer *c, ffd_difference_kind kind, const char *what, text_word a, text_word b)

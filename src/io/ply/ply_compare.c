@@ -83,14 +83,9 @@ static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
     const text_word name = c->element->name;
-    const size_t a = c->in_a.line, b = c->in_b.line;
-    char lines[64] = "";
-    if (c->a->header.encoding == PLY_ASCII && c->b->header.encoding == PLY_ASCII) {
-        if (a == b)
-            snprintf(lines, sizeof lines, " (line %zu)", a);
-        else
-            snprintf(lines, sizeof lines, " (lines %zu and %zu)", a, b);
-    }
+    char lines[TEXT_LINES_CAPACITY] = "";
+    if (c->a->header.encoding == PLY_ASCII && c->b->header.encoding == PLY_ASCII)
+        ffd_text_lines(c->in_a.line, c->in_b.line, lines);
     snprintf(text, capacity, "%.*s %" PRIu64 " counted from 0%s", ffd_text_shown(name), name.first, c->row,
              lines);
 }

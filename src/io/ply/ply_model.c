@@ -1,7 +1,6 @@
 /* ply_model.c - a PLY file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
-#include "io/text/vectors.h"
 #include <string.h>
 
 /* What the model takes of a vertex beside its position and normal. */
@@ -49,20 +48,10 @@ static void find_roles(extractor *e)
 static ffd_status make_values(const extractor *e)
 {
     const ply_document *d = e->document;
-    mesh_model *model = e->model;
-    const size_t count = d->file.part.vertex_count;
-    const double *positions = d->file.new_positions ? d->file.new_positions : d->file.positions;
-    const double *normals = d->file.new_directions ? d->file.new_directions : d->file.directions;
     const size_t corners = e->faces.start[e->faces.face_count];
-    const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? count : 0;
-    ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, e->error);
-    if (status == FFD_OK && e->roles[ROLE_RED])
-        status = ffd_model_make_colours(model, e->error);
-    if (status)
-        return status;
-    ffd_vectors_read(positions, 0, count, model->positions);
-    ffd_vectors_read(normals, 0, model->normal_count, model->normals);
-    return FFD_OK;
+    const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? d->file.part.vertex_count : 0;
+    const ffd_status status = ffd_file_document_model(&d->file, texcoords, e->model, e->error);
+    return status || !e->roles[ROLE_RED] ? status : ffd_model_make_colours(e->model, e->error);
 }
 
 /* Whole numbers of a type are parts of the largest one. */

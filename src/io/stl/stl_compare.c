@@ -62,11 +62,9 @@ static bool both_text(const comparer *c)
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
-    char lines[64] = "", corner[32] = "";
-    if (both_text(c) && c->a.line == c->b.line)
-        snprintf(lines, sizeof lines, " (line %zu)", c->a.line);
-    else if (both_text(c))
-        snprintf(lines, sizeof lines, " (lines %zu and %zu)", c->a.line, c->b.line);
+    char lines[TEXT_LINES_CAPACITY] = "", corner[32] = "";
+    if (both_text(c))
+        ffd_text_lines(c->a.line, c->b.line, lines);
     if (c->corner >= 0)
         snprintf(corner, sizeof corner, ", corner %d", c->corner);
     snprintf(text, capacity, "facet %zu counted from 0%s%s", c->facet, lines, corner);

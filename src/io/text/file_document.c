@@ -107,3 +107,17 @@ void ffd_file_document_write_normals(mesh_document *document, size_t part, size_
     (void)part;
     write_vectors(((file_document *)document)->new_directions, first, count, xyz, changed);
 }
+
+ffd_status ffd_file_document_model(const file_document *d, size_t texcoords, mesh_model *model,
+                                   ffd_error *error)
+{
+    const size_t count = d->part.vertex_count;
+    const double *positions = d->new_positions ? d->new_positions : d->positions;
+    const double *normals = d->new_directions ? d->new_directions : d->directions;
+    const ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, error);
+    if (status)
+        return status;
+    ffd_vectors_read(positions, 0, count, model->positions);
+    ffd_vectors_read(normals, 0, model->normal_count, model->normals);
+    return FFD_OK;
+}

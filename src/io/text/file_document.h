@@ -27,6 +27,11 @@ mesh_document *ffd_file_document_ready(file_document *document, bool text, const
 /* Frees a document that could not be opened, with its vectors; its input is left alone. */
 void ffd_file_document_free(file_document *document);
 
+/* Makes the values of an empty model: the part's vertices and normals, with the results where there are some,
+   and so many texture coordinates, all 0. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_file_document_model(const file_document *document, size_t texcoords, mesh_model *model,
+                                   ffd_error *error);
+
 /* Entries of the formats' tables, for formats whose vectors are in the four arrays. */
 mesh_close_function ffd_file_document_close;
 mesh_read_function ffd_file_document_read_positions;

@@ -40,6 +40,11 @@ bool ffd_text_whole(text_word word, uint64_t *value);
 /* How many bytes of a word a message shows: long ones are cut, between two characters of UTF-8. */
 int ffd_text_shown(text_word word);
 
+/* Capacity for the text of ffd_text_lines. */
+#define TEXT_LINES_CAPACITY 64
+/* Writes where two files differ: " (line 4)" where a and b are the same line, else " (lines 4 and 5)". */
+void ffd_text_lines(size_t a, size_t b, char text[TEXT_LINES_CAPACITY]);
+
 /* "LF", "CRLF", "CR", "mixed", or "none". */
 const char *ffd_text_line_ends(const void *data, size_t size);
 
