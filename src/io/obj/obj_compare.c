@@ -1,8 +1,8 @@
 /* obj_compare.c - compares two OBJ files. Two OBJ files are the same mesh when their statements are, one by
    one: the keyword, and each argument as text, as a number (1.0 and 1, NaN and NaN) or, in f, l and p, as the
    element it names (-1 and 8). The coordinates of `v` and `vn` may differ by their tolerances; other numbers
-   may not. Comments, empty lines, blanks, continuations and line ends are no part of the mesh; names and
-   mtllib are. */
+   may not. Names and mtllib are compared; comments, empty lines, blanks, continuations and line ends are
+   not. */
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_number.h"
 #include "mesh/difference.h"
@@ -33,7 +33,8 @@ static void format_place(const void *context, char *text, size_t capacity)
         snprintf(text, capacity, "%.*s%s", ffd_text_shown(name), name.first, lines);
 }
 
-/* What a statement says more than the coordinates of a vertex: its weight and colour. */
+/* The kind of a difference in what a statement has besides coordinates, such as the weight or colour of a
+   vertex. */
 static ffd_difference_kind kind_of(obj_keyword keyword)
 {
     switch (keyword) {
@@ -154,7 +155,7 @@ static void compare_arguments(comparer *c)
         compare_words(c);
 }
 
-/* The statements that only one of the files has, behind the end of the other. */
+/* The statements that only one of the files has, after the end of the other. */
 static void differ_in_length(comparer *c, bool in_a)
 {
     obj_walk *longer = in_a ? &c->a : &c->b;

@@ -11,7 +11,7 @@
 #include "io/obj/obj_walk.h"
 #include "io/text/file_document.h"
 
-/* Vertices and `vn` that a file may have: their numbers, and one number for none, are 32 bits. */
+/* Vertices and `vn` that a file may have: their numbers, and one value for none, are 32 bits. */
 #define OBJ_ELEMENTS_MAX (UINT32_MAX - 1)
 #define OBJ_NONE UINT32_MAX
 
@@ -26,7 +26,7 @@ typedef struct obj_document {
     size_t faces, corners, lines, points;                      /* statements; corners of faces */
     spill_array position_store, direction_store, result_store; /* what positions, directions and new_positions
                                                                   point to */
-    bool only_positions; /* normals are checked but not held, and the part shows none */
+    bool only_positions; /* normals are checked but not held, and the part has none */
     /* A pair is a vertex with one of its normals: pairs pair_start[i] .. pair_start[i+1]-1 are those of
        vertex i, with the `vn` pair_normal[.] (from 0) ascending. NULL where no face corner names a normal. */
     uint32_t *pair_start, *pair_normal;

@@ -82,7 +82,7 @@ static ffd_status take_rest_of_vertex(extractor *e)
     return status;
 }
 
-/* What is behind the keyword, from the first word to the last. */
+/* The text after the keyword, from the first word to the last. */
 static ffd_status take_name(extractor *e, char **name)
 {
     text_word whole = {0}, word;

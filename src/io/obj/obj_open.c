@@ -5,7 +5,7 @@
 #include "io/obj/obj_results.h"
 #include "io/obj/obj_vectors.h"
 
-/* UTF-16 would be a file without any known statement, and so an empty mesh. */
+/* UTF-16 text would have no known statement and so give an empty mesh. */
 static ffd_status check_encoding(const obj_document *d, ffd_error *error)
 {
     const unsigned char *data = d->file.input.data;
@@ -54,7 +54,7 @@ static ffd_status read_elements(obj_document *d, ffd_error *error)
     return status;
 }
 
-/* Bytes for each thread: it takes longer to start one than to read fewer. */
+/* Bytes for each thread: starting a thread takes longer than reading fewer. */
 #define THREAD_BYTES ((size_t)128 * 1024)
 
 static int threads_for(const ffd_source *source, size_t size)

@@ -72,8 +72,8 @@ static ffd_status begin_positions(obj_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* Whether each pair is the `vn` of the same number, so that its result can stand there. (Where only some
-   faces are selected the others show what was read: has_both, obj_model.c.) */
+/* Whether each pair is the `vn` of the same number, so that its result can replace what was read. (Where only
+   some faces are selected the others keep what was read: has_both, obj_model.c.) */
 static bool results_fit(const obj_document *d)
 {
     bool fit = !d->selected_faces;

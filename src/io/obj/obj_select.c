@@ -46,7 +46,7 @@ static void enter_groups(selecting *s, obj_scan *scan)
     }
 }
 
-/* Whether an element that stands here is selected. */
+/* Whether an element at the current statement is selected. */
 static bool is_selected(selecting *s)
 {
     static const char text[] = "default";
@@ -122,18 +122,18 @@ static ffd_status refuse_unknown(const obj_document *d, const mesh_selector *sel
     selector_nearest nearest = {.selector = selector};
     obj_names known = {0};
     obj_walk walk;
-    bool room = true;
+    bool has_memory = true;
     ffd_obj_document_walk(d, &walk);
-    while (room && ffd_obj_walk_next(&walk))
+    while (has_memory && ffd_obj_walk_next(&walk))
         if (walk.scan.keyword == keywords[selector->kind])
-            room = offer_line(&nearest, &known, &walk.scan);
-    const size_t distinct = room ? ffd_obj_names_distinct(&known) : 0;
+            has_memory = offer_line(&nearest, &known, &walk.scan);
+    const size_t distinct = has_memory ? ffd_obj_names_distinct(&known) : 0;
     for (size_t i = 0; i < distinct; i++)
         if (known.words[i].first < known.words[i].last)
             ffd_selector_offer(&nearest, known.words[i].first,
                                (size_t)(known.words[i].last - known.words[i].first));
     ffd_obj_names_free(&known);
-    return room ? ffd_selector_unknown(&nearest, d->file.name, error) : ffd_fail_memory(error);
+    return has_memory ? ffd_selector_unknown(&nearest, d->file.name, error) : ffd_fail_memory(error);
 }
 
 ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selectors, size_t count,

@@ -7,7 +7,8 @@ typedef struct block_reader {
     const obj_document *document;
     const obj_users *users;
     obj_count vertices, normals;
-    bool any_normals; /* else those that are named are let pass, as some tools leave the normals out */
+    bool any_normals; /* else indices of normals are accepted without a check: some tools leave the normals
+                         out */
     ffd_error *error;
 } block_reader;
 
@@ -90,7 +91,7 @@ static void pass_common_corners(const block_reader *r, obj_scan *scan, obj_block
         const char *const end = ffd_obj_pair_at(at + 1, &indices);
         if (!end || !ffd_obj_ends_any_word(end))
             break;
-        /* 0 becomes one of those that are too large. */
+        /* 0 becomes a value that is too large. */
         const size_t vertex = (size_t)indices.first - 1, normal = (size_t)indices.second - 1;
         if (vertex >= r->vertices.total || normal >= r->normals.total)
             break;
@@ -162,7 +163,7 @@ static bool grow_firsts(obj_users *users, size_t count)
 {
     if (count <= users->first_count)
         return true;
-    /* Zeros are atomic zeros, and cost nothing where no thread comes. */
+    /* Zeros are valid atomics, and pages that no thread touches cost nothing. */
     _Atomic uint32_t *firsts = ffd_alloc_zero(count, sizeof *firsts);
     if (!firsts)
         return false;
@@ -181,7 +182,7 @@ ffd_status ffd_obj_users_begin(const obj_document *d, size_t vertices, size_t no
     if (!users->blocks)
         return ffd_fail_memory(error);
     if (normals > 0 && !d->only_positions)
-        (void)grow_firsts(users, vertices); /* without them all that has normals is late */
+        (void)grow_firsts(users, vertices); /* without them every block with normals is late */
     return FFD_OK;
 }
 
@@ -237,7 +238,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     (void)worker;
     for (size_t i = first; i < last; i++) {
         const obj_block *text = &r->document->blocks.list[i];
-        obj_block_users block = {0}; /* the thread's own: the list's share lines of the cache */
+        obj_block_users block = {0}; /* a local copy: entries of the list share cache lines */
         if (!is_to_be_read(r->document, &r->users->blocks[i]))
             continue;
         ffd_obj_free_block_users(&r->users->blocks[i]);
@@ -248,7 +249,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     }
 }
 
-/* Reads a block that has failed again for the words. */
+/* Reads a block that has failed again, for the error message. */
 static ffd_status find_failure(const obj_document *d, const obj_users *users, size_t number,
                                ffd_status status, ffd_error *error)
 {

@@ -22,7 +22,7 @@ typedef struct vectors {
 typedef struct block_content {
     vectors positions, normals;
     size_t texcoords, faces, lines;
-    size_t addition; /* behind the last `vn`, from the file's beginning; 0: none */
+    size_t addition; /* offset in the file after the last `vn`; 0: none */
     obj_block_users users;
     bool names_elements;
     ffd_status status;
@@ -34,7 +34,7 @@ typedef struct reader {
     block_content *contents; /* of blocks that are not joined yet */
     /* Before the next block; the document gets them when no thread looks at it any more. */
     size_t line, vertices, texcoords, normals, faces;
-    size_t forgotten;  /* bytes of the file that are given back (ffd_file_forget_until) */
+    size_t forgotten;  /* bytes of the file whose memory is given back (ffd_file_forget_until) */
     size_t failed;     /* the first block that could not be read; SIZE_MAX: none so far */
     ffd_status status; /* of that block */
     atomic_bool is_over;
@@ -114,7 +114,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
 {
     reader *r = context;
     obj_block *block = &r->document->blocks.list[first];
-    block_content content = r->contents[worker]; /* the thread's own: the list's share lines of the cache */
+    block_content content = r->contents[worker]; /* a local copy: entries of the list share cache lines */
     (void)tile;
     (void)last;
     clear_content(&content);
@@ -126,7 +126,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     r->contents[worker] = content;
 }
 
-/* Without this room the store grows as it is filled. */
+/* A failure does no harm: the store then grows as it is filled. */
 static void expect(size_t count, spill_array *store)
 {
     const size_t size = count * OBJ_VECTOR;
@@ -134,7 +134,7 @@ static void expect(size_t count, spill_array *store)
         (void)ffd_spill_grow(store, size);
 }
 
-/* Makes room for all elements at once, where there are not too many for memory; what is missing then is made
+/* Reserves memory for all elements at once, unless there are too many; what is missing is then allocated
    later. */
 static ffd_status expect_elements(reader *r, ffd_error *error)
 {
@@ -158,7 +158,7 @@ static bool append(const vectors *from, size_t count, spill_array *to)
     return true;
 }
 
-/* Gives the block its place in the file, and takes over what it has. */
+/* Sets the numbers of the first line and elements of the block, and takes over its content. */
 static void join_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     reader *r = context;
@@ -196,7 +196,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     content->users = (obj_block_users){0};
 }
 
-/* Reads a block that has failed again, now that its place is known, for the words. */
+/* Reads a block that has failed again, now that its position is known, for the error message. */
 static ffd_status find_failure(const reader *r, ffd_error *error)
 {
     block_content content = {0};

@@ -2,7 +2,7 @@
    attributes, and vertices and faces are the same one by one. Positions and normals may differ by their
    tolerances; other numbers may not. Colours are equal where they are the same numbers and written in the
    same of the two ways, whole (0 to 255) or not (0 to 1). Comments, blanks, the number of edges, where lines
-   end, and what stands behind the last face are no part of the mesh. */
+   end, and what follows the last face are not compared. */
 #include "io/off/off_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* off_document.h - an OFF file as a mesh document: one part, in the lattice's space.
 
    Every vertex of the file is one, in its order; that of NOFF has its normal. Coordinates are held as
-   numbers; all else stays in the file's bytes, which are walked through again where it is needed. */
+   numbers; all else stays in the file's bytes, which are read again where it is needed. */
 #ifndef FFD_IO_OFF_OFF_DOCUMENT_H
 #define FFD_IO_OFF_OFF_DOCUMENT_H
 
@@ -13,7 +13,7 @@ typedef struct off_document {
     off_header header;
     size_t lines, points; /* faces of two corners, and of one */
     size_t corners;       /* of the other faces */
-    const char *behind;   /* what follows the last face's line, or the last vertex' */
+    const char *behind;   /* what follows the line of the last face, or of the last vertex */
 } off_document;
 
 static inline const off_document *ffd_off_of(const mesh_document *document)
@@ -21,7 +21,7 @@ static inline const off_document *ffd_off_of(const mesh_document *document)
     return (const off_document *)document;
 }
 
-/* Reads the faces behind the vertices, or refuses them. */
+/* Reads and checks the faces after the vertices. */
 ffd_status ffd_off_read_faces(off_document *document, off_walk *walk, ffd_error *error);
 
 /* The entries of the format's table. */

@@ -15,7 +15,7 @@ typedef struct extractor {
     ffd_error *error;
 } extractor;
 
-/* The numbers behind a vertex, up to most of them. */
+/* The numbers after a vertex, up to REST_MAX. */
 static size_t take_rest(extractor *e, double *numbers)
 {
     size_t count = 0;
@@ -26,7 +26,7 @@ static size_t take_rest(extractor *e, double *numbers)
     return count;
 }
 
-/* A colour (a single number would name one of a table, which no file has with it) and then u v. */
+/* A colour (a single number would be an index into a table, which no file has with it) and then u v. */
 static ffd_status take_vertex(extractor *e, size_t i)
 {
     const bool texcoords = e->document->header.has_texcoords;

@@ -1,8 +1,7 @@
 /* ply_compare.c - compares two PLY files. Two PLY files are the same mesh when their elements, properties and
    types are, in their order, and their values as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the
    vertices may differ by their tolerances; other numbers may not. How the numbers are written (ascii, either
-   binary order), comments, blanks and line ends are no part of the mesh; obj_info and the names of texture
-   files are. */
+   binary order), comments, blanks and line ends are not compared; obj_info and texture file names are. */
 #include "io/ply/ply_document.h"
 #include "mesh/difference.h"
 #include <inttypes.h>
@@ -90,7 +89,7 @@ static void format_place(const void *context, char *text, size_t capacity)
              lines);
 }
 
-/* A number as it may be shown: its text, or the shortest one for what its bytes stand for. */
+/* A number for a message: its text, or the shortest text for the value of its bytes. */
 static void format_value(const ply_document *d, ply_type type, text_word word, char *text, size_t capacity)
 {
     double value = 0;
@@ -144,7 +143,7 @@ static bool same_value(const comparer *c, ply_type type, text_word a, text_word 
            !(ffd_difference_of(x, y) > 0);
 }
 
-/* One difference at most; goes behind the list in both files. */
+/* One difference at most; moves past the list in both files. */
 static void compare_list(comparer *c, const ply_property *property)
 {
     text_word a, b;

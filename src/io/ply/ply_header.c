@@ -249,7 +249,7 @@ static void measure_row(const ply_header *h, ply_element *element)
     }
 }
 
-/* The counts must fit the bytes behind the header; the last line of a text may lack its end. */
+/* The counts must fit the bytes after the header; the last line of a text may lack its end. */
 static ffd_status check_sizes(const header_reader *r)
 {
     const ply_header *h = r->header;

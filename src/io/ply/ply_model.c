@@ -106,8 +106,8 @@ static ffd_status take_vertices(extractor *e)
     return status;
 }
 
-/* The texture coordinates of a face's corners stand in a list of twice as many numbers; one of another length
-   is left aside. Returns whether they are there. */
+/* The texture coordinates of a face's corners are a list of twice as many numbers; a list of another length
+   is ignored. Returns whether they are there. */
 static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
 {
     const ply_document *d = e->document;
@@ -171,7 +171,7 @@ static ffd_status take_faces(extractor *e)
     return status;
 }
 
-/* Takes a row's vertex1 and vertex2. False where one is no vertex. */
+/* Takes a row's vertex1 and vertex2. False where one is not the number of a vertex. */
 static bool take_ends(const extractor *e, ply_walk *walk, const ply_element *edges, model_corner ends[2])
 {
     const ply_property *named[2] = {find_scalar(edges, "vertex1"), find_scalar(edges, "vertex2")};

@@ -10,7 +10,7 @@ ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tan
     return ffd_file_document_begin_results(document, normals, tangents, error);
 }
 
-/* Rounded to their types. */
+/* Copies vectors that are marked as changed, rounded to their types. */
 static void write_vectors(double *results, const ply_type types[3], size_t first, size_t count,
                           const double *xyz, const uint8_t *changed)
 {

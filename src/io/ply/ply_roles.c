@@ -6,8 +6,8 @@ static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny"
 const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
 
-/* Marks the property of the vertices that a slot's name stands for; NULL where there is none with one value
-   a vertex. */
+/* Marks and returns the property of the vertices that has a slot's name; NULL where there is none with one
+   value a vertex. */
 static ply_property *fill_slot(ply_document *d, size_t slot)
 {
     const ply_property *found = ffd_ply_find_property(d->vertex, slot_names[slot]);
@@ -28,7 +28,7 @@ static ffd_status find_positions(ply_document *d, ffd_error *error)
     return FFD_OK;
 }
 
-/* All three are there, as numbers with a fraction, or none is looked at. */
+/* All three must be there, as numbers with a fraction; otherwise none of them is used. */
 static void find_normals(ply_document *d)
 {
     ply_property *properties[3];

@@ -10,11 +10,11 @@ static void replace_number(const ply_document *d, file_splice *splice, const ply
     const bool normal = property->slot >= PLY_NORMAL_SLOT;
     const double *before = normal ? d->file.directions : d->file.positions;
     const double *after = normal ? d->file.new_directions : d->file.new_positions;
-    const size_t place = 3 * row + property->slot % PLY_NORMAL_SLOT;
+    const size_t index = 3 * row + property->slot % PLY_NORMAL_SLOT;
     char bytes[FFD_NUMBER_CAPACITY];
-    if (!after || memcmp(before + place, after + place, sizeof *after) == 0)
+    if (!after || memcmp(before + index, after + index, sizeof *after) == 0)
         return;
-    const size_t size = ffd_ply_store(d->header.encoding, property->type, after[place], bytes);
+    const size_t size = ffd_ply_store(d->header.encoding, property->type, after[index], bytes);
     ffd_splice_replace(splice, word, bytes, size);
 }
 

@@ -1,8 +1,8 @@
 /* stl_compare.c - compares two STL files. Two STL files are the same mesh when their facets are the same one
-   by one. Corners and normals may differ by their tolerances; not so the two bytes behind a binary file's
-   facet (text has none: 0), nor, where both files are text or both are binary, the solids with their names or
-   the header. How numbers are written, lines and blanks, and what stands behind a binary file's last facet
-   are no part of the mesh. */
+   by one. Corners and normals may differ by their tolerances; not so the two bytes after a binary file's
+   facet (0 for text), nor, where both files are text or both are binary, the solids with their names or the
+   header. How numbers are written, lines and blanks, and what follows a binary file's last facet are not
+   compared. */
 #include "io/stl/stl_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>

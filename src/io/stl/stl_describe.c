@@ -48,7 +48,7 @@ static bool describe_binary(const stl_document *d, json_text *json)
     return done;
 }
 
-/* Names that many solids could have: a file of a few bytes each must not become a page. */
+/* Names that are shown at most: a file may have a solid every few bytes. */
 #define NAMES_MAX 16
 
 static bool describe_text(const stl_document *d, json_text *json)

@@ -20,7 +20,7 @@ static bool begins_with_solid(const file_input *input)
 }
 
 /* The header of a binary file may say "solid" too: its size decides, or (where bytes are missing or follow) a
-   0 among its first bytes, which text has not and the number of facets nearly always. */
+   0 among its first bytes: text has none, and the number of facets nearly always has one. */
 static bool is_binary(const file_input *input)
 {
     if (input->size >= STL_START && stated_size(input) == input->size)
@@ -80,7 +80,7 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
         if (status == FFD_OK && found)
             status = add_facet(d, &facet, &capacity, error);
     }
-    /* Gives back what growing has reserved too much; where that fails the larger block serves as well. */
+    /* Gives back what growing has reserved too much; where that fails the larger block is kept. */
     double *block = ffd_realloc(d->file.positions, d->facets, 9 * sizeof *d->file.positions);
     d->file.positions = block ? block : d->file.positions;
     return status;

@@ -1,7 +1,7 @@
 /* stl_document.h - an STL file, ascii or binary, as a mesh document: one part, in the lattice's space.
 
-   Each corner of each facet is a vertex, in the order of the file. Facet normals are none of a vertex: saving
-   renews them from the corners. */
+   Each corner of each facet is a vertex, in the order of the file. A facet's normal is not the normal of a
+   vertex: saving computes it anew from the corners. */
 #ifndef FFD_IO_STL_STL_DOCUMENT_H
 #define FFD_IO_STL_STL_DOCUMENT_H
 

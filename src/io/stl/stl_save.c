@@ -16,9 +16,9 @@ static void corners_before(const stl_document *d, size_t facet, double corners[9
 }
 
 /* The normal of a moved facet, from its corners as they are written. It points to the side of the facet that
-   the file's normal does: where that is at odds with the order of the corners it stays so. False where it
-   stays as it is: the corners give none, or it is zero, by which many programs say that the order of the
-   corners tells it. */
+   the file's normal does: where the order of the corners says otherwise, the side of the file's normal is
+   kept. False where the normal is kept as it is: the corners give none, or it is zero, by which many programs
+   mean the normal of the corners. */
 static bool renew_normal(const stl_document *d, const double before[9], const double after[9],
                          const double old[3], double normal[3])
 {

@@ -17,8 +17,8 @@ typedef struct file_document {
     double *new_directions; /* NULL: normals are kept */
 } file_document;
 
-/* Makes a document of size bytes, zeroed apart from its input and its name. The input stays the caller's
-   until the document is closed. Returns NULL after a failure. Errors: FFD_E_MEMORY. */
+/* Makes a document of size bytes, zeroed apart from its input and its name. The input is the caller's until
+   opening has succeeded. Returns NULL after a failure. Errors: FFD_E_MEMORY. */
 void *ffd_file_document_make(size_t size, const file_input *input, const ffd_source *source,
                              ffd_error *error);
 /* Ends opening: the document shows its part, whose counts are set, and gets its memory budget. Returns what

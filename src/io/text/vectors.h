@@ -12,7 +12,7 @@ static inline void ffd_vectors_read(const double *vectors, size_t first, size_t 
         memcpy(xyz, vectors + 3 * first, 3 * count * sizeof *xyz);
 }
 
-/* Which of count numbers, 32 at most, have other bits than before: a bit for each. */
+/* Returns a bit for each of count numbers, 32 at most: set where its bits have changed. */
 static inline unsigned ffd_vectors_changes(const double *before, const double *after, size_t count)
 {
     unsigned changes = 0;
