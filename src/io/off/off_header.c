@@ -196,7 +196,7 @@ static ffd_status find_layout(header_reader *r)
     const bool in_header_line = ffd_text_word(&line, &word);
     if (has_lines(r->scan, header->vertices + header->faces)) {
         if (in_header_line)
-            return refuse(r, FFD_E_INVALID, "behind the numbers of vertices, faces and edges stands", word);
+            return refuse(r, FFD_E_INVALID, "the numbers of vertices, faces and edges are followed by", word);
         return FFD_OK;
     }
     header->free_layout = in_header_line || !has_vertex_line(header, r->scan);
