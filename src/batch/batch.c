@@ -209,7 +209,7 @@ static void drop_waiting(batch_run *run)
 
 static void heed_interrupts(batch_run *run)
 {
-    const interrupt_wish wish = ffd_interrupt_wished();
+    const interrupt_request wish = ffd_interrupt_requested();
     if (wish != INTERRUPT_NONE)
         run->ending = true;
     if (run->ending)
@@ -298,8 +298,8 @@ static const char *remark_of(const batch_run *run)
 {
     if (!run->dropped)
         return "";
-    return ffd_interrupt_wished() == INTERRUPT_NONE ? "; the others were not begun (--stop)"
-                                                    : "; interrupted, the others were not begun";
+    return ffd_interrupt_requested() == INTERRUPT_NONE ? "; the others were not begun (--stop)"
+                                                       : "; interrupted, the others were not begun";
 }
 
 ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)

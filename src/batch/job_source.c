@@ -175,7 +175,7 @@ static ffd_status read_columns(job_source *source, ffd_error *error)
     do {
         ffd_stream_wait(source->reader.stream);
         status = next_row(source, &source->columns, &state, &valid, error);
-    } while (!status && state == LINE_LATER && ffd_interrupt_wished() == INTERRUPT_NONE);
+    } while (!status && state == LINE_LATER && ffd_interrupt_requested() == INTERRUPT_NONE);
     if (status)
         return status;
     if (state != LINE_READ || !valid)
@@ -233,7 +233,7 @@ static ffd_status find_files(job_source *source, ffd_error *error)
 
 static ffd_status open_text(job_source *source, const char *path, ffd_error *error)
 {
-    source->frame.name = ffd_path_shown(path);
+    source->frame.name = ffd_path_display_name(path);
     source->folder =
         strcmp(path, "-") == 0 || ffd_path_name(path) == path ? ffd_text_copy("") : ffd_path_folder(path);
     if (!source->folder)

@@ -22,7 +22,7 @@ static ffd_status end_line(line_reader *reader, ffd_error *error)
 {
     if (reader->line.size > 0 && reader->line.data[reader->line.size - 1] == '\r')
         reader->line.size--;
-    char *end = ffd_buffer_room(&reader->line, 1);
+    char *end = ffd_buffer_reserve(&reader->line, 1);
     if (!end)
         return ffd_fail_memory(error);
     *end = 0;

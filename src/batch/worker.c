@@ -31,7 +31,7 @@ static bool read_task(batch_worker *worker, wire_task *task)
     if (!ffd_process_take(task, sizeof *task) || task->text_size > WIRE_MOST)
         return false;
     worker->text.size = 0;
-    char *const text = ffd_buffer_room(&worker->text, task->text_size + 1);
+    char *const text = ffd_buffer_reserve(&worker->text, task->text_size + 1);
     if (!text || !ffd_process_take(text, task->text_size))
         return false;
     text[task->text_size] = 0;

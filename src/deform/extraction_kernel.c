@@ -1,6 +1,6 @@
 /* extraction_kernel.c - compiled once for each instruction set: FFD_EXTRACTION_KERNEL is the function's name.
-   From a cell's control points to its weighted Bezier points (P&T 5.3): N_j = sum_r E_rj B_r, so that those
-   along a direction are sum_j E_rj P_j, in ascending j; the rows of E are weighted. */
+   From a cell's control points to its weighted Bezier points (NURBS Book 5.3): N_j = sum_r E_rj B_r, so that
+   those along a direction are sum_j E_rj P_j, in ascending j; the rows of E are weighted. */
 #include "base/vector/quad.h"
 #include "deform/kernel.h"
 #include <stdbool.h>

@@ -2,10 +2,10 @@
    of points that it has in hand at a time.
 
    The functions t^i (1-t)^(d-i) are all >= 0, and exact at both ends of the span; the binomial coefficients
-   that make them Bernstein polynomials are part of the points (P&T 1.3). The tensor product is summed u
-   first, then v, then w, each in ascending index (P&T A4.3's order by separation). Derivatives by u are sums
-   of the functions of degree d-1 over the points' differences (P&T 1.10), which are stored beside them; those
-   by v and w are sums over what is found on the way, with the functions' derivatives.
+   that make them Bernstein polynomials are part of the points (NURBS Book 1.3). The tensor product is summed
+   u first, then v, then w, each in ascending index (NURBS Book A4.3's order by separation). Derivatives by u
+   are sums of the functions of degree d-1 over the points' differences (NURBS Book 1.10), which are stored
+   beside them; those by v and w are sums over what is found on the way, with the functions' derivatives.
 
    gcc unrolls the functions' loops only where it is asked to, for each direction's degree comes from an
    array; their numbers would go through the stack, which takes longer than all else. */

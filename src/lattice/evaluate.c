@@ -125,7 +125,7 @@ void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, con
     }
 }
 
-/* C = A/W, C_u = (A_u - C W_u)/W (P&T 4.4). */
+/* C = A/W, C_u = (A_u - C W_u)/W (NURBS Book 4.4). */
 void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
                               const double *weights, double value[3], double derivative[9])
 {

@@ -61,7 +61,7 @@ void ffd_lattice_sum(const ffd_lattice *lattice, const lattice_basis *basis, con
                      double value[3], double derivative[9]);
 
 /* The same for sum field R with R = h N N N / sum h N N N and these weights h (count; NULL: ffd_lattice_sum),
-   the derivative by the quotient rule (P&T 4.4). */
+   the derivative by the quotient rule (NURBS Book 4.4). */
 void ffd_lattice_sum_rational(const ffd_lattice *lattice, const lattice_basis *basis, const double *field,
                               const double *weights, double value[3], double derivative[9]);
 

@@ -52,7 +52,7 @@ double ffd_difference_of(double a, double b)
     return a < b || a > b ? fabs(a - b) : 0;
 }
 
-static void describe(ffd_difference *difference, int axis, difference_place *place, const void *context)
+static void describe(ffd_difference *difference, int axis, difference_label *place, const void *context)
 {
     static const char *const subjects[] = {"", " of the normal", " of the tangent"};
     const char *subject = subjects[difference->kind];
@@ -73,7 +73,7 @@ static bool is_worse(const ffd_difference *worst, ffd_difference_kind kind, doub
 }
 
 void ffd_difference_vector(ffd_comparison *comparison, ffd_difference_kind kind, int components,
-                           const double *a, const double *b, difference_place *place, const void *context)
+                           const double *a, const double *b, difference_label *place, const void *context)
 {
     const bool is_position = kind == FFD_DIFFERENCE_POSITION;
     double *largest =

@@ -18,12 +18,12 @@ void ffd_difference_say(ffd_comparison *comparison, ffd_difference_kind kind, co
     ((comparison)->complete = false, ffd_difference_say(comparison, __VA_ARGS__))
 
 /* Writes where the vector that is compared stands, as "vertex 3 (line 7)". */
-typedef void difference_place(const void *context, char *text, size_t capacity);
+typedef void difference_label(const void *context, char *text, size_t capacity);
 
 /* Compares two vectors of up to 4 components: positions, normals or tangents. One difference where a
    component differs by more than the tolerance of their kind. */
 void ffd_difference_vector(ffd_comparison *comparison, ffd_difference_kind kind, int components,
-                           const double *a, const double *b, difference_place *place, const void *context);
+                           const double *a, const double *b, difference_label *place, const void *context);
 
 /* |a - b|; 0 also for equal infinities and two NaN, infinity for a NaN and a number. */
 double ffd_difference_of(double a, double b);

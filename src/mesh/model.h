@@ -70,10 +70,10 @@ typedef enum model_feature {
     MODEL_HAS_MORPHS = 1 << 24,
     MODEL_HAS_ANIMATIONS = 1 << 25,
     MODEL_HAS_CAMERAS = 1 << 26,
-    MODEL_HAS_HIDDEN = 1 << 27,   /* what the source's scene does not show */
-    MODEL_HAS_PLACES = 1 << 28,   /* nodes' places, where each mesh was taken in its own space */
-    MODEL_HAS_MORE = 1 << 29,     /* attributes that no other format knows */
-    MODEL_HAS_RATIONAL = 1 << 30, /* a fourth coordinate, w, other than 1 */
+    MODEL_HAS_HIDDEN = 1 << 27,     /* what the source's scene does not show */
+    MODEL_HAS_TRANSFORMS = 1 << 28, /* nodes' places, where each mesh was taken in its own space */
+    MODEL_HAS_MORE = 1 << 29,       /* attributes that no other format knows */
+    MODEL_HAS_RATIONAL = 1 << 30,   /* a fourth coordinate, w, other than 1 */
 } model_feature;
 
 typedef struct mesh_model {

@@ -234,7 +234,7 @@ static const struct {
     {MODEL_HAS_TEXTURES, 0, "textures"},
     {MODEL_HAS_FREE_FORM, 0, "free-form curves and surfaces"},
     {MODEL_HAS_HIERARCHY, 0, "the node hierarchy"},
-    {MODEL_HAS_PLACES, 0, "the places of nodes (--space mesh)"},
+    {MODEL_HAS_TRANSFORMS, 0, "the places of nodes (--space mesh)"},
     {MODEL_HAS_SKINS, 0, "skins"},
     {MODEL_HAS_MORPHS, 0, "morph targets"},
     {MODEL_HAS_ANIMATIONS, 0, "animations"},

@@ -4,10 +4,10 @@
 
 #include "spline/knot_vector.h"
 
-/* value[j] = N_{span-d+j}(u), j = 0..d (P&T A2.2). */
+/* value[j] = N_{span-d+j}(u), j = 0..d (NURBS Book A2.2). */
 void ffd_basis_values(const knot_vector *knots, int span, double u, double value[MAX_ORDER]);
 
-/* Values and first derivatives (P&T A2.3 for one derivative). */
+/* Values and first derivatives (NURBS Book A2.3 for one derivative). */
 void ffd_basis_derivatives(const knot_vector *knots, int span, double u, double value[MAX_ORDER],
                            double derivative[MAX_ORDER]);
 /* The same at u = t_span + offset, where offset may be finer than a double near u can tell. */

@@ -5,8 +5,8 @@
 #include "spline/knot_vector.h"
 
 /* The Bezier form of the curve over a non-empty span: Bezier point r = sum_j matrix[r*(d+1)+j] P_{span-d+j},
-   the blossom at t_span (d-r times) and t_{span+1} (r times), which is what knot insertion (P&T A5.6) arrives
-   at. */
+   the blossom at t_span (d-r times) and t_{span+1} (r times), which is what knot insertion (NURBS Book A5.6)
+   arrives at. */
 void ffd_bezier_extraction(const knot_vector *knots, int span, double matrix[MAX_ORDER * MAX_ORDER]);
 
 /* That of each non-empty span, order * order numbers one after the other; the caller's (ffd_free). NULL when

@@ -28,7 +28,8 @@ static inline double ffd_knots_wrap(const knot_vector *knots, double u)
     return inside ? u : ffd_knots_wrap_outside(knots, u);
 }
 
-/* The span s of the domain with t_s <= u < t_{s+1}, clipped to the first and last non-empty one (P&T A2.1).
+/* The span s of the domain with t_s <= u < t_{s+1}, clipped to the first and last non-empty one (NURBS Book
+ * A2.1).
  */
 int ffd_knots_span(const knot_vector *knots, double u);
 /* Its index among the non-empty spans. */

@@ -137,8 +137,8 @@ static void check_text(char *text, const char *expected)
 static void test_paths(void **state)
 {
     assert_string_equal(ffd_path_name("a/b.obj"), "b.obj");
-    assert_string_equal(ffd_path_shown("-"), "standard input");
-    assert_string_equal(ffd_path_shown("./-"), "./-");
+    assert_string_equal(ffd_path_display_name("-"), "standard input");
+    assert_string_equal(ffd_path_display_name("./-"), "./-");
     assert_string_equal(ffd_path_ending("a.d/b"), "");
     assert_string_equal(ffd_path_ending("a/.obj"), "");
     assert_string_equal(ffd_path_ending("x.gltf.glb"), ".glb");

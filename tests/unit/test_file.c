@@ -123,14 +123,14 @@ static void test_forget(void **state)
     put_text("long", text);
     assert_int_equal(ffd_file_map(in_folder("long"), &input, NULL), FFD_OK);
     assert_memory_equal(input.data, text, SIZE);
-    ffd_file_forget(&input, input.data + 1, SIZE - 1);
-    ffd_file_forget(&input, input.data, SIZE);
-    ffd_file_forget(&input, input.data + 5000, 10);
-    ffd_file_forget(&input, input.data + SIZE, 0);
+    ffd_file_release_pages(&input, input.data + 1, SIZE - 1);
+    ffd_file_release_pages(&input, input.data, SIZE);
+    ffd_file_release_pages(&input, input.data + 5000, 10);
+    ffd_file_release_pages(&input, input.data + SIZE, 0);
     assert_memory_equal(input.data, text, SIZE);
     ffd_file_unload(&input);
     file_input held = {.data = (unsigned char *)text, .size = SIZE}; /* not mapped: nothing happens */
-    ffd_file_forget(&held, text, SIZE);
+    ffd_file_release_pages(&held, text, SIZE);
     assert_int_equal(text[SIZE - 1], 'a' + (SIZE - 1) % 23);
     free(text);
     (void)state;
@@ -160,13 +160,13 @@ static void test_forget_until(void **state)
     assert_int_equal(truncate(in_folder("gone through"), SIZE), 0);
     assert_int_equal(ffd_file_load(in_folder("gone through"), &input, NULL), FFD_OK);
     for (size_t at = 0; at < SIZE; at += STEP) {
-        ffd_file_bring_in(input.data + at, SIZE - at < STEP ? SIZE - at : STEP);
+        ffd_file_prefault(input.data + at, SIZE - at < STEP ? SIZE - at : STEP);
         assert_int_equal(input.data[at], 0);
-        ffd_file_forget_until(&input, input.data + at, &forgotten);
+        ffd_file_release_until(&input, input.data + at, &forgotten);
         assert_int_equal(forgotten, at / PIECE * PIECE);
         assert_true(before == 0 || resident_bytes() < before + PIECE + 4 * STEP);
     }
-    ffd_file_forget_until(&input, input.data, &forgotten); /* not back again */
+    ffd_file_release_until(&input, input.data, &forgotten); /* not back again */
     assert_int_equal(forgotten, 2 * PIECE);
     assert_int_equal(input.data[0] | input.data[SIZE - 1], 0);
     ffd_file_unload(&input);

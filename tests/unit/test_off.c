@@ -310,11 +310,11 @@ static void test_shown_words(void **state)
         memset(text, 'x', before);
         memcpy(text + before, "\xf0\x9f\x90\x84\xc3\xa4\xe2\x82\xac", 9);
         memset(text + before + 9, 'x', 11);
-        const int shown = ffd_text_shown((text_word){text, text + before + 20});
+        const int shown = ffd_text_display_size((text_word){text, text + before + 20});
         assert_in_range(shown, 37, 40);
         assert_true((text[shown] & 0xc0) != 0x80);
     }
-    assert_int_equal(ffd_text_shown((text_word){text, text + 40}), 40);
+    assert_int_equal(ffd_text_display_size((text_word){text, text + 40}), 40);
 }
 
 int main(void)

@@ -58,7 +58,7 @@ static void set_mesh(sample *s, size_t vertices, const double *positions, size_t
 static void apply(const lattice_chain *chain, double *x, size_t count, double *gradients)
 {
     chain_scratch *scratch = checked(ffd_alloc_zero(1, sizeof *scratch));
-    chain_note *notes = checked(ffd_alloc(CHAIN_RUN, sizeof *notes));
+    point_outcome *notes = checked(ffd_alloc(CHAIN_RUN, sizeof *notes));
     double *delta = checked(ffd_alloc(CHAIN_RUN, 3 * sizeof *delta));
     for (size_t first = 0; first < count; first += CHAIN_RUN) {
         const size_t size = count - first < CHAIN_RUN ? count - first : CHAIN_RUN;

@@ -52,7 +52,7 @@ static void grow_and_check(bool is_mapped)
         assert_true(ffd_spill_grow(&array, (s + 1) * STEP));
         unsigned char *data = array.data;
         data[s * STEP] = data[(s + 1) * STEP - 1] = mark_of(s);
-        ffd_spill_forget(&array, s * STEP, STEP);
+        ffd_spill_release_pages(&array, s * STEP, STEP);
     }
     assert_true(array.size >= steps * STEP);
     assert_true(array.is_mapped == is_mapped);
@@ -114,7 +114,7 @@ static void small_arrays_do_not_need_one(void **state)
     assert_non_null(array.data);
     assert_true(ffd_spill_grow(&array, 1000));
     *(unsigned char *)array.data = 7;
-    ffd_spill_forget(&array, 0, 1000);
+    ffd_spill_release_pages(&array, 0, 1000);
     assert_true(ffd_spill_grow(&array, 1 << 20));
     assert_int_equal(*(unsigned char *)array.data, 7);
     assert_false(array.is_mapped);

@@ -23,10 +23,10 @@
 #define SMALL ((size_t)1 << 18)
 
 /* Fewer bytes are not brought in. */
-#define FEW ((size_t)1 << 16)
+#define LEAST_PREFAULT ((size_t)1 << 16)
 
 /* Bytes that are given back at a time where a file is gone through: a multiple of any page. */
-#define FORGOTTEN ((size_t)1 << 23)
+#define RELEASE_UNIT ((size_t)1 << 23)
 
 static const unsigned char nothing[1] = {0};
 
@@ -238,7 +238,7 @@ void ffd_file_unload(file_input *input)
     *input = (file_input){.data = nothing};
 }
 
-void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
+void ffd_file_release_pages(const file_input *input, const void *bytes, size_t size)
 {
     const size_t page = (size_t)sysconf(_SC_PAGESIZE);
     const size_t begin = (size_t)((const unsigned char *)bytes - input->data);
@@ -248,20 +248,20 @@ void ffd_file_forget(const file_input *input, const void *bytes, size_t size)
         madvise((unsigned char *)input->block + first, last - first, MADV_DONTNEED);
 }
 
-void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten)
+void ffd_file_release_until(const file_input *input, const void *place, size_t *released)
 {
-    const size_t until = (size_t)((const unsigned char *)place - input->data) / FORGOTTEN * FORGOTTEN;
-    if (until <= *forgotten)
+    const size_t until = (size_t)((const unsigned char *)place - input->data) / RELEASE_UNIT * RELEASE_UNIT;
+    if (until <= *released)
         return;
-    ffd_file_forget(input, input->data + *forgotten, until - *forgotten);
-    *forgotten = until;
+    ffd_file_release_pages(input, input->data + *released, until - *released);
+    *released = until;
 }
 
-void ffd_file_bring_in(const void *bytes, size_t size)
+void ffd_file_prefault(const void *bytes, size_t size)
 {
 #ifdef MADV_POPULATE_READ
     const uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = (uintptr_t)bytes / page * page;
-    if (size >= FEW)
+    if (size >= LEAST_PREFAULT)
         madvise((void *)first, (uintptr_t)bytes + size - first, MADV_POPULATE_READ); /* advice only */
 #else
     (void)bytes;
@@ -279,8 +279,8 @@ ffd_status ffd_file_compare(const char *path, const file_input *bytes, bool *sam
     for (size_t at = 0, piece; at < bytes->size && *same; at += piece) {
         piece = bytes->size - at < COMPARED ? bytes->size - at : COMPARED;
         *same = memcmp(there.data + at, bytes->data + at, piece) == 0;
-        ffd_file_forget(&there, there.data + at, piece);
-        ffd_file_forget(bytes, bytes->data + at, piece);
+        ffd_file_release_pages(&there, there.data + at, piece);
+        ffd_file_release_pages(bytes, bytes->data + at, piece);
     }
     ffd_file_unload(&there);
     return FFD_OK;

@@ -31,15 +31,15 @@ void ffd_file_unload(file_input *input);
    once, where the system has a call for that. Else a read waits for a few pages at a time; and a write copies
    without waiting for any, clears what it could not fill, and begins again, once a page. Does nothing where
    there are so few that it is not worth the call. Any thread. */
-void ffd_file_bring_in(const void *bytes, size_t size);
+void ffd_file_prefault(const void *bytes, size_t size);
 /* For bytes that are not needed for a while: gives back the memory that they take where the system can read
    them again, by itself, from the file. Any thread. */
-void ffd_file_forget(const file_input *input, const void *bytes, size_t size);
+void ffd_file_release_pages(const file_input *input, const void *bytes, size_t size);
 /* For a file that is read from start to end: gives back the pages before `place` that have not
-   been given back, behind *forgotten bytes, where that is worth the call, which stops the other threads for a
+   been given back, behind *released bytes, where that is worth the call, which stops the other threads for a
    moment; what is left in the end is the caller's to give back. Pages that another thread still reads come
    again. One thread at a time. */
-void ffd_file_forget_until(const file_input *input, const void *place, size_t *forgotten);
+void ffd_file_release_until(const file_input *input, const void *place, size_t *released);
 
 /* Whether path names a stream of this process or the null device, not a file: "-",
    /dev/stdin, /dev/fd/N, /dev/null. */

@@ -14,7 +14,7 @@ bool ffd_path_has_ending(const char *path, const char *ending);
 /* Whether path starts at the root of a file system. */
 bool ffd_path_is_absolute(const char *path);
 /* The path as messages show it: "-" -> "standard input"; others as they are. */
-const char *ffd_path_shown(const char *path);
+const char *ffd_path_display_name(const char *path);
 
 /* The functions below return new strings (free with ffd_free); NULL when there is no memory. */
 

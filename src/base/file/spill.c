@@ -82,7 +82,7 @@ static bool move_to_file(spill_array *array, size_t size)
     for (size_t at = 0, piece; at < array->size; at += piece) {
         piece = array->size - at < COPIED ? array->size - at : COPIED;
         memcpy((char *)moved.data + at, (const char *)array->data + at, piece);
-        ffd_spill_forget(&moved, at, piece);
+        ffd_spill_release_pages(&moved, at, piece);
     }
     ffd_free(array->data);
     *array = moved;
@@ -108,7 +108,7 @@ bool ffd_spill_grow(spill_array *array, size_t needed)
     return true;
 }
 
-void ffd_spill_forget(const spill_array *array, size_t offset, size_t size)
+void ffd_spill_release_pages(const spill_array *array, size_t offset, size_t size)
 {
     const size_t page = (size_t)sysconf(_SC_PAGESIZE);
     const size_t first = (offset + page - 1) / page * page, last = (offset + size) / page * page;

@@ -22,7 +22,7 @@ typedef struct spill_array {
 bool ffd_spill_grow(spill_array *array, size_t needed);
 /* For bytes that are not needed for a while: gives back the memory that they take, where they are in a
    file. Any thread. */
-void ffd_spill_forget(const spill_array *array, size_t offset, size_t size);
+void ffd_spill_release_pages(const spill_array *array, size_t offset, size_t size);
 /* Frees the array and closes its file; the array is empty then. */
 void ffd_spill_free(spill_array *array);
 

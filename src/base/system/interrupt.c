@@ -38,9 +38,9 @@ void ffd_interrupt_watch(void)
             sigaction(numbers[i], &action, NULL);
 }
 
-interrupt_wish ffd_interrupt_wished(void)
+interrupt_request ffd_interrupt_requested(void)
 {
-    return (interrupt_wish)wished;
+    return (interrupt_request)wished;
 }
 
 int ffd_interrupt_stream(void)

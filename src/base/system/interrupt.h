@@ -2,16 +2,16 @@
 #ifndef FFD_BASE_SYSTEM_INTERRUPT_H
 #define FFD_BASE_SYSTEM_INTERRUPT_H
 
-typedef enum interrupt_wish {
+typedef enum interrupt_request {
     INTERRUPT_NONE,
     INTERRUPT_FINISH, /* Ctrl-C, once: finish what is under way */
     INTERRUPT_STOP    /* a request to terminate, a closed terminal, or Ctrl-C again: stop at once */
-} interrupt_wish;
+} interrupt_request;
 
 /* From now on such wishes are noticed and do not end the program. */
 void ffd_interrupt_watch(void);
 /* The strongest so far. */
-interrupt_wish ffd_interrupt_wished(void);
+interrupt_request ffd_interrupt_requested(void);
 /* A stream that can be read once there is a wish; -1: there is none. For ffd_process_wait. */
 int ffd_interrupt_stream(void);
 

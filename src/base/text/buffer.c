@@ -18,7 +18,7 @@ static bool make_room(byte_buffer *buffer, size_t more)
     return true;
 }
 
-char *ffd_buffer_room(byte_buffer *buffer, size_t size)
+char *ffd_buffer_reserve(byte_buffer *buffer, size_t size)
 {
     return make_room(buffer, size) ? buffer->data + buffer->size : NULL;
 }
@@ -52,7 +52,7 @@ void ffd_buffer_format(byte_buffer *buffer, const char *format, ...)
 
 void ffd_buffer_number(byte_buffer *buffer, double value)
 {
-    char *const room = ffd_buffer_room(buffer, FFD_NUMBER_CAPACITY);
+    char *const room = ffd_buffer_reserve(buffer, FFD_NUMBER_CAPACITY);
     if (room)
         buffer->size += ffd_number_format(value, room);
 }

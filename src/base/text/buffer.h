@@ -14,7 +14,7 @@ typedef struct byte_buffer {
 
 /* Where size more bytes can be written by the caller, who adds what he did write to the buffer's size; NULL
    when memory ran out. */
-char *ffd_buffer_room(byte_buffer *buffer, size_t size);
+char *ffd_buffer_reserve(byte_buffer *buffer, size_t size);
 /* Appends size bytes. */
 void ffd_buffer_append(byte_buffer *buffer, const void *bytes, size_t size);
 /* Appends a string without its final 0. */

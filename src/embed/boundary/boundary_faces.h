@@ -79,20 +79,20 @@ ffd_status ffd_boundary_search(const boundary *border, const boundary_query *que
                                boundary_foot *foot, ffd_error *error);
 
 /* A point on the border: a cell of a face and t in [0,1]^2 of it. */
-typedef struct boundary_place {
+typedef struct boundary_location {
     int face;
     size_t cell[2];
     double t[2];
-} boundary_place;
+} boundary_location;
 
 /* u,v,w of a point on the border, in the knots' range. */
-void ffd_boundary_uvw(const boundary *border, const boundary_place *place, double uvw[3]);
+void ffd_boundary_uvw(const boundary *border, const boundary_location *place, double uvw[3]);
 /* Whether a comes before b by (u,v,w); coordinates within 1e-9 of the domain are equal. */
 bool ffd_boundary_before(const boundary *border, const double a[3], const double b[3]);
 
 /* boundary_settle.c: moves the point to where the distance is stationary on the border around it, and finds
    how it follows x. scratch is a patch of MAX_ORDER by MAX_ORDER points. */
-void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_place *place,
+void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_location *place,
                          face_patch *scratch, boundary_foot *foot);
 
 #endif

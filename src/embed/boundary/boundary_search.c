@@ -30,7 +30,7 @@ typedef struct waiting {
 } waiting;
 
 typedef struct candidate {
-    boundary_place place;
+    boundary_location place;
     double uvw[3];
     double excess;
 } candidate;

@@ -18,12 +18,12 @@
 typedef struct settling {
     const boundary *border;
     const double *x;
-    boundary_place place;
+    boundary_location place;
     face_patch *patch; /* of the point's cell */
     patch_sample sample;
 } settling;
 
-void ffd_boundary_uvw(const boundary *border, const boundary_place *place, double uvw[3])
+void ffd_boundary_uvw(const boundary *border, const boundary_location *place, double uvw[3])
 {
     const boundary_face *face = &border->faces[place->face];
     const knot_vector *across = &border->lattice->knots[face->direction];
@@ -67,7 +67,7 @@ static bool leads_out(const settling *at, int f)
 }
 
 /* Whether the patch's end at which coordinate f is lies on an edge of the face. */
-static bool is_edge(const boundary *border, const boundary_place *place, int f)
+static bool is_edge(const boundary *border, const boundary_location *place, int f)
 {
     const size_t cells = border->faces[place->face].cells[f];
     return !ffd_knots_closed(boundary_knots(border, place->face, f)) &&
@@ -76,7 +76,7 @@ static bool is_edge(const boundary *border, const boundary_place *place, int f)
 
 /* The same point as one of the next patch beyond coordinate f: of the same face, or beyond an edge of the
    face that meets it there. The coordinate that may then move is *moving. */
-static void neighbour(const boundary *border, const boundary_place *from, int f, boundary_place *to,
+static void neighbour(const boundary *border, const boundary_location *from, int f, boundary_location *to,
                       int *moving)
 {
     const boundary_face *face = &border->faces[from->face];
@@ -175,7 +175,7 @@ static void follow(const settling *at, boundary_foot *foot)
     foot->free_count = count;
 }
 
-void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_place *place,
+void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_location *place,
                          face_patch *scratch, boundary_foot *foot)
 {
     settling at = {.border = border, .x = x, .place = *place, .patch = scratch};

@@ -180,7 +180,7 @@ static void copy_range(const range *from, bounds *to)
     memcpy(to->hi, from->hi, sizeof to->hi);
 }
 
-/* S_f = (A_f - S W_f)/W, S_fg = (A_fg - S_f W_g - S_g W_f - S W_fg)/W (P&T 4.4), all with the centre
+/* S_f = (A_f - S W_f)/W, S_fg = (A_fg - S_f W_g - S_g W_f - S W_fg)/W (NURBS Book 4.4), all with the centre
    subtracted, so that |S| <= half along the axes. */
 static void set_derivatives(face_patch *patch, net at)
 {

@@ -16,7 +16,7 @@ enum { N = PATCH_COMPONENTS };
 /* Steps shorter than this should shrink by half at least, or they are rounding only. */
 #define SHORT_STEP 1e-6
 
-/* From the degree - 1 polynomials' values to the degree's, in place (P&T A1.2). */
+/* From the degree - 1 polynomials' values to the degree's, in place (NURBS Book A1.2). */
 static inline void raise_bernstein(int degree, double t, double *value)
 {
     const double s = 1 - t;
@@ -76,7 +76,7 @@ static void sum_up(const face_patch *patch, const double t[2], double sum[SUMS][
     }
 }
 
-/* By the quotient rule (P&T 4.4). */
+/* By the quotient rule (NURBS Book 4.4). */
 static void divide_by_weight(double sum[SUMS][N])
 {
     const double w = sum[VALUE][3], ws = sum[BY_S][3], wt = sum[BY_T][3];

@@ -33,7 +33,7 @@ static inline size_t ffd_bezier_stride(const int order[3], int a)
    lo and hi become those of the whole cell. */
 void ffd_bezier_extract(bezier_box *box, const double *const matrix[3]);
 
-/* De Casteljau's scheme at 1/2 (P&T 1.4) for lines of `order` points side by side, `inner` consecutive
+/* De Casteljau's scheme at 1/2 (NURBS Book 1.4) for lines of `order` points side by side, `inner` consecutive
    numbers of all lines, then those of the next points. The upper halves arise in place of the lines (high):
    after step k the points from the first on hold level k, and the first of them is point k of the lower
    halves (low). */

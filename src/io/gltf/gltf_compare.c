@@ -16,7 +16,7 @@ typedef struct element_name {
     const char *what; /* "vertex", "element" */
 } element_name;
 
-/* A difference_place. */
+/* A difference_label. */
 static void format_element(const void *context, char *text, size_t capacity)
 {
     const element_name *name = context;

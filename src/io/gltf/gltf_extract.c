@@ -341,7 +341,7 @@ static uint32_t features_of(const extractor *e)
     found |=
         has_any(d, "cameras") || ffd_gltf_has_extension(d, 0, "KHR_lights_punctual") ? MODEL_HAS_CAMERAS : 0;
     found |= d->nodes_outside_scene > 0 ? MODEL_HAS_HIDDEN : 0;
-    found |= d->space == FFD_SPACE_MESH && d->model.node_count > 0 ? MODEL_HAS_PLACES : 0;
+    found |= d->space == FFD_SPACE_MESH && d->model.node_count > 0 ? MODEL_HAS_TRANSFORMS : 0;
     return found;
 }
 

@@ -75,7 +75,7 @@ ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t
         estimate(&blocks->list[blocks->count++], blocks);
         at = end;
         if (blocks->count % CUTS == 0)
-            ffd_file_forget(input, input->data, (size_t)(at - (const char *)input->data));
+            ffd_file_release_pages(input, input->data, (size_t)(at - (const char *)input->data));
     } while (at < last);
     return FFD_OK;
 }

@@ -16,7 +16,7 @@ typedef struct comparer {
     ffd_comparison *result;
 } comparer;
 
-/* What is compared: "vertex 17 (line 4)", "normal 3 (line 4)", or the keyword. A difference_place. */
+/* What is compared: "vertex 17 (line 4)", "normal 3 (line 4)", or the keyword. A difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -30,7 +30,7 @@ static void format_place(const void *context, char *text, size_t capacity)
     else if (c->a.scan.keyword == OBJ_TEXCOORD)
         snprintf(text, capacity, "texcoord %zu%s", c->a.texcoords.seen, lines);
     else
-        snprintf(text, capacity, "%.*s%s", ffd_text_shown(name), name.first, lines);
+        snprintf(text, capacity, "%.*s%s", ffd_text_display_size(name), name.first, lines);
 }
 
 /* The kind of a difference in what a statement has besides coordinates, such as the weight or colour of a
@@ -66,7 +66,8 @@ static void differ(comparer *c, ffd_difference_kind kind, const char *format, ..
 
 static void differ_in_words(comparer *c, ffd_difference_kind kind, text_word a, text_word b)
 {
-    differ(c, kind, "\"%.*s\" and \"%.*s\"", ffd_text_shown(a), a.first, ffd_text_shown(b), b.first);
+    differ(c, kind, "\"%.*s\" and \"%.*s\"", ffd_text_display_size(a), a.first, ffd_text_display_size(b),
+           b.first);
 }
 
 static bool same_text(text_word a, text_word b)
@@ -117,7 +118,7 @@ static void compare_words(comparer *c)
         if (!in_a && !in_b)
             return;
         if (in_a != in_b)
-            differ(c, kind, "\"%.*s\" is only in the %s", ffd_text_shown(in_a ? a : b),
+            differ(c, kind, "\"%.*s\" is only in the %s", ffd_text_display_size(in_a ? a : b),
                    in_a ? a.first : b.first, in_a ? "first" : "second");
         else if (!same_word(c, a, b))
             differ_in_words(c, kind, a, b);
@@ -163,8 +164,9 @@ static void differ_in_length(comparer *c, bool in_a)
         const obj_scan *scan = &longer->scan;
         const ffd_difference_kind kind =
             scan->keyword == OBJ_VERTEX ? FFD_DIFFERENCE_TOPOLOGY : kind_of(scan->keyword);
-        ffd_difference_say(c->result, kind, "%.*s (line %zu) is only in the %s", ffd_text_shown(scan->name),
-                           scan->name.first, scan->keyword_line, in_a ? "first" : "second");
+        ffd_difference_say(c->result, kind, "%.*s (line %zu) is only in the %s",
+                           ffd_text_display_size(scan->name), scan->name.first, scan->keyword_line,
+                           in_a ? "first" : "second");
     } while (ffd_obj_walk_next(longer));
 }
 

@@ -56,7 +56,7 @@ static ffd_status take_texcoord(extractor *e)
         if (!ffd_obj_number(word, &uvw[i]))
             return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, e->walk.scan.line,
                                  "texture coordinate %c is not a number: \"%.*s\"", "uvw"[i],
-                                 ffd_text_shown(word), word.first);
+                                 ffd_text_display_size(word), word.first);
     memcpy(values, uvw, 2 * sizeof *values);
     if (uvw[2] < 0 || uvw[2] > 0)
         e->model->features |= MODEL_HAS_MORE_TEXCOORDS;
@@ -110,7 +110,7 @@ static ffd_status find_texcoord(const extractor *e, obj_index index, uint32_t *n
     if (!ffd_obj_find(index.value, e->walk.texcoords, &element))
         return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, e->walk.scan.line,
                              "texture coordinate index %.*s is out of range: the file has %zu",
-                             ffd_text_shown(index.text), index.text.first, d->texcoords);
+                             ffd_text_display_size(index.text), index.text.first, d->texcoords);
     *number = (uint32_t)element;
     return FFD_OK;
 }

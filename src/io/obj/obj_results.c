@@ -9,8 +9,8 @@
 
 void ffd_obj_forget_vectors(const obj_document *d, size_t first, size_t count)
 {
-    ffd_spill_forget(&d->position_store, first * OBJ_VECTOR, count * OBJ_VECTOR);
-    ffd_spill_forget(&d->result_store, first * OBJ_VECTOR, count * OBJ_VECTOR);
+    ffd_spill_release_pages(&d->position_store, first * OBJ_VECTOR, count * OBJ_VECTOR);
+    ffd_spill_release_pages(&d->result_store, first * OBJ_VECTOR, count * OBJ_VECTOR);
 }
 
 void ffd_obj_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,

@@ -178,7 +178,7 @@ static void make_tile(void *context, size_t tile, size_t first, size_t last, int
     const obj_block *block = &s->document->blocks.list[first];
     text.size = 0;
     if (!atomic_load(&s->is_over)) {
-        ffd_file_bring_in(block->first, (size_t)(block->last - block->first));
+        ffd_file_prefault(block->first, (size_t)(block->last - block->first));
         if (can_change(s, first))
             make_block(s, first, &text);
     }

@@ -18,7 +18,7 @@ static ffd_status check_index(const block_reader *r, const obj_scan *scan, obj_i
     const char *const name = r->document->file.name;
     if (ffd_obj_find(index.value, count, element))
         return FFD_OK;
-    const int shown = ffd_text_shown(index.text);
+    const int shown = ffd_text_display_size(index.text);
     if (index.value == 0)
         return ffd_fail_line(r->error, FFD_E_INVALID, name, scan->line,
                              "%s index %.*s is out of range: indices start at 1", kind, shown,
@@ -124,8 +124,8 @@ static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block
             return FFD_OK;
         if (!plain && !ffd_obj_corner(word, &corner))
             return ffd_fail_line(r->error, FFD_E_INVALID, r->document->file.name, scan->line,
-                                 "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"", ffd_text_shown(word),
-                                 word.first);
+                                 "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"",
+                                 ffd_text_display_size(word), word.first);
         status = check_index(r, scan, corner.vertex, r->vertices, "vertex", &vertex);
         if (status)
             return status;
@@ -242,10 +242,10 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
         if (!is_to_be_read(r->document, &r->users->blocks[i]))
             continue;
         ffd_obj_free_block_users(&r->users->blocks[i]);
-        ffd_file_bring_in(text->first, (size_t)(text->last - text->first));
+        ffd_file_prefault(text->first, (size_t)(text->last - text->first));
         block.status = read_block(r->document, r->users, i, &block, NULL);
         r->users->blocks[i] = block;
-        ffd_file_forget(&r->document->file.input, text->first, (size_t)(text->last - text->first));
+        ffd_file_release_pages(&r->document->file.input, text->first, (size_t)(text->last - text->first));
     }
 }
 

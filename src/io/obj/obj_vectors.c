@@ -34,7 +34,7 @@ typedef struct reader {
     block_content *contents; /* of blocks that are not joined yet */
     /* Before the next block; the document gets them when no thread looks at it any more. */
     size_t line, vertices, texcoords, normals, faces;
-    size_t forgotten;  /* bytes of the file whose memory is given back (ffd_file_forget_until) */
+    size_t released;   /* bytes of the file whose memory is given back (ffd_file_release_until) */
     size_t failed;     /* the first block that could not be read; SIZE_MAX: none so far */
     ffd_status status; /* of that block */
     atomic_bool is_over;
@@ -58,7 +58,7 @@ static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char 
         if (!ffd_obj_number(word, value))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
                                  "coordinate %c of a %s is not a number: \"%.*s\"", "xyz"[a], what,
-                                 ffd_text_shown(word), word.first);
+                                 ffd_text_display_size(word), word.first);
     }
     list->count++;
     return FFD_OK;
@@ -119,7 +119,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     (void)last;
     clear_content(&content);
     if (!atomic_load(&r->is_over)) {
-        ffd_file_bring_in(block->first, (size_t)(block->last - block->first));
+        ffd_file_prefault(block->first, (size_t)(block->last - block->first));
         block->plain = ffd_obj_is_plain(block->first, block->last);
         content.status = read_block(r, first, &content, NULL);
     }
@@ -154,7 +154,7 @@ static bool append(const vectors *from, size_t count, spill_array *to)
         return false;
     if (size > 0)
         memcpy((char *)to->data + old, from->xyz, size);
-    ffd_spill_forget(to, old, size);
+    ffd_spill_release_pages(to, old, size);
     return true;
 }
 
@@ -167,7 +167,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     block_content *content = &r->contents[worker];
     (void)tile;
     (void)last;
-    ffd_file_forget_until(&d->file.input, block->last, &r->forgotten);
+    ffd_file_release_until(&d->file.input, block->last, &r->released);
     if (r->failed != SIZE_MAX)
         return;
     block->line = r->line;
@@ -224,7 +224,8 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
         return status;
     if (!ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
         return ffd_fail_memory(error);
-    ffd_file_forget(&d->file.input, d->file.input.data + r->forgotten, d->file.input.size - r->forgotten);
+    ffd_file_release_pages(&d->file.input, d->file.input.data + r->released,
+                           d->file.input.size - r->released);
     d->vertices = r->vertices;
     d->texcoords = r->texcoords;
     d->normals = r->normals;

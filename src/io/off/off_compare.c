@@ -16,7 +16,7 @@ typedef struct comparer {
     size_t number, lines[2];
 } comparer;
 
-/* "vertex 3 counted from 0 (lines 5 and 6)". A difference_place. */
+/* "vertex 3 counted from 0 (lines 5 and 6)". A difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -29,8 +29,8 @@ static void differ(comparer *c, ffd_difference_kind kind, const char *what, text
 {
     char place[160];
     format_place(c, place, sizeof place);
-    ffd_difference_say(c->result, kind, "%s: %s \"%.*s\" and \"%.*s\"", place, what, ffd_text_shown(a),
-                       a.first, ffd_text_shown(b), b.first);
+    ffd_difference_say(c->result, kind, "%s: %s \"%.*s\" and \"%.*s\"", place, what, ffd_text_display_size(a),
+                       a.first, ffd_text_display_size(b), b.first);
 }
 
 /* Whether vertices and faces of both files can be matched. */

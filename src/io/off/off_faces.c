@@ -5,7 +5,7 @@
 static ffd_status check_corner(const off_document *d, const text_scan *scan, text_word word, ffd_error *error)
 {
     uint64_t index;
-    const int shown = ffd_text_shown(word);
+    const int shown = ffd_text_display_size(word);
     if (!ffd_text_whole(word, &index))
         return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
                              "a corner is not a whole number: \"%.*s\"", shown, word.first);
@@ -33,11 +33,11 @@ static ffd_status read_face(off_document *d, off_walk *walk, text_word count, ff
     if (!ffd_text_whole(count, &corners))
         return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                              "a face's number of corners is not a whole number: \"%.*s\"",
-                             ffd_text_shown(count), count.first);
+                             ffd_text_display_size(count), count.first);
     for (uint64_t i = 0; i < corners; i++) {
         if (!ffd_off_walk_corner(walk, &word))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
-                                 "a face states %.*s corners, found %" PRIu64, ffd_text_shown(count),
+                                 "a face states %.*s corners, found %" PRIu64, ffd_text_display_size(count),
                                  count.first, i);
         const ffd_status status = check_corner(d, &walk->scan, word, error);
         if (status)

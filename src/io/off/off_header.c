@@ -30,8 +30,8 @@ size_t ffd_off_header_rest_max(const off_header *header)
 
 static ffd_status refuse(header_reader *r, ffd_status status, const char *what, text_word word)
 {
-    return ffd_fail_line(r->error, status, r->name, r->scan.line, "%s \"%.*s\"", what, ffd_text_shown(word),
-                         word.first);
+    return ffd_fail_line(r->error, status, r->name, r->scan.line, "%s \"%.*s\"", what,
+                         ffd_text_display_size(word), word.first);
 }
 
 static bool is_digit(char c)
@@ -110,8 +110,8 @@ static ffd_status read_count(header_reader *r, const char *what, text_word word,
     if (ffd_text_whole(word, count))
         return FFD_OK;
     return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan.line,
-                         "the number of %s is not a whole number: \"%.*s\"", what, ffd_text_shown(word),
-                         word.first);
+                         "the number of %s is not a whole number: \"%.*s\"", what,
+                         ffd_text_display_size(word), word.first);
 }
 
 /* Passes the number of edges: the next word of the line, or one that has a line of its own. */

@@ -19,15 +19,15 @@ typedef struct comparer {
 
 static void differ_in_words(comparer *c, const char *what, text_word a, text_word b)
 {
-    ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%s: \"%.*s\" and \"%.*s\"", what, ffd_text_shown(a),
-                       a.first, ffd_text_shown(b), b.first);
+    ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "%s: \"%.*s\" and \"%.*s\"", what,
+                       ffd_text_display_size(a), a.first, ffd_text_display_size(b), b.first);
 }
 
 static void compare_properties(comparer *c, const ply_element *a, const ply_element *b)
 {
     for (size_t i = 0; i < a->property_count && i < b->property_count; i++) {
         const ply_property *p = &a->properties[i], *q = &b->properties[i];
-        const int shown = ffd_text_shown(p->name);
+        const int shown = ffd_text_display_size(p->name);
         if (!ffd_text_same(p->name, q->name))
             differ_in_words(c, "properties", p->name, q->name);
         else if (p->is_list != q->is_list)
@@ -40,7 +40,8 @@ static void compare_properties(comparer *c, const ply_element *a, const ply_elem
     }
     if (a->property_count != b->property_count)
         ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "element %.*s has %zu and %zu properties",
-                           ffd_text_shown(a->name), a->name.first, a->property_count, b->property_count);
+                           ffd_text_display_size(a->name), a->name.first, a->property_count,
+                           b->property_count);
 }
 
 /* Whether the rows of one file are of the same form as those of the other. */
@@ -53,8 +54,8 @@ static bool same_elements(comparer *c)
             differ_in_words(c, "elements", x->name, y->name);
         else if (x->count != y->count)
             ffd_difference_say(c->result, FFD_DIFFERENCE_TOPOLOGY,
-                               "element %.*s has %" PRIu64 " and %" PRIu64 " rows", ffd_text_shown(x->name),
-                               x->name.first, x->count, y->count);
+                               "element %.*s has %" PRIu64 " and %" PRIu64 " rows",
+                               ffd_text_display_size(x->name), x->name.first, x->count, y->count);
         else
             compare_properties(c, x, y);
     }
@@ -77,7 +78,7 @@ static void compare_notes(comparer *c)
 
 /* Rows */
 
-/* "face 3 (lines 20 and 21)"; lines where both files have them. A difference_place. */
+/* "face 3 (lines 20 and 21)"; lines where both files have them. A difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -85,8 +86,8 @@ static void format_place(const void *context, char *text, size_t capacity)
     char lines[TEXT_LINES_CAPACITY] = "";
     if (c->a->header.encoding == PLY_ASCII && c->b->header.encoding == PLY_ASCII)
         ffd_text_lines(c->in_a.line, c->in_b.line, lines);
-    snprintf(text, capacity, "%.*s %" PRIu64 " counted from 0%s", ffd_text_shown(name), name.first, c->row,
-             lines);
+    snprintf(text, capacity, "%.*s %" PRIu64 " counted from 0%s", ffd_text_display_size(name), name.first,
+             c->row, lines);
 }
 
 /* A number for a message: its text, or the shortest text for the value of its bytes. */
@@ -94,7 +95,7 @@ static void format_value(const ply_document *d, ply_type type, text_word word, c
 {
     double value = 0;
     if (d->header.encoding == PLY_ASCII)
-        snprintf(text, capacity, "%.*s", ffd_text_shown(word), word.first);
+        snprintf(text, capacity, "%.*s", ffd_text_display_size(word), word.first);
     else if (ffd_ply_load(d->header.encoding, type, word, &value)) {
         char shortest[FFD_NUMBER_CAPACITY];
         const size_t length = ffd_ply_store(PLY_ASCII, type, value, shortest);
@@ -130,7 +131,7 @@ static void differ_in_values(comparer *c, const ply_property *property, ply_type
     format_value(c->a, type, a, first, sizeof first);
     format_value(c->b, type, b, second, sizeof second);
     ffd_difference_say(c->result, kind_of(c, property), "%s: %.*s: %s and %s", place,
-                       ffd_text_shown(property->name), property->name.first, first, second);
+                       ffd_text_display_size(property->name), property->name.first, first, second);
 }
 
 static bool same_value(const comparer *c, ply_type type, text_word a, text_word b)

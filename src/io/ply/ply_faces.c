@@ -21,7 +21,7 @@ static ffd_status refuse_index(const face_reader *r, uint64_t face, text_word wo
     const number_text number = ffd_number_text(value);
     return ffd_fail_line(r->error, FFD_E_INVALID, d->file.name, text ? r->walk.line : 0,
                          "face %" PRIu64 " (counted from 0): %.*s is not an index of the %zu vertices", face,
-                         text ? ffd_text_shown(word) : (int)strlen(number.text),
+                         text ? ffd_text_display_size(word) : (int)strlen(number.text),
                          text ? word.first : number.text, d->file.part.vertex_count);
 }
 

@@ -85,16 +85,16 @@ static ffd_status read_format(header_reader *r, const header_line *line)
         return FAIL(r, r->line, "a second format line");
     if (line->count != 3)
         return FAIL(r, r->line, "a format line holds an encoding and a version: \"%.*s\"",
-                    ffd_text_shown(line->text), line->text.first);
+                    ffd_text_display_size(line->text), line->text.first);
     while (i < sizeof names / sizeof *names && !ffd_text_is(line->words[1], names[i]))
         i++;
     if (i == sizeof names / sizeof *names)
         return FAIL(r, r->line, "format \"%.*s\" is not ascii, binary_little_endian or binary_big_endian",
-                    ffd_text_shown(line->words[1]), line->words[1].first);
+                    ffd_text_display_size(line->words[1]), line->words[1].first);
     if (!ffd_text_is(version, "1.0"))
         return ffd_fail_line(r->error, FFD_E_UNSUPPORTED, r->name, r->line,
                              "version %.*s of the format is not supported: only 1.0 is",
-                             ffd_text_shown(version), version.first);
+                             ffd_text_display_size(version), version.first);
     r->header->encoding = (ply_encoding)i;
     r->has_format = true;
     return FFD_OK;
@@ -124,13 +124,13 @@ static ffd_status read_element(header_reader *r, const header_line *line)
 {
     ply_header *h = r->header;
     ply_element element = {.name = line->words[1], .line = r->line};
-    const int shown = ffd_text_shown(element.name);
+    const int shown = ffd_text_display_size(element.name);
     if (line->count != 3)
         return FAIL(r, r->line, "an element line holds a name and a count: \"%.*s\"",
-                    ffd_text_shown(line->text), line->text.first);
+                    ffd_text_display_size(line->text), line->text.first);
     if (!parse_count(line->words[2], &element.count))
-        return FAIL(r, r->line, "\"%.*s\" is not a count of element %.*s", ffd_text_shown(line->words[2]),
-                    line->words[2].first, shown, element.name.first);
+        return FAIL(r, r->line, "\"%.*s\" is not a count of element %.*s",
+                    ffd_text_display_size(line->words[2]), line->words[2].first, shown, element.name.first);
     for (size_t i = 0; i < h->element_count; i++)
         if (ffd_text_same(h->elements[i].name, element.name))
             return FAIL(r, r->line, "a second element %.*s: the first is on line %zu", shown,
@@ -151,8 +151,8 @@ static ffd_status add_property(header_reader *r, const ply_property *property)
     for (size_t i = h->property_count - element->property_count; i < h->property_count; i++)
         if (ffd_text_same(h->properties[i].name, property->name))
             return FAIL(r, r->line, "a second property %.*s of element %.*s: the first is on line %zu",
-                        ffd_text_shown(property->name), property->name.first, ffd_text_shown(element->name),
-                        element->name.first, h->properties[i].line);
+                        ffd_text_display_size(property->name), property->name.first,
+                        ffd_text_display_size(element->name), element->name.first, h->properties[i].line);
     if (h->property_count == PLY_DECLARATIONS_MAX)
         return refuse_too_many(r);
     if (!ffd_grow((void **)&h->properties, &h->property_capacity, h->property_count + 1,
@@ -170,7 +170,7 @@ static ffd_status read_type(const header_reader *r, text_word word, ply_type *ty
         return FFD_OK;
     return FAIL(r, r->line,
                 "\"%.*s\" is not a PLY type (char, uchar, short, ushort, int, uint, float, double)",
-                ffd_text_shown(word), word.first);
+                ffd_text_display_size(word), word.first);
 }
 
 static ffd_status read_property(header_reader *r, const header_line *line)
@@ -183,14 +183,15 @@ static ffd_status read_property(header_reader *r, const header_line *line)
         return FAIL(r, r->line, "a property comes before any element");
     if (line->count != type + 2)
         return FAIL(r, r->line, "a property line holds %s and a name: \"%.*s\"",
-                    property.is_list ? "two types" : "a type", ffd_text_shown(line->text), line->text.first);
+                    property.is_list ? "two types" : "a type", ffd_text_display_size(line->text),
+                    line->text.first);
     property.name = line->words[type + 1];
     if (property.is_list)
         status = read_type(r, line->words[2], &property.count_type);
     if (status == FFD_OK && property.is_list && !ply_is_whole(property.count_type))
-        status =
-            FAIL(r, r->line, "the count of list %.*s is a %s: it must be a whole number",
-                 ffd_text_shown(property.name), property.name.first, ffd_ply_type_name(property.count_type));
+        status = FAIL(r, r->line, "the count of list %.*s is a %s: it must be a whole number",
+                      ffd_text_display_size(property.name), property.name.first,
+                      ffd_ply_type_name(property.count_type));
     if (status == FFD_OK)
         status = read_type(r, line->words[type], &property.type);
     return status == FFD_OK ? add_property(r, &property) : status;
@@ -220,7 +221,7 @@ static ffd_status read_line(header_reader *r, const header_line *line)
         return read_element(r, line);
     if (ffd_text_is(keyword, "property"))
         return read_property(r, line);
-    return FAIL(r, r->line, "\"%.*s\" is not a keyword of a PLY header", ffd_text_shown(keyword),
+    return FAIL(r, r->line, "\"%.*s\" is not a keyword of a PLY header", ffd_text_display_size(keyword),
                 keyword.first);
 }
 
@@ -261,7 +262,7 @@ static ffd_status check_sizes(const header_reader *r)
             return FAIL(r, e->line,
                         "element %.*s: %" PRIu64 " rows of %zu bytes or more do not fit in the %zu bytes "
                         "after the header",
-                        ffd_text_shown(e->name), e->name.first, e->count, e->least, there);
+                        ffd_text_display_size(e->name), e->name.first, e->count, e->least, there);
         left -= e->least * (size_t)(e->least > 0 ? e->count : 0);
     }
     return FFD_OK;

@@ -68,8 +68,8 @@ static ffd_status set_value(extractor *e, const ply_walk *walk, size_t vertex, i
     if (!ffd_ply_load(d->header.encoding, type, word, &value))
         return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, walk->line,
                              "%.*s of vertex %zu (counted from 0) is not a number: \"%.*s\"",
-                             ffd_text_shown(e->roles[role]->name), e->roles[role]->name.first, vertex,
-                             ffd_text_shown(word), word.first);
+                             ffd_text_display_size(e->roles[role]->name), e->roles[role]->name.first, vertex,
+                             ffd_text_display_size(word), word.first);
     if (role >= ROLE_RED)
         e->model->colours[4 * vertex + (size_t)(role - ROLE_RED)] = value / scale_of(type);
     else if (!e->face_texcoords)

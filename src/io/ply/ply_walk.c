@@ -122,12 +122,13 @@ typedef struct row_checker {
 static ffd_status refuse(const row_checker *c, const char *what, const ply_property *property, text_word word)
 {
     const bool text = c->walk.header->encoding == PLY_ASCII;
-    const int shown = ffd_text_shown(word);
+    const int shown = ffd_text_display_size(word);
     return ffd_fail_line(c->error, FFD_E_INVALID, c->name, text ? c->walk.line : 0,
                          "row %" PRIu64 " (counted from 0) of element %.*s: %s%s%.*s%s%.*s%s", c->row,
-                         ffd_text_shown(c->element->name), c->element->name.first, what, property ? " " : "",
-                         property ? ffd_text_shown(property->name) : 0, property ? property->name.first : "",
-                         shown ? ": \"" : "", shown, word.first, shown ? "\"" : "");
+                         ffd_text_display_size(c->element->name), c->element->name.first, what,
+                         property ? " " : "", property ? ffd_text_display_size(property->name) : 0,
+                         property ? property->name.first : "", shown ? ": \"" : "", shown, word.first,
+                         shown ? "\"" : "");
 }
 
 static ffd_status refuse_count(const row_checker *c, const ply_property *property, text_word word)

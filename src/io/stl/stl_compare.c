@@ -58,7 +58,7 @@ static bool both_text(const comparer *c)
 }
 
 /* "facet 3 counted from 0 (lines 20 and 21), corner 1"; lines where both files have them. A
-   difference_place. */
+   difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -93,7 +93,7 @@ static void compare_solids(comparer *c)
         else if (in_a == STL_AT_SOLID && !ffd_text_same(a->name, b->name))
             ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER,
                                "solid %zu counted from 0 is named \"%.*s\" and \"%.*s\"", a->solids - 1,
-                               ffd_text_shown(a->name), a->name.first, ffd_text_shown(b->name),
+                               ffd_text_display_size(a->name), a->name.first, ffd_text_display_size(b->name),
                                b->name.first);
     }
 }

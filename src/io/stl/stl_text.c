@@ -25,7 +25,7 @@ bool ffd_stl_text_normal(text_word word, double *value)
 static ffd_status refuse_word(text_reader *r, const char *expected, text_word word)
 {
     return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan->line, "expected %s, found \"%.*s\"",
-                         expected, ffd_text_shown(word), word.first);
+                         expected, ffd_text_display_size(word), word.first);
 }
 
 static ffd_status take_word(text_reader *r, const char *expected, text_word *word)

@@ -6,7 +6,7 @@
 void *ffd_file_document_make(size_t size, const file_input *input, const ffd_source *source, ffd_error *error)
 {
     file_document *d = ffd_alloc_zero(1, size);
-    char *name = ffd_text_copy(ffd_path_shown(source->path));
+    char *name = ffd_text_copy(ffd_path_display_name(source->path));
     if (!d || !name) {
         ffd_free(d);
         ffd_free(name);

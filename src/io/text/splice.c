@@ -30,10 +30,10 @@ void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size)
 void ffd_splice_copy(file_splice *splice, const char *to)
 {
     while (splice->status == FFD_OK && splice->input && (size_t)(to - splice->copied) > PIECE) {
-        ffd_file_bring_in(splice->copied, PIECE);
+        ffd_file_prefault(splice->copied, PIECE);
         ffd_splice_bytes(splice, splice->copied, PIECE);
         splice->copied += PIECE;
-        ffd_file_forget_until(splice->input, splice->copied, &splice->forgotten);
+        ffd_file_release_until(splice->input, splice->copied, &splice->released);
     }
     ffd_splice_bytes(splice, splice->copied, (size_t)(to - splice->copied));
     splice->copied = to;
@@ -47,7 +47,7 @@ void ffd_splice_part(file_splice *splice, const char *first, const char *last, c
     else
         ffd_splice_bytes(splice, first, (size_t)(last - first));
     splice->copied = last;
-    ffd_file_forget_until(splice->input, last, &splice->forgotten);
+    ffd_file_release_until(splice->input, last, &splice->released);
 }
 
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size)
@@ -79,7 +79,7 @@ static void replace_in_text(file_splice *splice, const text_word *words, const d
                             unsigned changes, size_t count, decimal_run *run)
 {
     const size_t before = (size_t)(words[count - 1].last - splice->copied);
-    char *const start = ffd_buffer_room(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = start;
+    char *const start = ffd_buffer_reserve(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = start;
     if (!start)
         return;
     for (size_t i = 0; i < count; i++)
@@ -109,7 +109,7 @@ ffd_status ffd_splice_end(file_splice *splice)
     ffd_splice_copy(splice, splice->last);
     if (splice->text)
         return splice->text->failed ? ffd_fail_memory(splice->error) : FFD_OK;
-    ffd_file_forget(splice->input, splice->input->data + splice->forgotten,
-                    splice->input->size - splice->forgotten);
+    ffd_file_release_pages(splice->input, splice->input->data + splice->released,
+                           splice->input->size - splice->released);
     return splice->status;
 }

@@ -15,7 +15,7 @@ typedef struct file_splice {
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
     const char *copied, *last; /* the file is copied up to here, and ends there */
-    size_t forgotten;          /* bytes of the file whose memory is given back (ffd_file_forget_until) */
+    size_t released;           /* bytes of the file whose memory is given back (ffd_file_release_until) */
     byte_buffer *text;         /* of a part: the buffer for its bytes; NULL: they go to output */
 } file_splice;
 

@@ -102,7 +102,7 @@ bool ffd_text_whole(text_word word, uint64_t *value)
     return word.first < word.last;
 }
 
-int ffd_text_shown(text_word word)
+int ffd_text_display_size(text_word word)
 {
     const ptrdiff_t size = word.last - word.first;
     if (size <= SHOWN_MAX)

@@ -38,7 +38,7 @@ bool ffd_text_number(text_word word, double *value);
 /* A whole number that is not negative, in digits; UINT64_MAX for those beyond it. */
 bool ffd_text_whole(text_word word, uint64_t *value);
 /* How many bytes of a word a message shows: long ones are cut, between two characters of UTF-8. */
-int ffd_text_shown(text_word word);
+int ffd_text_display_size(text_word word);
 
 /* Capacity for the text of ffd_text_lines. */
 #define TEXT_LINES_CAPACITY 64

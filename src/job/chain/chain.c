@@ -50,7 +50,7 @@ static void compose(double gradient[9], const double next[9])
 }
 
 /* Member by member: a record that is made on the stack and copied has to wait for its own bytes. */
-static void make_note(const ffd_lattice *lattice, const ffd_location *location, chain_note *note)
+static void make_note(const ffd_lattice *lattice, const ffd_location *location, point_outcome *note)
 {
     const bool invalid = location->status == FFD_POINT_INVALID;
     const bool placed = location->status != FFD_OUTSIDE && !invalid && vec_is_finite(location->uvw);
@@ -66,7 +66,7 @@ static void make_note(const ffd_lattice *lattice, const ffd_location *location, 
     note->extended = false;
 }
 
-static void join_note(const chain_note *now, chain_note *note)
+static void join_note(const point_outcome *now, point_outcome *note)
 {
     note->residual_square = larger_of(note->residual_square, now->residual_square);
     note->evaluations += now->evaluations;
@@ -121,7 +121,7 @@ static ffd_status note_locations(const chain_link *link, bool is_first, const ch
     const ffd_location *const locations = run->scratch->locations;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < run->count && !status; i++) {
-        chain_note later, *const note = is_first ? &run->notes[i] : &later;
+        point_outcome later, *const note = is_first ? &run->notes[i] : &later;
         make_note(link->lattice, &locations[i], note);
         if (!is_first)
             join_note(note, &run->notes[i]);

@@ -51,7 +51,7 @@ void ffd_chain_free(lattice_chain *chain);
 bounds ffd_chain_reach(const lattice_chain *chain, size_t link);
 
 /* What the links know of one point. */
-typedef struct chain_note {
+typedef struct point_outcome {
     double residual_square; /* relative to the link's diagonal, the greatest of the links' */
     uint32_t evaluations;
     uint8_t status;  /* ffd_vertex_status, the highest of the links' */
@@ -61,7 +61,7 @@ typedef struct chain_note {
     bool multiple;   /* in some link */
     bool unresolved; /* the search for some link ended at its limits */
     bool extended;   /* by a link that it is outside of: its border was there, and within the falloff */
-} chain_note;
+} point_outcome;
 
 /* Most points of a run. */
 #define CHAIN_RUN DISPLACEMENT_BATCH
@@ -85,7 +85,7 @@ typedef struct chain_run {
     /* Filled: one a point. */
     double *delta;    /* 3: the displacement by all links, world units; zeros where nothing acts */
     double *gradient; /* 9: of the composed deformation, F - I; or NULL */
-    chain_note *notes;
+    point_outcome *notes;
     double embed_seconds, deform_seconds; /* the time taken is added */
 } chain_run;
 

@@ -10,7 +10,7 @@
 
 const char *ffd_source_name(const ffd_source *source)
 {
-    return ffd_path_shown(source->path);
+    return ffd_path_display_name(source->path);
 }
 
 ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_error *error)

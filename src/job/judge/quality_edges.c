@@ -55,7 +55,7 @@ typedef struct edge_scratch {
     sample_request requests[BATCH];
     double x[3 * BATCH], delta[3 * BATCH]; /* delta: of all links */
     double link_delta[3 * BATCH];
-    chain_note notes[BATCH];
+    point_outcome notes[BATCH];
     chain_scratch chain;
 } edge_scratch;
 

@@ -48,7 +48,7 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
     for (size_t i = 0; i < count; i++) {
         const size_t number = (size_t)work->first_vertex + first + i;
         const bool singular = ffd_vertex_transform_of(&scratch->transforms, i).singular;
-        const chain_note *note = &scratch->notes[i];
+        const point_outcome *note = &scratch->notes[i];
         const double *gradient = scratch->gradient + 9 * i;
         if (pass->statuses)
             pass->statuses[number] = note->status;
@@ -253,7 +253,7 @@ static void spread(tile_scratch *scratch, size_t count)
             ffd_vertex_transform_point(&own, position);
             memset(delta, 0, 3 * sizeof *delta);
             memset(gradient, 0, 9 * sizeof *gradient);
-            scratch->notes[i] = (chain_note){.status = FFD_OUTSIDE};
+            scratch->notes[i] = (point_outcome){.status = FFD_OUTSIDE};
         }
     }
 }

@@ -17,7 +17,7 @@ typedef struct shape_scratch {
     size_t moved[PASS_TILE];
     size_t moved_count;
     double moved_delta[3 * PASS_TILE], moved_gradient[9 * PASS_TILE];
-    chain_note moved_notes[PASS_TILE];
+    point_outcome moved_notes[PASS_TILE];
     const double *gradients[PASS_TILE]; /* of every vertex: the base's where the target does not move it */
     double base[3 * PASS_TILE];         /* positions or directions without the target */
     double normals[3 * PASS_TILE];      /* deformed, with the target */
@@ -35,7 +35,7 @@ typedef struct tile_scratch {
     /* Of the chosen ones, one behind the other, until they are spread to their slots in the tile. */
     double position[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
-    chain_note notes[PASS_TILE];
+    point_outcome notes[PASS_TILE];
     uint8_t changed[PASS_TILE];
     vertex_transforms transforms;
     double normals[3 * PASS_TILE], tangents[4 * PASS_TILE];

@@ -37,7 +37,7 @@ void ffd_totals_count_rest(const part_work *work, const tile_scratch *scratch, s
 }
 
 /* Of a vertex that is not simply inside. */
-static void count_other(const chain_note *note, uint64_t number, pass_totals *totals)
+static void count_other(const point_outcome *note, uint64_t number, pass_totals *totals)
 {
     totals->counts[note->status]++;
     if (note->outside) {
@@ -51,13 +51,13 @@ static void count_other(const chain_note *note, uint64_t number, pass_totals *to
 
 static void count_notes(const part_work *work, const tile_scratch *scratch, size_t first, pass_totals *totals)
 {
-    const chain_note *const notes = scratch->notes;
+    const point_outcome *const notes = scratch->notes;
     double square_max = 0, square_sum = 0;
     uint64_t evaluations = 0;
     uint32_t evaluations_max = 0;
     size_t inside = 0, located = 0;
     for (size_t i = 0; i < scratch->chosen_count; i++) {
-        const chain_note *const note = &notes[i];
+        const point_outcome *const note = &notes[i];
         square_max = larger_of(square_max, note->residual_square); /* 0 where there is no u,v,w */
         square_sum += note->residual_square;
         located += note->located;

@@ -19,10 +19,10 @@ bool ffd_gltf_has_extension(const gltf_document *d, uint32_t value, const char *
 
 void ffd_gltf_forget(const gltf_document *d)
 {
-    ffd_file_forget(&d->input, d->input.data, d->input.size);
+    ffd_file_release_pages(&d->input, d->input.data, d->input.size);
     for (size_t i = 0; i < d->buffer_values.count; i++)
         if (d->buffers[i].kind == BUFFER_FILE)
-            ffd_file_forget(&d->buffers[i].file, d->buffers[i].file.data, d->buffers[i].file.size);
+            ffd_file_release_pages(&d->buffers[i].file, d->buffers[i].file.data, d->buffers[i].file.size);
 }
 
 void ffd_gltf_forget_bytes(const gltf_document *d, const gltf_buffer *buffer, size_t offset, size_t size)
@@ -30,6 +30,6 @@ void ffd_gltf_forget_bytes(const gltf_document *d, const gltf_buffer *buffer, si
     const file_input *input = buffer->kind == BUFFER_FILE ? &buffer->file : &d->input;
     const bool in_file = buffer->kind == BUFFER_FILE || buffer->kind == BUFFER_BIN;
     if (in_file && offset < buffer->size)
-        ffd_file_forget(input, buffer->data + offset,
-                        size < buffer->size - offset ? size : buffer->size - offset);
+        ffd_file_release_pages(input, buffer->data + offset,
+                               size < buffer->size - offset ? size : buffer->size - offset);
 }

@@ -72,7 +72,7 @@ static void make_piece(void *context, size_t tile, size_t first, size_t last, in
     if (piece.bytes && w->base64)
         encode(w, &piece);
     else if (piece.bytes)
-        ffd_file_bring_in(piece.bytes, piece.size);
+        ffd_file_prefault(piece.bytes, piece.size);
     w->pieces[slot] = piece;
 }
 

@@ -18,7 +18,7 @@
 
 static ffd_status put(const gltf_saver *saver, const void *bytes, size_t size, ffd_error *error)
 {
-    ffd_file_bring_in(bytes, size);
+    ffd_file_prefault(bytes, size);
     return ffd_output_write(saver->output, bytes, size, error);
 }
 
