@@ -329,8 +329,8 @@ def refused(run):
     face = "element face 1\nproperty list uchar int vertex_indices\n"
     binary = head.replace("ascii", "binary_little_endian")
     for content, code, says in (
-            ("", INVALID, "p.ply:1: is no PLY file: the first line is not \"ply\""),
-            (CUBE, INVALID, "p.ply:1: is no PLY file: the first line is not \"ply\""),
+            ("", INVALID, "p.ply:1: is not a PLY file: the first line is not \"ply\""),
+            (CUBE, INVALID, "p.ply:1: is not a PLY file: the first line is not \"ply\""),
             (head, INVALID, "p.ply:6: the header has no end: \"end_header\" is missing"),
             (head + "comment " + 100000 * "x", INVALID, "p.ply:7: the header has no end: \"end_header\" is missing"),
             (head + "end_header\n0.00 0.00 0.00\n1 1\n", INVALID,
@@ -344,13 +344,13 @@ def refused(run):
             (head + "end_header\n0 0 1e39\n1 1 1\n", INVALID,
              "p.ply: vertex 0 (counted from 0) has a coordinate that is not finite"),
             (head.replace("vertex 2", "vertex 2147483648") + "end_header\n0 0 0\n", INVALID,
-             "p.ply:3: element vertex: 2147483648 rows of 6 bytes or more are not in the 6 bytes behind the header"),
+             "p.ply:3: element vertex: 2147483648 rows of 6 bytes or more do not fit in the 6 bytes after the header"),
             (binary.replace("vertex 2", "vertex 4611686018427387904") + "end_header\n", INVALID,
-             "p.ply:3: element vertex: 4611686018427387904 rows of 12 bytes or more are not in the 0 bytes behind the header"),
+             "p.ply:3: element vertex: 4611686018427387904 rows of 12 bytes or more do not fit in the 0 bytes after the header"),
             (head.replace("vertex 2", "vertex 99999999999999999999"), INVALID,
-             "p.ply:3: \"99999999999999999999\" is no count of element vertex"),
+             "p.ply:3: \"99999999999999999999\" is not a count of element vertex"),
             (head.replace("float z", "half z"), INVALID,
-             "p.ply:6: \"half\" is no type of PLY (char, uchar, short, ushort, int, uint, float, double)"),
+             "p.ply:6: \"half\" is not a PLY type (char, uchar, short, ushort, int, uint, float, double)"),
             (head.replace("float z", "float x"), INVALID,
              "p.ply:6: a second property x of element vertex: the first is on line 4"),
             (head.replace("property float z\n", "") + "end_header\n0 0\n1 1\n", INVALID,

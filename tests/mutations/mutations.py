@@ -220,6 +220,7 @@ m("ending-of-ply", "constant", "source, cli_ply", '{".ply", FFD_FORMAT_PLY}', '{
 m("added-normal-number", "off by one", "obj_normals, obj, cli_obj",
   "(uint64_t)all->document->normals + target + 1;", "(uint64_t)all->document->normals + target;")
 m("added-line-end", "off by one", "obj_normals, obj, cli_obj",
+  "where[-2] == '\\r' ? 2 : 1)", "where[-2] == '\\r' ? 1 : 1)",
   "place[-2] == '\\r' ? 2 : 1)", "place[-2] == '\\r' ? 1 : 1)")
 m("index-counts-back", "sign", "obj, obj_users", "index->value = -index->value;", "index->value = index->value - 1;")
 m("backslash-at-the-end", "bound", "obj, cli_obj",
@@ -302,6 +303,8 @@ m("ply-rows-do-not-fit", "limit", "ply, cli_ply, replay ply", "e->count > left /
 m("ply-colour-of-shorts", "factor", "ply, model, cli_convert", "type == PLY_USHORT ? 65535 : 1",
   "type == PLY_USHORT ? 65536 : 1")
 m("ply-normals-mixed", "stride", "ply, cli_ply",
+  "property->slot < PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
+  "property->slot <= PLY_NORMAL_SLOT ? d->file.positions : d->file.directions",
   "property->slot < PLY_NORMAL_SLOT ? d->positions : d->directions",
   "property->slot <= PLY_NORMAL_SLOT ? d->positions : d->directions")
 m("ply-newer-version", "error code", "ply, cli_ply",
@@ -323,7 +326,10 @@ m("off-rest-of-a-vertex", "off by one", "off, cli_convert", "if (count != 3 && c
 
 m("stl-normal-side", "sign", "stl, cli_off_stl", "vec_dot(rest, old) < 0)", "vec_dot(rest, old) > 0)")
 m("stl-negative-zero", "sign", "stl, cli_off_stl", "normal[a] = 0 - normal[a];", "normal[a] = -normal[a];")
-m("stl-too-short", "bound", "stl, cli_off_stl, cli_broken_files", "if (stated_size(&d->input) > d->input.size)",
+m("stl-too-short", "bound", "stl, cli_off_stl, cli_broken_files",
+  "if (stated_size(&d->file.input) > d->file.input.size)",
+  "if (stated_size(&d->file.input) > d->file.input.size + 49)",
+  "if (stated_size(&d->input) > d->input.size)",
   "if (stated_size(&d->input) > d->input.size + 49)")
 
 # io/openmesh

@@ -50,7 +50,7 @@ static inline bool same_bits(const double *a, const double *b)
 /* How many `vn` must be added: each distinct value of one `vn` but the first. */
 static inline size_t needed_additions(const obj_document *document, const double *values)
 {
-    const size_t pairs = document->part.normal_count;
+    const size_t pairs = document->file.part.normal_count;
     size_t needed = 0;
     unsigned char *used = calloc(document->normals + 1, 1);
     assert_non_null(used);
@@ -141,7 +141,7 @@ static inline void check_new_normals(mesh_document *document, draw *d, bool coun
     obj->write_normals(document, 0, 0, document->parts->normal_count, values, changed);
     if (save_bytes(document, &saved, &error) != FFD_OK)
         fail_msg("%s", error.message);
-    plain_obj a = plain_read(o->input.data, o->input.size), b = plain_read(saved.data, saved.size);
+    plain_obj a = plain_read(o->file.input.data, o->file.input.size), b = plain_read(saved.data, saved.size);
     assert_int_equal(a.vertex_count, b.vertex_count);
     assert_int_equal(a.corner_count, b.corner_count);
     assert_true(b.normal_count >= a.normal_count);

@@ -142,8 +142,8 @@ static void fill_file(file *f, int order)
 static size_t count_late(const file *f)
 {
     char name[] = "a.obj";
-    obj_document d = {.input = {.data = (const unsigned char *)f->text.data, .size = f->text.size},
-                      .name = name,
+    obj_document d = {.file.input = {.data = (const unsigned char *)f->text.data, .size = f->text.size},
+                      .file.name = name,
                       .threads = 2};
     obj_users found;
     size_t late = 0;
@@ -196,7 +196,7 @@ static void check_document(const file *f, const obj_document *d)
         assert_null(d->pair_start);
         return;
     }
-    assert_int_equal(d->part.normal_count, f->named_count);
+    assert_int_equal(d->file.part.normal_count, f->named_count);
     for (size_t v = 0, i = 0; v < d->vertices; v++) {
         assert_int_equal(d->pair_start[v], i);
         for (; i < f->named_count && f->named[i] >> 32 == v; i++)

@@ -115,7 +115,7 @@ static void broken_files_are_refused_with_their_line(void **state)
         {"OFF\n-3 1 0\n", FFD_E_INVALID, 2, "the number of vertices is not a whole number: \"-3\""},
         {"OFF\n3 1.5 0\n", FFD_E_INVALID, 2, "the number of faces is not a whole number: \"1.5\""},
         {"OFF\n1 0 0 0\n1 2 3\n", FFD_E_INVALID, 2,
-         "behind the numbers of vertices, faces and edges stands \"0\""},
+         "the numbers of vertices, faces and edges are followed by \"0\""},
         {"OFF\n4611686018427387904 1 0\n1 2 3\n", FFD_E_INVALID, 2,
          "4611686018427387904 vertices and 1 faces are stated, more than the 7 bytes that follow can hold"},
         {"OFF\n99999999999999999999999 1 0\n1 2 3\n", FFD_E_INVALID, 2,

@@ -17,7 +17,7 @@ ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, si
                          ffd_error *error);
 
 /* Whether data starts with the header that ffd_npy_header makes for this array, to the byte; *values is then
-   the place of the first value. Headers that say the same in other words are not known. */
+   the offset of the first value. Headers with the same meaning but other text are not recognized. */
 bool ffd_npy_starts(const unsigned char *data, size_t size, const char *descr, size_t rows, size_t columns,
                     size_t *values);
 

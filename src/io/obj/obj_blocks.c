@@ -10,7 +10,7 @@ static bool may_continue(const char *first, const char *end)
     return end > first && end[-1] == '\\';
 }
 
-/* The place behind the next line end from `at` on that surely ends a statement. */
+/* Returns the position after the next line end from `at` on that surely ends a statement. */
 static const char *find_cut(const char *first, const char *at, const char *last)
 {
     for (; at < last; at++) {
@@ -25,14 +25,15 @@ static const char *find_cut(const char *first, const char *at, const char *last)
     return last;
 }
 
-/* Bytes of a block in which a line is looked for that tells what the block has. */
+/* Bytes at the start of a block that are searched for a line to estimate the block by. */
 #define HEAD ((size_t)1024)
 
-/* Of a line with numbers: "v 1 2 3". One that is shorter tells nothing. */
+/* The shortest line with numbers, "v 1 2 3". A shorter line is no basis for an estimate. */
 #define SHORTEST_LINE 8
 
 /* Counts the lines of the block as if all were like the first `v` or `vn`, unless others than those of a
-   file's or an object's beginning come before. They are in memory: the cut before was looked for there. */
+   file's or an object's beginning come before. These bytes are in memory already: the search for the cut
+   before read them. */
 static void estimate(const obj_block *block, obj_blocks *blocks)
 {
     const size_t size = (size_t)(block->last - block->first);
@@ -54,8 +55,8 @@ static void estimate(const obj_block *block, obj_blocks *blocks)
     }
 }
 
-/* So many cuts until the pages that they were looked for in are given back: the system brings up to 2 MB in
-   for a byte. */
+/* Cuts after which the pages that the search has read are given back: the system reads in up to 2 MB for one
+   byte. */
 #define CUTS ((size_t)32)
 
 ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t target, obj_blocks *blocks,

@@ -1,4 +1,4 @@
-/* obj_blocks.h - an OBJ file cut into blocks of whole statements, which threads scan side by side. */
+/* obj_blocks.h - an OBJ file cut into blocks of whole statements, which threads scan in parallel. */
 #ifndef FFD_IO_OBJ_OBJ_BLOCKS_H
 #define FFD_IO_OBJ_OBJ_BLOCKS_H
 
@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A block, and what stands before it in the file. Whoever cuts the file fills in first and last only. */
+/* A block, and what is before it in the file. Whoever cuts the file fills in first and last only. */
 typedef struct obj_block {
     const char *first, *last;
     size_t line; /* of its first character, from 1 */
@@ -22,7 +22,7 @@ typedef struct obj_blocks {
     size_t vertices, normals; /* about so many, if each block goes on as it begins */
 } obj_blocks;
 
-/* Cuts the input from `first` on, behind its byte order mark, at line ends that nothing continues: at the
+/* Cuts the input from `first` on, after its byte order mark, at line ends that nothing continues: at the
    first one from each multiple of `target` bytes on. Errors: FFD_E_MEMORY; *blocks is then empty. */
 ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t target, obj_blocks *blocks,
                               ffd_error *error);

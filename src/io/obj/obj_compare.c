@@ -1,8 +1,8 @@
 /* obj_compare.c - compares two OBJ files. Two OBJ files are the same mesh when their statements are, one by
    one: the keyword, and each argument as text, as a number (1.0 and 1, NaN and NaN) or, in f, l and p, as the
    element it names (-1 and 8). The coordinates of `v` and `vn` may differ by their tolerances; other numbers
-   may not. Comments, empty lines, blanks, continuations and line ends are no part of the mesh; names and
-   mtllib are. */
+   may not. Names and mtllib are compared; comments, empty lines, blanks, continuations and line ends are
+   not. */
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_number.h"
 #include "mesh/difference.h"
@@ -16,34 +16,25 @@ typedef struct comparer {
     ffd_comparison *result;
 } comparer;
 
-/* The place in both files: "line 4" or "lines 4 and 5". */
-static void format_lines(const comparer *c, char *text, size_t capacity)
-{
-    const size_t a = c->a.scan.line, b = c->b.scan.line;
-    if (a == b)
-        snprintf(text, capacity, "line %zu", a);
-    else
-        snprintf(text, capacity, "lines %zu and %zu", a, b);
-}
-
 /* What is compared: "vertex 17 (line 4)", "normal 3 (line 4)", or the keyword. A difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
     const text_word name = c->a.scan.name;
-    char lines[64];
-    format_lines(c, lines, sizeof lines);
+    char lines[TEXT_LINES_CAPACITY];
+    ffd_text_lines(c->a.scan.line, c->b.scan.line, lines);
     if (c->a.scan.keyword == OBJ_VERTEX)
-        snprintf(text, capacity, "vertex %zu (%s)", c->a.vertices.seen, lines);
+        snprintf(text, capacity, "vertex %zu%s", c->a.vertices.seen, lines);
     else if (c->a.scan.keyword == OBJ_NORMAL)
-        snprintf(text, capacity, "normal %zu (%s)", c->a.normals.seen, lines);
+        snprintf(text, capacity, "normal %zu%s", c->a.normals.seen, lines);
     else if (c->a.scan.keyword == OBJ_TEXCOORD)
-        snprintf(text, capacity, "texcoord %zu (%s)", c->a.texcoords.seen, lines);
+        snprintf(text, capacity, "texcoord %zu%s", c->a.texcoords.seen, lines);
     else
-        snprintf(text, capacity, "%.*s (%s)", ffd_text_display_size(name), name.first, lines);
+        snprintf(text, capacity, "%.*s%s", ffd_text_display_size(name), name.first, lines);
 }
 
-/* What a statement says more than the coordinates of a vertex: its weight and colour. */
+/* The kind of a difference in what a statement has besides coordinates, such as the weight or colour of a
+   vertex. */
 static ffd_difference_kind kind_of(obj_keyword keyword)
 {
     switch (keyword) {
@@ -165,7 +156,7 @@ static void compare_arguments(comparer *c)
         compare_words(c);
 }
 
-/* The statements that only one of the files has, behind the end of the other. */
+/* The statements that only one of the files has, after the end of the other. */
 static void differ_in_length(comparer *c, bool in_a)
 {
     obj_walk *longer = in_a ? &c->a : &c->b;

@@ -5,7 +5,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Reads an optional index at *at and goes behind it. */
+/* Reads an optional index at *at and moves *at past it. */
 static bool take_index(const char **at, const char *last, obj_index *index)
 {
     /* No file has so many elements, and one more digit still fits. */
@@ -20,7 +20,7 @@ static bool take_index(const char **at, const char *last, obj_index *index)
         if (index->value < saturated)
             index->value = index->value * 10 + (*c - '0');
     if (c == digits)
-        return c == *at; /* a sign alone is no index */
+        return c == *at; /* a sign alone is not an index */
     if (negative)
         index->value = -index->value;
     index->text.last = *at = c;
@@ -51,7 +51,7 @@ static ALWAYS_INLINE obj_index index_at(const char *at, int count)
     return (obj_index){(int64_t)number, {at, at + count}};
 }
 
-/* Takes the digits that a text begins with: eight at most, more are a word's. */
+/* Takes the digits that a text begins with: eight at most; longer ones are read as a word. */
 static const char *take_digits(const char *at, const char *last, obj_index *index)
 {
     if (last - at >= 8) {

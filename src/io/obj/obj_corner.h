@@ -10,7 +10,7 @@
  */
 typedef struct obj_index {
     int64_t value;
-    text_word text; /* empty: there is none */
+    text_word text; /* empty: not given */
 } obj_index;
 
 typedef struct obj_corner {
@@ -18,16 +18,16 @@ typedef struct obj_corner {
 } obj_corner;
 
 /* Takes a scan's next argument if it is a corner in digits and slashes alone, and its vertex is there. False,
-   and nothing is taken, where it is anything else: it is then a word to be looked at. */
+   and nothing is taken, where it is anything else: the caller then reads it as a word. */
 bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner);
 
-/* Reads v, v/t, v//n or v/t/n; a slash with nothing behind it is allowed. False for anything else. */
+/* Reads v, v/t, v//n or v/t/n; a slash with nothing after it is allowed. False for anything else. */
 bool ffd_obj_corner(text_word word, obj_corner *corner);
 
-/* So many bytes must be there for the following. */
+/* Bytes that must be readable for the following functions. */
 #define OBJ_CORNER_ROOM 40
 
-/* How many digits the three indices of a corner have, and the position behind the last. */
+/* How many digits the three indices of a corner have, and the position after the last. */
 typedef struct obj_corner_form {
     int vertex, texcoord, normal, end;
 } obj_corner_form;
@@ -50,7 +50,7 @@ static ALWAYS_INLINE bool ffd_obj_find_slashes(const char *at, obj_corner_form *
 }
 
 /* Reads the vertex and normal of a corner that has both and two slashes: their indices, as two numbers.
-   Returns the place behind it; NULL where something else stands there. */
+   Returns the position after it; NULL where the text is anything else. */
 static ALWAYS_INLINE const char *ffd_obj_pair_at(const char *at, byte_numbers *indices)
 {
     obj_corner_form form;

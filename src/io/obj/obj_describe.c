@@ -79,7 +79,7 @@ ffd_status ffd_obj_describe(const mesh_document *document, json_text *json, ffd_
         {"materials", ffd_obj_names_distinct(&facts.materials)},
     };
     ffd_json_counts(json, members, sizeof members / sizeof *members);
-    ffd_json_string(json, "line_endings", ffd_text_line_ends(d->input.data, d->input.size));
+    ffd_json_string(json, "line_endings", ffd_text_line_ends(d->file.input.data, d->file.input.size));
     ffd_obj_names_free(&facts.groups);
     ffd_obj_names_free(&facts.objects);
     ffd_obj_names_free(&facts.materials);

@@ -9,9 +9,9 @@
 #include "base/file/spill.h"
 #include "io/obj/obj_blocks.h"
 #include "io/obj/obj_walk.h"
-#include "mesh/mesh.h"
+#include "io/text/file_document.h"
 
-/* Vertices and `vn` that a file may have: their numbers, and one number for none, are 32 bits. */
+/* Vertices and `vn` that a file may have: their numbers, and one value for none, are 32 bits. */
 #define OBJ_ELEMENTS_MAX (UINT32_MAX - 1)
 #define OBJ_NONE UINT32_MAX
 
@@ -19,16 +19,14 @@
 #define OBJ_VECTOR (3 * sizeof(double))
 
 typedef struct obj_document {
-    mesh_document base;
-    mesh_part part;
-    file_input input;
-    char *name;                                                /* for messages */
+    /* positions: of each `v`; directions: of each `vn`, NULL: not held; new_directions: of each pair. Results
+       may be where what was read was (results_replace). */
+    file_document file;
     size_t vertices, texcoords, normals;                       /* `v`, `vt`, `vn` */
     size_t faces, corners, lines, points;                      /* statements; corners of faces */
-    const double *positions;                                   /* 3 a `v` */
-    const double *directions;                                  /* 3 a `vn`; NULL: not held */
-    spill_array position_store, direction_store, result_store; /* of these two and new_positions */
-    bool only_positions; /* normals are checked but not held, and the part shows none */
+    spill_array position_store, direction_store, result_store; /* what positions, directions and new_positions
+                                                                  point to */
+    bool only_positions; /* normals are checked but not held, and the part has none */
     /* A pair is a vertex with one of its normals: pairs pair_start[i] .. pair_start[i+1]-1 are those of
        vertex i, with the `vn` pair_normal[.] (from 0) ascending. NULL where no face corner names a normal. */
     uint32_t *pair_start, *pair_normal;
@@ -39,9 +37,6 @@ typedef struct obj_document {
     /* What ffd_obj_select left: bytes of vertices, faces, pairs; and of `vn` that a corner of a face uses
        which is not selected, so that they must stay. NULL: all is selected. */
     uint8_t *selected_vertices, *selected_faces, *selected_pairs, *held_normals;
-    /* Results; either may stand where what was read did (results_replace). */
-    double *new_positions;  /* 3 a vertex; NULL before ffd_obj_begin_results */
-    double *new_directions; /* 3 a pair; NULL: normals are kept */
     /* Of each vertex, and of each pair, a bit for each coordinate that has other bits than before. */
     uint8_t *position_changes, *direction_changes;
 } obj_document;

@@ -6,7 +6,7 @@
 #include <string.h>
 
 /* Sums up what the blocks have, but for normals. A `vn` added before an index that counts back would change
-   its meaning: where one stands behind the last `vn`, the file's end is the place. */
+   its meaning: where there is one after the last `vn`, they are added at the end of the file. */
 static void join_blocks(obj_document *d, const obj_users *users)
 {
     for (size_t i = 0; i < d->blocks.count; i++) {
@@ -15,7 +15,7 @@ static void join_blocks(obj_document *d, const obj_users *users)
         d->corners += block->corners;
         d->lines += block->lines;
         d->points += block->points;
-        d->addition = block->counts_back > d->addition ? d->input.size : d->addition;
+        d->addition = block->counts_back > d->addition ? d->file.input.size : d->addition;
     }
 }
 
@@ -44,7 +44,7 @@ static void sort_numbers(uint32_t *numbers, size_t count)
 /* Vertices whose first normals a thread looks at at a time. */
 #define TILE ((size_t)1 << 14)
 
-/* The first normals, put one behind the other. */
+/* The first normals, one after the other. */
 typedef struct first_list {
     obj_document *document;
     const obj_users *users;
@@ -140,8 +140,8 @@ static ffd_status make_lists(first_list *list, ffd_error *error)
     if (count == 0)
         return FFD_OK;
     if (count > UINT32_MAX)
-        return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more than %" PRIu32 " face corners with a normal",
-                             UINT32_MAX);
+        return ffd_fail_file(error, FFD_E_LIMIT, d->file.name,
+                             "more than %" PRIu32 " face corners with a normal", UINT32_MAX);
     d->pair_start = ffd_alloc_zero(d->vertices + 1, sizeof *d->pair_start);
     d->pair_normal = ffd_alloc((size_t)count, sizeof *d->pair_normal);
     if (!d->pair_start || !d->pair_normal)
@@ -173,7 +173,7 @@ ffd_status ffd_obj_read_faces(obj_document *d, obj_users *users, ffd_error *erro
     return users->firsts ? make_pairs(users, d, error) : FFD_OK;
 }
 
-/* The normal's place in the vertex's ascending list. */
+/* The normal's index in the vertex's ascending list. */
 size_t ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner)
 {
     size_t low = d->pair_start[corner->vertex], high = d->pair_start[corner->vertex + 1];

@@ -4,7 +4,7 @@
 
 #include "io/obj/obj_users.h"
 
-/* Fills in what is known of the faces (counts, pairs, addition) and refuses what they must not name. */
+/* Fills in the counts, the pairs and addition from the faces. Refuses indices that are out of range. */
 ffd_status ffd_obj_read_faces(obj_document *document, obj_users *users, ffd_error *error);
 
 /* The pair of a face's corner that has a normal. */

@@ -22,27 +22,28 @@ typedef struct extractor {
    ones then follow the new ones. */
 static bool has_both(const obj_document *d)
 {
-    return d->new_directions && d->selected_faces;
+    return d->file.new_directions && d->selected_faces;
 }
 
 static size_t count_normals(const obj_document *d)
 {
     if (!d->pair_start)
         return 0;
-    if (!d->new_directions)
+    if (!d->file.new_directions)
         return d->normals;
-    return d->part.normal_count + (has_both(d) ? d->normals : 0);
+    return d->file.part.normal_count + (has_both(d) ? d->normals : 0);
 }
 
 static void copy_values(const extractor *e)
 {
     const obj_document *d = e->document;
-    const double *positions = d->new_positions ? d->new_positions : d->positions;
+    const double *positions = d->file.new_positions ? d->file.new_positions : d->file.positions;
     ffd_vectors_read(positions, 0, d->vertices, e->model->positions);
-    const size_t normals = e->model->normal_count, fresh = d->new_directions ? d->part.normal_count : 0;
-    ffd_vectors_read(d->new_directions, 0, fresh, e->model->normals);
+    const size_t normals = e->model->normal_count,
+                 fresh = d->file.new_directions ? d->file.part.normal_count : 0;
+    ffd_vectors_read(d->file.new_directions, 0, fresh, e->model->normals);
     if (normals > fresh)
-        ffd_vectors_read(d->directions, 0, normals - fresh, e->model->normals + 3 * fresh);
+        ffd_vectors_read(d->file.directions, 0, normals - fresh, e->model->normals + 3 * fresh);
 }
 
 static ffd_status take_texcoord(extractor *e)
@@ -53,7 +54,7 @@ static ffd_status take_texcoord(extractor *e)
     text_word word;
     for (int i = 0; i < 3 && ffd_obj_scan_word(&e->walk.scan, &word); i++)
         if (!ffd_obj_number(word, &uvw[i]))
-            return ffd_fail_line(e->error, FFD_E_INVALID, d->name, e->walk.scan.line,
+            return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, e->walk.scan.line,
                                  "texture coordinate %c is not a number: \"%.*s\"", "uvw"[i],
                                  ffd_text_display_size(word), word.first);
     memcpy(values, uvw, 2 * sizeof *values);
@@ -81,7 +82,7 @@ static ffd_status take_rest_of_vertex(extractor *e)
     return status;
 }
 
-/* What is behind the keyword, from the first word to the last. */
+/* The text after the keyword, from the first word to the last. */
 static ffd_status take_name(extractor *e, char **name)
 {
     text_word whole = {0}, word;
@@ -107,7 +108,7 @@ static ffd_status find_texcoord(const extractor *e, obj_index index, uint32_t *n
     if (d->texcoords == 0 || index.text.first == index.text.last)
         return FFD_OK;
     if (!ffd_obj_find(index.value, e->walk.texcoords, &element))
-        return ffd_fail_line(e->error, FFD_E_INVALID, d->name, e->walk.scan.line,
+        return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, e->walk.scan.line,
                              "texture coordinate index %.*s is out of range: the file has %zu",
                              ffd_text_display_size(index.text), index.text.first, d->texcoords);
     *number = (uint32_t)element;
@@ -121,10 +122,10 @@ static uint32_t find_normal(const extractor *e, obj_index index, size_t vertex)
     if (!d->pair_start || index.text.first == index.text.last ||
         !ffd_obj_find(index.value, e->walk.normals, &corner.normal))
         return MODEL_NONE;
-    if (!d->new_directions)
+    if (!d->file.new_directions)
         return (uint32_t)corner.normal;
     if (has_both(d) && !d->selected_faces[e->faces])
-        return (uint32_t)(d->part.normal_count + corner.normal);
+        return (uint32_t)(d->file.part.normal_count + corner.normal);
     return (uint32_t)ffd_obj_find_pair(d, &corner);
 }
 

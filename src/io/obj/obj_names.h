@@ -10,9 +10,9 @@ typedef struct obj_names {
     size_t count, capacity;
 } obj_names;
 
-/* False when there is no memory. */
+/* Adds a word. False when memory ran out. */
 bool ffd_obj_names_add(obj_names *names, text_word word);
-/* Leaves each word once, in another order, and tells how many that are. */
+/* Removes repeated words, which changes the order. Returns how many words are left. */
 size_t ffd_obj_names_distinct(obj_names *names);
 /* Frees the names. */
 void ffd_obj_names_free(obj_names *names);

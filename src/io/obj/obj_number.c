@@ -30,9 +30,10 @@ bool ffd_obj_scan_number(obj_scan *scan, double *value)
     return end && ffd_obj_scan_take(scan, end);
 }
 
-/* A number of so many characters, whose bytes that are no digits have their bits in others; the one behind it
-   is one. What its digits and zeros up to 16 make is divided by the power of ten that they then are too
-   large by: a whole number of up to 15 digits has factors enough for it to be a double with the zeros. */
+/* Reads a number of size characters. others has a bit for each byte that is not a digit, as is the one
+   after the number. The digits, with zeros up to 16 of them, are read as a whole number and divided by the
+   power of ten that makes it too large. With up to 15 digits that whole number is a double: the zeros add the
+   factors of two that it needs. */
 static ALWAYS_INLINE bool number_at(const char *text, int size, uint64_t others, double *value)
 {
     const bool negative = *text == '-';
@@ -50,8 +51,8 @@ static ALWAYS_INLINE bool number_at(const char *text, int size, uint64_t others,
                                 value);
 }
 
-/* All within 64 bytes, whose kinds are found at once. The first two take 38 of them at most, with the blanks
-   before them, so that the digits of the third are read there too. */
+/* All three are within 64 bytes, which are classified at once. The first two take 38 of them at most, with
+   the blanks before them, so that the digits of the third are read there too. */
 bool ffd_obj_scan_numbers(obj_scan *scan, double values[3])
 {
     const char *const at = scan->at;

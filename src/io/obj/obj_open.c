@@ -1,37 +1,34 @@
 /* obj_open.c - opens and closes an OBJ file. */
-#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_results.h"
 #include "io/obj/obj_vectors.h"
 
-/* UTF-16 would be a file without any known statement, and so an empty mesh. */
+/* UTF-16 text would have no known statement and so give an empty mesh. */
 static ffd_status check_encoding(const obj_document *d, ffd_error *error)
 {
-    const unsigned char *data = d->input.data;
-    if (d->input.size >= 2 && ((data[0] == 0xff && data[1] == 0xfe) || (data[0] == 0xfe && data[1] == 0xff)))
-        return ffd_fail_line(error, FFD_E_INVALID, d->name, 1,
+    const unsigned char *data = d->file.input.data;
+    if (d->file.input.size >= 2 &&
+        ((data[0] == 0xff && data[1] == 0xfe) || (data[0] == 0xfe && data[1] == 0xff)))
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, 1,
                              "is UTF-16 text: an OBJ file is ASCII or UTF-8");
     return FFD_OK;
 }
 
 static void describe_part(obj_document *d)
 {
-    d->part.vertex_count = d->vertices;
-    d->part.identity = true;
+    d->file.part.vertex_count = d->vertices;
     if (d->pair_start) {
-        d->part.normal_start = d->pair_start;
-        d->part.normal_count = d->pair_start[d->vertices];
+        d->file.part.normal_start = d->pair_start;
+        d->file.part.normal_count = d->pair_start[d->vertices];
     }
-    d->base = (mesh_document){.parts = &d->part, .part_count = 1};
 }
 
 static void free_document(obj_document *d)
 {
     ffd_obj_blocks_free(&d->blocks);
     ffd_obj_free_normals(d);
-    ffd_free(d->name);
     ffd_spill_free(&d->position_store);
     ffd_spill_free(&d->direction_store);
     ffd_spill_free(&d->result_store);
@@ -43,6 +40,7 @@ static void free_document(obj_document *d)
     ffd_free(d->held_normals);
     ffd_free(d->position_changes);
     ffd_free(d->direction_changes);
+    ffd_free(d->file.name);
     ffd_free(d);
 }
 
@@ -56,7 +54,7 @@ static ffd_status read_elements(obj_document *d, ffd_error *error)
     return status;
 }
 
-/* Bytes for each thread: it takes longer to start one than to read fewer. */
+/* Bytes for each thread: starting a thread takes longer than reading fewer. */
 #define THREAD_BYTES ((size_t)128 * 1024)
 
 static int threads_for(const ffd_source *source, size_t size)
@@ -69,14 +67,12 @@ static int threads_for(const ffd_source *source, size_t size)
 ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
-    obj_document *d = ffd_alloc_zero(1, sizeof *d);
+    obj_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
-        return ffd_fail_memory(error);
-    d->input = *input;
+        return FFD_E_MEMORY;
     d->threads = threads_for(source, input->size);
     d->only_positions = source->only_positions;
-    d->name = ffd_text_copy(ffd_path_display_name(source->path));
-    ffd_status status = d->name ? check_encoding(d, error) : ffd_fail_memory(error);
+    ffd_status status = check_encoding(d, error);
     if (status == FFD_OK)
         status = read_elements(d, error);
     if (status) {
@@ -84,8 +80,7 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
         return status;
     }
     describe_part(d);
-    d->base.budget = ffd_budget_for_file(d->input.size, true, source->memory);
-    *document = &d->base;
+    *document = ffd_file_document_ready(&d->file, true, source);
     return FFD_OK;
 }
 
@@ -94,6 +89,6 @@ void ffd_obj_close(mesh_document *document)
     obj_document *d = (obj_document *)document;
     if (!d)
         return;
-    ffd_file_unload(&d->input);
+    ffd_file_unload(&d->file.input);
     free_document(d);
 }

@@ -18,7 +18,7 @@ void ffd_obj_read_positions(const mesh_document *document, size_t part, size_t f
 {
     const obj_document *d = ffd_obj_of(document);
     (void)part; /* there is one */
-    ffd_vectors_read(d->positions, first, count, xyz);
+    ffd_vectors_read(d->file.positions, first, count, xyz);
     ffd_obj_forget_vectors(d, first, count);
 }
 
@@ -27,7 +27,7 @@ void ffd_obj_read_normals(const mesh_document *document, size_t part, size_t fir
     const obj_document *d = ffd_obj_of(document);
     (void)part;
     for (size_t i = 0; i < count; i++)
-        memcpy(xyz + 3 * i, d->directions + 3 * (size_t)d->pair_normal[first + i], 3 * sizeof *xyz);
+        memcpy(xyz + 3 * i, d->file.directions + 3 * (size_t)d->pair_normal[first + i], 3 * sizeof *xyz);
 }
 
 static void copy_tile(void *context, size_t tile, size_t first, size_t last, int worker)
@@ -35,7 +35,7 @@ static void copy_tile(void *context, size_t tile, size_t first, size_t last, int
     const obj_document *d = context;
     (void)tile;
     (void)worker;
-    ffd_vectors_read(d->positions, first, last - first, d->new_positions + 3 * first);
+    ffd_vectors_read(d->file.positions, first, last - first, d->file.new_positions + 3 * first);
     ffd_obj_forget_vectors(d, first, last - first);
 }
 
@@ -44,7 +44,7 @@ static void copy_normals(void *context, size_t tile, size_t first, size_t last, 
     const obj_document *d = context;
     (void)tile;
     (void)worker;
-    ffd_obj_read_normals(&d->base, 0, first, last - first, d->new_directions + 3 * first);
+    ffd_obj_read_normals(&d->file.base, 0, first, last - first, d->file.new_directions + 3 * first);
 }
 
 /* Nothing has changed so far. */
@@ -61,39 +61,39 @@ static ffd_status begin_positions(obj_document *d, ffd_error *error)
 {
     if (!clear_changes(&d->position_changes, d->vertices))
         return ffd_fail_memory(error);
-    if (d->base.results_replace) {
-        d->new_positions = d->position_store.data;
+    if (d->file.base.results_replace) {
+        d->file.new_positions = d->position_store.data;
         return FFD_OK;
     }
     if (!ffd_spill_grow(&d->result_store, d->vertices * OBJ_VECTOR))
         return ffd_fail_memory(error);
-    d->new_positions = d->result_store.data;
+    d->file.new_positions = d->result_store.data;
     ffd_parallel_tiles(d->vertices, TILE, d->threads, copy_tile, d);
     return FFD_OK;
 }
 
-/* Whether each pair is the `vn` of the same number, so that its result can stand there. (Where only some
-   faces are selected the others show what was read: has_both, obj_model.c.) */
+/* Whether each pair is the `vn` of the same number, so that its result can replace what was read. (Where only
+   some faces are selected the others keep what was read: has_both, obj_model.c.) */
 static bool results_fit(const obj_document *d)
 {
     bool fit = !d->selected_faces;
-    for (uint32_t i = 0; i < d->part.normal_count && fit; i++)
+    for (uint32_t i = 0; i < d->file.part.normal_count && fit; i++)
         fit = d->pair_normal[i] == i;
     return fit;
 }
 
 static ffd_status begin_normals(obj_document *d, ffd_error *error)
 {
-    const size_t count = d->part.normal_count;
+    const size_t count = d->file.part.normal_count;
     if (!clear_changes(&d->direction_changes, count))
         return ffd_fail_memory(error);
-    if (d->base.results_replace && results_fit(d)) {
-        d->new_directions = d->direction_store.data;
+    if (d->file.base.results_replace && results_fit(d)) {
+        d->file.new_directions = d->direction_store.data;
         return FFD_OK;
     }
-    if (!d->new_directions)
-        d->new_directions = ffd_alloc_whole(count, 3 * sizeof *d->new_directions);
-    if (!d->new_directions)
+    if (!d->file.new_directions)
+        d->file.new_directions = ffd_alloc_whole(count, 3 * sizeof *d->file.new_directions);
+    if (!d->file.new_directions)
         return ffd_fail_memory(error);
     ffd_parallel_tiles(count, TILE, d->threads, copy_normals, d);
     return FFD_OK;
@@ -101,9 +101,9 @@ static ffd_status begin_normals(obj_document *d, ffd_error *error)
 
 void ffd_obj_free_normals(obj_document *d)
 {
-    if (d->new_directions != d->directions)
-        ffd_free(d->new_directions);
-    d->new_directions = NULL;
+    if (d->file.new_directions != d->file.directions)
+        ffd_free(d->file.new_directions);
+    d->file.new_directions = NULL;
 }
 
 ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
@@ -134,7 +134,7 @@ void ffd_obj_write_positions(mesh_document *document, size_t part, size_t first,
 {
     const obj_document *d = ffd_obj_of(document);
     (void)part;
-    write_vectors(d->new_positions, d->position_changes, first, count, xyz, changed);
+    write_vectors(d->file.new_positions, d->position_changes, first, count, xyz, changed);
     ffd_obj_forget_vectors(d, first, count);
 }
 
@@ -143,6 +143,6 @@ void ffd_obj_write_normals(mesh_document *document, size_t part, size_t first, s
 {
     const obj_document *d = ffd_obj_of(document);
     (void)part;
-    if (d->new_directions) /* else normals are kept */
-        write_vectors(d->new_directions, d->direction_changes, first, count, xyz, changed);
+    if (d->file.new_directions) /* else normals are kept */
+        write_vectors(d->file.new_directions, d->direction_changes, first, count, xyz, changed);
 }

@@ -53,15 +53,15 @@ static void renumber_corners(block_saver *s, obj_walk *walk)
     }
 }
 
-/* The line end that lines before a place have: the one right there, else the file's first, else LF. */
-static text_word line_end_at(const obj_document *d, const char *place)
+/* The line end of the lines before `where`: the one right before it, else the file's first, else LF. */
+static text_word line_end_at(const obj_document *d, const char *where)
 {
     static const char lf[] = "\n";
-    const char *first = (const char *)d->input.data, *last = first + d->input.size;
-    if (place > first && place[-1] == '\n')
-        return (text_word){place - (place - first > 1 && place[-2] == '\r' ? 2 : 1), place};
-    if (place > first && place[-1] == '\r')
-        return (text_word){place - 1, place};
+    const char *first = (const char *)d->file.input.data, *last = first + d->file.input.size;
+    if (where > first && where[-1] == '\n')
+        return (text_word){where - (where - first > 1 && where[-2] == '\r' ? 2 : 1), where};
+    if (where > first && where[-1] == '\r')
+        return (text_word){where - 1, where};
     for (const char *at = first; at < last; at++)
         if (*at == '\n' || *at == '\r')
             return (text_word){at, at + ffd_obj_line_end_size(at, last)};
@@ -73,12 +73,12 @@ static void write_word(file_splice *splice, text_word word)
     ffd_splice_bytes(splice, word.first, (size_t)(word.last - word.first));
 }
 
-/* Makes the place the beginning of a line that nothing continues: a backslash that ends the line before gets
-   an empty line to join, be it in a comment, which some readers continue too. */
-static void begin_line(file_splice *splice, const char *first, const char *place, text_word line_end)
+/* Begins a new line at `where` that no line before continues into: after a line that ends with a backslash,
+   an empty line is written. That holds for comments as well, which some readers continue too. */
+static void begin_line(file_splice *splice, const char *first, const char *where, text_word line_end)
 {
-    const char *text_end = place;
-    if (place > first && (place[-1] == '\n' || place[-1] == '\r'))
+    const char *text_end = where;
+    if (where > first && (where[-1] == '\n' || where[-1] == '\r'))
         text_end -= line_end.last - line_end.first;
     else
         write_word(splice, line_end);
@@ -89,14 +89,14 @@ static void begin_line(file_splice *splice, const char *first, const char *place
 static void add_normals(const saver *s, file_splice *splice)
 {
     const obj_document *d = s->document;
-    const char *first = (const char *)d->input.data, *place = first + d->addition;
+    const char *first = (const char *)d->file.input.data, *where = first + d->addition;
     if (s->split.added_count == 0)
         return;
-    const text_word line_end = line_end_at(d, place);
-    ffd_splice_copy(splice, place);
-    begin_line(splice, first, place, line_end);
+    const text_word line_end = line_end_at(d, where);
+    ffd_splice_copy(splice, where);
+    begin_line(splice, first, where, line_end);
     for (size_t i = 0; i < s->split.added_count; i++) {
-        const double *value = d->new_directions + 3 * (size_t)s->split.added[i];
+        const double *value = d->file.new_directions + 3 * (size_t)s->split.added[i];
         ffd_splice_bytes(splice, "vn", 2);
         for (int a = 0; a < 3; a++) {
             char text[1 + FFD_NUMBER_CAPACITY] = " ";
@@ -112,9 +112,9 @@ static void replace_normal(block_saver *s, obj_walk *walk)
     const size_t n = walk->normals.seen - 1;
     const uint32_t keeper = s->all->split.keeper[n];
     if (keeper != OBJ_NONE)
-        replace_numbers(s, &walk->scan, d->new_directions + 3 * (size_t)keeper, d->direction_changes[keeper],
-                        &s->directions);
-    if (n + 1 == d->normals && d->addition < d->input.size)
+        replace_numbers(s, &walk->scan, d->file.new_directions + 3 * (size_t)keeper,
+                        d->direction_changes[keeper], &s->directions);
+    if (n + 1 == d->normals && d->addition < d->file.input.size)
         add_normals(s->all, &s->splice);
 }
 
@@ -125,7 +125,7 @@ static void write_statement(block_saver *s, obj_walk *walk, size_t faces)
     const obj_document *d = all->document;
     const size_t v = walk->vertices.seen - 1;
     if (walk->scan.keyword == OBJ_VERTEX)
-        replace_numbers(s, &walk->scan, d->new_positions + 3 * v, d->position_changes[v], &s->positions);
+        replace_numbers(s, &walk->scan, d->file.new_positions + 3 * v, d->position_changes[v], &s->positions);
     else if (walk->scan.keyword == OBJ_NORMAL && all->split.keeper)
         replace_normal(s, walk);
     else if (walk->scan.keyword == OBJ_FACE && all->split.target &&
@@ -145,9 +145,10 @@ static void make_block(const saver *all, size_t number, byte_buffer *text)
     obj_walk walk;
     size_t faces = block->faces;
     ffd_splice_begin_part(&s.splice, block->first, block->last, text, NULL);
-    ffd_decimal_run_begin(&s.positions, all->document->new_positions + 3 * all->document->vertices);
+    ffd_decimal_run_begin(&s.positions, all->document->file.new_positions + 3 * all->document->vertices);
     if (all->split.keeper)
-        ffd_decimal_run_begin(&s.directions, all->document->new_directions + 3 * pair_count(all->document));
+        ffd_decimal_run_begin(&s.directions,
+                              all->document->file.new_directions + 3 * pair_count(all->document));
     ffd_obj_document_walk_block(all->document, number, &walk);
     while (ffd_obj_walk_next(&walk)) {
         faces += walk.scan.keyword == OBJ_FACE;
@@ -171,7 +172,7 @@ static bool can_change(const saver *s, size_t number)
 static void make_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     saver *s = context;
-    byte_buffer text = s->texts[worker]; /* the thread's own: the list's share lines of the cache */
+    byte_buffer text = s->texts[worker]; /* a local copy: entries of the list share cache lines */
     (void)last;
     (void)tile;
     const obj_block *block = &s->document->blocks.list[first];
@@ -218,12 +219,12 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
     file_splice splice;
     saver s = {.document = d, .splice = &splice};
     (void)log;
-    ffd_status status = d->new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
+    ffd_status status = d->file.new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
     if (status == FFD_OK) {
-        ffd_splice_begin(&splice, &d->input, options, output, error);
-        if (d->new_positions && splice.status == FFD_OK)
+        ffd_splice_begin(&splice, &d->file.input, options, output, error);
+        if (d->file.new_positions && splice.status == FFD_OK)
             write_blocks(&s);
-        if (d->addition == d->input.size)
+        if (d->addition == d->file.input.size)
             add_normals(&s, &splice);
         status = ffd_splice_end(&splice);
     }

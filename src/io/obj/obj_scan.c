@@ -20,8 +20,8 @@ void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size)
         scan->at += 3;
 }
 
-/* Whether the backslash at `at` continues its line; at the very end of the file it joins nothing and counts
- * too. */
+/* Whether the backslash at `at` continues its line; one at the very end of the file counts too, though it
+   joins nothing. */
 static bool continues(const obj_scan *scan, const char *at)
 {
     return scan->last - at == 1 || ffd_obj_class(at + 1) == OBJ_LINE_END;
@@ -118,7 +118,7 @@ static bool ends_word(const obj_scan *scan, const char *at, bool names)
     }
 }
 
-/* Where a plain text has the next character that may not be ordinary: one below '!'. */
+/* Returns the next character of a plain text that may not be ordinary: one below '!'. */
 static const char *pass_ordinary(const char *at, const char *last)
 {
     for (; last - at >= 8; at += 8) {

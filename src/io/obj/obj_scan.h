@@ -38,11 +38,11 @@ typedef struct obj_scan {
 
 /* Begins a scan of these bytes, which must stay as long as it is used. */
 void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size);
-/* Whether a text is plain (see there). */
+/* Whether a text is plain (see obj_scan). */
 bool ffd_obj_is_plain(const char *first, const char *last);
-/* Goes behind the current statement, if any, and its line's end. */
+/* Moves past the current statement, if any, and its line's end. */
 void ffd_obj_scan_finish(obj_scan *scan);
-/* Goes to the next statement, behind its keyword. False at the end of the file. */
+/* Moves to the next statement, after its keyword. False at the end of the file. */
 bool ffd_obj_scan_next(obj_scan *scan);
 /* Takes the next argument of the current statement. False (and *word is empty) where there is none left. */
 bool ffd_obj_scan_word(obj_scan *scan, text_word *word);
@@ -58,12 +58,12 @@ static inline int ffd_obj_class(const char *at)
     return ffd_obj_classes[(unsigned char)*at];
 }
 
-/* Goes behind blanks and continuations, to a word, a comment or the end of the line. */
+/* Moves past blanks and continuations, to a word, a comment or the end of the line. */
 void ffd_obj_scan_pass_blanks(obj_scan *scan);
 
 /* For readers of arguments of a certain form, which need not be words before: where the next one begins, and
    its end, which is taken if nothing else of the word follows. False, and nothing is taken, where something
-   does. (Here, for callers to be one with them: they are called for every number of a file.) */
+   does. (Inline: they are called for every number of a file.) */
 static inline const char *ffd_obj_scan_argument(obj_scan *scan)
 {
     /* Most often there is one blank before it. */
@@ -88,7 +88,7 @@ static inline bool ffd_obj_scan_take(obj_scan *scan, const char *end)
     return true;
 }
 
-/* Whether the statement has no more arguments; it may have none where this is false too. */
+/* Whether the statement has no more arguments; where this is false it may have none all the same. */
 static inline bool ffd_obj_scan_is_over(const obj_scan *scan)
 {
     return scan->at == scan->last || ffd_obj_class(scan->at) == OBJ_LINE_END;

@@ -46,7 +46,7 @@ static void enter_groups(selecting *s, obj_scan *scan)
     }
 }
 
-/* Whether an element that stands here is selected. */
+/* Whether an element at the current statement is selected. */
 static bool is_selected(selecting *s)
 {
     static const char text[] = "default";
@@ -122,18 +122,18 @@ static ffd_status refuse_unknown(const obj_document *d, const mesh_selector *sel
     selector_nearest nearest = {.selector = selector};
     obj_names known = {0};
     obj_walk walk;
-    bool room = true;
+    bool has_memory = true;
     ffd_obj_document_walk(d, &walk);
-    while (room && ffd_obj_walk_next(&walk))
+    while (has_memory && ffd_obj_walk_next(&walk))
         if (walk.scan.keyword == keywords[selector->kind])
-            room = offer_line(&nearest, &known, &walk.scan);
-    const size_t distinct = room ? ffd_obj_names_distinct(&known) : 0;
+            has_memory = offer_line(&nearest, &known, &walk.scan);
+    const size_t distinct = has_memory ? ffd_obj_names_distinct(&known) : 0;
     for (size_t i = 0; i < distinct; i++)
         if (known.words[i].first < known.words[i].last)
             ffd_selector_offer(&nearest, known.words[i].first,
                                (size_t)(known.words[i].last - known.words[i].first));
     ffd_obj_names_free(&known);
-    return room ? ffd_selector_unknown(&nearest, d->name, error) : ffd_fail_memory(error);
+    return has_memory ? ffd_selector_unknown(&nearest, d->file.name, error) : ffd_fail_memory(error);
 }
 
 ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selectors, size_t count,
@@ -144,7 +144,7 @@ ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selector
     s.found = ffd_alloc_zero(count, sizeof *s.found);
     d->selected_vertices = ffd_alloc_zero(d->vertices, 1);
     d->selected_faces = ffd_alloc_zero(d->faces, 1);
-    d->selected_pairs = ffd_alloc_zero(d->part.normal_count, 1);
+    d->selected_pairs = ffd_alloc_zero(d->file.part.normal_count, 1);
     d->held_normals = ffd_alloc_zero(d->normals, 1);
     ffd_status status = FFD_OK;
     if (!s.found || !d->selected_vertices || !d->selected_faces || !d->selected_pairs || !d->held_normals)
@@ -154,8 +154,8 @@ ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selector
     for (size_t i = 0; i < count && status == FFD_OK; i++)
         if (!s.found[i])
             status = refuse_unknown(d, &selectors[i], error);
-    d->part.selected = d->selected_vertices;
-    d->part.selected_normals = d->selected_pairs;
+    d->file.part.selected = d->selected_vertices;
+    d->file.part.selected_normals = d->selected_pairs;
     ffd_free(s.found);
     return status;
 }

@@ -10,7 +10,7 @@ static bool same_vector(const double *a, const double *b)
 
 static const double *value_of(const obj_document *d, uint32_t pair)
 {
-    return d->new_directions + 3 * (size_t)pair;
+    return d->file.new_directions + 3 * (size_t)pair;
 }
 
 static bool is_unchanged(const obj_document *d, uint32_t pair)
@@ -22,7 +22,7 @@ static void choose_keepers(const obj_document *d, uint32_t *keeper)
 {
     for (size_t n = 0; n < d->normals; n++)
         keeper[n] = OBJ_NONE;
-    for (uint32_t pair = 0; pair < d->part.normal_count; pair++) {
+    for (uint32_t pair = 0; pair < d->file.part.normal_count; pair++) {
         if (d->held_normals && d->held_normals[d->pair_normal[pair]])
             continue;
         uint32_t *kept = &keeper[d->pair_normal[pair]];
@@ -78,12 +78,12 @@ static ffd_status add_normals(const obj_document *d, size_t own_count, obj_split
     value_table table;
     table.slots = ffd_slots_make(own_count, sizeof *table.slots, &table.mask);
     split->added = ffd_alloc(own_count, sizeof *split->added);
-    split->target = ffd_alloc(d->part.normal_count, sizeof *split->target);
+    split->target = ffd_alloc(d->file.part.normal_count, sizeof *split->target);
     if (!table.slots || !split->added || !split->target) {
         ffd_free(table.slots);
         return ffd_fail_memory(error);
     }
-    for (uint32_t pair = 0; pair < d->part.normal_count; pair++)
+    for (uint32_t pair = 0; pair < d->file.part.normal_count; pair++)
         split->target[pair] =
             needs_own(d, split->keeper, pair) ? find_or_add(d, &table, split, pair) : OBJ_NONE;
     ffd_free(table.slots);
@@ -97,7 +97,7 @@ ffd_status ffd_obj_split_normals(const obj_document *d, obj_split *split, ffd_er
         return ffd_fail_memory(error);
     choose_keepers(d, split->keeper);
     size_t own_count = 0;
-    for (uint32_t pair = 0; pair < d->part.normal_count; pair++)
+    for (uint32_t pair = 0; pair < d->file.part.normal_count; pair++)
         own_count += needs_own(d, split->keeper, pair);
     const ffd_status status = own_count ? add_normals(d, own_count, split, error) : FFD_OK;
     if (status)

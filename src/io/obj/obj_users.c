@@ -7,14 +7,15 @@ typedef struct block_reader {
     const obj_document *document;
     const obj_users *users;
     obj_count vertices, normals;
-    bool any_normals; /* else those that are named are let pass, as some tools leave the normals out */
+    bool any_normals; /* else indices of normals are accepted without a check: some tools leave the normals
+                         out */
     ffd_error *error;
 } block_reader;
 
 static ffd_status check_index(const block_reader *r, const obj_scan *scan, obj_index index, obj_count count,
                               const char *kind, size_t *element)
 {
-    const char *const name = r->document->name;
+    const char *const name = r->document->file.name;
     if (ffd_obj_find(index.value, count, element))
         return FFD_OK;
     const int shown = ffd_text_display_size(index.text);
@@ -40,7 +41,7 @@ static void note_index(const block_reader *r, const obj_scan *scan, const obj_co
                        obj_block_users *block)
 {
     if (corner->normal.value < 0)
-        block->counts_back = (size_t)(scan->at - (const char *)r->document->input.data);
+        block->counts_back = (size_t)(scan->at - (const char *)r->document->file.input.data);
 }
 
 /* What is left alone may name normals too (surf). */
@@ -90,7 +91,7 @@ static void pass_common_corners(const block_reader *r, obj_scan *scan, obj_block
         const char *const end = ffd_obj_pair_at(at + 1, &indices);
         if (!end || !ffd_obj_ends_any_word(end))
             break;
-        /* 0 becomes one of those that are too large. */
+        /* 0 becomes a value that is too large. */
         const size_t vertex = (size_t)indices.first - 1, normal = (size_t)indices.second - 1;
         if (vertex >= r->vertices.total || normal >= r->normals.total)
             break;
@@ -122,7 +123,7 @@ static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block
         if (!plain && !ffd_obj_scan_word(scan, &word))
             return FFD_OK;
         if (!plain && !ffd_obj_corner(word, &corner))
-            return ffd_fail_line(r->error, FFD_E_INVALID, r->document->name, scan->line,
+            return ffd_fail_line(r->error, FFD_E_INVALID, r->document->file.name, scan->line,
                                  "not a corner (v, v/t, v//n or v/t/n): \"%.*s\"",
                                  ffd_text_display_size(word), word.first);
         status = check_index(r, scan, corner.vertex, r->vertices, "vertex", &vertex);
@@ -162,7 +163,7 @@ static bool grow_firsts(obj_users *users, size_t count)
 {
     if (count <= users->first_count)
         return true;
-    /* Zeros are atomic zeros, and cost nothing where no thread comes. */
+    /* Zeros are valid atomics, and pages that no thread touches cost nothing. */
     _Atomic uint32_t *firsts = ffd_alloc_zero(count, sizeof *firsts);
     if (!firsts)
         return false;
@@ -181,7 +182,7 @@ ffd_status ffd_obj_users_begin(const obj_document *d, size_t vertices, size_t no
     if (!users->blocks)
         return ffd_fail_memory(error);
     if (normals > 0 && !d->only_positions)
-        (void)grow_firsts(users, vertices); /* without them all that has normals is late */
+        (void)grow_firsts(users, vertices); /* without them every block with normals is late */
     return FFD_OK;
 }
 
@@ -237,18 +238,18 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     (void)worker;
     for (size_t i = first; i < last; i++) {
         const obj_block *text = &r->document->blocks.list[i];
-        obj_block_users block = {0}; /* the thread's own: the list's share lines of the cache */
+        obj_block_users block = {0}; /* a local copy: entries of the list share cache lines */
         if (!is_to_be_read(r->document, &r->users->blocks[i]))
             continue;
         ffd_obj_free_block_users(&r->users->blocks[i]);
         ffd_file_prefault(text->first, (size_t)(text->last - text->first));
         block.status = read_block(r->document, r->users, i, &block, NULL);
         r->users->blocks[i] = block;
-        ffd_file_release_pages(&r->document->input, text->first, (size_t)(text->last - text->first));
+        ffd_file_release_pages(&r->document->file.input, text->first, (size_t)(text->last - text->first));
     }
 }
 
-/* Reads a block that has failed again for the words. */
+/* Reads a block that has failed again, for the error message. */
 static ffd_status find_failure(const obj_document *d, const obj_users *users, size_t number,
                                ffd_status status, ffd_error *error)
 {
@@ -257,7 +258,7 @@ static ffd_status find_failure(const obj_document *d, const obj_users *users, si
         return ffd_fail_memory(error);
     status = read_block(d, users, number, &block, error);
     ffd_obj_free_block_users(&block);
-    return status ? status : ffd_fail_file(error, FFD_E_IO, d->name, "changes while it is read");
+    return status ? status : ffd_fail_file(error, FFD_E_IO, d->file.name, "changes while it is read");
 }
 
 ffd_status ffd_obj_users_finish(const obj_document *d, obj_users *users, ffd_error *error)

@@ -19,7 +19,7 @@ typedef struct obj_block_users {
     size_t vertices, normals;             /* the greatest numbers that are named, from 1; 0: none */
     obj_vertex_normal *others;            /* corners of faces with a normal that is not their vertex' first */
     size_t other_count, other_capacity;
-    size_t counts_back; /* the place behind the last index of a normal that does; 0: none */
+    size_t counts_back; /* offset after the last index of a normal that does; 0: none */
     bool is_late;       /* to be read again, as a whole */
     ffd_status status;
 } obj_block_users;
@@ -28,13 +28,13 @@ typedef struct obj_block_users {
 typedef struct obj_users {
     obj_block_users *blocks; /* one a block */
     /* Of each vertex the number, from 1, of a normal that is named together with it, whichever thread came
-       first; 0: none so far. Nearly all vertices of most meshes have but one. NULL: normals are not wanted,
+       first; 0: none so far. Nearly all vertices of most meshes have only one. NULL: normals are not wanted,
        or none yet. What a block has left here that turns out to be late is found there again, or refused. */
     _Atomic uint32_t *firsts;
     size_t first_count;
 } obj_users;
 
-/* Makes room for a document that has its blocks, where so many vertices and normals are expected. Errors:
+/* Allocates for a document that has its blocks, where so many vertices and normals are expected. Errors:
    FFD_E_MEMORY. To be freed in any case. */
 ffd_status ffd_obj_users_begin(const obj_document *document, size_t vertices, size_t normals,
                                obj_users *users, ffd_error *error);

@@ -22,7 +22,7 @@ typedef struct vectors {
 typedef struct block_content {
     vectors positions, normals;
     size_t texcoords, faces, lines;
-    size_t addition; /* behind the last `vn`, from the file's beginning; 0: none */
+    size_t addition; /* offset in the file after the last `vn`; 0: none */
     obj_block_users users;
     bool names_elements;
     ffd_status status;
@@ -34,7 +34,7 @@ typedef struct reader {
     block_content *contents; /* of blocks that are not joined yet */
     /* Before the next block; the document gets them when no thread looks at it any more. */
     size_t line, vertices, texcoords, normals, faces;
-    size_t released;   /* bytes of the file that are given back (ffd_file_release_until) */
+    size_t released;   /* bytes of the file whose memory is given back (ffd_file_release_until) */
     size_t failed;     /* the first block that could not be read; SIZE_MAX: none so far */
     ffd_status status; /* of that block */
     atomic_bool is_over;
@@ -53,10 +53,10 @@ static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char 
         if (ffd_obj_scan_number(scan, value))
             continue;
         if (!ffd_obj_scan_word(scan, &word))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->keyword_line,
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->keyword_line,
                                  "a %s needs 3 numbers, found %d", what, a);
         if (!ffd_obj_number(word, value))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
                                  "coordinate %c of a %s is not a number: \"%.*s\"", "xyz"[a], what,
                                  ffd_text_display_size(word), word.first);
     }
@@ -88,7 +88,7 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
         } else if (keyword == OBJ_NORMAL) {
             status = read_vector(d, &walk.scan, "normal", &content->normals, error);
             ffd_obj_scan_finish(&walk.scan);
-            content->addition = (size_t)(walk.scan.at - (const char *)d->input.data);
+            content->addition = (size_t)(walk.scan.at - (const char *)d->file.input.data);
         }
     }
     content->texcoords = walk.texcoords.seen;
@@ -114,7 +114,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
 {
     reader *r = context;
     obj_block *block = &r->document->blocks.list[first];
-    block_content content = r->contents[worker]; /* the thread's own: the list's share lines of the cache */
+    block_content content = r->contents[worker]; /* a local copy: entries of the list share cache lines */
     (void)tile;
     (void)last;
     clear_content(&content);
@@ -126,7 +126,7 @@ static void read_tile(void *context, size_t tile, size_t first, size_t last, int
     r->contents[worker] = content;
 }
 
-/* Without this room the store grows as it is filled. */
+/* A failure does no harm: the store then grows as it is filled. */
 static void expect(size_t count, spill_array *store)
 {
     const size_t size = count * OBJ_VECTOR;
@@ -134,7 +134,7 @@ static void expect(size_t count, spill_array *store)
         (void)ffd_spill_grow(store, size);
 }
 
-/* Makes room for all elements at once, where there are not too many for memory; what is missing then is made
+/* Reserves memory for all elements at once, unless there are too many; what is missing is then allocated
    later. */
 static ffd_status expect_elements(reader *r, ffd_error *error)
 {
@@ -158,7 +158,7 @@ static bool append(const vectors *from, size_t count, spill_array *to)
     return true;
 }
 
-/* Gives the block its place in the file, and takes over what it has. */
+/* Sets the numbers of the first line and elements of the block, and takes over its content. */
 static void join_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     reader *r = context;
@@ -167,7 +167,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     block_content *content = &r->contents[worker];
     (void)tile;
     (void)last;
-    ffd_file_release_until(&d->input, block->last, &r->released);
+    ffd_file_release_until(&d->file.input, block->last, &r->released);
     if (r->failed != SIZE_MAX)
         return;
     block->line = r->line;
@@ -196,7 +196,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     content->users = (obj_block_users){0};
 }
 
-/* Reads a block that has failed again, now that its place is known, for the words. */
+/* Reads a block that has failed again, now that its position is known, for the error message. */
 static ffd_status find_failure(const reader *r, ffd_error *error)
 {
     block_content content = {0};
@@ -204,15 +204,16 @@ static ffd_status find_failure(const reader *r, ffd_error *error)
         return ffd_fail_memory(error);
     const ffd_status status = read_block(r, r->failed, &content, error);
     free_content(&content);
-    return status ? status : ffd_fail_file(error, FFD_E_IO, r->document->name, "changes while it is read");
+    return status ? status
+                  : ffd_fail_file(error, FFD_E_IO, r->document->file.name, "changes while it is read");
 }
 
 static ffd_status check_counts(const obj_document *d, ffd_error *error)
 {
     if (d->vertices <= OBJ_ELEMENTS_MAX && d->normals <= OBJ_ELEMENTS_MAX)
         return FFD_OK;
-    return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more vertices or normals than the limit of %" PRIu32,
-                         OBJ_ELEMENTS_MAX);
+    return ffd_fail_file(error, FFD_E_LIMIT, d->file.name,
+                         "more vertices or normals than the limit of %" PRIu32, OBJ_ELEMENTS_MAX);
 }
 
 static ffd_status read_blocks(reader *r, ffd_error *error)
@@ -223,28 +224,29 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
         return status;
     if (!ffd_parallel_in_order(d->blocks.count, 1, d->threads, read_tile, join_tile, r))
         return ffd_fail_memory(error);
-    ffd_file_release_pages(&d->input, d->input.data + r->released, d->input.size - r->released);
+    ffd_file_release_pages(&d->file.input, d->file.input.data + r->released,
+                           d->file.input.size - r->released);
     d->vertices = r->vertices;
     d->texcoords = r->texcoords;
     d->normals = r->normals;
     if (r->failed != SIZE_MAX)
         return find_failure(r, error);
-    d->positions = d->position_store.data;
-    d->directions = d->direction_store.data;
+    d->file.positions = d->position_store.data;
+    d->file.directions = d->direction_store.data;
     return check_counts(d, error);
 }
 
 static ffd_status cut(obj_document *d, ffd_error *error)
 {
-    const char *first = (const char *)d->input.data;
-    size_t target = d->input.size / BLOCKS;
+    const char *first = (const char *)d->file.input.data;
+    size_t target = d->file.input.size / BLOCKS;
     if (target < SMALLEST_BLOCK)
         target = SMALLEST_BLOCK;
     if (target > LARGEST_BLOCK)
         target = LARGEST_BLOCK;
-    if (d->input.size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
+    if (d->file.input.size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
         first += 3;
-    return ffd_obj_blocks_cut(&d->input, first, target, &d->blocks, error);
+    return ffd_obj_blocks_cut(&d->file.input, first, target, &d->blocks, error);
 }
 
 ffd_status ffd_obj_read_vectors(obj_document *d, obj_users *users, ffd_error *error)

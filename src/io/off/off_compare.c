@@ -2,7 +2,7 @@
    attributes, and vertices and faces are the same one by one. Positions and normals may differ by their
    tolerances; other numbers may not. Colours are equal where they are the same numbers and written in the
    same of the two ways, whole (0 to 255) or not (0 to 1). Comments, blanks, the number of edges, where lines
-   end, and what stands behind the last face are no part of the mesh. */
+   end, and what follows the last face are not compared. */
 #include "io/off/off_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>
@@ -20,11 +20,9 @@ typedef struct comparer {
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
-    const size_t a = c->lines[0], b = c->lines[1];
-    if (a == b)
-        snprintf(text, capacity, "%s %zu counted from 0 (line %zu)", c->what, c->number, a);
-    else
-        snprintf(text, capacity, "%s %zu counted from 0 (lines %zu and %zu)", c->what, c->number, a, b);
+    char lines[TEXT_LINES_CAPACITY];
+    ffd_text_lines(c->lines[0], c->lines[1], lines);
+    snprintf(text, capacity, "%s %zu counted from 0%s", c->what, c->number, lines);
 }
 
 static void differ(comparer *c, ffd_difference_kind kind, const char *what, text_word a, text_word b)
@@ -61,11 +59,11 @@ static void compare_vectors(comparer *c)
 {
     const off_document *a = c->a, *b = c->b;
     const size_t at = 3 * c->number;
-    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, a->positions + at, b->positions + at,
-                          format_place, c);
-    if (a->directions)
-        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, a->directions + at, b->directions + at,
-                              format_place, c);
+    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, a->file.positions + at,
+                          b->file.positions + at, format_place, c);
+    if (a->file.directions)
+        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, a->file.directions + at,
+                              b->file.directions + at, format_place, c);
     c->result->positions_compared++;
 }
 

@@ -46,7 +46,7 @@ ffd_status ffd_off_describe(const mesh_document *document, json_text *json, ffd_
     const json_count members[] = {
         {"vertices", d->header.vertices},
         {"vertices_with_color", facts.coloured},
-        {"normals", d->part.normal_count},
+        {"normals", d->file.part.normal_count},
         {"texcoords", d->header.has_texcoords ? d->header.vertices : 0},
         {"faces", d->header.faces - d->lines - d->points},
         {"faces_with_color", facts.coloured_faces},
@@ -55,13 +55,13 @@ ffd_status ffd_off_describe(const mesh_document *document, json_text *json, ffd_
         {"ngons", facts.sizes.ngons},
         {"lines", d->lines},
         {"points", d->points},
-        {"bytes_behind", (size_t)((const char *)d->input.data + d->input.size - d->behind)},
+        {"bytes_behind", (size_t)((const char *)d->file.input.data + d->file.input.size - d->behind)},
     };
     char text[16];
     (void)error;
     snprintf(text, sizeof text, "%.*s", (int)(keyword.last - keyword.first), keyword.first);
     ffd_json_string(json, "keyword", keyword.first < keyword.last ? text : NULL);
     ffd_json_counts(json, members, sizeof members / sizeof *members);
-    ffd_json_string(json, "line_endings", ffd_text_line_ends(d->input.data, d->input.size));
+    ffd_json_string(json, "line_endings", ffd_text_line_ends(d->file.input.data, d->file.input.size));
     return FFD_OK;
 }

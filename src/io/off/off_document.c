@@ -1,67 +1,99 @@
 #include "io/off/off_document.h"
-#include "base/file/path.h"
 #include "base/memory/memory.h"
+
+static ffd_status refuse_number(const off_document *d, size_t line, const char *what, text_word word,
+                                ffd_error *error)
+{
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, line, "%s is not a number: \"%.*s\"", what,
+                         ffd_text_display_size(word), word.first);
+}
+
+static ffd_status read_numbers(off_document *d, const off_vertex *v, size_t number, ffd_error *error)
+{
+    static const char *const names[OFF_NUMBERS_MAX] = {
+        "coordinate x of a vertex", "coordinate y of a vertex", "coordinate z of a vertex",
+        "coordinate x of a normal", "coordinate y of a normal", "coordinate z of a normal"};
+    const size_t needed = off_header_numbers(&d->header);
+    for (size_t i = 0; i < v->found; i++) {
+        double *vectors = i < 3 ? d->file.positions : d->file.directions;
+        if (!ffd_text_number(v->numbers[i], &vectors[3 * number + i % 3]))
+            return refuse_number(d, v->line, names[i], v->numbers[i], error);
+    }
+    if (v->found < needed)
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, v->line,
+                             "a vertex needs %zu numbers, found %zu", needed, v->found);
+    return FFD_OK;
+}
+
+/* The colour and u v are kept as they are, but must be numbers. */
+static ffd_status check_rest(const off_document *d, off_walk *walk, ffd_error *error)
+{
+    const size_t least = ffd_off_header_rest_min(&d->header), most = ffd_off_header_rest_max(&d->header);
+    size_t found = 0;
+    text_word word;
+    for (; ffd_off_walk_rest(walk, &word); found++) {
+        double value;
+        if (!ffd_text_number(word, &value))
+            return refuse_number(d, walk->scan.line, "what follows a vertex", word, error);
+    }
+    if (found >= least && found <= most)
+        return FFD_OK;
+    const size_t numbers = off_header_numbers(&d->header);
+    return ffd_fail_line(
+        error, FFD_E_INVALID, d->file.name, walk->scan.line, "a vertex has %zu numbers at %s, found %zu",
+        numbers + (found < least ? least : most), found < least ? "least" : "most", numbers + found);
+}
+
+static ffd_status read_vertices(off_document *d, off_walk *walk, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    d->file.positions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.positions);
+    if (d->header.has_normals)
+        d->file.directions = ffd_alloc(d->header.vertices, 3 * sizeof *d->file.directions);
+    if (!d->file.positions || (d->header.has_normals && !d->file.directions))
+        return ffd_fail_memory(error);
+    for (size_t i = 0; status == FFD_OK && i < d->header.vertices; i++) {
+        off_vertex vertex;
+        if (!ffd_off_walk_vertex(walk, &vertex))
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
+                                 "the file ends after %zu of %zu vertices", i, d->header.vertices);
+        status = read_numbers(d, &vertex, i, error);
+        if (status == FFD_OK)
+            status = check_rest(d, walk, error);
+    }
+    return status;
+}
 
 static ffd_status read_body(off_document *d, ffd_error *error)
 {
     off_walk walk;
     ffd_off_walk_begin(&d->header, &walk);
-    ffd_status status = ffd_off_read_vertices(d, &walk, error);
+    ffd_status status = read_vertices(d, &walk, error);
     if (status == FFD_OK)
         status = ffd_off_read_faces(d, &walk, error);
     if (status)
         return status;
     ffd_text_next_line(&walk.scan);
-    ffd_text_find(&walk.scan); /* empty lines and comments are nothing that stands behind */
+    ffd_text_find(&walk.scan); /* empty lines and comments are not counted as bytes behind */
     d->behind = walk.scan.at;
     return FFD_OK;
-}
-
-static void describe_part(off_document *d)
-{
-    d->part = (mesh_part){.vertex_count = d->header.vertices,
-                          .normal_count = d->directions ? d->header.vertices : 0,
-                          .identity = true};
-    d->base = (mesh_document){.parts = &d->part, .part_count = 1};
-}
-
-static void free_document(off_document *d)
-{
-    ffd_free(d->name);
-    ffd_free(d->positions);
-    ffd_free(d->directions);
-    ffd_free(d->new_positions);
-    ffd_free(d->new_directions);
-    ffd_free(d);
 }
 
 ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
-    off_document *d = ffd_alloc_zero(1, sizeof *d);
+    off_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
-        return ffd_fail_memory(error);
-    d->input = *input;
-    d->name = ffd_text_copy(ffd_path_display_name(source->path));
-    ffd_status status =
-        d->name ? ffd_off_header_read(&d->input, d->name, &d->header, error) : ffd_fail_memory(error);
+        return FFD_E_MEMORY;
+    ffd_status status = ffd_off_header_read(&d->file.input, d->file.name, &d->header, error);
     if (status == FFD_OK)
         status = read_body(d, error);
     if (status) {
-        free_document(d);
+        ffd_file_document_free(&d->file);
         return status;
     }
-    describe_part(d);
-    d->base.budget = ffd_budget_for_file(d->input.size, true, source->memory);
-    *document = &d->base;
+    d->file.part.vertex_count = d->header.vertices;
+    d->file.part.normal_count = d->file.directions ? d->header.vertices : 0;
+    *document = ffd_file_document_ready(&d->file, true, source);
     return FFD_OK;
-}
-
-void ffd_off_close(mesh_document *document)
-{
-    off_document *d = (off_document *)document;
-    if (!d)
-        return;
-    ffd_file_unload(&d->input);
-    free_document(d);
 }

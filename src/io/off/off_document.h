@@ -1,26 +1,19 @@
 /* off_document.h - an OFF file as a mesh document: one part, in the lattice's space.
 
    Every vertex of the file is one, in its order; that of NOFF has its normal. Coordinates are held as
-   numbers; all else stays in the file's bytes, which are walked through again where it is needed. */
+   numbers; all else stays in the file's bytes, which are read again where it is needed. */
 #ifndef FFD_IO_OFF_OFF_DOCUMENT_H
 #define FFD_IO_OFF_OFF_DOCUMENT_H
 
 #include "io/off/off_walk.h"
-#include "mesh/mesh.h"
+#include "io/text/file_document.h"
 
 typedef struct off_document {
-    mesh_document base;
-    mesh_part part;
-    file_input input;
-    char *name; /* for messages */
+    file_document file;
     off_header header;
-    size_t lines, points;   /* faces of two corners, and of one */
-    size_t corners;         /* of the other faces */
-    const char *behind;     /* what follows the last face's line, or the last vertex' */
-    double *positions;      /* 3 a vertex */
-    double *directions;     /* 3 a vertex; NULL without normals */
-    double *new_positions;  /* NULL before ffd_off_begin_results */
-    double *new_directions; /* NULL: normals are kept */
+    size_t lines, points; /* faces of two corners, and of one */
+    size_t corners;       /* of the other faces */
+    const char *behind;   /* what follows the line of the last face, or of the last vertex */
 } off_document;
 
 static inline const off_document *ffd_off_of(const mesh_document *document)
@@ -28,19 +21,11 @@ static inline const off_document *ffd_off_of(const mesh_document *document)
     return (const off_document *)document;
 }
 
-/* Reads the vertices behind the header, or refuses them. */
-ffd_status ffd_off_read_vertices(off_document *document, off_walk *walk, ffd_error *error);
-/* Reads the faces behind the vertices, or refuses them. */
+/* Reads and checks the faces after the vertices. */
 ffd_status ffd_off_read_faces(off_document *document, off_walk *walk, ffd_error *error);
 
 /* The entries of the format's table. */
 mesh_open_function ffd_off_open;
-mesh_close_function ffd_off_close;
-mesh_read_function ffd_off_read_positions;
-mesh_read_function ffd_off_read_normals;
-mesh_begin_results_function ffd_off_begin_results;
-mesh_write_function ffd_off_write_positions;
-mesh_write_function ffd_off_write_normals;
 mesh_save_function ffd_off_save;
 mesh_faces_function ffd_off_faces;
 mesh_model_function ffd_off_model;

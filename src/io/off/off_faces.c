@@ -7,10 +7,10 @@ static ffd_status check_corner(const off_document *d, const text_scan *scan, tex
     uint64_t index;
     const int shown = ffd_text_display_size(word);
     if (!ffd_text_whole(word, &index))
-        return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
                              "a corner is not a whole number: \"%.*s\"", shown, word.first);
     if (index >= d->header.vertices)
-        return ffd_fail_line(error, FFD_E_INVALID, d->name, scan->line,
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
                              "vertex %.*s is out of range: there are %zu, counted from 0", shown, word.first,
                              d->header.vertices);
     return FFD_OK;
@@ -31,12 +31,12 @@ static ffd_status read_face(off_document *d, off_walk *walk, text_word count, ff
     uint64_t corners;
     text_word word;
     if (!ffd_text_whole(count, &corners))
-        return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                              "a face's number of corners is not a whole number: \"%.*s\"",
                              ffd_text_display_size(count), count.first);
     for (uint64_t i = 0; i < corners; i++) {
         if (!ffd_off_walk_corner(walk, &word))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "a face states %.*s corners, found %" PRIu64, ffd_text_display_size(count),
                                  count.first, i);
         const ffd_status status = check_corner(d, &walk->scan, word, error);
@@ -53,7 +53,7 @@ ffd_status ffd_off_read_faces(off_document *d, off_walk *walk, ffd_error *error)
     for (size_t i = 0; status == FFD_OK && i < d->header.faces; i++) {
         text_word count;
         if (!ffd_off_walk_face(walk, &count))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->scan.line,
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu faces", i, d->header.faces);
         status = read_face(d, walk, count, error);
     }
@@ -92,7 +92,7 @@ ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     const ffd_status status = ffd_mesh_faces_make(document, faces, d->corners, error);
     if (status)
         return status;
-    ffd_off_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
+    ffd_file_document_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
     fill_faces(d, faces);
     return FFD_OK;
 }

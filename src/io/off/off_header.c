@@ -39,7 +39,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Takes one of the letters before OFF. False where it is none, or there for the second time. */
+/* Takes one of the letters before OFF. False where it is another letter, or is given twice. */
 static bool take_letter(const char **at, const char *end, off_header *header, bool *unsupported)
 {
     bool ignored = false;
@@ -58,7 +58,7 @@ static bool take_letter(const char **at, const char *end, off_header *header, bo
     return true;
 }
 
-/* Reads "CNOFF", or "OFF8" of which "8" is left in *rest. False where the word is no keyword. */
+/* Reads "CNOFF", or "OFF8" of which "8" is left in *rest. False where the word is not a keyword. */
 static bool take_keyword(off_header *header, text_word word, text_word *rest, bool *unsupported)
 {
     const char *at = word.first, *end = word.last;
@@ -141,7 +141,7 @@ static size_t least_bytes(size_t a, size_t b, size_t c, size_t d)
     return SIZE_MAX;
 }
 
-/* Every word takes two bytes at least, with what parts it from the next; the last one may have none. */
+/* Every word takes two bytes at least, with its separator; the last one may have no separator. */
 static ffd_status check_size(header_reader *r, uint64_t vertices, uint64_t faces)
 {
     off_header *header = r->header;
@@ -196,7 +196,7 @@ static ffd_status find_layout(header_reader *r)
     const bool in_header_line = ffd_text_word(&line, &word);
     if (has_lines(r->scan, header->vertices + header->faces)) {
         if (in_header_line)
-            return refuse(r, FFD_E_INVALID, "behind the numbers of vertices, faces and edges stands", word);
+            return refuse(r, FFD_E_INVALID, "the numbers of vertices, faces and edges are followed by", word);
         return FFD_OK;
     }
     header->free_layout = in_header_line || !has_vertex_line(header, r->scan);

@@ -1,9 +1,9 @@
-/* off_header.h - what the beginning of an OFF file says stands behind it.
+/* off_header.h - the beginning of an OFF file, and what it says about the rest.
 
    [ST][C][N]OFF, in any order of the letters; then the numbers of vertices, faces and edges, on the same line
    or on later ones. The keyword may be missing, as the format's manual allows, and the first number may
-   stand right behind it ("OFF8 6 0"), as in some collections; so may the number of edges, which nobody uses,
-   be missing. */
+   follow it without a blank ("OFF8 6 0"), as in some collections; the number of edges, which nobody uses, may
+   be missing too. */
 #ifndef FFD_IO_OFF_OFF_HEADER_H
 #define FFD_IO_OFF_OFF_HEADER_H
 
@@ -21,10 +21,10 @@ typedef struct off_header {
        read as a sequence of words in which only what follows a face's corners ends with the line; unless its
        first line is that of a vertex, for then it has lost its end. */
     bool free_layout;
-    text_scan body; /* right behind the header */
+    text_scan body; /* right after the header */
 } off_header;
 
-/* Reads the header and checks that the counts fit the file's size. name stands in messages; the words lie in
+/* Reads the header and checks that the counts fit the file's size. name is for messages; the words are in
    input. */
 ffd_status ffd_off_header_read(const file_input *input, const char *name, off_header *header,
                                ffd_error *error);
@@ -35,9 +35,9 @@ static inline size_t off_header_numbers(const off_header *header)
     return header->has_normals ? 6 : 3;
 }
 
-/* The fewest words that follow them: a colour of up to 4, also where the keyword does not tell, and u v. */
+/* The fewest words that may follow them: a colour, if the keyword has C, and u v. */
 size_t ffd_off_header_rest_min(const off_header *header);
-/* The most of these words. */
+/* The most of these words. Without the free layout, up to 4 words of a colour may be there without C too. */
 size_t ffd_off_header_rest_max(const off_header *header);
 
 #endif

@@ -1,7 +1,6 @@
 /* off_model.c - an OFF file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/off/off_document.h"
-#include "io/text/vectors.h"
 #include <string.h>
 
 /* A colour, a texture coordinate, and one word more, which is too many. */
@@ -16,7 +15,7 @@ typedef struct extractor {
     ffd_error *error;
 } extractor;
 
-/* The numbers behind a vertex, up to most of them. */
+/* The numbers after a vertex, up to REST_MAX. */
 static size_t take_rest(extractor *e, double *numbers)
 {
     size_t count = 0;
@@ -27,7 +26,7 @@ static size_t take_rest(extractor *e, double *numbers)
     return count;
 }
 
-/* A colour (a single number would name one of a table, which no file has with it) and then u v. */
+/* A colour (a single number would be an index into a table, which no file has with it) and then u v. */
 static ffd_status take_vertex(extractor *e, size_t i)
 {
     const bool texcoords = e->document->header.has_texcoords;
@@ -66,27 +65,12 @@ static ffd_status take_face(extractor *e)
     return ffd_model_add(e->model, MODEL_FACES, e->corners, count, e->error);
 }
 
-static ffd_status make_values(const extractor *e)
-{
-    const off_document *d = e->document;
-    mesh_model *model = e->model;
-    const size_t count = d->header.vertices;
-    const double *positions = d->new_positions ? d->new_positions : d->positions;
-    const double *normals = d->new_directions ? d->new_directions : d->directions;
-    const ffd_status status = ffd_model_make_values(model, count, d->header.has_texcoords ? count : 0,
-                                                    normals ? count : 0, e->error);
-    if (status)
-        return status;
-    ffd_vectors_read(positions, 0, count, model->positions);
-    ffd_vectors_read(normals, 0, model->normal_count, model->normals);
-    return FFD_OK;
-}
-
 ffd_status ffd_off_model(const mesh_document *document, mesh_model *model, ffd_error *error)
 {
     const off_document *d = ffd_off_of(document);
     extractor e = {.document = d, .model = model, .error = error};
-    ffd_status status = make_values(&e);
+    ffd_status status =
+        ffd_file_document_model(&d->file, d->header.has_texcoords ? d->header.vertices : 0, model, error);
     if (status == FFD_OK)
         status = ffd_model_begin_run(model, NULL, NULL, NULL, error);
     ffd_off_walk_begin(&d->header, &e.walk);

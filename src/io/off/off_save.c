@@ -15,15 +15,16 @@ static void write_vertices(const off_document *d, file_splice *splice)
     off_vertex vertex;
     decimal_run positions, directions;
     ffd_off_walk_begin(&d->header, &walk);
-    ffd_decimal_run_begin(&positions, d->new_positions + 3 * d->header.vertices);
-    if (d->new_directions)
-        ffd_decimal_run_begin(&directions, d->new_directions + 3 * d->header.vertices);
+    ffd_decimal_run_begin(&positions, d->file.new_positions + 3 * d->header.vertices);
+    if (d->file.new_directions)
+        ffd_decimal_run_begin(&directions, d->file.new_directions + 3 * d->header.vertices);
     for (size_t i = 0; splice->status == FFD_OK && i < d->header.vertices; i++) {
         ffd_off_walk_vertex(&walk, &vertex);
-        replace_numbers(splice, vertex.numbers, d->positions + 3 * i, d->new_positions + 3 * i, &positions);
-        if (d->new_directions)
-            replace_numbers(splice, vertex.numbers + 3, d->directions + 3 * i, d->new_directions + 3 * i,
-                            &directions);
+        replace_numbers(splice, vertex.numbers, d->file.positions + 3 * i, d->file.new_positions + 3 * i,
+                        &positions);
+        if (d->file.new_directions)
+            replace_numbers(splice, vertex.numbers + 3, d->file.directions + 3 * i,
+                            d->file.new_directions + 3 * i, &directions);
     }
 }
 
@@ -33,8 +34,8 @@ ffd_status ffd_off_save(mesh_document *document, const mesh_save_options *option
     const off_document *d = ffd_off_of(document);
     file_splice splice;
     (void)log;
-    ffd_splice_begin(&splice, &d->input, options, output, error);
-    if (d->new_positions)
+    ffd_splice_begin(&splice, &d->file.input, options, output, error);
+    if (d->file.new_positions)
         write_vertices(d, &splice);
     return ffd_splice_end(&splice);
 }

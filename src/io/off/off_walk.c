@@ -64,7 +64,7 @@ bool ffd_off_walk_rest(off_walk *walk, text_word *word)
     return take_word(walk, word);
 }
 
-/* The next word that `take` finds, as a whole number; 0 where there is none. */
+/* Returns the next word that `take` finds, as a whole number; 0 where there is none. */
 static uint64_t take_whole(off_walk *walk, bool (*take)(off_walk *, text_word *))
 {
     text_word word;

@@ -1,4 +1,4 @@
-/* off_walk.h - the vertices and faces behind an OFF header, word by word, in the order of the file. */
+/* off_walk.h - the vertices and faces after an OFF header, word by word, in the order of the file. */
 #ifndef FFD_IO_OFF_OFF_WALK_H
 #define FFD_IO_OFF_OFF_WALK_H
 
@@ -20,7 +20,7 @@ typedef struct off_vertex {
     size_t line;
 } off_vertex;
 
-/* Begins a walk at the first vertex behind the header. */
+/* Begins a walk at the first vertex after the header. */
 void ffd_off_walk_begin(const off_header *header, off_walk *walk);
 /* Goes to the next vertex. False at the end of the file. */
 bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex);
@@ -29,7 +29,7 @@ bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex);
 bool ffd_off_walk_face(off_walk *walk, text_word *count);
 /* Takes the next corner of the current face. False where it is missing. */
 bool ffd_off_walk_corner(off_walk *walk, text_word *corner);
-/* Takes the next word behind the current vertex' numbers, or behind the face's last corner. */
+/* Takes the next word after the numbers of the current vertex, or after the last corner of the face. */
 bool ffd_off_walk_rest(off_walk *walk, text_word *word);
 
 /* The same two in a file that was read: numbers. */

@@ -34,7 +34,7 @@ vertex_handle surface::new_vertex(uint32_t source)
 }
 
 /* Whether a face between these two boundary half-edges, which meet at a vertex, would close the fan that they
-   bound while other fans stand in its gap. */
+   bound while other fans are in its gap. */
 bool surface::closes_fan(halfedge_handle previous, halfedge_handle next) const
 {
     halfedge_handle incoming = mesh.opposite_halfedge_handle(next);

@@ -60,7 +60,7 @@ class surface
     size_t add_faces(const mesh_faces &faces);
 
     uint32_t source(vertex_handle vertex) const { return mesh.property(source_, vertex); }
-    /* The number in the file's corners of the one that a half-edge of a face starts at. */
+    /* The index in the file's corners of the corner that a half-edge of a face starts at. */
     uint32_t corner(halfedge_handle half) const { return mesh.property(corner_, half); }
     bool has_copies(uint32_t vertex) const { return vertices_of_[vertex] > 1; }
 
@@ -78,12 +78,12 @@ class surface
     OpenMesh::HPropHandleT<uint32_t> corner_;
     array<vertex_handle> current_;      /* of each source, what the next face joins; may be invalid */
     array<unsigned char> vertices_of_;  /* of each source: 0, 1, or 2 for more */
-    array<uint32_t> sources_, numbers_; /* of the corners of the face being added: vertices, and their places
+    array<uint32_t> sources_, numbers_; /* of the corners of the face being added: vertices, and their indices
                                            in the file's corners; no neighbours equal */
     array<vertex_handle> handles_;      /* likewise */
 };
 
-/* Refuses what half-edges cannot number and corners that are no vertices. */
+/* Refuses what half-edges cannot number and corners that are not numbers of vertices. */
 ffd_status check(const mesh_faces &faces, ffd_error *error);
 
 /* Calls what makes `what` of the faces, and turns exceptions into errors. */

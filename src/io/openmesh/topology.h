@@ -25,7 +25,7 @@ extern "C" {
 
 /* Computes the figures. faces is not changed; vertex numbers stay those of the file: a face that OpenMesh
    cannot join gets copies of its vertices with the same source number. No exception leaves, nothing is
-   printed. Errors: FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_ARGUMENT (a corner is no vertex). */
+   printed. Errors: FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_ARGUMENT (a corner is not the number of a vertex). */
 ffd_status ffd_topology_compute(const mesh_faces *faces, mesh_topology *topology, ffd_error *error);
 #ifdef __cplusplus
 }

@@ -1,8 +1,7 @@
 /* ply_compare.c - compares two PLY files. Two PLY files are the same mesh when their elements, properties and
    types are, in their order, and their values as numbers (1.0 and 1, NaN and NaN). x y z and nx ny nz of the
    vertices may differ by their tolerances; other numbers may not. How the numbers are written (ascii, either
-   binary order), comments, blanks and line ends are no part of the mesh; obj_info and the names of texture
-   files are. */
+   binary order), comments, blanks and line ends are not compared; obj_info and texture file names are. */
 #include "io/ply/ply_document.h"
 #include "mesh/difference.h"
 #include <inttypes.h>
@@ -84,19 +83,14 @@ static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
     const text_word name = c->element->name;
-    const size_t a = c->in_a.line, b = c->in_b.line;
-    char lines[64] = "";
-    if (c->a->header.encoding == PLY_ASCII && c->b->header.encoding == PLY_ASCII) {
-        if (a == b)
-            snprintf(lines, sizeof lines, " (line %zu)", a);
-        else
-            snprintf(lines, sizeof lines, " (lines %zu and %zu)", a, b);
-    }
+    char lines[TEXT_LINES_CAPACITY] = "";
+    if (c->a->header.encoding == PLY_ASCII && c->b->header.encoding == PLY_ASCII)
+        ffd_text_lines(c->in_a.line, c->in_b.line, lines);
     snprintf(text, capacity, "%.*s %" PRIu64 " counted from 0%s", ffd_text_display_size(name), name.first,
              c->row, lines);
 }
 
-/* A number as it may be shown: its text, or the shortest one for what its bytes stand for. */
+/* A number for a message: its text, or the shortest text for the value of its bytes. */
 static void format_value(const ply_document *d, ply_type type, text_word word, char *text, size_t capacity)
 {
     double value = 0;
@@ -150,7 +144,7 @@ static bool same_value(const comparer *c, ply_type type, text_word a, text_word 
            !(ffd_difference_of(x, y) > 0);
 }
 
-/* One difference at most; goes behind the list in both files. */
+/* One difference at most; moves past the list in both files. */
 static void compare_list(comparer *c, const ply_property *property)
 {
     text_word a, b;
@@ -184,11 +178,11 @@ static void compare_scalar(comparer *c, const ply_property *property)
 static void compare_vectors(comparer *c)
 {
     const size_t at = 3 * (size_t)c->row;
-    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, c->a->positions + at, c->b->positions + at,
-                          format_place, c);
-    if (c->a->directions)
-        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, c->a->directions + at,
-                              c->b->directions + at, format_place, c);
+    ffd_difference_vector(c->result, FFD_DIFFERENCE_POSITION, 3, c->a->file.positions + at,
+                          c->b->file.positions + at, format_place, c);
+    if (c->a->file.directions)
+        ffd_difference_vector(c->result, FFD_DIFFERENCE_NORMAL, 3, c->a->file.directions + at,
+                              c->b->file.directions + at, format_place, c);
     c->result->positions_compared++;
 }
 
@@ -209,8 +203,8 @@ static void compare_row(comparer *c)
 
 static void compare_rows(comparer *c)
 {
-    ffd_ply_walk_begin(&c->a->header, &c->a->input, &c->in_a);
-    ffd_ply_walk_begin(&c->b->header, &c->b->input, &c->in_b);
+    ffd_ply_walk_begin(&c->a->header, &c->a->file.input, &c->in_a);
+    ffd_ply_walk_begin(&c->b->header, &c->b->file.input, &c->in_b);
     for (size_t i = 0; i < c->a->header.element_count; i++) {
         c->element = &c->a->header.elements[i];
         if (c->element->property_count == 0)

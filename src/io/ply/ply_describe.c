@@ -87,14 +87,14 @@ ffd_status ffd_ply_describe(const mesh_document *document, json_text *json, ffd_
     const json_count members[] = {
         {"vertices", d->vertex->count},
         {"vertices_with_color", has_colours(d) ? d->vertex->count : 0},
-        {"normals", d->part.normal_count},
+        {"normals", d->file.part.normal_count},
         {"faces", row_count(d->face)},
         {"triangles", sizes.triangles},
         {"quads", sizes.quads},
         {"ngons", sizes.ngons},
         {"lines", row_count(ffd_ply_find_edges(d))},
         {"triangle_strips", row_count(ffd_ply_find_element(&d->header, "tristrips"))},
-        {"bytes_behind", d->input.size - d->behind},
+        {"bytes_behind", d->file.input.size - d->behind},
     };
     bool done = true;
     ffd_json_string(json, "encoding", encodings[d->header.encoding]);

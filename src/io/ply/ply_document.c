@@ -1,12 +1,11 @@
 #include "io/ply/ply_document.h"
-#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include <float.h>
 #include <inttypes.h>
 
 void ffd_ply_document_walk(const ply_document *d, const ply_element *element, ply_walk *walk)
 {
-    ffd_ply_walk_begin(&d->header, &d->input, walk);
+    ffd_ply_walk_begin(&d->header, &d->file.input, walk);
     for (const ply_element *e = d->header.elements; e < element; e++)
         ffd_ply_walk_skip_rows(walk, e);
 }
@@ -14,11 +13,11 @@ void ffd_ply_document_walk(const ply_document *d, const ply_element *element, pl
 static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_property *property,
                               text_word word, uint64_t row, ffd_error *error)
 {
-    double *list = property->slot < PLY_NORMAL_SLOT ? d->positions : d->directions;
+    double *list = property->slot < PLY_NORMAL_SLOT ? d->file.positions : d->file.directions;
     double *value = &list[3 * (size_t)row + property->slot % PLY_NORMAL_SLOT];
     if (ffd_ply_load(d->header.encoding, property->type, word, value))
         return FFD_OK;
-    return ffd_fail_line(error, FFD_E_INVALID, d->name, walk->line,
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->line,
                          "%.*s of vertex %" PRIu64 " (counted from 0) is not a number: \"%.*s\"",
                          ffd_text_display_size(property->name), property->name.first, row,
                          ffd_text_display_size(word), word.first);
@@ -46,10 +45,10 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
     const size_t count = (size_t)d->vertex->count;
     ffd_status status = FFD_OK;
     ply_walk walk;
-    d->positions = ffd_alloc(count, 3 * sizeof *d->positions);
+    d->file.positions = ffd_alloc(count, 3 * sizeof *d->file.positions);
     if (d->has_normals)
-        d->directions = ffd_alloc(count, 3 * sizeof *d->directions);
-    if (!d->positions || (d->has_normals && !d->directions))
+        d->file.directions = ffd_alloc(count, 3 * sizeof *d->file.directions);
+    if (!d->file.positions || (d->has_normals && !d->file.directions))
         return ffd_fail_memory(error);
     ffd_ply_document_walk(d, d->vertex, &walk);
     for (uint64_t row = 0; status == FFD_OK && row < count; row++)
@@ -60,55 +59,37 @@ static ffd_status read_vertices(ply_document *d, ffd_error *error)
 static void describe_part(ply_document *d)
 {
     const bool narrow = d->types[0] == PLY_FLOAT || d->types[1] == PLY_FLOAT || d->types[2] == PLY_FLOAT;
-    d->part.vertex_count = (size_t)d->vertex->count;
-    d->part.normal_count = d->has_normals ? d->part.vertex_count : 0;
-    d->part.identity = true;
-    d->base =
-        (mesh_document){.parts = &d->part, .part_count = 1, .largest_coordinate = narrow ? FLT_MAX : DBL_MAX};
-}
-
-static void free_document(ply_document *d)
-{
-    ffd_free(d->name);
-    ffd_ply_header_free(&d->header);
-    ffd_free(d->positions);
-    ffd_free(d->directions);
-    ffd_free(d->new_positions);
-    ffd_free(d->new_directions);
-    ffd_free(d);
+    d->file.part.vertex_count = (size_t)d->vertex->count;
+    d->file.part.normal_count = d->has_normals ? d->file.part.vertex_count : 0;
+    d->file.base.largest_coordinate = narrow ? FLT_MAX : DBL_MAX;
 }
 
 ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
-    ply_document *d = ffd_alloc_zero(1, sizeof *d);
+    ply_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
-        return ffd_fail_memory(error);
-    d->input = *input;
-    d->name = ffd_text_copy(ffd_path_display_name(source->path));
-    ffd_status status =
-        d->name ? ffd_ply_header_read(input, d->name, &d->header, error) : ffd_fail_memory(error);
+        return FFD_E_MEMORY;
+    ffd_status status = ffd_ply_header_read(input, d->file.name, &d->header, error);
     if (status == FFD_OK)
         status = ffd_ply_find_roles(d, error);
     if (status == FFD_OK)
-        status = ffd_ply_walk_check(&d->header, input, d->name, &d->behind, error);
+        status = ffd_ply_walk_check(&d->header, input, d->file.name, &d->behind, error);
     if (status == FFD_OK)
         status = read_vertices(d, error);
     if (status) {
-        free_document(d);
+        ffd_ply_header_free(&d->header);
+        ffd_file_document_free(&d->file);
         return status;
     }
     describe_part(d);
-    d->base.budget = ffd_budget_for_file(d->input.size, d->header.encoding == PLY_ASCII, source->memory);
-    *document = &d->base;
+    *document = ffd_file_document_ready(&d->file, d->header.encoding == PLY_ASCII, source);
     return FFD_OK;
 }
 
 void ffd_ply_close(mesh_document *document)
 {
-    ply_document *d = (ply_document *)document;
-    if (!d)
-        return;
-    ffd_file_unload(&d->input);
-    free_document(d);
+    if (document)
+        ffd_ply_header_free(&((ply_document *)document)->header);
+    ffd_file_document_close(document);
 }

@@ -1,29 +1,23 @@
 /* ply_document.h - a PLY file as a mesh document: one part, in the lattice's space.
 
    Every row of element vertex is a vertex, in the order of the file; its normal is nx ny nz. Their numbers
-   are held as doubles (each one that its type has); all else stays in the file's bytes, which are walked
-   through again where it is needed. */
+   are held as doubles (each one that its type has); all else stays in the file's bytes, which are read again
+   where it is needed. */
 #ifndef FFD_IO_PLY_PLY_DOCUMENT_H
 #define FFD_IO_PLY_PLY_DOCUMENT_H
 
 #include "io/ply/ply_walk.h"
-#include "mesh/mesh.h"
+#include "io/text/file_document.h"
 
 typedef struct ply_document {
-    mesh_document base;
-    mesh_part part;
-    file_input input;
-    char *name; /* for messages */
+    file_document file;
     ply_header header;
     const ply_element *vertex;
-    const ply_element *face;             /* NULL: none that names vertices */
+    const ply_element *face;             /* NULL: no element names vertices */
     const ply_property *face_corners;    /* its list vertex_indices or vertex_index */
     ply_type types[PLY_SLOT_COUNT];      /* of x y z nx ny nz */
     bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
-    size_t behind;                       /* offset behind the last row */
-    double *positions, *directions;      /* 3 a vertex; directions: NULL without normals */
-    double *new_positions;               /* NULL before ffd_ply_begin_results */
-    double *new_directions;              /* NULL: normals are kept */
+    size_t behind;                       /* offset after the last row */
 } ply_document;
 
 static inline const ply_document *ffd_ply_of(const mesh_document *document)
@@ -44,15 +38,13 @@ extern const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2];
 /* The element whose rows are lines: "edge" with vertex1 and vertex2. NULL where there is none. */
 const ply_element *ffd_ply_find_edges(const ply_document *document);
 
-/* Refuses corners of faces that are no vertices. */
+/* Refuses corners of faces that are not numbers of vertices. */
 ffd_status ffd_ply_check_faces(const ply_document *document, ffd_error *error);
 
 /* The entries of the format's table. */
 mesh_open_function ffd_ply_open;
 mesh_close_function ffd_ply_close;
 mesh_check_function ffd_ply_check;
-mesh_read_function ffd_ply_read_positions;
-mesh_read_function ffd_ply_read_normals;
 mesh_begin_results_function ffd_ply_begin_results;
 mesh_write_function ffd_ply_write_positions;
 mesh_write_function ffd_ply_write_normals;

@@ -19,10 +19,10 @@ static ffd_status refuse_index(const face_reader *r, uint64_t face, text_word wo
     double value = 0;
     ffd_ply_load(d->header.encoding, d->face_corners->type, word, &value);
     const number_text number = ffd_number_text(value);
-    return ffd_fail_line(r->error, FFD_E_INVALID, d->name, text ? r->walk.line : 0,
+    return ffd_fail_line(r->error, FFD_E_INVALID, d->file.name, text ? r->walk.line : 0,
                          "face %" PRIu64 " (counted from 0): %.*s is not an index of the %zu vertices", face,
                          text ? ffd_text_display_size(word) : (int)strlen(number.text),
-                         text ? word.first : number.text, d->part.vertex_count);
+                         text ? word.first : number.text, d->file.part.vertex_count);
 }
 
 static ffd_status read_corners(face_reader *r, uint64_t face)
@@ -40,7 +40,7 @@ static ffd_status read_corners(face_reader *r, uint64_t face)
         size_t vertex;
         ffd_ply_walk_value(&r->walk, list->type, &word);
         if (!ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) ||
-            vertex >= d->part.vertex_count)
+            vertex >= d->file.part.vertex_count)
             return refuse_index(r, face, word);
         if (r->faces)
             r->faces->corners[r->corners] = (uint32_t)vertex;
@@ -95,7 +95,7 @@ static ffd_status refuse_strips(const ply_document *d, ffd_error *error)
     const ply_element *strips = ffd_ply_find_element(&d->header, "tristrips");
     if (!strips || strips->count == 0)
         return FFD_OK;
-    return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, strips->line,
+    return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, strips->line,
                          "element tristrips: triangle strips are not read as faces");
 }
 
@@ -103,7 +103,7 @@ ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_e
 {
     const ply_document *d = ffd_ply_of(document);
     const ply_element *edges = ffd_ply_find_edges(d);
-    *faces = (mesh_faces){.vertex_count = d->part.vertex_count,
+    *faces = (mesh_faces){.vertex_count = d->file.part.vertex_count,
                           .face_count = d->face ? (size_t)d->face->count : 0,
                           .lines = edges ? (size_t)edges->count : 0};
     ffd_status status = refuse_strips(d, error);
@@ -111,7 +111,7 @@ ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_e
         status = ffd_mesh_faces_make(document, faces, faces->face_count, error);
     if (status)
         return status;
-    ffd_ply_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
+    ffd_file_document_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
     status = read_faces(d, faces, error);
     if (status)
         ffd_mesh_faces_free(faces);

@@ -7,7 +7,7 @@ ffd_status ffd_ply_check(const mesh_document *document, ffd_error *error)
     const ply_document *d = ffd_ply_of(document);
     for (int a = 0; a < PLY_NORMAL_SLOT; a++)
         if (ply_is_whole(d->types[a]))
-            return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
+            return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, d->vertex->line,
                                  "%c of the vertices is of type %s: only float and double can be deformed",
                                  "xyz"[a], ffd_ply_type_name(d->types[a]));
     return ffd_ply_check_faces(d, error);
@@ -20,8 +20,8 @@ const mesh_format ffd_ply_format = {
     .close = ffd_ply_close,
     .check = ffd_ply_check,
     .largest_coordinate = DBL_MAX,
-    .read_positions = ffd_ply_read_positions,
-    .read_normals = ffd_ply_read_normals,
+    .read_positions = ffd_file_document_read_positions,
+    .read_normals = ffd_file_document_read_normals,
     .begin_results = ffd_ply_begin_results,
     .write_positions = ffd_ply_write_positions,
     .write_normals = ffd_ply_write_normals,

@@ -71,7 +71,7 @@ static ffd_status read_magic(header_reader *r)
     if (next_line(r, &line) && line.count == 1 && ffd_text_is(line.words[0], "ply") &&
         line.text.first == first)
         return FFD_OK;
-    return FAIL(r, 1, "is no PLY file: the first line is not \"ply\"");
+    return FAIL(r, 1, "is not a PLY file: the first line is not \"ply\"");
 }
 
 static ffd_status read_format(header_reader *r, const header_line *line)
@@ -129,8 +129,8 @@ static ffd_status read_element(header_reader *r, const header_line *line)
         return FAIL(r, r->line, "an element line holds a name and a count: \"%.*s\"",
                     ffd_text_display_size(line->text), line->text.first);
     if (!parse_count(line->words[2], &element.count))
-        return FAIL(r, r->line, "\"%.*s\" is no count of element %.*s", ffd_text_display_size(line->words[2]),
-                    line->words[2].first, shown, element.name.first);
+        return FAIL(r, r->line, "\"%.*s\" is not a count of element %.*s",
+                    ffd_text_display_size(line->words[2]), line->words[2].first, shown, element.name.first);
     for (size_t i = 0; i < h->element_count; i++)
         if (ffd_text_same(h->elements[i].name, element.name))
             return FAIL(r, r->line, "a second element %.*s: the first is on line %zu", shown,
@@ -169,7 +169,7 @@ static ffd_status read_type(const header_reader *r, text_word word, ply_type *ty
     if (ffd_ply_type_of(word, type))
         return FFD_OK;
     return FAIL(r, r->line,
-                "\"%.*s\" is no type of PLY (char, uchar, short, ushort, int, uint, float, double)",
+                "\"%.*s\" is not a PLY type (char, uchar, short, ushort, int, uint, float, double)",
                 ffd_text_display_size(word), word.first);
 }
 
@@ -180,7 +180,7 @@ static ffd_status read_property(header_reader *r, const header_line *line)
     const size_t type = property.is_list ? 3 : 1;
     ffd_status status = FFD_OK;
     if (r->header->element_count == 0)
-        return FAIL(r, r->line, "a property stands before any element");
+        return FAIL(r, r->line, "a property comes before any element");
     if (line->count != type + 2)
         return FAIL(r, r->line, "a property line holds %s and a name: \"%.*s\"",
                     property.is_list ? "two types" : "a type", ffd_text_display_size(line->text),
@@ -221,7 +221,7 @@ static ffd_status read_line(header_reader *r, const header_line *line)
         return read_element(r, line);
     if (ffd_text_is(keyword, "property"))
         return read_property(r, line);
-    return FAIL(r, r->line, "\"%.*s\" begins no line of a PLY header", ffd_text_display_size(keyword),
+    return FAIL(r, r->line, "\"%.*s\" is not a keyword of a PLY header", ffd_text_display_size(keyword),
                 keyword.first);
 }
 
@@ -250,7 +250,7 @@ static void measure_row(const ply_header *h, ply_element *element)
     }
 }
 
-/* The counts must fit the bytes behind the header; the last line of a text may lack its end. */
+/* The counts must fit the bytes after the header; the last line of a text may lack its end. */
 static ffd_status check_sizes(const header_reader *r)
 {
     const ply_header *h = r->header;
@@ -260,8 +260,8 @@ static ffd_status check_sizes(const header_reader *r)
         const ply_element *e = &h->elements[i];
         if (e->least > 0 && e->count > left / e->least)
             return FAIL(r, e->line,
-                        "element %.*s: %" PRIu64 " rows of %zu bytes or more are not in the %zu bytes behind "
-                        "the header",
+                        "element %.*s: %" PRIu64 " rows of %zu bytes or more do not fit in the %zu bytes "
+                        "after the header",
                         ffd_text_display_size(e->name), e->name.first, e->count, e->least, there);
         left -= e->least * (size_t)(e->least > 0 ? e->count : 0);
     }

@@ -1,7 +1,7 @@
-/* ply_header.h - what the header of a PLY file says stands behind it.
+/* ply_header.h - the header of a PLY file, and what it says about the rest.
 
-   Header lines end as the first one does: with LF, CRLF or CR. In a binary file the bytes behind the line end
-   of "end_header" are data at once, so that a file of CR lines may go on with a byte that is an LF. */
+   Header lines end as the first one does: with LF, CRLF or CR. In a binary file data starts right after the
+   line end of "end_header", so that a file of CR lines may go on with a byte that is an LF. */
 #ifndef FFD_IO_PLY_PLY_HEADER_H
 #define FFD_IO_PLY_PLY_HEADER_H
 
@@ -44,12 +44,12 @@ typedef struct ply_header {
     text_word *notes;
     size_t note_count, note_capacity;
     const char *line_end; /* "LF", "CRLF", "CR" */
-    size_t body;          /* offset behind the header */
-    size_t body_line;     /* the first line behind it */
+    size_t body;          /* offset after the header */
+    size_t body_line;     /* the first line after it */
 } ply_header;
 
-/* Reads the header and checks that the counts fit the file's size. name stands in messages. header is to be
-   freed in every case; its words lie in input. */
+/* Reads the header and checks that the counts fit the file's size. name is for messages. header must be freed
+   in every case; its words are in input. */
 ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_header *header,
                                ffd_error *error);
 /* Frees the elements and properties. */

@@ -1,7 +1,6 @@
 /* ply_model.c - a PLY file as a model, for conversions. */
 #include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
-#include "io/text/vectors.h"
 #include <string.h>
 
 /* What the model takes of a vertex beside its position and normal. */
@@ -49,20 +48,10 @@ static void find_roles(extractor *e)
 static ffd_status make_values(const extractor *e)
 {
     const ply_document *d = e->document;
-    mesh_model *model = e->model;
-    const size_t count = d->part.vertex_count;
-    const double *positions = d->new_positions ? d->new_positions : d->positions;
-    const double *normals = d->new_directions ? d->new_directions : d->directions;
     const size_t corners = e->faces.start[e->faces.face_count];
-    const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? count : 0;
-    ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, e->error);
-    if (status == FFD_OK && e->roles[ROLE_RED])
-        status = ffd_model_make_colours(model, e->error);
-    if (status)
-        return status;
-    ffd_vectors_read(positions, 0, count, model->positions);
-    ffd_vectors_read(normals, 0, model->normal_count, model->normals);
-    return FFD_OK;
+    const size_t texcoords = e->face_texcoords ? corners : e->roles[ROLE_U] ? d->file.part.vertex_count : 0;
+    const ffd_status status = ffd_file_document_model(&d->file, texcoords, e->model, e->error);
+    return status || !e->roles[ROLE_RED] ? status : ffd_model_make_colours(e->model, e->error);
 }
 
 /* Whole numbers of a type are parts of the largest one. */
@@ -77,7 +66,7 @@ static ffd_status set_value(extractor *e, const ply_walk *walk, size_t vertex, i
     const ply_type type = e->roles[role]->type;
     double value;
     if (!ffd_ply_load(d->header.encoding, type, word, &value))
-        return ffd_fail_line(e->error, FFD_E_INVALID, d->name, walk->line,
+        return ffd_fail_line(e->error, FFD_E_INVALID, d->file.name, walk->line,
                              "%.*s of vertex %zu (counted from 0) is not a number: \"%.*s\"",
                              ffd_text_display_size(e->roles[role]->name), e->roles[role]->name.first, vertex,
                              ffd_text_display_size(word), word.first);
@@ -102,7 +91,7 @@ static ffd_status take_vertices(extractor *e)
     ply_walk walk;
     ffd_status status = FFD_OK;
     ffd_ply_document_walk(d, d->vertex, &walk);
-    for (size_t row = 0; row < d->part.vertex_count; row++) {
+    for (size_t row = 0; row < d->file.part.vertex_count; row++) {
         ffd_ply_walk_row(&walk);
         for (size_t i = 0; i < d->vertex->property_count && status == FFD_OK; i++) {
             const ply_property *property = &d->vertex->properties[i];
@@ -117,8 +106,8 @@ static ffd_status take_vertices(extractor *e)
     return status;
 }
 
-/* The texture coordinates of a face's corners stand in a list of twice as many numbers; one of another length
-   is left aside. Returns whether they are there. */
+/* The texture coordinates of a face's corners are a list of twice as many numbers; a list of another length
+   is ignored. Returns whether they are there. */
 static bool take_face_texcoords(const extractor *e, ply_walk *walk, size_t face)
 {
     const ply_document *d = e->document;
@@ -182,7 +171,7 @@ static ffd_status take_faces(extractor *e)
     return status;
 }
 
-/* Takes a row's vertex1 and vertex2. False where one is no vertex. */
+/* Takes a row's vertex1 and vertex2. False where one is not the number of a vertex. */
 static bool take_ends(const extractor *e, ply_walk *walk, const ply_element *edges, model_corner ends[2])
 {
     const ply_property *named[2] = {find_scalar(edges, "vertex1"), find_scalar(edges, "vertex2")};
@@ -221,7 +210,7 @@ static ffd_status take_edges(extractor *e)
         model_corner ends[2] = {{0, 0, 0}, {0, 0, 0}};
         if (!take_ends(e, &walk, edges, ends))
             return ffd_fail_line(
-                e->error, FFD_E_INVALID, d->name, d->header.encoding == PLY_ASCII ? walk.line : 0,
+                e->error, FFD_E_INVALID, d->file.name, d->header.encoding == PLY_ASCII ? walk.line : 0,
                 "edge %llu (counted from 0) names a vertex that does not exist", (unsigned long long)row);
         status = ffd_model_add(e->model, MODEL_LINES, ends, 2, e->error);
     }

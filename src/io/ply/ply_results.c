@@ -1,38 +1,16 @@
 /* ply_results.c - takes the results of a PLY file. */
-#include "base/memory/memory.h"
 #include "io/ply/ply_document.h"
-#include "io/text/vectors.h"
-
-void ffd_ply_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
-                            double *xyz)
-{
-    (void)part; /* there is one */
-    ffd_vectors_read(ffd_ply_of(document)->positions, first, count, xyz);
-}
-
-void ffd_ply_read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
-{
-    (void)part;
-    ffd_vectors_read(ffd_ply_of(document)->directions, first, count, xyz);
-}
 
 ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
-    ply_document *d = (ply_document *)document;
-    (void)tangents; /* there are none */
+    const ply_document *d = ffd_ply_of(document);
     if (normals && d->has_whole_normals)
-        return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->name, d->vertex->line,
+        return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, d->vertex->line,
                              "nx ny nz are not all float or double: such normals can only be kept");
-    const ffd_status status = ffd_vectors_copy(d->positions, d->part.vertex_count, &d->new_positions, error);
-    if (status || !normals || !d->has_normals) {
-        ffd_free(d->new_directions);
-        d->new_directions = NULL;
-        return status;
-    }
-    return ffd_vectors_copy(d->directions, d->part.normal_count, &d->new_directions, error);
+    return ffd_file_document_begin_results(document, normals, tangents, error);
 }
 
-/* Rounded to their types. */
+/* Copies vectors that are marked as changed, rounded to their types. */
 static void write_vectors(double *results, const ply_type types[3], size_t first, size_t count,
                           const double *xyz, const uint8_t *changed)
 {
@@ -46,7 +24,7 @@ void ffd_ply_write_positions(mesh_document *document, size_t part, size_t first,
 {
     const ply_document *d = ffd_ply_of(document);
     (void)part;
-    write_vectors(d->new_positions, d->types, first, count, xyz, changed);
+    write_vectors(d->file.new_positions, d->types, first, count, xyz, changed);
 }
 
 void ffd_ply_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
@@ -54,5 +32,5 @@ void ffd_ply_write_normals(mesh_document *document, size_t part, size_t first, s
 {
     const ply_document *d = ffd_ply_of(document);
     (void)part;
-    write_vectors(d->new_directions, d->types + PLY_NORMAL_SLOT, first, count, xyz, changed);
+    write_vectors(d->file.new_directions, d->types + PLY_NORMAL_SLOT, first, count, xyz, changed);
 }

@@ -6,8 +6,8 @@ static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny"
 const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
 
-/* Marks the property of the vertices that a slot's name stands for; NULL where there is none with one value
-   a vertex. */
+/* Marks and returns the property of the vertices that has a slot's name; NULL where there is none with one
+   value a vertex. */
 static ply_property *fill_slot(ply_document *d, size_t slot)
 {
     const ply_property *found = ffd_ply_find_property(d->vertex, slot_names[slot]);
@@ -23,12 +23,12 @@ static ffd_status find_positions(ply_document *d, ffd_error *error)
 {
     for (size_t slot = 0; slot < PLY_NORMAL_SLOT; slot++)
         if (!fill_slot(d, slot))
-            return ffd_fail_line(error, FFD_E_INVALID, d->name, d->vertex->line,
+            return ffd_fail_line(error, FFD_E_INVALID, d->file.name, d->vertex->line,
                                  "element vertex has no property %s that is one number", slot_names[slot]);
     return FFD_OK;
 }
 
-/* All three are there, as numbers with a fraction, or none is looked at. */
+/* All three must be there, as numbers with a fraction; otherwise none of them is used. */
 static void find_normals(ply_document *d)
 {
     ply_property *properties[3];
@@ -61,9 +61,9 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
 {
     d->vertex = ffd_ply_find_element(&d->header, "vertex");
     if (!d->vertex)
-        return ffd_fail_file(error, FFD_E_INVALID, d->name, "the header has no element vertex");
+        return ffd_fail_file(error, FFD_E_INVALID, d->file.name, "the header has no element vertex");
     if (d->vertex->count > UINT32_MAX)
-        return ffd_fail_line(error, FFD_E_LIMIT, d->name, d->vertex->line, "more than %u vertices",
+        return ffd_fail_line(error, FFD_E_LIMIT, d->file.name, d->vertex->line, "more than %u vertices",
                              (unsigned)UINT32_MAX);
     const ffd_status status = find_positions(d, error);
     if (status)

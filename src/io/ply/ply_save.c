@@ -8,13 +8,13 @@ static void replace_number(const ply_document *d, file_splice *splice, const ply
                            text_word word, size_t row)
 {
     const bool normal = property->slot >= PLY_NORMAL_SLOT;
-    const double *before = normal ? d->directions : d->positions;
-    const double *after = normal ? d->new_directions : d->new_positions;
-    const size_t place = 3 * row + property->slot % PLY_NORMAL_SLOT;
+    const double *before = normal ? d->file.directions : d->file.positions;
+    const double *after = normal ? d->file.new_directions : d->file.new_positions;
+    const size_t index = 3 * row + property->slot % PLY_NORMAL_SLOT;
     char bytes[FFD_NUMBER_CAPACITY];
-    if (!after || memcmp(before + place, after + place, sizeof *after) == 0)
+    if (!after || memcmp(before + index, after + index, sizeof *after) == 0)
         return;
-    const size_t size = ffd_ply_store(d->header.encoding, property->type, after[place], bytes);
+    const size_t size = ffd_ply_store(d->header.encoding, property->type, after[index], bytes);
     ffd_splice_replace(splice, word, bytes, size);
 }
 
@@ -22,7 +22,7 @@ static void write_vertices(const ply_document *d, file_splice *splice)
 {
     ply_walk walk;
     ffd_ply_document_walk(d, d->vertex, &walk);
-    for (size_t row = 0; splice->status == FFD_OK && row < d->part.vertex_count; row++) {
+    for (size_t row = 0; splice->status == FFD_OK && row < d->file.part.vertex_count; row++) {
         ffd_ply_walk_row(&walk);
         for (size_t i = 0; i < d->vertex->property_count; i++) {
             const ply_property *property = &d->vertex->properties[i];
@@ -43,8 +43,8 @@ ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *option
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
     (void)log;
-    ffd_splice_begin(&splice, &d->input, options, output, error);
-    if (d->new_positions)
+    ffd_splice_begin(&splice, &d->file.input, options, output, error);
+    if (d->file.new_positions)
         write_vertices(d, &splice);
     return ffd_splice_end(&splice);
 }

@@ -2,7 +2,7 @@
 #include "base/little_endian.h"
 #include <string.h>
 
-/* The largest whole number below which doubles leave none out. */
+/* The largest whole number up to which doubles represent every one. */
 #define WHOLE_MAX 9007199254740992.0
 
 static const struct {

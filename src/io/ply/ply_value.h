@@ -1,4 +1,4 @@
-/* ply_value.h - the numbers of a PLY file: their types, and how they stand in the file. A text_word holds a
+/* ply_value.h - the numbers of a PLY file: their types, and how the file stores them. A text_word holds a
    binary number's bytes too. */
 #ifndef FFD_IO_PLY_PLY_VALUE_H
 #define FFD_IO_PLY_PLY_VALUE_H
@@ -34,8 +34,8 @@ static inline bool ply_is_whole(ply_type type)
     return type < PLY_FLOAT;
 }
 
-/* Reads a number as its type holds it (the text of a float stands for the nearest float). A text of a whole
-   type may be any number. False where a text is no number; binary ones always are. */
+/* Reads a number as its type holds it (the text of a float means the nearest float). A text of a whole type
+   may be any number. False where a text is not a number; binary values always are. */
 bool ffd_ply_load(ply_encoding encoding, ply_type type, text_word word, double *value);
 
 /* A list's count or an index: a whole number that is not negative. */

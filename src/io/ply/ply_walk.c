@@ -25,7 +25,7 @@ static void skip_blanks(ply_walk *walk)
         walk->at++;
 }
 
-/* Goes to the line's end. */
+/* Moves to the end of the line. */
 static void skip_line(ply_walk *walk)
 {
     while (walk->at < walk->last && !is_line_end(*walk->at))
@@ -65,7 +65,7 @@ bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word)
     return word->first < word->last;
 }
 
-/* Goes behind count values. */
+/* Moves past count values. */
 static bool skip_values(ply_walk *walk, ply_type type, size_t count)
 {
     text_word word;
@@ -183,7 +183,7 @@ ffd_status ffd_ply_walk_check(const ply_header *header, const file_input *input,
     ffd_ply_walk_begin(header, input, &c.walk);
     for (size_t i = 0; status == FFD_OK && i < header->element_count; i++) {
         c.element = &header->elements[i];
-        /* Rows of a fixed size were found to fit the file, unless lists stand before them. */
+        /* Rows of a fixed size were found to fit the file, unless lists are before them. */
         const size_t left = (size_t)(c.walk.last - c.walk.at);
         const bool fixed = header->encoding != PLY_ASCII && !c.element->has_lists;
         if (c.element->property_count == 0 || (fixed && c.element->count <= left / c.element->least)) {
@@ -193,7 +193,7 @@ ffd_status ffd_ply_walk_check(const ply_header *header, const file_input *input,
         for (c.row = 0; status == FFD_OK && c.row < c.element->count; c.row++)
             status = check_row(&c);
     }
-    ffd_ply_walk_row(&c.walk); /* empty lines are nothing that stands behind */
+    ffd_ply_walk_row(&c.walk); /* empty lines are not counted as bytes behind */
     *behind = (size_t)(c.walk.at - (const char *)input->data);
     return status;
 }

@@ -1,4 +1,4 @@
-/* ply_walk.h - the rows behind a PLY header, value by value, in the order of the file.
+/* ply_walk.h - the rows after a PLY header, value by value, in the order of the file.
 
    In ascii each row is a line of its own; empty lines are passed over, and lines end with LF, CRLF or CR,
    also mixed. An element without properties has no rows. */
@@ -13,7 +13,7 @@ typedef struct ply_walk {
     size_t line; /* ascii: of at */
 } ply_walk;
 
-/* Begins a walk at the first row behind the header. */
+/* Begins a walk at the first row after the header. */
 void ffd_ply_walk_begin(const ply_header *header, const file_input *input, ply_walk *walk);
 
 /* For each element: its rows, each begun and ended; in a row, the properties. The following return false
@@ -24,13 +24,13 @@ bool ffd_ply_walk_row(ply_walk *walk);
 /* Takes the next value: a scalar, a list's count or one of its items. False (and *word is empty): it is not
    there. */
 bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word);
-/* Goes behind a property, a list with all of its items. */
+/* Moves past a property, a list with all of its items. */
 bool ffd_ply_walk_skip(ply_walk *walk, const ply_property *property);
 
-/* Goes behind all rows of an element of a file that was checked. */
+/* Moves past all rows of an element of a file that was checked. */
 void ffd_ply_walk_skip_rows(ply_walk *walk, const ply_element *element);
 
-/* Goes through all rows and refuses what is not as the header says. *behind: the offset behind the last row.
+/* Goes through all rows and refuses what is not as the header says. *behind: the offset after the last row.
  */
 ffd_status ffd_ply_walk_check(const ply_header *header, const file_input *input, const char *name,
                               size_t *behind, ffd_error *error);

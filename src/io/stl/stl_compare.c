@@ -1,8 +1,8 @@
 /* stl_compare.c - compares two STL files. Two STL files are the same mesh when their facets are the same one
-   by one. Corners and normals may differ by their tolerances; not so the two bytes behind a binary file's
-   facet (text has none: 0), nor, where both files are text or both are binary, the solids with their names or
-   the header. How numbers are written, lines and blanks, and what stands behind a binary file's last facet
-   are no part of the mesh. */
+   by one. Corners and normals may differ by their tolerances; not so the two bytes after a binary file's
+   facet (0 for text), nor, where both files are text or both are binary, the solids with their names or the
+   header. How numbers are written, lines and blanks, and what follows a binary file's last facet are not
+   compared. */
 #include "io/stl/stl_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>
@@ -27,14 +27,14 @@ typedef struct comparer {
 static void begin_side(stl_side *side, const stl_document *document)
 {
     *side = (stl_side){.document = document};
-    ffd_stl_text_begin(&side->text, document->input.data, document->input.size);
+    ffd_stl_text_begin(&side->text, document->file.input.data, document->file.input.size);
 }
 
 static void next_text_facet(stl_side *side)
 {
     stl_facet facet;
     bool found;
-    ffd_stl_text_next(&side->text, side->document->name, &facet, &found, NULL);
+    ffd_stl_text_next(&side->text, side->document->file.name, &facet, &found, NULL);
     for (size_t i = 0; found && i < 3; i++)
         ffd_stl_text_normal(facet.normal[i], &side->normal[i]);
     side->line = found ? facet.line : side->text.scan.line;
@@ -42,7 +42,7 @@ static void next_text_facet(stl_side *side)
 
 static void next_facet(stl_side *side, size_t number)
 {
-    ffd_stl_read_positions(&side->document->base, 0, 3 * number, 3, side->corners);
+    ffd_stl_read_positions(&side->document->file.base, 0, 3 * number, 3, side->corners);
     if (!side->document->binary) {
         next_text_facet(side);
         return;
@@ -62,11 +62,9 @@ static bool both_text(const comparer *c)
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
-    char lines[64] = "", corner[32] = "";
-    if (both_text(c) && c->a.line == c->b.line)
-        snprintf(lines, sizeof lines, " (line %zu)", c->a.line);
-    else if (both_text(c))
-        snprintf(lines, sizeof lines, " (lines %zu and %zu)", c->a.line, c->b.line);
+    char lines[TEXT_LINES_CAPACITY] = "", corner[32] = "";
+    if (both_text(c))
+        ffd_text_lines(c->a.line, c->b.line, lines);
     if (c->corner >= 0)
         snprintf(corner, sizeof corner, ", corner %d", c->corner);
     snprintf(text, capacity, "facet %zu counted from 0%s%s", c->facet, lines, corner);
@@ -88,8 +86,8 @@ static void compare_solids(comparer *c)
     stl_event in_a = STL_AT_SOLID, in_b = STL_AT_SOLID;
     stl_facet facet;
     while (in_a == in_b && in_a != STL_AT_END) {
-        ffd_stl_text_step(&c->a.text, c->a.document->name, &facet, &in_a, NULL);
-        ffd_stl_text_step(&c->b.text, c->b.document->name, &facet, &in_b, NULL);
+        ffd_stl_text_step(&c->a.text, c->a.document->file.name, &facet, &in_a, NULL);
+        ffd_stl_text_step(&c->b.text, c->b.document->file.name, &facet, &in_b, NULL);
         if (in_a != in_b)
             differ_in_solids(c, in_a, in_b);
         else if (in_a == STL_AT_SOLID && !ffd_text_same(a->name, b->name))
@@ -129,7 +127,7 @@ static bool same_frame(comparer *c)
         ffd_difference_stop(c->result, FFD_DIFFERENCE_TOPOLOGY, "%zu and %zu facets", a->facets, b->facets);
     else if (both_text(c))
         compare_solids(c);
-    else if (a->binary && b->binary && memcmp(a->input.data, b->input.data, STL_HEADER) != 0)
+    else if (a->binary && b->binary && memcmp(a->file.input.data, b->file.input.data, STL_HEADER) != 0)
         ffd_difference_say(c->result, FFD_DIFFERENCE_OTHER, "the headers of %d bytes are not the same",
                            STL_HEADER);
     return a->facets == b->facets;

@@ -18,7 +18,7 @@ static bool write_text(json_text *json, const char *key, text_word text)
 /* The header without the blanks and zeros that fill it up. */
 static text_word header_text(const stl_document *d)
 {
-    const char *first = (const char *)d->input.data, *last = first + STL_HEADER;
+    const char *first = (const char *)d->file.input.data, *last = first + STL_HEADER;
     while (last > first && (last[-1] == 0 || last[-1] == ' '))
         last--;
     return (text_word){first, last};
@@ -29,7 +29,7 @@ static size_t count_degenerate(const stl_document *d)
     size_t count = 0;
     for (size_t i = 0; i < d->facets; i++) {
         double corners[9], normal[3];
-        ffd_stl_read_positions(&d->base, 0, 3 * i, 3, corners);
+        ffd_stl_read_positions(&d->file.base, 0, 3 * i, 3, corners);
         count += !ffd_stl_normal(corners, normal);
     }
     return count;
@@ -44,11 +44,11 @@ static bool describe_binary(const stl_document *d, json_text *json)
         attributes += facet[STL_ATTRIBUTE] != 0 || facet[STL_ATTRIBUTE + 1] != 0;
     }
     ffd_json_count(json, "facets_with_attribute", attributes);
-    ffd_json_count(json, "bytes_behind", d->input.size - STL_START - STL_FACET * d->facets);
+    ffd_json_count(json, "bytes_behind", d->file.input.size - STL_START - STL_FACET * d->facets);
     return done;
 }
 
-/* Names that many solids could have: a file of a few bytes each must not become a page. */
+/* Names that are shown at most: a file may have a solid every few bytes. */
 #define NAMES_MAX 16
 
 static bool describe_text(const stl_document *d, json_text *json)
@@ -57,16 +57,16 @@ static bool describe_text(const stl_document *d, json_text *json)
     stl_facet facet;
     stl_event event;
     bool done = true;
-    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
     ffd_json_array(json, "names", true);
     do {
-        ffd_stl_text_step(&text, d->name, &facet, &event, NULL);
+        ffd_stl_text_step(&text, d->file.name, &facet, &event, NULL);
         if (event == STL_AT_SOLID && text.solids <= NAMES_MAX)
             done = write_text(json, NULL, text.name);
     } while (event != STL_AT_END && done);
     ffd_json_end(json, ']');
     ffd_json_count(json, "solids", text.solids);
-    ffd_json_string(json, "line_endings", ffd_text_line_ends(d->input.data, d->input.size));
+    ffd_json_string(json, "line_endings", ffd_text_line_ends(d->file.input.data, d->file.input.size));
     return done;
 }
 

@@ -1,5 +1,4 @@
 #include "io/stl/stl_document.h"
-#include "base/file/path.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include <float.h>
@@ -21,7 +20,7 @@ static bool begins_with_solid(const file_input *input)
 }
 
 /* The header of a binary file may say "solid" too: its size decides, or (where bytes are missing or follow) a
-   0 among its first bytes, which text has not and the number of facets nearly always. */
+   0 among its first bytes: text has none, and the number of facets nearly always has one. */
 static bool is_binary(const file_input *input)
 {
     if (input->size >= STL_START && stated_size(input) == input->size)
@@ -33,23 +32,23 @@ static bool is_binary(const file_input *input)
 
 static ffd_status refuse_facets(const stl_document *d, ffd_error *error)
 {
-    return ffd_fail_file(error, FFD_E_LIMIT, d->name, "more facets than the limit of %" PRIu32,
+    return ffd_fail_file(error, FFD_E_LIMIT, d->file.name, "more facets than the limit of %" PRIu32,
                          STL_FACETS_MAX);
 }
 
 static ffd_status read_binary(stl_document *d, ffd_error *error)
 {
-    if (d->input.size < STL_START)
+    if (d->file.input.size < STL_START)
         return ffd_fail_file(
-            error, FFD_E_INVALID, d->name,
+            error, FFD_E_INVALID, d->file.name,
             "is not an STL file: it neither begins with \"solid\" nor has, with %zu bytes, the "
             "%d of a binary file's header",
-            d->input.size, STL_START);
-    const uint32_t facets = load_u32(d->input.data + STL_HEADER);
-    if (stated_size(&d->input) > d->input.size)
-        return ffd_fail_file(error, FFD_E_INVALID, d->name,
+            d->file.input.size, STL_START);
+    const uint32_t facets = load_u32(d->file.input.data + STL_HEADER);
+    if (stated_size(&d->file.input) > d->file.input.size)
+        return ffd_fail_file(error, FFD_E_INVALID, d->file.name,
                              "%" PRIu32 " facets are stated, which take %" PRIu64 " bytes: the file has %zu",
-                             facets, stated_size(&d->input), d->input.size);
+                             facets, stated_size(&d->file.input), d->file.input.size);
     if (facets > STL_FACETS_MAX)
         return refuse_facets(d, error);
     d->facets = facets;
@@ -60,10 +59,10 @@ static ffd_status add_facet(stl_document *d, const stl_facet *facet, size_t *cap
 {
     if (d->facets == STL_FACETS_MAX)
         return refuse_facets(d, error);
-    if (!ffd_grow((void **)&d->positions, capacity, d->facets + 1, 9 * sizeof *d->positions))
+    if (!ffd_grow((void **)&d->file.positions, capacity, d->facets + 1, 9 * sizeof *d->file.positions))
         return ffd_fail_memory(error);
     for (size_t i = 0; i < 9; i++)
-        ffd_text_number(facet->corners[i], &d->positions[9 * d->facets + i]);
+        ffd_text_number(facet->corners[i], &d->file.positions[9 * d->facets + i]);
     d->facets++;
     return FFD_OK;
 }
@@ -75,62 +74,32 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
     size_t capacity = 0;
     bool found = true;
     ffd_status status = FFD_OK;
-    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
     while (status == FFD_OK && found) {
-        status = ffd_stl_text_next(&text, d->name, &facet, &found, error);
+        status = ffd_stl_text_next(&text, d->file.name, &facet, &found, error);
         if (status == FFD_OK && found)
             status = add_facet(d, &facet, &capacity, error);
     }
-    /* Gives back what growing has reserved too much; where that fails the larger block serves as well. */
-    double *block = ffd_realloc(d->positions, d->facets, 9 * sizeof *d->positions);
-    d->positions = block ? block : d->positions;
+    /* Gives back what growing has reserved too much; where that fails the larger block is kept. */
+    double *block = ffd_realloc(d->file.positions, d->facets, 9 * sizeof *d->file.positions);
+    d->file.positions = block ? block : d->file.positions;
     return status;
-}
-
-static void describe_part(stl_document *d)
-{
-    d->part = (mesh_part){.vertex_count = 3 * d->facets, .identity = true};
-    d->base = (mesh_document){
-        .parts = &d->part, .part_count = 1, .largest_coordinate = d->binary ? FLT_MAX : DBL_MAX};
-}
-
-static void free_document(stl_document *d)
-{
-    ffd_free(d->name);
-    ffd_free(d->positions);
-    ffd_free(d->new_positions);
-    ffd_free(d);
 }
 
 ffd_status ffd_stl_open(file_input *input, const ffd_source *source, mesh_document **document,
                         ffd_error *error)
 {
-    stl_document *d = ffd_alloc_zero(1, sizeof *d);
+    stl_document *d = ffd_file_document_make(sizeof *d, input, source, error);
     if (!d)
-        return ffd_fail_memory(error);
-    d->input = *input;
+        return FFD_E_MEMORY;
     d->binary = is_binary(input);
-    d->name = ffd_text_copy(ffd_path_display_name(source->path));
-    ffd_status status = FFD_OK;
-    if (!d->name)
-        status = ffd_fail_memory(error);
-    else
-        status = d->binary ? read_binary(d, error) : read_text(d, error);
+    const ffd_status status = d->binary ? read_binary(d, error) : read_text(d, error);
     if (status) {
-        free_document(d);
+        ffd_file_document_free(&d->file);
         return status;
     }
-    describe_part(d);
-    d->base.budget = ffd_budget_for_file(d->input.size, !d->binary, source->memory);
-    *document = &d->base;
+    d->file.part.vertex_count = 3 * d->facets;
+    d->file.base.largest_coordinate = d->binary ? FLT_MAX : DBL_MAX;
+    *document = ffd_file_document_ready(&d->file, !d->binary, source);
     return FFD_OK;
-}
-
-void ffd_stl_close(mesh_document *document)
-{
-    stl_document *d = (stl_document *)document;
-    if (!d)
-        return;
-    ffd_file_unload(&d->input);
-    free_document(d);
 }

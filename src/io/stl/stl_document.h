@@ -1,13 +1,12 @@
-/* stl_document.h - an STL file, ascii or binary, as a mesh document: one part that stands in the lattice's
-   space.
+/* stl_document.h - an STL file, ascii or binary, as a mesh document: one part, in the lattice's space.
 
-   Each corner of each facet is a vertex, in the order of the file. Facet normals are none of a vertex: saving
-   renews them from the corners. */
+   Each corner of each facet is a vertex, in the order of the file. A facet's normal is not the normal of a
+   vertex: saving computes it anew from the corners. */
 #ifndef FFD_IO_STL_STL_DOCUMENT_H
 #define FFD_IO_STL_STL_DOCUMENT_H
 
 #include "io/stl/stl_text.h"
-#include "mesh/mesh.h"
+#include "io/text/file_document.h"
 
 /* Binary files: a header, the number of facets, and for each its normal, three corners and two bytes. */
 #define STL_HEADER 80
@@ -20,14 +19,9 @@
 #define STL_FACETS_MAX ((UINT32_MAX - 1) / 3)
 
 typedef struct stl_document {
-    mesh_document base;
-    mesh_part part;
-    file_input input;
-    char *name; /* for messages */
+    file_document file; /* positions: of an ascii file only; new_positions: as the file can hold them */
     bool binary;
     size_t facets;
-    double *positions;     /* ascii: 9 a facet */
-    double *new_positions; /* 9 a facet, as the file can hold them; NULL before ffd_stl_begin_results */
     bool renew_normals;
 } stl_document;
 
@@ -39,7 +33,7 @@ static inline const stl_document *ffd_stl_of(const mesh_document *document)
 /* The bytes of a facet of a binary file. */
 static inline const unsigned char *ffd_stl_facet(const stl_document *document, size_t facet)
 {
-    return document->input.data + STL_START + STL_FACET * facet;
+    return document->file.input.data + STL_START + STL_FACET * facet;
 }
 
 /* Three floats of a binary file. */
@@ -53,7 +47,6 @@ bool ffd_stl_normal(const double corners[9], double normal[3]);
 
 /* The entries of the format's table. */
 mesh_open_function ffd_stl_open;
-mesh_close_function ffd_stl_close;
 mesh_read_function ffd_stl_read_positions;
 mesh_begin_results_function ffd_stl_begin_results;
 mesh_write_function ffd_stl_write_positions;

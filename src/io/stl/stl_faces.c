@@ -1,5 +1,5 @@
 /* stl_faces.c - the faces of an STL file. Corners at the same position are one vertex of the topology, which
-   is else only a heap of triangles: the first of them stands for all. */
+   would otherwise be separate triangles: the first of them represents all. */
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 #include <stdlib.h>

@@ -3,35 +3,35 @@
 #include "io/stl/stl_document.h"
 #include <string.h>
 
-/* Facets share no vertices in the file: corners at one place become one vertex. */
+/* Facets share no vertices in the file: corners at one position become one vertex. */
 typedef struct extractor {
     const stl_document *document;
     mesh_model *model;
-    intern_table places; /* keys: 3 doubles */
-    char *name;          /* of the current solid */
+    intern_table positions; /* keys: 3 doubles */
+    char *name;             /* of the current solid */
     ffd_error *error;
 } extractor;
 
-static ffd_status find_vertex(extractor *e, const double place[3], uint32_t *number)
+static ffd_status find_vertex(extractor *e, const double position[3], uint32_t *number)
 {
     double key[3];
     for (int a = 0; a < 3; a++)
-        key[a] = place[a] + 0.0; /* -0 becomes 0 */
-    return ffd_intern(&e->places, key, sizeof key, number) ? FFD_OK : ffd_fail_memory(e->error);
+        key[a] = position[a] + 0.0; /* -0 becomes 0 */
+    return ffd_intern(&e->positions, key, sizeof key, number) ? FFD_OK : ffd_fail_memory(e->error);
 }
 
 static ffd_status add_facet(extractor *e, size_t facet)
 {
-    double places[9];
+    double positions[9];
     model_corner corners[3];
     ffd_status status = FFD_OK;
-    if (e->document->new_positions)
-        memcpy(places, e->document->new_positions + 9 * facet, sizeof places);
+    if (e->document->file.new_positions)
+        memcpy(positions, e->document->file.new_positions + 9 * facet, sizeof positions);
     else
-        ffd_stl_read_positions(&e->document->base, 0, 3 * facet, 3, places);
+        ffd_stl_read_positions(&e->document->file.base, 0, 3 * facet, 3, positions);
     for (size_t c = 0; c < 3 && status == FFD_OK; c++) {
         corners[c] = (model_corner){0, MODEL_NONE, MODEL_NONE};
-        status = find_vertex(e, places + 3 * c, &corners[c].position);
+        status = find_vertex(e, positions + 3 * c, &corners[c].position);
     }
     return status ? status : ffd_model_add(e->model, MODEL_FACES, corners, 3, e->error);
 }
@@ -53,9 +53,9 @@ static ffd_status take_text(extractor *e)
     stl_event event = STL_AT_SOLID;
     size_t seen = 0;
     ffd_status status = FFD_OK;
-    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
     while (status == FFD_OK && event != STL_AT_END) {
-        status = ffd_stl_text_step(&text, d->name, &facet, &event, e->error);
+        status = ffd_stl_text_step(&text, d->file.name, &facet, &event, e->error);
         if (status == FFD_OK && event == STL_AT_SOLID)
             status = begin_solid(e, text.name);
         else if (status == FFD_OK && event == STL_AT_FACET)
@@ -78,10 +78,10 @@ static ffd_status take_binary(extractor *e)
 
 static ffd_status copy_places(extractor *e)
 {
-    const size_t count = e->places.count;
+    const size_t count = e->positions.count;
     const ffd_status status = ffd_model_make_values(e->model, count, 0, 0, e->error);
     for (size_t i = 0; i < count && status == FFD_OK; i++)
-        memcpy(e->model->positions + 3 * i, ffd_intern_key(&e->places, (uint32_t)i), 3 * sizeof(double));
+        memcpy(e->model->positions + 3 * i, ffd_intern_key(&e->positions, (uint32_t)i), 3 * sizeof(double));
     return status;
 }
 
@@ -91,7 +91,7 @@ ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_e
     ffd_status status = e.document->binary ? take_binary(&e) : take_text(&e);
     if (status == FFD_OK)
         status = copy_places(&e);
-    ffd_intern_free(&e.places);
+    ffd_intern_free(&e.positions);
     ffd_free(e.name);
     return status ? status : ffd_model_finish(model, error);
 }

@@ -30,7 +30,7 @@ void ffd_stl_read_positions(const mesh_document *document, size_t part, size_t f
     const stl_document *d = ffd_stl_of(document);
     (void)part; /* there is one */
     if (!d->binary) {
-        ffd_vectors_read(d->positions, first, count, xyz);
+        ffd_vectors_read(d->file.positions, first, count, xyz);
         return;
     }
     for (size_t i = 0; i < count; i++) {
@@ -44,11 +44,11 @@ ffd_status ffd_stl_begin_results(mesh_document *document, bool normals, bool tan
     stl_document *d = (stl_document *)document;
     (void)tangents; /* there are none */
     d->renew_normals = normals;
-    if (!d->new_positions)
-        d->new_positions = ffd_alloc(d->facets, 9 * sizeof *d->new_positions);
-    if (!d->new_positions)
+    if (!d->file.new_positions)
+        d->file.new_positions = ffd_alloc(d->facets, 9 * sizeof *d->file.new_positions);
+    if (!d->file.new_positions)
         return ffd_fail_memory(error);
-    ffd_stl_read_positions(document, 0, 0, 3 * d->facets, d->new_positions);
+    ffd_stl_read_positions(document, 0, 0, 3 * d->facets, d->file.new_positions);
     return FFD_OK;
 }
 
@@ -60,6 +60,6 @@ void ffd_stl_write_positions(mesh_document *document, size_t part, size_t first,
     for (size_t i = 0; i < count; i++)
         for (size_t a = 0; a < 3 && changed[i]; a++) {
             const double value = xyz[3 * i + a];
-            d->new_positions[3 * (first + i) + a] = d->binary ? (double)(float)value : value;
+            d->file.new_positions[3 * (first + i) + a] = d->binary ? (double)(float)value : value;
         }
 }

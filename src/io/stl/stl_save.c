@@ -12,13 +12,13 @@ typedef struct stl_saver {
 
 static void corners_before(const stl_document *d, size_t facet, double corners[9])
 {
-    ffd_stl_read_positions(&d->base, 0, 3 * facet, 3, corners);
+    ffd_stl_read_positions(&d->file.base, 0, 3 * facet, 3, corners);
 }
 
 /* The normal of a moved facet, from its corners as they are written. It points to the side of the facet that
-   the file's normal does: where that is at odds with the order of the corners it stays so. False where it
-   stays as it is: the corners give none, or it is zero, by which many programs say that the order of the
-   corners tells it. */
+   the file's normal does: where the order of the corners says otherwise, the side of the file's normal is
+   kept. False where the normal is kept as it is: the corners give none, or it is zero, by which many programs
+   mean the normal of the corners. */
 static bool renew_normal(const stl_document *d, const double before[9], const double after[9],
                          const double old[3], double normal[3])
 {
@@ -62,14 +62,14 @@ static void write_facets(stl_saver *s)
     stl_text text;
     stl_facet facet;
     bool found;
-    ffd_stl_text_begin(&text, d->input.data, d->input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
     for (size_t i = 0; s->splice.status == FFD_OK && i < d->facets; i++) {
-        const double *after = d->new_positions + 9 * i;
+        const double *after = d->file.new_positions + 9 * i;
         double before[9];
         corners_before(d, i, before);
         const bool moved = memcmp(before, after, sizeof before) != 0;
         if (!d->binary)
-            ffd_stl_text_next(&text, d->name, &facet, &found, NULL);
+            ffd_stl_text_next(&text, d->file.name, &facet, &found, NULL);
         if (moved && d->binary)
             write_binary_facet(s, i, before, after);
         else if (moved)
@@ -82,8 +82,8 @@ ffd_status ffd_stl_save(mesh_document *document, const mesh_save_options *option
 {
     stl_saver s = {.document = ffd_stl_of(document)};
     (void)log;
-    ffd_splice_begin(&s.splice, &s.document->input, options, output, error);
-    if (s.document->new_positions)
+    ffd_splice_begin(&s.splice, &s.document->file.input, options, output, error);
+    if (s.document->file.new_positions)
         write_facets(&s);
     return ffd_splice_end(&s.splice);
 }

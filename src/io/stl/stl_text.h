@@ -1,7 +1,7 @@
 /* stl_text.h - the facets of an ascii STL file, in its order.
 
-   The file is a sequence of words, so that lines and spacing do not matter, but for the name behind solid
-   and endsolid: it reaches to the end of the line, or to the words "facet normal". Letters of keywords may be
+   The file is a sequence of words, so that lines and spacing do not matter, but for the name after solid and
+   endsolid: it reaches to the end of the line, or to the words "facet normal". Letters of keywords may be
    large or small. */
 #ifndef FFD_IO_STL_STL_TEXT_H
 #define FFD_IO_STL_STL_TEXT_H
@@ -26,8 +26,8 @@ typedef enum stl_event { STL_AT_END, STL_AT_SOLID, STL_AT_FACET } stl_event;
 
 /* Begins to read an ascii file. */
 void ffd_stl_text_begin(stl_text *text, const void *data, size_t size);
-/* Goes on by a facet, which it takes, or to the beginning of a solid. What is not as it should be is refused;
-   name stands in the message. */
+/* Goes on by a facet, which it takes, or to the beginning of a solid. Refuses anything else; name is for the
+   message. */
 ffd_status ffd_stl_text_step(stl_text *text, const char *name, stl_facet *facet, stl_event *event,
                              ffd_error *error);
 /* Goes on to the next facet. *found is false at the end of the file. */
@@ -35,7 +35,7 @@ ffd_status ffd_stl_text_next(stl_text *text, const char *name, stl_facet *facet,
                              ffd_error *error);
 
 /* A number of a normal. Many programs write "-1.#IND" and the like where a facet has none: NaN. False where
-   the word is nothing of that kind. */
+   the word is anything else. */
 bool ffd_stl_text_normal(text_word word, double *value);
 
 #endif

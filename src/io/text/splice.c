@@ -1,7 +1,7 @@
 #include "io/text/splice.h"
 #include <string.h>
 
-/* Of a file, in memory while it is copied. */
+/* Bytes of a file that are in memory while it is copied. */
 #define PIECE ((size_t)2 * 1024 * 1024)
 
 void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
@@ -62,25 +62,25 @@ static size_t format(decimal_run *run, const double *value, char *text)
     return run ? ffd_decimal_run_format(run, value, text) : ffd_number_format(*value, text);
 }
 
-/* What stands between two numbers is a blank mostly: eight bytes are copied faster than so many. There is
-   room for them. */
-static char *copy_between(const file_splice *splice, const char *to, char *room)
+/* Copies the text between two numbers, mostly a blank: copying eight bytes at once is faster than copying the
+   exact size. The buffer has capacity for them. Returns the end of the copy. */
+static char *copy_between(const file_splice *splice, const char *to, char *buffer)
 {
     const size_t size = (size_t)(to - splice->copied);
     if (size <= 8 && splice->last - splice->copied >= 8)
-        memcpy(room, splice->copied, 8);
+        memcpy(buffer, splice->copied, 8);
     else
-        memcpy(room, splice->copied, size);
-    return room + size;
+        memcpy(buffer, splice->copied, size);
+    return buffer + size;
 }
 
-/* Straight into the text, whose room is looked for once: a mesh has millions of them. */
+/* Writes straight into the text, whose capacity is checked once: a mesh has millions of numbers. */
 static void replace_in_text(file_splice *splice, const text_word *words, const double *numbers,
                             unsigned changes, size_t count, decimal_run *run)
 {
     const size_t before = (size_t)(words[count - 1].last - splice->copied);
-    char *const room = ffd_buffer_reserve(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = room;
-    if (!room)
+    char *const start = ffd_buffer_reserve(splice->text, before + count * FFD_NUMBER_CAPACITY), *at = start;
+    if (!start)
         return;
     for (size_t i = 0; i < count; i++)
         if (changes >> i & 1) {
@@ -88,7 +88,7 @@ static void replace_in_text(file_splice *splice, const text_word *words, const d
             at += format(run, numbers + i, at);
             splice->copied = words[i].last;
         }
-    splice->text->size += (size_t)(at - room);
+    splice->text->size += (size_t)(at - start);
 }
 
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *numbers, unsigned changes,

@@ -15,30 +15,30 @@ typedef struct file_splice {
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
     const char *copied, *last; /* the file is copied up to here, and ends there */
-    size_t released;           /* bytes of the file that are given back (ffd_file_release_until) */
-    byte_buffer *text;         /* of a part: what takes its bytes; NULL: output does */
+    size_t released;           /* bytes of the file whose memory is given back (ffd_file_release_until) */
+    byte_buffer *text;         /* of a part: the buffer for its bytes; NULL: they go to output */
 } file_splice;
 
-/* Begins the output that options name. To be followed by ffd_splice_end, which tells of failures. */
+/* Begins the output that options name. ffd_splice_end must follow; it returns failures. */
 void ffd_splice_begin(file_splice *splice, const file_input *input, const mesh_save_options *options,
                       file_output *output, ffd_error *error);
-/* Begins a part of the file, [first, last), whose bytes go behind those of text: threads splice parts side by
-   side. To be followed by ffd_splice_end. */
+/* Begins a part of the file, [first, last), whose bytes are appended to text: threads splice parts in
+   parallel. ffd_splice_end must follow. */
 void ffd_splice_begin_part(file_splice *splice, const char *first, const char *last, byte_buffer *text,
                            ffd_error *error);
-/* Writes a part that has ended in the place of the file's bytes [first, last); text NULL: writes these. */
+/* Writes a finished part instead of the file's bytes [first, last). text NULL: writes the file's bytes. */
 void ffd_splice_part(file_splice *splice, const char *first, const char *last, const byte_buffer *text);
-/* Copies the file up to a place not before the last one. */
+/* Copies the file up to a position, which is not before the last one. */
 void ffd_splice_copy(file_splice *splice, const char *to);
 /* Writes bytes that the file does not have. */
 void ffd_splice_bytes(file_splice *splice, const void *bytes, size_t size);
-/* Copies up to a word and writes bytes in its stead. */
+/* Copies up to a word and writes bytes instead of it. */
 void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, size_t size);
-/* Writes those of count numbers, 32 at most, whose bit is set in the place of their words. run: of the array
-   of the numbers, or NULL. */
+/* Replaces the words of those of count numbers, 32 at most, whose bit is set in changes. run: that of the
+   array of the numbers, or NULL. */
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *numbers, unsigned changes,
                         size_t count, decimal_run *run);
-/* Copies the rest of the file, writes what is held back, frees, and tells whether all went well. */
+/* Copies the rest of the file and gives back its memory. Returns the first failure, if any. */
 ffd_status ffd_splice_end(file_splice *splice);
 
 #endif

@@ -1,5 +1,6 @@
 #include "io/text/text_scan.h"
 #include "base/text/number.h"
+#include <stdio.h>
 #include <string.h>
 
 #define SHOWN_MAX 40
@@ -110,6 +111,14 @@ int ffd_text_display_size(text_word word)
     while (shown > 0 && ((unsigned char)word.first[shown] & 0xc0) == 0x80)
         shown--;
     return shown;
+}
+
+void ffd_text_lines(size_t a, size_t b, char text[TEXT_LINES_CAPACITY])
+{
+    if (a == b)
+        snprintf(text, TEXT_LINES_CAPACITY, " (line %zu)", a);
+    else
+        snprintf(text, TEXT_LINES_CAPACITY, " (lines %zu and %zu)", a, b);
 }
 
 const char *ffd_text_line_ends(const void *data, size_t size)

@@ -15,21 +15,21 @@ typedef struct text_word {
 typedef struct text_scan {
     const char *at, *last;
     size_t line;   /* of at, from 1 */
-    bool comments; /* # begins one, to the end of its line, also right behind a word */
+    bool comments; /* # starts a comment to the end of its line, also right after a word */
 } text_scan;
 
 /* Begins a scan of these bytes, which must stay as long as it is used. */
 void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comments);
 /* Takes the next word of the current line. False (and *word is empty) where there is none left. */
 bool ffd_text_word(text_scan *scan, text_word *word);
-/* Goes behind the end of the current line. False where the file ends with it. */
+/* Moves past the end of the current line. False where the file ends with it. */
 bool ffd_text_next_line(text_scan *scan);
-/* Goes to the next word, in this line or a later one. False at the end of the file. */
+/* Moves to the next word, in this line or a later one. False at the end of the file. */
 bool ffd_text_find(text_scan *scan);
 
 /* Whether a word is this text. */
 bool ffd_text_is(text_word word, const char *text);
-/* The same, with a letter's case left aside. text is in lower case. */
+/* The same, without regard to case. text is in lower case. */
 bool ffd_text_is_any_case(text_word word, const char *text);
 /* Whether two words have the same bytes. */
 bool ffd_text_same(text_word a, text_word b);
@@ -39,6 +39,11 @@ bool ffd_text_number(text_word word, double *value);
 bool ffd_text_whole(text_word word, uint64_t *value);
 /* How many bytes of a word a message shows: long ones are cut, between two characters of UTF-8. */
 int ffd_text_display_size(text_word word);
+
+/* Capacity for the text of ffd_text_lines. */
+#define TEXT_LINES_CAPACITY 64
+/* Writes where two files differ: " (line 4)" where a and b are the same line, else " (lines 4 and 5)". */
+void ffd_text_lines(size_t a, size_t b, char text[TEXT_LINES_CAPACITY]);
 
 /* "LF", "CRLF", "CR", "mixed", or "none". */
 const char *ffd_text_line_ends(const void *data, size_t size);

@@ -209,7 +209,7 @@ static void add_nodes(gltf_writer *w)
     ffd_json_end(&w->json, ']');
 }
 
-/* Only names are known. By itself a material is metal, which looks black where nothing is mirrored. */
+/* Only names are known. A material is metal by default, which looks black with nothing to reflect. */
 static void add_materials(gltf_writer *w)
 {
     ffd_json_array(&w->json, "materials", false);

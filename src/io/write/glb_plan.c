@@ -44,8 +44,8 @@ static bool read_normal(const mesh_model *model, uint32_t number, float *values)
 
 typedef bool value_reader(const mesh_model *model, uint32_t number, float *values);
 
-/* Finds equal values, so that corners that name them by different numbers share a vertex. Of one that cannot
-   be read the number is MODEL_NONE. */
+/* Finds equal values, so that corners that name them by different numbers share a vertex. A value that cannot
+   be used gets MODEL_NONE. */
 static ffd_status join_values(planner *p, size_t count, value_reader *read, size_t size, uint32_t **numbers)
 {
     intern_table values = {0};
@@ -205,7 +205,7 @@ static int compare_corners(const void *a, const void *b)
     return (x->normal > y->normal) - (x->normal < y->normal);
 }
 
-/* The corner of a primitive, without what the primitive has not. */
+/* The corner of a primitive, without the attributes that the primitive does not have. */
 static model_corner corner_of(const planner *p, const glb_primitive *primitive, const model_corner *corner)
 {
     model_corner own = joined(p, corner);
@@ -249,8 +249,7 @@ static uint32_t find_vertex(const model_corner *vertices, size_t count, const mo
     return (uint32_t)low;
 }
 
-/* Vertices stand in the order of the model's positions, each combination once. Points keep their own order.
- */
+/* Vertices are in the order of the model's positions, each combination once. Points keep their own order. */
 static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t drawn)
 {
     glb_plan *plan = p->plan;

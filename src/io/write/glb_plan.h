@@ -28,7 +28,7 @@ typedef struct glb_plan {
     size_t index_count;
 } glb_plan;
 
-/* Errors: FFD_E_LIMIT, FFD_E_MEMORY. To be freed in every case. */
+/* Errors: FFD_E_LIMIT, FFD_E_MEMORY. Must be freed in every case. */
 ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error *error);
 /* Frees the arrays of a plan. */
 void ffd_glb_free_plan(glb_plan *plan);

@@ -51,8 +51,8 @@ static inline size_t glb_colour_size(const gltf_writer *w)
     return w->byte_colours ? 4 : 16;
 }
 
-/* Makes the JSON in text; w->text.failed: no memory. uri is that of the buffer, NULL: it is the BIN chunk.
-   Returns where the text of the uri ends, 0 where there is no buffer. */
+/* Makes the JSON in text; w->text.failed: memory ran out. uri is that of the buffer, NULL: it is the BIN
+   chunk. Returns where the text of the uri ends, 0 where there is no buffer. */
 size_t ffd_glb_make_json(gltf_writer *w, bool on_one_line, const char *uri);
 
 /* Puts the buffer's bytes, w->total of them, into the sink, as base64 where that is set. */

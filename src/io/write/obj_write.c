@@ -26,8 +26,8 @@ static void write_values(model_sink *sink, const mesh_model *model)
 }
 
 /* A name is one line: line ends and other controls in it become '_', and so does a backslash at its end,
-   which would join the next line. Where names end there is no word for "none": the format's own first name
-   stands for it. */
+   which would join the next line. Where names end there is no word for "none": "default" is written, the name
+   that a file begins with. */
 static void write_name(model_sink *sink, const char *keyword, const char *name)
 {
     ffd_sink_text(sink, keyword);

@@ -10,7 +10,7 @@ typedef struct off_plan {
     const mesh_model *model;
     vertex_values values;
     bool byte_colours;
-    bool points; /* they stand as faces of one corner; a cloud's are its vertices */
+    bool points; /* written as faces of one corner; those of a cloud are its vertices */
 } off_plan;
 
 static ffd_status make_plan(const mesh_model *model, off_plan *plan, ffd_error *error)
@@ -42,7 +42,8 @@ static void write_named(model_sink *sink, const double *values, size_t numbers, 
     ffd_sink_numbers(sink, number == MODEL_NONE ? zeros : values + numbers * number, numbers);
 }
 
-/* Whole numbers to 255, as most files have them; else such that have a point, which tells them apart. */
+/* Whole numbers up to 255, as most files have them; else numbers with a decimal point, which marks the other
+   scale. */
 static void write_colour(model_sink *sink, const off_plan *plan, size_t vertex)
 {
     for (size_t c = 0; c < 4; c++) {

@@ -11,7 +11,7 @@
 typedef struct ply_plan {
     const mesh_model *model;
     vertex_values values;
-    bool corner_texcoords; /* a vertex has several: they stand with the faces */
+    bool corner_texcoords; /* a vertex has several: they are written with the faces */
     bool byte_colours, alpha;
     size_t longest; /* corners of a face at most */
     size_t edges;

@@ -1,4 +1,4 @@
-/* sink.h - what a writer puts out: text, numbers and bytes, to the file begun last. The first failure is kept
+/* sink.h - the output of a writer: text, numbers and bytes, to the file begun last. The first failure is kept
    and nothing is written after it. */
 #ifndef FFD_IO_WRITE_SINK_H
 #define FFD_IO_WRITE_SINK_H
@@ -12,7 +12,7 @@ typedef struct model_sink {
     ffd_status status;
 } model_sink;
 
-/* Each appends to the output; after a failure, which sink holds, none does anything more. */
+/* Each appends to the output. After a failure, which sink holds, they do nothing. */
 
 /* Appends size bytes. */
 void ffd_sink_bytes(model_sink *sink, const void *bytes, size_t size);

@@ -5,7 +5,7 @@
 #include "mesh/model.h"
 #include "mesh/polygon_cut.h"
 
-/* Scratch memory that grows with the largest face. Zeroed: none yet. */
+/* Scratch memory that grows with the largest face. Zeroed at the start. */
 typedef struct face_triangles {
     polygon_cutter cutter;
     double *points;
@@ -20,7 +20,7 @@ static inline size_t model_triangle_count(const mesh_model *model)
     return faces->corner_count - 2 * faces->count;
 }
 
-/* Cuts a face: `count` triangles, each as 3 numbers of its corners, stand in scratch->triangles. */
+/* Cuts a face: `count` triangles, each as 3 numbers of its corners, are in scratch->triangles. */
 ffd_status ffd_face_triangles(face_triangles *scratch, const mesh_model *model, size_t face, size_t *count,
                               ffd_error *error);
 /* Frees the scratch memory. */

@@ -1,4 +1,5 @@
-/* vertex_values.h - the normals and texture coordinates of a model for formats that hold one a vertex. */
+/* vertex_values.h - the normals and texture coordinates of a model for formats that hold one of each per
+   vertex. */
 #ifndef FFD_IO_WRITE_VERTEX_VALUES_H
 #define FFD_IO_WRITE_VERTEX_VALUES_H
 
@@ -10,7 +11,7 @@ typedef struct vertex_values {
     uint32_t *normals, *texcoords;
 } vertex_values;
 
-/* To be freed in every case. Errors: FFD_E_MEMORY. */
+/* Must be freed in every case. Errors: FFD_E_MEMORY. */
 ffd_status ffd_vertex_values_find(const mesh_model *model, vertex_values *values, ffd_error *error);
 /* Frees the arrays. */
 void ffd_vertex_values_free(vertex_values *values);

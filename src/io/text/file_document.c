@@ -1,0 +1,123 @@
+#include "io/text/file_document.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "io/text/vectors.h"
+
+void *ffd_file_document_make(size_t size, const file_input *input, const ffd_source *source, ffd_error *error)
+{
+    file_document *d = ffd_alloc_zero(1, size);
+    char *name = ffd_text_copy(ffd_path_display_name(source->path));
+    if (!d || !name) {
+        ffd_free(d);
+        ffd_free(name);
+        ffd_fail_memory(error);
+        return NULL;
+    }
+    d->input = *input;
+    d->name = name;
+    return d;
+}
+
+mesh_document *ffd_file_document_ready(file_document *d, bool text, const ffd_source *source)
+{
+    d->part.identity = true;
+    d->base.parts = &d->part;
+    d->base.part_count = 1;
+    d->base.budget = ffd_budget_for_file(d->input.size, text, source->memory);
+    return &d->base;
+}
+
+void ffd_file_document_free(file_document *d)
+{
+    ffd_free(d->name);
+    ffd_free(d->positions);
+    ffd_free(d->directions);
+    ffd_free(d->new_positions);
+    ffd_free(d->new_directions);
+    ffd_free(d);
+}
+
+void ffd_file_document_close(mesh_document *document)
+{
+    file_document *d = (file_document *)document;
+    if (!d)
+        return;
+    ffd_file_unload(&d->input);
+    ffd_file_document_free(d);
+}
+
+void ffd_file_document_read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
+                                      double *xyz)
+{
+    (void)part; /* there is one */
+    ffd_vectors_read(((const file_document *)document)->positions, first, count, xyz);
+}
+
+void ffd_file_document_read_normals(const mesh_document *document, size_t part, size_t first, size_t count,
+                                    double *xyz)
+{
+    (void)part;
+    ffd_vectors_read(((const file_document *)document)->directions, first, count, xyz);
+}
+
+/* Makes *results a copy of count vectors, in the array that it has already, if any. */
+static ffd_status copy(const double *vectors, size_t count, double **results, ffd_error *error)
+{
+    if (!*results)
+        *results = ffd_alloc(count, 3 * sizeof **results);
+    if (!*results)
+        return ffd_fail_memory(error);
+    ffd_vectors_read(vectors, 0, count, *results);
+    return FFD_OK;
+}
+
+ffd_status ffd_file_document_begin_results(mesh_document *document, bool normals, bool tangents,
+                                           ffd_error *error)
+{
+    file_document *d = (file_document *)document;
+    (void)tangents; /* there are none */
+    const ffd_status status = copy(d->positions, d->part.vertex_count, &d->new_positions, error);
+    if (status || !normals || !d->directions) {
+        ffd_free(d->new_directions);
+        d->new_directions = NULL;
+        return status;
+    }
+    return copy(d->directions, d->part.normal_count, &d->new_directions, error);
+}
+
+/* Copies those of count vectors at xyz that are marked as changed to results; NULL: they are not kept. */
+static void write_vectors(double *results, size_t first, size_t count, const double *xyz,
+                          const uint8_t *changed)
+{
+    for (size_t i = 0; results && i < count; i++)
+        if (changed[i])
+            memcpy(results + 3 * (first + i), xyz + 3 * i, 3 * sizeof *xyz);
+}
+
+void ffd_file_document_write_positions(mesh_document *document, size_t part, size_t first, size_t count,
+                                       const double *xyz, const uint8_t *changed)
+{
+    (void)part;
+    write_vectors(((file_document *)document)->new_positions, first, count, xyz, changed);
+}
+
+void ffd_file_document_write_normals(mesh_document *document, size_t part, size_t first, size_t count,
+                                     const double *xyz, const uint8_t *changed)
+{
+    (void)part;
+    write_vectors(((file_document *)document)->new_directions, first, count, xyz, changed);
+}
+
+ffd_status ffd_file_document_model(const file_document *d, size_t texcoords, mesh_model *model,
+                                   ffd_error *error)
+{
+    const size_t count = d->part.vertex_count;
+    const double *positions = d->new_positions ? d->new_positions : d->positions;
+    const double *normals = d->new_directions ? d->new_directions : d->directions;
+    const ffd_status status = ffd_model_make_values(model, count, texcoords, normals ? count : 0, error);
+    if (status)
+        return status;
+    ffd_vectors_read(positions, 0, count, model->positions);
+    ffd_vectors_read(normals, 0, model->normal_count, model->normals);
+    return FFD_OK;
+}
