@@ -112,7 +112,7 @@ static bool read_table(job_journal *journal)
     return journal->slots > 0;
 }
 
-/* Whether the file that is there is a journal, be it one that did not get far. */
+/* Whether the file that is there is a journal, even one that was cut off early. */
 static bool is_journal(FILE *file)
 {
     char start[sizeof magic];

@@ -15,11 +15,16 @@ static void binomials(int n, double row[BERNSTEIN_MAX_ORDER])
         row[i + 1] = row[i] * (n - i) / (i + 1);
 }
 
+static void all_binomials(const int order[3], double row[3][BERNSTEIN_MAX_ORDER])
+{
+    for (int a = 0; a < 3; a++)
+        binomials(order[a] - 1, row[a]);
+}
+
 void ffd_bernstein_weight(const double *from, const int order[3], double *to)
 {
     double row[3][BERNSTEIN_MAX_ORDER];
-    for (int a = 0; a < 3; a++)
-        binomials(order[a] - 1, row[a]);
+    all_binomials(order, row);
     for (int k = 0; k < order[2]; k++)
         for (int j = 0; j < order[1]; j++) {
             const double weight = row[1][j] * row[2][k];
@@ -31,8 +36,7 @@ void ffd_bernstein_weight(const double *from, const int order[3], double *to)
 void ffd_bernstein_unweight(double *coefficients, const int order[3], double factor)
 {
     double row[3][BERNSTEIN_MAX_ORDER];
-    for (int a = 0; a < 3; a++)
-        binomials(order[a] - 1, row[a]);
+    all_binomials(order, row);
     for (int k = 0; k < order[2]; k++)
         for (int j = 0; j < order[1]; j++) {
             const double weight = row[1][j] * row[2][k];

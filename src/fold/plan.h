@@ -9,7 +9,7 @@
 /* The rest volume's signed volume over the domain, the integral of det J_P. */
 typedef struct signed_volume {
     int sign;         /* -1 or 1, of the computed value */
-    scaled reference; /* |volume|; where there is none to speak of, that of the lattice's bounds */
+    scaled reference; /* |volume|; where that is nearly 0, the volume of the lattice's bounds */
     double doubt;     /* its relative error is no more than this, < 1/2 */
 } signed_volume;
 

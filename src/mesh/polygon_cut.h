@@ -1,4 +1,4 @@
-/* polygon_cut.h - cuts polygons into triangles: concave ones too, and such as are not quite plane. */
+/* polygon_cut.h - cuts polygons into triangles, also concave ones and those that are not quite planar. */
 #ifndef FFD_MESH_POLYGON_CUT_H
 #define FFD_MESH_POLYGON_CUT_H
 

@@ -176,7 +176,7 @@ static double knot_step(random_source *random, int degree, int *run, bool may_re
     return random_int(random, 12, 96) / 64.0;
 }
 
-/* Range and place of listed knots. Powers of two and whole offsets keep the sums of a period exact. */
+/* Range and position of listed knots. Powers of two and whole offsets keep the sums of a period exact. */
 static void place_knots(random_source *random, double values[ORACLE_MAX_KNOTS], int count)
 {
     const double scale = ldexp(1, random_int(random, -6, 6));
@@ -397,7 +397,7 @@ void sample_write(sample *s)
     text_add(j, "}\n");
 }
 
-/* Where control point i of the box stands between 0 and 1 of its side. */
+/* Where control point i of the box lies between 0 and 1 of its side. */
 static long double box_place(const sample *s, int a, int i)
 {
     const oracle_axis *axis = &s->axis[a];

@@ -152,14 +152,14 @@ static void tolerances(const judge *j, const long double p[3], long double least
     }
 }
 
-/* A place of the domain and what is known of C there. */
-typedef struct place {
+/* A point of the domain and what is known of C there. */
+typedef struct domain_point {
     long double uvw[3], reach[3]; /* how far rounding moves u,v,w */
     long double det;              /* against the largest */
     bool sure, maybe, regular;
-} place;
+} domain_point;
 
-static void look_at(const judge *j, const long double p[3], place *x)
+static void look_at(const judge *j, const long double p[3], domain_point *x)
 {
     long double point[3], jacobian[9], inverse[9], least[3], largest[3];
     tolerances(j, p, least, largest);
@@ -182,7 +182,7 @@ static void look_at(const judge *j, const long double p[3], place *x)
 }
 
 /* In each direction that does not collapse, by itself. */
-static void reach_of_singular(const judge *j, const long double p[3], place *x)
+static void reach_of_singular(const judge *j, const long double p[3], domain_point *x)
 {
     long double point[3], jacobian[9], least[3], largest[3];
     tolerances(j, p, least, largest);
@@ -197,12 +197,12 @@ static void reach_of_singular(const judge *j, const long double p[3], place *x)
     }
 }
 
-static long double allowed(const judge *j, const place *x, int a)
+static long double allowed(const judge *j, const domain_point *x, int a)
 {
     return fmaxl(1e-12L * length_of(&j->volume.axis[a]), 4 * x->reach[a]);
 }
 
-static bool same_place(const judge *j, const place *x, const long double uvw[3], long double factor)
+static bool same_root(const judge *j, const domain_point *x, const long double uvw[3], long double factor)
 {
     bool same = true;
     for (int a = 0; a < 3; a++)
@@ -211,21 +211,21 @@ static bool same_place(const judge *j, const place *x, const long double uvw[3],
 }
 
 /* All that may be roots of point i, each once. */
-static int all_places(const judge *j, const long double p[3], place places[ORACLE_MAX_ROOTS])
+static int all_roots(const judge *j, const long double p[3], domain_point candidates[ORACLE_MAX_ROOTS])
 {
     long double roots[ORACLE_MAX_ROOTS][3];
     const int found = oracle_find_all(&j->volume, p, 1e-10L, roots);
     int count = 0;
     for (int k = 0; k < found; k++) {
-        place x = {.sure = false};
+        domain_point x = {.sure = false};
         bool known = false;
         oracle_descend(&j->volume, p, roots[k]);
         memcpy(x.uvw, roots[k], sizeof x.uvw);
         look_at(j, p, &x);
         for (int i = 0; i < count; i++)
-            known = known || same_place(j, &places[i], x.uvw, 100);
+            known = known || same_root(j, &candidates[i], x.uvw, 100);
         if (x.maybe && !known)
-            places[count++] = x;
+            candidates[count++] = x;
     }
     return count;
 }
@@ -236,9 +236,9 @@ static const char *status_name(int status)
     return status >= 0 && status < FFD_VERTEX_STATUS_COUNT ? names[status] : "?";
 }
 
-/* -1 where a stands surely before b in the order of u, v, w, 1 after it, 0 where rounding decides. Equal to
+/* -1 where a surely comes before b in the order of u, v, w, 1 after it, 0 where rounding decides. Equal to
    1e-9 of the domain is equal. */
-static int order_of(const judge *j, const place *a, const place *b)
+static int order_of(const judge *j, const domain_point *a, const domain_point *b)
 {
     for (int c = 0; c < 3; c++) {
         const oracle_axis *axis = &j->volume.axis[c];
@@ -252,16 +252,16 @@ static int order_of(const judge *j, const place *a, const place *b)
     return 0;
 }
 
-/* Whether the tie rule may choose places[k]. */
-static bool may_be_chosen(const judge *j, const place *places, int count, int k)
+/* Whether the tie rule may choose candidates[k]. */
+static bool may_be_chosen(const judge *j, const domain_point *candidates, int count, int k)
 {
     bool right = false;
     for (int i = 0; i < count; i++)
-        right = right || places[i].det * j->sign > 0;
-    if (right && places[k].det * j->sign < 0)
+        right = right || candidates[i].det * j->sign > 0;
+    if (right && candidates[k].det * j->sign < 0)
         return false;
     for (int i = 0; i < count; i++)
-        if ((!right || places[i].det * j->sign > 0) && order_of(j, &places[i], &places[k]) < 0)
+        if ((!right || candidates[i].det * j->sign > 0) && order_of(j, &candidates[i], &candidates[k]) < 0)
             return false;
     return true;
 }
@@ -321,7 +321,7 @@ static void check_location(judge *j, int i)
         check_found(j, i);
 }
 
-static void check_chosen(judge *j, int i, const place *places, int count)
+static void check_chosen(judge *j, int i, const domain_point *candidates, int count)
 {
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
@@ -331,11 +331,11 @@ static void check_chosen(judge *j, int i, const place *places, int count)
     for (int a = 0; a < 3; a++)
         uvw[a] = found->uvw[a];
     for (int k = count - 1; k >= 0; k--)
-        if (may_be_chosen(j, places, count, k)) {
-            right = right || same_place(j, &places[k], uvw, 1);
+        if (may_be_chosen(j, candidates, count, k)) {
+            right = right || same_root(j, &candidates[k], uvw, 1);
             first = k;
         }
-    const long double *expected = places[first].uvw;
+    const long double *expected = candidates[first].uvw;
     trial_check(j->t, j->s, right,
                 "point %.17g %.17g %.17g (%d roots): found %.17g %.17g %.17g, expected %.20Lg %.20Lg %.20Lg",
                 p[0], p[1], p[2], count, found->uvw[0], found->uvw[1], found->uvw[2], expected[0],
@@ -347,7 +347,7 @@ static void check_chosen(judge *j, int i, const place *places, int count)
 static bool root_of_rounded(const judge *j, const long double p[3], const long double known[3],
                             long double root[3])
 {
-    place x = {.sure = false};
+    domain_point x = {.sure = false};
     memcpy(x.uvw, known, sizeof x.uvw);
     oracle_descend(&j->volume, p, x.uvw);
     look_at(j, p, &x);
@@ -359,16 +359,16 @@ void judge_counted(judge *j, int i, const long double known[3])
 {
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
-    place places[ORACLE_MAX_ROOTS];
+    domain_point candidates[ORACLE_MAX_ROOTS];
     long double q[3], root[3] = {0, 0, 0};
     seen_from_origin(j, i, q);
     bool clear = true, met = !known || !root_of_rounded(j, q, known, root);
-    const int count = all_places(j, q, places);
+    const int count = all_roots(j, q, candidates);
     for (int k = 0; k < count; k++) {
-        met = met || same_place(j, &places[k], root, 1e3L);
-        clear = clear && places[k].sure && places[k].regular;
+        met = met || same_root(j, &candidates[k], root, 1e3L);
+        clear = clear && candidates[k].sure && candidates[k].regular;
         for (int other = 0; other < k; other++) /* two of a fold that is near */
-            clear = clear && !same_place(j, &places[k], places[other].uvw, 1e4L);
+            clear = clear && !same_root(j, &candidates[k], candidates[other].uvw, 1e4L);
     }
     check_location(j, i);
     j->judged++;
@@ -381,17 +381,17 @@ void judge_counted(judge *j, int i, const long double known[3])
     const int status = count == 0 ? FFD_OUTSIDE : count == 1 ? FFD_INSIDE : FFD_MULTIPLE;
     trial_check(j->t, j->s, found->status == status,
                 "point %.17g %.17g %.17g with %d roots (first %.17Lg %.17Lg %.17Lg) is %s", p[0], p[1], p[2],
-                count, count ? places[0].uvw[0] : 0, count ? places[0].uvw[1] : 0,
-                count ? places[0].uvw[2] : 0, status_name(found->status));
+                count, count ? candidates[0].uvw[0] : 0, count ? candidates[0].uvw[1] : 0,
+                count ? candidates[0].uvw[2] : 0, status_name(found->status));
     if (count > 0 && has_root(found))
-        check_chosen(j, i, places, count);
+        check_chosen(j, i, candidates, count);
 }
 
 void judge_expect(judge *j, int i, int status, const long double uvw[3], const bool exact[3])
 {
     const ffd_location *found = &j->found[i];
     const double *p = j->xyz + 3 * i;
-    place x = {.sure = false};
+    domain_point x = {.sure = false};
     long double q[3];
     memcpy(x.uvw, uvw, sizeof x.uvw);
     seen_from_origin(j, i, q);

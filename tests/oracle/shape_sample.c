@@ -53,7 +53,7 @@ static void short_axis(shape *x, sample *s, random_source *random, int part, int
     any_axis(x, s, random, part, random_int(random, 1, 2), random_int(random, 1, most));
 }
 
-/* A collapsed face needs an end that stands on its control points. */
+/* A collapsed face needs an end that lies on its control points. */
 static void clamped_axis(shape *x, sample *s, random_source *random, int part, int most)
 {
     const int degree = random_int(random, 1, most);
@@ -210,25 +210,25 @@ static void make_points(const shape *x, sample *s)
             }
 }
 
-static void make_frame(shape *x, random_source *random, const shape_place *place)
+static void make_frame(shape *x, random_source *random, const shape_setting *setting)
 {
-    if (place->bare) {
+    if (setting->bare) {
         for (int a = 0; a < 3; a++)
             x->frame[4 * a] = 1;
         return;
     }
-    const double unit = place->scale == SCALE_HUGE ? 1e9 : place->scale == SCALE_TINY ? 1e-6 : 1;
+    const double unit = setting->scale == SCALE_HUGE ? 1e9 : setting->scale == SCALE_TINY ? 1e-6 : 1;
     double side[3], rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     for (int a = 0; a < 3; a++)
         side[a] = unit * random_range(random, 0.5, 2);
-    if (place->scale == SCALE_THIN)
+    if (setting->scale == SCALE_THIN)
         side[random_int(random, 0, 2)] *= 1e-6;
     if (random_chance(random, 0.4))
         side[random_int(random, 0, 2)] *= -1;
-    if (place->rotated)
+    if (setting->rotated)
         random_rotation(random, rotation);
     for (int r = 0; r < 3; r++) {
-        x->origin[r] = unit * (random_range(random, -1, 1) + (place->scale == SCALE_FAR ? 1e6 : 0));
+        x->origin[r] = unit * (random_range(random, -1, 1) + (setting->scale == SCALE_FAR ? 1e6 : 0));
         for (int c = 0; c < 3; c++)
             x->frame[3 * r + c] = (long double)rotation[3 * r + c] * side[c];
     }
@@ -245,12 +245,12 @@ static void make_roles(shape *x, random_source *random)
     }
 }
 
-static void begin(shape *x, sample *s, random_source *random, shape_kind kind, const shape_place *place)
+static void begin(shape *x, sample *s, random_source *random, shape_kind kind, const shape_setting *setting)
 {
     *x = (shape){
         .kind = kind, .radius = random_range(random, 0.4, 1), .across = random_range(random, 0.5, 1.2)};
     make_roles(x, random);
-    make_frame(x, random, place);
+    make_frame(x, random, setting);
     x->turn = radians(360);
     switch (kind) {
     case SHAPE_C:
@@ -317,12 +317,12 @@ static void make_quarter_torus(shape *x, sample *s, random_source *random)
             }
 }
 
-void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, const shape_place *place)
+void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, const shape_setting *setting)
 {
-    begin(x, s, random, kind, place);
+    begin(x, s, random, kind, setting);
     if (kind == SHAPE_KINKED) {
         kinked_axes(s, random);
-        sample_warped(s, random, place->scale, place->rotated, random_range(random, 0.3, 0.9));
+        sample_warped(s, random, setting->scale, setting->rotated, random_range(random, 0.3, 0.9));
     } else if (kind == SHAPE_QUARTER_TORUS) {
         make_quarter_torus(x, s, random);
     } else {
@@ -331,9 +331,9 @@ void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, con
     }
 }
 
-void shape_make_degree(shape *x, sample *s, random_source *random, int degree, const shape_place *place)
+void shape_make_degree(shape *x, sample *s, random_source *random, int degree, const shape_setting *setting)
 {
-    begin(x, s, random, SHAPE_C, place);
+    begin(x, s, random, SHAPE_C, setting);
     x->turn = radians(150);
     short_axis(x, s, random, 0, 2);
     any_axis(x, s, random, 1, degree < 4 ? 5 : 1, degree);
@@ -341,7 +341,7 @@ void shape_make_degree(shape *x, sample *s, random_source *random, int degree, c
     make_points(x, s);
 }
 
-/* Gives the last layer of control points in direction a the place of the first. */
+/* Gives the last layer of control points in direction a the positions of the first. */
 static void join_ends(sample *s, int a)
 {
     int i[3];
@@ -360,11 +360,11 @@ static void join_ends(sample *s, int a)
             }
 }
 
-void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind, const shape_place *place,
-                     bool same_points)
+void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind,
+                     const shape_setting *setting, bool same_points)
 {
     const bool torus = kind == SHAPE_TORUS;
-    begin(x, s, random, kind, place);
+    begin(x, s, random, kind, setting);
     x->turn = radians(360);
     x->climb = 0;
     short_axis(x, s, random, 0, 3);

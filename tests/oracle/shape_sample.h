@@ -24,7 +24,7 @@ typedef enum shape_kind {
     SHAPE_QUARTER_TORUS /* rational and exact */
 } shape_kind;
 
-/* How a shape's own parameters (across, along, up) lie in the lattice, and where the shape stands. */
+/* How a shape's own parameters (across, along, up) lie in the lattice, and where the shape is. */
 typedef struct shape {
     shape_kind kind;
     int role[3];                      /* the lattice's direction of each */
@@ -33,18 +33,18 @@ typedef struct shape {
     long double origin[3], frame[9];  /* xyz = origin + frame * local */
 } shape;
 
-/* Where shapes may stand. */
-typedef struct shape_place {
+/* Scale and position of a shape. */
+typedef struct shape_setting {
     volume_scale scale;
     bool rotated;
     bool bare; /* in its own coordinates */
-} shape_place;
+} shape_setting;
 
-/* Makes s (its axes, control points and, of the quarter torus, weights) and tells the shape. */
-void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, const shape_place *place);
+/* Makes s (its axes, control points and, of the quarter torus, weights) and describes the shape in x. */
+void shape_make(shape *x, sample *s, random_source *random, shape_kind kind, const shape_setting *setting);
 
 /* The same with the degree of the longest direction given. For SHAPE_C. */
-void shape_make_degree(shape *x, sample *s, random_source *random, int degree, const shape_place *place);
+void shape_make_degree(shape *x, sample *s, random_source *random, int degree, const shape_setting *setting);
 
 /* Puts u,v,w on a collapsed face; false where the shape has none. */
 bool shape_to_collapsed(const shape *x, const sample *s, random_source *random, long double uvw[3]);
@@ -55,8 +55,8 @@ bool shape_collapse(const shape *x, const sample *s, long double uvw[3]);
 
 /* A full turn (SHAPE_OVERLAP) or torus (SHAPE_TORUS) whose directions are clamped instead of closed, so that
    end faces meet: in the same control points, or in what rounding leaves of them. */
-void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind, const shape_place *place,
-                     bool same_points);
+void shape_make_seam(shape *x, sample *s, random_source *random, shape_kind kind,
+                     const shape_setting *setting, bool same_points);
 
 /* Knots of direction a as a list. */
 void shape_list_axis(sample *s, int a, int n, int degree, const double *knots);

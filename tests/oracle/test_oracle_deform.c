@@ -230,7 +230,8 @@ static bool any_bit(const double *values, int count)
 
 typedef enum support { SUPPORT_AWAY, SUPPORT_EDGE, SUPPORT_WITHIN } support;
 
-/* Where u stands to the support of control point i's function: outside, on its end, or with a share of it. */
+/* Where u is relative to the support of control point i's function: outside, on its end, or with a share of
+ * it. */
 static support support_of(const oracle_axis *axis, int i, long double u, long double share)
 {
     if (share > 0)

@@ -674,8 +674,8 @@ static void near_faces(void **state)
     trial_end(&t);
 }
 
-/* A cylinder from radius 0: points of the axis have a line of roots, and the least u,v,w of it stands for
- * them. */
+/* A cylinder from radius 0: points of the axis have a line of roots, and the least u,v,w of it is the answer
+ * for them. */
 static void collapsed_axes(void **state)
 {
     (void)state;

@@ -131,7 +131,7 @@ static void check_shape(trial *t, const sample *s, const ffd_lattice *lattice)
     }
 }
 
-/* The control points of a box stand where data/schema/lattice.md 5.1 says. */
+/* The control points of a box are where data/schema/lattice.md 5.1 says. */
 static void check_box_points(trial *t, const sample *s, const ffd_lattice *lattice)
 {
     long double corner[3];

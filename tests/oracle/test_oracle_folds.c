@@ -149,7 +149,7 @@ static long double mean_determinant(const oracle_volume *volume)
 /* The least determinant, times sign. */
 typedef struct least_place {
     long double value, size;
-    long double lo[3], hi[3], t[3]; /* its cell, and its place there */
+    long double lo[3], hi[3], t[3]; /* its cell, and its parameters there */
 } least_place;
 
 static void look(const subject *x, least_place *least, const long double lo[3], const long double hi[3],
@@ -187,7 +187,7 @@ static least_place sample_least(const subject *x)
     return least;
 }
 
-/* Goes down from the least place found, within its cell. */
+/* Goes down from the least point found, within its cell. */
 static void descend(const subject *x, least_place *least)
 {
     for (long double reach = 0.5L / STEPS; reach > 1e-7L;) {
@@ -216,7 +216,7 @@ static void check_witness(const subject *x, const ffd_folds *folds)
         uvw[a] = oracle_wrap(&x->deformed.axis[a], uvw[a]);
     }
     const long double value = x->sign * determinant_at(&x->deformed, uvw, &size);
-    /* A witness of 0 stands for a cell that is flat to rounding. */
+    /* A witness of 0 means a cell that is flat to rounding. */
     const double error = folds->witness_det < 0 ? x->fineness : 1e-12;
     trial_check(x->t, x->s, value <= error * size,
                 "a witness at %.17Lg, %.17Lg, %.17Lg, where the determinant is %.3Lg of %.3Lg", uvw[0],

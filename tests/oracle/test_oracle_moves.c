@@ -126,7 +126,7 @@ static long double at_fraction(const oracle_axis *axis, long double f)
 }
 
 /* The outer face is nowhere nearer to the axis than r1, the inner one nowhere farther than r0, and the ends
-   stand at the ends of the height. */
+   lie at the ends of the height. */
 static void check_faces(trial *t, const sample *s, const cylinder *c, const oracle_volume *volume)
 {
     const long double tiny = 1e-12L * (s->radius[1] + s->height + 5);
@@ -172,7 +172,7 @@ static void check_angles(trial *t, const sample *s, const cylinder *c, const ora
                     full       ? fabsl(off) <= 1e-10L
                     : end == 0 ? off <= 1e-10L
                                : off >= -1e-10L,
-                    "v = %.17Lg stands at the angle %.17Lg, expected %.17g", v, rah[1], s->angle[end]);
+                    "v = %.17Lg is at the angle %.17Lg, expected %.17g", v, rah[1], s->angle[end]);
     }
 }
 
@@ -193,7 +193,7 @@ static void check_coverage(trial *t, const sample *s, const cylinder *c, const o
     }
 }
 
-/* wide: only those whose control points stand half a turn apart or more somewhere. Such a ring goes round
+/* wide: only those whose control points lie half a turn apart or more somewhere. Such a ring goes round
    nothing, so that the file must be refused unless the volume covers the radii all the same. */
 static void cylinders(bool full, bool wide, const char *name)
 {

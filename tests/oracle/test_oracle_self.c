@@ -33,7 +33,7 @@ static void partition_of_unity(void **state)
             const long double length = oracle_last(axis) - oracle_first(axis);
             const long double u = random_parameter(&random, axis);
             long double value[ORACLE_MAX_POINTS], derivative[ORACLE_MAX_POINTS];
-            long double sum = 0, slope = 0, steepness = 0, place = 0, least = 0, size = 0;
+            long double sum = 0, slope = 0, steepness = 0, greville_sum = 0, least = 0, size = 0;
             oracle_factors(axis, u, value, derivative);
             for (int i = 0; i < axis->n; i++) {
                 sum += value[i];
@@ -41,15 +41,15 @@ static void partition_of_unity(void **state)
                 steepness += fabsl(derivative[i]);
                 least = fminl(least, value[i]);
                 if (!axis->closed)
-                    place += oracle_greville(axis, i) * value[i];
+                    greville_sum += oracle_greville(axis, i) * value[i];
                 size = fmaxl(size, fabsl(oracle_greville(axis, i)));
             }
             trial_check(&t, &s, fabsl(sum - 1) < 1e-17L && least >= 0, "%c: sum N = 1 + %Lg", "uvw"[a],
                         sum - 1);
             trial_check(&t, &s, steepness * length > 0.1L && fabsl(slope) <= 1e-17L * steepness,
                         "%c: sum N' = %Lg", "uvw"[a], slope);
-            trial_check(&t, &s, axis->closed || fabsl(place - u) <= 1e-17L * size, "%c: sum g N = u + %Lg",
-                        "uvw"[a], place - u);
+            trial_check(&t, &s, axis->closed || fabsl(greville_sum - u) <= 1e-17L * size,
+                        "%c: sum g N = u + %Lg", "uvw"[a], greville_sum - u);
         }
         sample_free(&s);
     }

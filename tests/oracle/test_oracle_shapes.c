@@ -12,12 +12,12 @@
 
 #include <cmocka.h>
 
-/* Every kind of place in turn; the first two seeds are the plain ones. */
-static shape_place place_of(uint64_t seed)
+/* Every setting in turn; the first two seeds are the plain ones. */
+static shape_setting setting_of(uint64_t seed)
 {
     static const volume_scale scales[] = {SCALE_PLAIN, SCALE_PLAIN, SCALE_THIN, SCALE_HUGE,
                                           SCALE_FAR,   SCALE_TINY,  SCALE_THIN};
-    return (shape_place){.scale = scales[seed % 7], .rotated = seed % 2 == 1};
+    return (shape_setting){.scale = scales[seed % 7], .rotated = seed % 2 == 1};
 }
 
 static void add_totals(judge *totals, const judge *j)
@@ -121,8 +121,8 @@ static judge run_cases(const char *name, const case_steps *steps, shape_kind kin
 
 static void make_shape(shape_case *c, shape_kind kind)
 {
-    const shape_place place = place_of(c->s.seed);
-    shape_make(&c->x, &c->s, &c->random, kind, &place);
+    const shape_setting setting = setting_of(c->s.seed);
+    shape_make(&c->x, &c->s, &c->random, kind, &setting);
 }
 
 static void make_weighted_shape(shape_case *c, shape_kind kind)
@@ -213,8 +213,8 @@ static void judge_known(judge *j, random_source *random)
 static void make_degree(shape_case *c, shape_kind kind)
 {
     (void)kind;
-    const shape_place place = place_of(c->s.seed);
-    shape_make_degree(&c->x, &c->s, &c->random, (int)c->number, &place);
+    const shape_setting setting = setting_of(c->s.seed);
+    shape_make_degree(&c->x, &c->s, &c->random, (int)c->number, &setting);
 }
 
 static void judge_degree(shape_case *c)
@@ -339,8 +339,8 @@ static void judge_torus_point(judge *j, const shape *x, int i)
 
 static void make_bare_shape(shape_case *c, shape_kind kind)
 {
-    const shape_place place = {.bare = true};
-    shape_make(&c->x, &c->s, &c->random, kind, &place);
+    const shape_setting setting = {.bare = true};
+    shape_make(&c->x, &c->s, &c->random, kind, &setting);
 }
 
 static void judge_torus(shape_case *c)
@@ -369,7 +369,7 @@ static void quarter_tori(void **state)
     assert_true(totals.seen[FFD_INSIDE] > 0 && totals.seen[FFD_OUTSIDE] > 0);
 }
 
-/* Points of collapsed faces have a set of roots, the least of which stands for them; points next to them have
+/* Points of collapsed faces have a set of roots, the least of which is the answer; points next to them have
    one. Steps from the face are 1e-3, 1e-4, ... of the domain; below 2^-24 a point may be called singular
    (src/maths.md 6.5). */
 static void judge_collapsed(judge *j, const shape *x, random_source *random)
@@ -492,12 +492,12 @@ static ends_kind ends_of(const shape_case *c)
 static void make_seam(shape_case *c, shape_kind kind)
 {
     static const volume_scale scales[] = {SCALE_PLAIN, SCALE_HUGE, SCALE_PLAIN, SCALE_TINY};
-    const shape_place place = {.scale = scales[c->number % 4], .rotated = c->number % 2 == 1};
-    shape_make_seam(&c->x, &c->s, &c->random, kind, &place, random_chance(&c->random, 0.7));
+    const shape_setting setting = {.scale = scales[c->number % 4], .rotated = c->number % 2 == 1};
+    shape_make_seam(&c->x, &c->s, &c->random, kind, &setting, random_chance(&c->random, 0.7));
     deform(&c->s, &c->random, ends_of(c),
-           place.scale == SCALE_HUGE   ? 1e9
-           : place.scale == SCALE_TINY ? 1e-6
-                                       : 1);
+           setting.scale == SCALE_HUGE   ? 1e9
+           : setting.scale == SCALE_TINY ? 1e-6
+                                         : 1);
 }
 
 /* End faces that meet: a point there is one vertex with the least u,v,w as long as both ends move it alike.

@@ -106,14 +106,14 @@ void sample_warped(sample *s, random_source *random, volume_scale scale, bool ro
 void sample_separable(sample *s, random_source *random, volume_scale scale)
 {
     long double origin[3], m[9];
-    double place[3][ORACLE_MAX_POINTS];
+    double grid[3][ORACLE_MAX_POINTS];
     int i[3] = {0, 0, 0};
     random_frame(random, scale, false, origin, m);
     for (int a = 0; a < 3; a++) {
         const int n = s->axis[a].n;
         long double x = origin[a];
         for (int k = 0; k < n; k++) {
-            place[a][k] = (double)x;
+            grid[a][k] = (double)x;
             x += m[4 * a] * random_range(random, 0.3, 1.7) / (n - 1);
         }
     }
@@ -121,7 +121,7 @@ void sample_separable(sample *s, random_source *random, volume_scale scale)
     s->points = sample_array(3 * sample_count(s));
     do {
         for (size_t a = 0; a < 3; a++)
-            s->points[3 * index_of(s, i) + a] = place[a][i[a]];
+            s->points[3 * index_of(s, i) + a] = grid[a][i[a]];
     } while (next_point(s, i));
 }
 

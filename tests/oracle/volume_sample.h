@@ -25,7 +25,7 @@ void sample_separable(sample *s, random_source *random, volume_scale scale);
  * itself. */
 void sample_arc(sample *s, random_source *random, double degrees);
 
-/* A ring about a random axis, v closed (the axes of s must say so), each control point a little out of place.
+/* A ring about a random axis, v closed (the axes of s must say so), each control point moved a little.
  */
 void sample_ring(sample *s, random_source *random);
 

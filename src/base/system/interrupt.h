@@ -15,8 +15,8 @@ interrupt_request ffd_interrupt_requested(void);
 /* A stream that can be read once there is a request; -1: there is none. For ffd_process_wait. */
 int ffd_interrupt_stream(void);
 
-/* In a worker: such requests, which can reach every program of a terminal or of a job of a cluster, are the
-   business of the one who started it. */
+/* In a worker: such requests, which can reach every program of a terminal or of a job of a cluster, are left
+   to the process that started it. */
 void ffd_interrupt_ignore(void);
 
 #endif

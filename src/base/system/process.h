@@ -1,5 +1,5 @@
 /* process.h - workers: this program, started again, with which one talks over a channel. What ends a worker,
-   be it a crash or a limit of the system, ends it alone. */
+   whether a crash or a limit of the system, ends it alone. */
 #ifndef FFD_BASE_SYSTEM_PROCESS_H
 #define FFD_BASE_SYSTEM_PROCESS_H
 
@@ -36,12 +36,12 @@ void ffd_process_kill(worker_process *process);
    are allowed; end may be NULL. */
 void ffd_process_finish(worker_process **process, process_end *end);
 
-/* In a worker: ends it when the one who started it ends, in whatever way, where the system can do that. */
+/* In a worker: ends it when its parent process ends, in whatever way, where the system can do that. */
 void ffd_process_follow_parent(void);
 /* In a worker: from now on ffd_process_stop waits, or does not wait any more. One thread calls this; others
    must have ended. */
 void ffd_process_defer_stop(bool wait);
-/* In a worker: the next size bytes from the one who started it; false where there are no more. */
+/* In a worker: the next size bytes from its parent process; false where there are no more. */
 bool ffd_process_take(void *bytes, size_t size);
 /* In a worker: hands bytes back. False where nobody is there to take them. */
 bool ffd_process_give(const void *bytes, size_t size);

@@ -215,7 +215,7 @@ static decimal_kernel *find_kernel(void)
 }
 
 /* Whether the run has the text of a number now. It makes texts where the numbers before were near: of
-   an array that is gone through otherwise it would make many in vain. */
+   an array that is read in another order it would make many that nobody reads. */
 static bool reach(decimal_run *run, const double *value)
 {
     const double *const before = run->before;
