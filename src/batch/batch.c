@@ -298,8 +298,8 @@ static const char *remark_of(const batch_run *run)
 {
     if (!run->dropped)
         return "";
-    return ffd_interrupt_requested() == INTERRUPT_NONE ? "; the others were not begun (--stop)"
-                                                       : "; interrupted, the others were not begun";
+    return ffd_interrupt_requested() == INTERRUPT_NONE ? "; the other jobs were not started (--stop)"
+                                                       : "; interrupted, the other jobs were not started";
 }
 
 ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)

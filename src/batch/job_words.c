@@ -255,7 +255,8 @@ static bool add_files(job_maker *maker)
     if (has_output && in_place)
         return refuse(maker, "\"out\" cannot be used with the option \"in-place\"");
     if (in_place && maker->frame->resume)
-        return refuse(maker, "\"in-place\" cannot be used with --resume: what is done would be done again");
+        return refuse(maker,
+                      "\"in-place\" cannot be used with --resume: a finished mesh would be deformed again");
     if (wrong_output)
         return refuse(maker, "%s", wrong_output);
     if (output && (!check_path(maker, output, "out") || !keep_name(maker, output, &job->output)))

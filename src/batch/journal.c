@@ -136,7 +136,7 @@ static ffd_status open_table(job_journal *journal, ffd_error *error)
     journal->slots = FIRST_SLOTS;
     if (!journal->file || !write_empty(journal->file, journal->slots))
         return ffd_fail_file(error, FFD_E_IO, journal->path, "cannot be written: %s",
-                             errno ? strerror(errno) : "no reason is known");
+                             errno ? strerror(errno) : "unknown reason");
     return FFD_OK;
 }
 

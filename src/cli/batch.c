@@ -175,7 +175,7 @@ static const cli_example examples[] = {
 
 const cli_command cli_batch = {
     "batch",
-    "many jobs, unattended",
+    "run many jobs",
     "usage: ffd batch MANIFEST [options]\n"
     "       ffd batch --in GLOB -l LATTICE --out-dir DIR [options]\n"
     "       ffd batch --csv TABLE [--in IN] [-l LATTICE] [--out-dir DIR] [options]\n"

@@ -50,7 +50,7 @@ static const cli_option options[] = {
      set_normal_tolerance, 0, NULL},
     {"json", 0, NULL, "the result as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
-    {"input-format", 0, "FORMAT", CLI_FORMATS "; of - where one of them is, else of both", cli_set_format,
+    {"input-format", 0, "FORMAT", CLI_FORMATS "; format of the input named -, else of both", cli_set_format,
      AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors and the exit code (and --json)", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},

@@ -14,7 +14,7 @@ static const cli_option options[] = {
     {"json", 0, NULL, "as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
-    {"quiet", 'q', NULL, "only errors beside the text", cli_set_flag, AT(logging.quiet), NULL},
+    {"quiet", 'q', NULL, "print only errors besides the text", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
     {"help", 'h', NULL, "this help", cli_set_flag, AT(help), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},

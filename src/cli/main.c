@@ -14,7 +14,7 @@ static void print_overview(void)
     for (int i = 0; cli_commands[i]; i++)
         printf("  ffd %-12s  %s\n", cli_commands[i]->name, cli_commands[i]->summary);
     printf("  ffd %-12s  %s\n  ffd %-12s  %s\n\nffd help COMMAND and ffd COMMAND --help show more.\n", "help",
-           "what there is, or one command", "--version", "the version");
+           "list the commands, or show the help of one", "--version", "the version");
 }
 
 /* The number of words of a command's name that the arguments begin with, or 0. */
@@ -129,7 +129,7 @@ static int run(int count, char **arguments)
 {
     int words = 0;
     if (count == 0) {
-        cli_complain("no command (ffd help shows what there is)");
+        cli_complain("no command is given (ffd help lists them)");
         return EXIT_USAGE;
     }
     if (strcmp(arguments[0], "--version") == 0)

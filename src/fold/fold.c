@@ -201,7 +201,8 @@ ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *fo
     memset(&work, 0, sizeof work);
     memset(folds, 0, sizeof *folds);
     if (!ffd_lattice_get_points(lattice, FFD_VOLUME_REST))
-        return ffd_fail(error, FFD_E_ARGUMENT, "the lattice still needs the bounds of a mesh");
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "the lattice has no control points yet: its box is that of a mesh");
     ffd_status status = ffd_fold_plan_make(lattice, &work.plan, error);
     if (!status)
         status = allocate(&work, threads, error);

@@ -146,7 +146,7 @@ static ffd_status read_bend(json_cursor cursor, lattice_move *move)
     if (status || ffd_direction_perpendicular(move->axis, move->vector))
         return status;
     return ffd_cursor_fail(ffd_cursor_member(cursor, "toward"),
-                           "points along the axis; it must lead away from it");
+                           "is parallel to the axis, which it must not be");
 }
 
 static ffd_status read_matrix(json_cursor cursor, lattice_move *move)

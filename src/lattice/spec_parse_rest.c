@@ -119,7 +119,7 @@ static ffd_status read_zero(json_cursor cylinder, lattice_spec *spec)
     const ffd_status status = ffd_spec_read_axis(cylinder, "zero", spec->zero);
     if (status || ffd_direction_perpendicular(spec->axis, spec->zero))
         return status;
-    return ffd_cursor_fail(zero, "points along the axis; it must lead away from it");
+    return ffd_cursor_fail(zero, "is parallel to the axis, which it must not be");
 }
 
 static ffd_status read_radius(json_cursor cylinder, double radius[2])

@@ -239,7 +239,7 @@ static const struct {
     {MODEL_HAS_MORPHS, 0, "morph targets"},
     {MODEL_HAS_ANIMATIONS, 0, "animations"},
     {MODEL_HAS_CAMERAS, 0, "cameras and lights"},
-    {MODEL_HAS_HIDDEN, 0, "what the scene does not show"},
+    {MODEL_HAS_HIDDEN, 0, "what is not in the displayed scene"},
     {MODEL_HAS_MORE, 0, "further data of vertices and faces"},
 };
 

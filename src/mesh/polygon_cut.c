@@ -16,7 +16,8 @@ enum { EAR_CLEAR, EAR_TOUCHED, EAR_FLAT, EAR_ANY };
 static ffd_status make_room(polygon_cutter *cutter, size_t count, ffd_error *error)
 {
     if (count >= NOT_REFLEX)
-        return ffd_fail(error, FFD_E_LIMIT, "a polygon has %zu corners", count);
+        return ffd_fail(error, FFD_E_LIMIT, "a polygon has %zu corners, more than can be cut into triangles",
+                        count);
     if (ffd_grow((void **)&cutter->plane, &cutter->plane_capacity, count, 2 * sizeof *cutter->plane) &&
         ffd_grow((void **)&cutter->previous, &cutter->previous_capacity, count, sizeof *cutter->previous) &&
         ffd_grow((void **)&cutter->next, &cutter->next_capacity, count, sizeof *cutter->next) &&

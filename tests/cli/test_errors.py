@@ -147,7 +147,7 @@ LATTICES = [
     (lattice(moves=[{"scale": {"factor": "x"}}]), INVALID,
      ':/moves/0/scale/factor: must be a number, not the text "x"'),
     (lattice(moves=[{"bend": {"axis": "z", "toward": [0, 0, 1], "degrees": 9}}]), INVALID,
-     ":/moves/0/bend/toward: points along the axis; it must lead away from it"),
+     ":/moves/0/bend/toward: is parallel to the axis, which it must not be"),
     (lattice(moves=[{"taper": {"axis": "z"}}]), INVALID, ':/moves/0/taper: "factor" is missing'),
     (lattice(moves=[{"at": [0.5, 0, 0], "by": [0, 0, 0]}]), INVALID,
      ":/moves/0/at/0: must be a whole number, not the number 0.5"),

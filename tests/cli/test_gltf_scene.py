@@ -417,14 +417,14 @@ def inside_and_outside(run):
     run.write("in.glb", scene.glb())
     run.write("l.json", SHIFT)
     done = run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", lines=2)
-    check(done.err[1] == "in.glb: morph targets bring 1 vertices outside (left where they are)", done.err)
+    check(done.err[1] == "in.glb: morph targets move 1 vertices outside the lattice (left where they are)", done.err)
     near(vectors(run.read("out.glb"), 1), [[19, 0, 0], [-18, 0, 0]], 1e-6)
     run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--outside", "extend", lines=2)
     near(vectors(run.read("out.glb"), 1), [[20, 0, 0], [-19, 0, 0]], 1e-6)
     scene = morphed([{"POSITION": offsets[:1] * 2}], points[:1] * 2)
     run.write("in.glb", scene.glb())
     run.ffd("deform", "in.glb", "no.glb", "-l", "l.json", "--outside", "error", code=EMBEDDING,
-            err=re.compile("morph targets bring vertices outside the lattice, the first is vertex 0"))
+            err=re.compile("morph targets move vertices outside the lattice, the first is vertex 0"))
     run.ffd("check", "in.glb", "-l", "l.json", "--fail-on", "outside", code=NO, lines=1)
 
 
@@ -442,7 +442,7 @@ def broken_targets_are_refused(run):
     scene = morphed([{}, {"POSITION": [[1.0, 1.0, 1.0], [float("inf"), 0.0, 0.0]]}])
     for bound in ("min", "max"):
         del scene.asset["accessors"][1][bound]
-    refused(scene, "a morph target brings vertex 1 .counted from 0. to a coordinate that is not finite")
+    refused(scene, "a morph target moves vertex 1 .counted from 0. to a coordinate that is not finite")
     scene = morphed([{"TANGENT": 2}], NORMAL=[[0.0, 0.0, 1.0]] * 2, TANGENT=[[1.0, 0.0, 0.0, 1.0]] * 2)
     refused(scene, "/meshes/0/primitives/0/targets/0/TANGENT: its accessor is not a VEC3")
     huge = 3e38

@@ -353,7 +353,7 @@ static void bad_rest_volumes_are_refused(void **state)
         {CYLINDER("\"center\":[0,0,0],\"axis\":[0,0,0],\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
          "f.json:/rest/cylinder/axis: must not be 0 0 0: that is not a direction"},
         {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"zero\":[0,0,5],\"radius\":[0,1],\"height\":1"),
-         FFD_E_INVALID, "f.json:/rest/cylinder/zero: points along the axis; it must lead away from it"},
+         FFD_E_INVALID, "f.json:/rest/cylinder/zero: is parallel to the axis, which it must not be"},
         {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[1,1],\"height\":1"), FFD_E_INVALID,
          "f.json:/rest/cylinder/radius: radii 1 and 1 are not 0 <= r0 < r1"},
         {CYLINDER("\"center\":[0,0,0],\"axis\":\"z\",\"radius\":[-1,1],\"height\":1"), FFD_E_INVALID,
@@ -422,7 +422,7 @@ static void bad_moves_are_refused(void **state)
         {MOVE("{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]}"), FFD_E_INVALID,
          "f.json:/moves/0/matrix: the last row is 5 0 0 1, not 0 0 0 1"},
         {MOVE("{\"bend\":{\"axis\":\"x\",\"toward\":[-2,0,0],\"degrees\":3}}"), FFD_E_INVALID,
-         "f.json:/moves/0/bend/toward: points along the axis; it must lead away from it"},
+         "f.json:/moves/0/bend/toward: is parallel to the axis, which it must not be"},
         {MOVE("{\"taper\":{\"axis\":\"x\",\"factor\":null}}"), FFD_E_INVALID,
          "f.json:/moves/0/taper/factor: must be a number, not null"},
         {SIZE "\"rest\":{\"points\":[[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,0],[1,0,0],[0,1,0],[1,1,0]]},"

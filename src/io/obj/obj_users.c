@@ -258,7 +258,7 @@ static ffd_status find_failure(const obj_document *d, const obj_users *users, si
         return ffd_fail_memory(error);
     status = read_block(d, users, number, &block, error);
     ffd_obj_free_block_users(&block);
-    return status ? status : ffd_fail_file(error, FFD_E_IO, d->file.name, "changes while it is read");
+    return status ? status : ffd_fail_file(error, FFD_E_IO, d->file.name, "was changed while it was read");
 }
 
 ffd_status ffd_obj_users_finish(const obj_document *d, obj_users *users, ffd_error *error)

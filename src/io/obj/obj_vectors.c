@@ -205,7 +205,7 @@ static ffd_status find_failure(const reader *r, ffd_error *error)
     const ffd_status status = read_block(r, r->failed, &content, error);
     free_content(&content);
     return status ? status
-                  : ffd_fail_file(error, FFD_E_IO, r->document->file.name, "changes while it is read");
+                  : ffd_fail_file(error, FFD_E_IO, r->document->file.name, "was changed while it was read");
 }
 
 static ffd_status check_counts(const obj_document *d, ffd_error *error)

@@ -75,7 +75,7 @@ void surface::add_face(bool simple)
             handles_[i] = new_vertex(sources_[i]);
     const half_edge_mesh::FaceHandle face = mesh.add_face(handles_.data(), count);
     if (!face.is_valid())
-        throw std::logic_error("a face does not fit");
+        throw std::logic_error("a face cannot be joined to the others");
     halfedge_handle half = mesh.halfedge_handle(face);
     while (mesh.from_vertex_handle(half) != handles_[0])
         half = mesh.next_halfedge_handle(half);

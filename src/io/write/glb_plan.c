@@ -269,7 +269,8 @@ static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t d
     primitive->vertex_count = kept;
     plan->vertex_count += kept;
     if (kept > UINT32_MAX - 1)
-        return ffd_fail(p->error, FFD_E_LIMIT, "a mesh would have %zu vertices", kept);
+        return ffd_fail(p->error, FFD_E_LIMIT,
+                        "a mesh would have %zu vertices, more than 32-bit indices can number", kept);
     for (size_t i = 0; i < drawn; i++)
         plan->indices[plan->index_count++] = find_vertex(vertices, kept, p->sorted + i);
     return FFD_OK;

@@ -157,8 +157,8 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     ply_plan plan;
     model_sink sink = {output, error, make_plan(model, &plan, error)};
     if (sink.status == FFD_OK && plan.longest > INT32_MAX / 2)
-        sink.status =
-            ffd_fail_file(error, FFD_E_LIMIT, options->path, "a face has %zu corners", plan.longest);
+        sink.status = ffd_fail_file(error, FFD_E_LIMIT, options->path,
+                                    "a face has %zu corners, more than a PLY list can hold", plan.longest);
     if (sink.status == FFD_OK)
         sink.status = ffd_output_begin(output, options->path, options->force, error);
     write_header(&sink, &plan);

@@ -14,7 +14,7 @@ ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, boo
                              totals->first_invalid);
     if (totals->first_shape_invalid != UINT64_MAX && !check)
         return ffd_fail_file(error, FFD_E_INVALID, name,
-                             "a morph target brings vertex %" PRIu64
+                             "a morph target moves vertex %" PRIu64
                              " (counted from 0) to a coordinate that is not finite",
                              totals->first_shape_invalid);
     if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_any) {
@@ -28,7 +28,7 @@ ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, boo
     }
     if (desc->outside == FFD_OUTSIDE_ERROR && totals->shapes_outside)
         return ffd_fail_file(error, FFD_E_EMBEDDING, name,
-                             "morph targets bring vertices outside the lattice, the first is vertex %" PRIu64
+                             "morph targets move vertices outside the lattice, the first is vertex %" PRIu64
                              " (counted from 0)",
                              totals->first_shape_outside);
     if (totals->first_overflow != UINT64_MAX)
@@ -75,7 +75,7 @@ ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const 
     if (desc->fail_on & FFD_GATE_OUTSIDE)
         add_count(&line, totals->outside_any, totals, "are outside the lattice", "outside");
     if (desc->fail_on & FFD_GATE_OUTSIDE && totals->shapes_outside)
-        add(&line, "morph targets bring vertices outside the lattice", "outside");
+        add(&line, "morph targets move vertices outside the lattice", "outside");
     if (desc->fail_on & FFD_GATE_MULTIPLE)
         add_count(&line, totals->multiple_any, totals, "have several u,v,w", "multiple");
     if (desc->fail_on & FFD_GATE_SINGULAR)

@@ -85,7 +85,7 @@ void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool
                      others, totals->vertices, list, *coverage ? "; " : "", coverage);
     }
     if (totals->shapes_outside)
-        ffd_log_line(log, FFD_LOG_WARNING, "morph targets bring %" PRIu64 " vertices outside (%s)",
+        ffd_log_line(log, FFD_LOG_WARNING, "morph targets move %" PRIu64 " vertices outside the lattice (%s)",
                      totals->shapes_outside,
                      chain->outside.extend ? "moved with the nearest boundary point" : "left where they are");
     if (totals->unresolved)
