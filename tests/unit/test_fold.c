@@ -8,7 +8,7 @@
 #include "../support/bspline_reference.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
-#include "../support/under_valgrind.h"
+#include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "fold/bernstein.h"
 #include "fold/cell.h"

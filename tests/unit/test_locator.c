@@ -7,7 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
-#include "../support/under_valgrind.h"
+#include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cells.h"
 #include "embed/locator.h"

@@ -11,8 +11,8 @@
 #include <cmocka.h>
 
 #include "../support/failing_new.h"
+#include "../support/repetitions.h"
 #include "../support/test_folder.h"
-#include "../support/under_valgrind.h"
 #include "base/file/input.h"
 #include "base/memory/memory.h"
 #include <dirent.h>

@@ -6,7 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
-#include "../support/under_valgrind.h"
+#include "../support/repetitions.h"
 #include "base/text/decimal.h"
 #include "base/text/number.h"
 #include <float.h>

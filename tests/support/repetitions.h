@@ -1,0 +1,33 @@
+/* repetitions.h - how often a test repeats itself where memory is checked. A checker takes up to thirty times
+   the time; the same code with other numbers shows it nothing new. */
+#ifndef FFD_TEST_REPETITIONS_H
+#define FFD_TEST_REPETITIONS_H
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define FFD_SANITIZED true
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define FFD_SANITIZED true
+#endif
+#endif
+#ifndef FFD_SANITIZED
+#define FFD_SANITIZED false
+#endif
+
+static inline bool is_under_valgrind(void)
+{
+    const char *loaded = getenv("LD_PRELOAD");
+    return loaded && strstr(loaded, "vgpreload");
+}
+
+/* Of so many repetitions, those that are worth their time. */
+static inline int repetitions(int count)
+{
+    return is_under_valgrind() || FFD_SANITIZED ? (count + 19) / 20 : count;
+}
+
+#endif
