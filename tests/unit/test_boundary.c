@@ -7,6 +7,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "../support/repetitions.h"
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary.h"
 #include <float.h>
@@ -367,7 +368,7 @@ static void the_foot_is_never_farther_than_samples(void **state)
     draw d = {draw_seed()};
     for (int i = 0; i < WARPED_CASES; i++) {
         ffd_lattice *lattice = make_case(&warped_cases[i], &d);
-        check_lattice(warped_cases[i].name, lattice, &d, 12, 1);
+        check_lattice(warped_cases[i].name, lattice, &d, repetitions(12), 1);
         ffd_lattice_destroy(&lattice);
     }
 }
@@ -387,7 +388,7 @@ static void feet_on_cylinders_are_as_near_as_samples(void **state)
     draw d = {draw_seed()};
     for (size_t i = 0; i < sizeof cylinders / sizeof cylinders[0]; i++) {
         ffd_lattice *lattice = parsed(cylinders[i]);
-        check_lattice("cylinder", lattice, &d, 30, 1);
+        check_lattice("cylinder", lattice, &d, repetitions(30), 1);
         ffd_lattice_destroy(&lattice);
     }
 }
