@@ -8,6 +8,7 @@
 
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
+#include "../support/repetitions.h"
 #include "deform/displacement.h"
 #include <math.h>
 #include <stdio.h>
@@ -133,7 +134,7 @@ static void batches_give_what_points_get_alone(void **state)
     draw d = {draw_seed()};
     sample *s = calloc(1, sizeof *s);
     assert_non_null(s);
-    for (int i = 0; i < LATTICES; i++) {
+    for (int i = 0; i < (is_under_valgrind() ? LATTICES / 5 : LATTICES); i++) {
         ffd_lattice *lattice = random_lattice(&d, i);
         ffd_displacement_scratch_clear(&s->scratch);
         s->scratch.kept.threads = i % 4 == 0 ? 1000 : i % 4;
