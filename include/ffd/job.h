@@ -33,8 +33,8 @@ FFD_API ffd_format ffd_format_from_name(const char *name);
 /* A vertex outside of a lattice stays; moves as the continuation of the nearest border point's displacement
    says; is a failure. */
 typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
-/* Normals and tangents follow the deformation; stay; are those of the deformed faces: corners that stood at
-   one place with one normal get one again, from all faces around them, by area and angle. */
+/* Normals and tangents follow the deformation; stay; are those of the deformed faces: corners that had
+   one position and one normal get one again, from all faces around them, by area and angle. */
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
@@ -62,7 +62,7 @@ FFD_API void ffd_cleanup_on_signals(void);
 typedef struct ffd_source {
     const char *path;  /* "-": standard input */
     ffd_format format; /* AUTO is not possible for "-" */
-    ffd_space space;   /* glTF: where the lattice stands */
+    ffd_space space;   /* glTF: the space of the lattice */
     /* Bytes of memory that the mesh may take; 0, or less than that: 100 MB and 20 times the size of its
        files. What asks for more (a short file can show or unpack any number of vertices) is refused with
        FFD_E_LIMIT. Estimated, and without that of the lattice. */

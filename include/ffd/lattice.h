@@ -65,8 +65,8 @@ typedef struct ffd_setting {
 FFD_API ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
                                         ffd_lattice **lattice, ffd_error *error);
 
-/* The same as ffd_lattice_load from memory: text of size bytes (no final 0 needed); name stands in messages.
- * text is not kept. */
+/* The same as ffd_lattice_load from memory: text of size bytes (no final 0 needed); messages use
+   name. text is not kept. */
 FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
                                      ffd_error *error);
 
@@ -85,9 +85,9 @@ FFD_API ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path
  * points. */
 FFD_API bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
 
-/* Places a "mesh" lattice round the bounds min, max (3 doubles each, world units) and applies its moves. May
+/* Fits a "mesh" lattice around the bounds min, max (3 doubles each, world units) and applies its moves. May
    be called again with other bounds. Does nothing where ffd_lattice_needs_bounds is false. Errors:
-   FFD_E_INVALID (not finite; no lattice can stand there), FFD_E_MEMORY. */
+   FFD_E_INVALID (bounds that are not finite, or of a size that a lattice cannot have), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3],
                                    ffd_error *error);
 

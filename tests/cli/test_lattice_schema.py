@@ -13,32 +13,14 @@ import subprocess
 import sys
 
 from harness import INVALID, LIMIT, OK, SECONDS, UNSUPPORTED, case, check, equal, main
-from report_schema import jsonschema
+from schema import Schema
 
 JUDGE = os.path.abspath(sys.argv.pop(1))
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-SCHEMA = os.path.join(ROOT, "data", "schema", "ffd-lattice.schema.json")
 # For the placeholders of the files that are read.
 VALUES = {"DEGREES": "30", "SHIFT": "[0, 0, 0]", "A": "1"}
 
-with open(SCHEMA, encoding="utf-8") as _file:
-    _schema = json.load(_file)
-jsonschema.Draft202012Validator.check_schema(_schema)
-_validator = jsonschema.Draft202012Validator(_schema)
-
-
-def _refuse_constant(word):
-    raise ValueError(f"{word} is not JSON")
-
-
-def faults(content):
-    """What the schema finds wrong with a lattice file: its bytes, or what they hold."""
-    if isinstance(content, bytes):
-        try:
-            content = json.loads(content.decode("utf-8-sig"), parse_constant=_refuse_constant)
-        except (ValueError, RecursionError) as error:
-            return [f"not JSON: {error}"]
-    return [f"/{'/'.join(map(str, e.absolute_path))}: {e.message[:200]}" for e in _validator.iter_errors(content)]
+faults = Schema("ffd-lattice.schema.json").faults
 
 
 def judge(run, contents, values=None):

@@ -376,7 +376,6 @@ static void a_point_on_a_collapsed_face_is_singular(void **state)
     (void)state;
 }
 
-/* Memory that runs out anywhere is told, and nothing is lost. */
 /* The cost of a vertex, counted, not timed. */
 static void a_point_takes_few_evaluations_and_leaves(void **state)
 {
