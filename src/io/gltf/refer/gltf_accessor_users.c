@@ -1,5 +1,5 @@
-#include "io/gltf/save/gltf_accessor_users.h"
-#include "io/gltf/save/gltf_plan.h"
+#include "io/gltf/refer/gltf_accessor_users.h"
+#include "io/gltf/refer/gltf_index_table.h"
 
 static void mark_number(const gltf_document *d, uint32_t value, bool *used)
 {
@@ -32,17 +32,21 @@ static void mark_skins(const gltf_document *d, bool *used)
         mark_number(d, ffd_json_span_member(&d->tree, s, "inverseBindMatrices"), used);
 }
 
-static void mark_instancing(const gltf_document *d, bool *used)
+/* What the accessors in extensions are marked in. */
+typedef struct marks {
+    const gltf_document *document;
+    bool *used;
+} marks;
+
+static void mark_extension(void *context, const gltf_index_place *place)
 {
-    const json_span *tree = &d->tree;
-    for (size_t n = 0; n < d->node_values.count; n++) {
-        const uint32_t extensions = ffd_json_span_member(tree, d->node_values.values[n], "extensions");
-        const uint32_t attributes = ffd_json_span_member(
-            tree, ffd_json_span_member(tree, extensions, "EXT_mesh_gpu_instancing"), "attributes");
-        for (uint32_t v = ffd_json_span_first(tree, attributes); v != JSON_NONE;
-             v = ffd_json_span_after(tree, v))
-            mark_number(d, v, used);
-    }
+    const marks *m = context;
+    const gltf_document *d = m->document;
+    const size_t accessor = ffd_gltf_index(d, place->value, d->model.accessor_count);
+    const bool follows = place->kind == GLTF_INDEX_SHAPE && ffd_gltf_mesh_has_slot(d, place->owner, accessor);
+    if (accessor != GLTF_NONE && !follows &&
+        (place->kind == GLTF_INDEX_ACCESSOR || place->kind == GLTF_INDEX_SHAPE))
+        m->used[accessor] = true;
 }
 
 static void mark_primitive(const gltf_primitive *primitive, bool *used)
@@ -64,5 +68,5 @@ void ffd_gltf_mark_other_users(const gltf_document *d, bool *used)
             mark_primitive(&d->model.meshes[m].primitives[p], used);
     mark_animations(d, used);
     mark_skins(d, used);
-    mark_instancing(d, used);
+    ffd_gltf_visit_indices(d, mark_extension, &(marks){d, used});
 }
