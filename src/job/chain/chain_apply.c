@@ -1,44 +1,15 @@
-#include "job/chain/chain.h"
-#include "base/memory/memory.h"
+#include "job/chain/chain_apply.h"
 #include "base/system/clock.h"
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/extension.h"
-#include "embed/locator.h"
+#include "job/chain/blocks.h"
+#include "job/chain/common_faces.h"
+#include "job/chain/look_again.h"
+#include "job/chain/point_outcome.h"
+#include "job/chain/seams.h"
 #include "lattice/lattice.h"
 #include <string.h>
-
-void ffd_chain_free(lattice_chain *chain)
-{
-    for (size_t i = 0; i < chain->count; i++) {
-        if (!chain->links[i].border_is_lent)
-            ffd_boundary_destroy(&chain->links[i].border);
-        if (!chain->links[i].locator_is_lent)
-            ffd_locator_destroy(&chain->links[i].locator);
-        if (!chain->links[i].lattice_is_lent)
-            ffd_lattice_destroy(&chain->links[i].lattice);
-    }
-    ffd_free(chain->links);
-    *chain = (lattice_chain){0};
-}
-
-bounds ffd_chain_reach(const lattice_chain *chain, size_t link)
-{
-    const chain_outside *outside = &chain->outside;
-    const bool everywhere = outside->extend && !(outside->falloff > 0);
-    const double beyond = everywhere ? HUGE_VAL : outside->extend ? outside->falloff : 0;
-    const ffd_lattice *lattice = chain->links[link].lattice;
-    bounds box;
-    for (int a = 0; a < 3; a++)
-        box.lo[a] = box.hi[a] = lattice->rest[a];
-    for (size_t i = 1; i < lattice->count; i++)
-        bounds_add(&box, lattice->rest + 3 * i);
-    for (int a = 0; a < 3; a++) {
-        box.lo[a] -= beyond;
-        box.hi[a] += beyond;
-    }
-    return box;
-}
 
 /* F = F2 F1 in terms of what each differs from I: E = E1 + E2 + E2 E1. Zeros stay exact. */
 static void compose(double gradient[9], const double next[9])
@@ -49,35 +20,7 @@ static void compose(double gradient[9], const double next[9])
         gradient[i] = gradient[i] + next[i] + product[i];
 }
 
-/* Member by member: a record that is made on the stack and copied has to wait for its own bytes. */
-static void make_outcome(const ffd_lattice *lattice, const ffd_location *location, point_outcome *outcome)
-{
-    const bool invalid = location->status == FFD_POINT_INVALID;
-    const bool placed = location->status != FFD_OUTSIDE && !invalid && vec_is_finite(location->uvw);
-    const double relative = location->residual / lattice->diagonal;
-    outcome->residual_square = relative * relative;
-    outcome->evaluations = location->evaluations;
-    outcome->status = location->status;
-    outcome->moved = false;
-    outcome->located = placed;
-    outcome->outside = !placed && !invalid;
-    outcome->multiple = location->status == FFD_MULTIPLE;
-    outcome->unresolved = location->unresolved;
-    outcome->extended = false;
-}
-
-static void join_outcome(const point_outcome *now, point_outcome *outcome)
-{
-    outcome->residual_square = larger_of(outcome->residual_square, now->residual_square);
-    outcome->evaluations += now->evaluations;
-    outcome->status = now->status > outcome->status ? now->status : outcome->status;
-    outcome->located |= now->located;
-    outcome->outside |= now->outside;
-    outcome->multiple |= now->multiple;
-    outcome->unresolved |= now->unresolved;
-}
-
-/* Where a link's displacements go: those of the first straight to the run. */
+/* Where a link's displacements are written: those of the first link straight to the run. */
 static displacement_batch begin_batch(const chain_run *run, size_t link)
 {
     chain_scratch *scratch = run->scratch;
@@ -91,10 +34,11 @@ static displacement_batch begin_batch(const chain_run *run, size_t link)
                                 .moves = scratch->moves};
 }
 
-/* The displacement of a point outside, into where the batch puts those of the others. */
-static ffd_status extend(const chain_link *link, const chain_run *run, const displacement_batch *batch,
-                         size_t i, ffd_error *error)
+/* Writes the displacement of a point outside of link l to where the batch writes those of the others. */
+static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
+                         const displacement_batch *batch, size_t i, ffd_error *error)
 {
+    const chain_link *const link = &chain->links[l];
     boundary_point nearest;
     double *const delta = batch->delta + 3 * i;
     double *const gradient = batch->gradient ? batch->gradient + 9 * i : NULL;
@@ -108,32 +52,55 @@ static ffd_status extend(const chain_link *link, const chain_run *run, const dis
     const ffd_status status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
     if (status || !nearest.found)
         return status;
+    if (chain->seam_count > 0)
+        ffd_seams_mark(chain, l, run, i, nearest.uvw);
     run->outcomes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
     run->scratch->moves[i] =
         (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
     return FFD_OK;
 }
 
+/* Marks a point without u,v,w in a link, unless the link moves it all the same. */
+static void mark_kept(const chain_link *link, size_t l, chain_run *run, size_t i)
+{
+    if (!run->kept || link->border || run->scratch->locations[i].status == FFD_POINT_INVALID)
+        return;
+    run->kept[ffd_kept_plane(l) * CHAIN_RUN + i] |= ffd_kept_bit(l);
+    run->keeps = true;
+}
+
 /* Notes what is known of the points, and lists those that have u,v,w in the link. */
-static ffd_status note_locations(const chain_link *link, bool is_first, const chain_run *run,
+static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run *run,
                                  displacement_batch *batch, ffd_error *error)
 {
+    const chain_link *const link = &chain->links[l];
+    const bool is_first = l == 0;
     const ffd_location *const locations = run->scratch->locations;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < run->count && !status; i++) {
         point_outcome later, *const outcome = is_first ? &run->outcomes[i] : &later;
-        make_outcome(link->lattice, &locations[i], outcome);
+        ffd_outcome_make(link->lattice, &locations[i], outcome);
+        if (outcome->outside && !(is_first && run->located)) {
+            status = ffd_look_again(link, link->snap, is_first, run, i, run->x + 3 * i,
+                                    &run->scratch->locations[i], error);
+            ffd_outcome_make(link->lattice, &locations[i], outcome);
+        }
         if (!is_first)
-            join_outcome(outcome, &run->outcomes[i]);
-        if (outcome->located)
+            ffd_outcome_join(outcome, &run->outcomes[i]);
+        if (outcome->located) {
             run->scratch->inside[batch->count++] = (uint32_t)i;
-        else
-            status = extend(link, run, batch, i, error);
+            if (chain->seam_count > 0)
+                ffd_seams_mark(chain, l, run, i, locations[i].uvw);
+            continue;
+        }
+        mark_kept(link, l, run, i);
+        if (!status)
+            status = extend(chain, l, run, batch, i, error);
     }
     return status;
 }
 
-/* What a link after the first does comes to what is there. */
+/* Adds what a link after the first does. */
 static void add_link(const chain_run *run, const array_kernel *arrays)
 {
     const chain_scratch *scratch = run->scratch;
@@ -147,22 +114,24 @@ static void add_link(const chain_run *run, const array_kernel *arrays)
     }
 }
 
-static ffd_status apply_link(const lattice_chain *chain, size_t l, const chain_run *run, ffd_error *error)
+static ffd_status apply_link(const lattice_chain *chain, size_t l, chain_run *run, ffd_error *error)
 {
     const chain_link *link = &chain->links[l];
     chain_scratch *scratch = run->scratch;
     const array_kernel *const arrays = ffd_array_kernel(chain->isa);
     displacement_batch batch = begin_batch(run, l);
-    const ffd_status status = note_locations(link, l == 0, run, &batch, error);
+    const ffd_status status = note_locations(chain, l, run, &batch, error);
     if (status)
         return status;
+    if (ffd_common_wanted(chain))
+        ffd_common_note(chain, l, run);
     ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
     arrays->add(batch.delta, 3 * run->count, run->x);
     if (l > 0)
         add_link(run, arrays);
     for (size_t i = 0; i < run->count; i++)
         run->outcomes[i].moved |= scratch->moves[i];
-    return FFD_OK;
+    return ffd_common_wanted(chain) ? ffd_common_count(chain, l, batch.delta, run, error) : FFD_OK;
 }
 
 ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error)
@@ -174,6 +143,10 @@ ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *
         if (run->gradient)
             memset(run->gradient, 0, 9 * run->count * sizeof *run->gradient);
     }
+    if (links > 0 && chain->blocks)
+        return ffd_blocks_apply(chain, run, error);
+    if (ffd_common_wanted(chain))
+        ffd_common_begin(run);
     for (size_t l = 0; l < links && !status; l++) {
         const double start = ffd_clock_seconds();
         if (l > 0 || !run->located)
