@@ -56,7 +56,7 @@ fi
 # A sanitizer's finding ends the program at once, with an exit code that no test expects.
 export ASAN_OPTIONS="halt_on_error=1:exitcode=99:detect_leaks=1:allocator_may_return_null=1"
 export UBSAN_OPTIONS="halt_on_error=1:exitcode=99:print_stacktrace=1"
-export TSAN_OPTIONS="halt_on_error=1:exitcode=99"
+export TSAN_OPTIONS="halt_on_error=1:exitcode=99:suppressions=$root/tests/support/tsan.supp"
 export PYTHONDONTWRITEBYTECODE=1
 
 # Builds share what they compile, those that tests make included (meson finds ccache by itself); so does the next run.
@@ -64,6 +64,8 @@ ccache=
 if command -v ccache >/dev/null 2>&1; then
     ccache='ccache '
     export CCACHE_DIR="${CCACHE_DIR-$work/ccache}"
+    # The demo compiles what the stage `release` has compiled before, with warnings as errors.
+    export CCACHE_IGNOREOPTIONS=-Werror
 fi
 
 passed=0
@@ -176,7 +178,8 @@ build_from_wraps() {
 export FFD_NODE="$work/node"
 step node npm install_node_packages
 
-if build gcc '' gcc g++ -Dbuildtype=debugoptimized; then
+# Debug information tells lines only: a trace needs no more.
+if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; then
     if [ -n "$suite" ]; then
         suites gcc gcc --suite "$suite" --no-suite soak
     elif [ -n "$all" ]; then
@@ -201,20 +204,22 @@ if [ -n "$all" ]; then
 
     # The address and undefined-behaviour sanitizers find something wherever a pointer goes: all suites but those that
     # measure, look at what is installed, or ask for numbers only: the oracle's lattices are as random as those of the
-    # fuzz targets, which go through the same parts of the library. clang, for gcc needs minutes to build this. The fuzz targets come from the
-    # same build.
-    coverage='-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp'
+    # fuzz targets, which go through the same parts of the library. The validator in node judges files, not memory.
+    # Tests repeat themselves less there (tests/support/repetitions.h, repetitions() of tests/cli/harness.py). clang,
+    # for gcc needs minutes to build this. The fuzz targets come from the same build.
+    lines=-gline-tables-only
+    coverage="-fsanitize=fuzzer-no-link -fno-sanitize-coverage=trace-cmp $lines"
     fuzzed='lattice manifest report obj gltf glb ply off stl'
     if build asan 'unit property fuzz golden cli' clang clang++ -Dbuildtype=debug -Doptimization=1 \
         -Db_sanitize=address,undefined -Db_lundef=false -Dfuzzers=true -Dc_args="$coverage" -Dcpp_args="$coverage"; then
-        suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite slow --no-suite soak \
-            --timeout-multiplier 6
+        suites asan asan --no-suite oracle --no-suite rules --no-suite bench --no-suite node --no-suite slow \
+            --no-suite soak --timeout-multiplier 6
 
         # The fuzz targets themselves, for a moment and always the same one: a search for what is new takes hours, and
         # is not what a change is judged by. Their corpus was replayed by every suite `fuzz` above.
         # shellcheck disable=SC2086 # words
         printf '%s\n' $fuzzed | xargs -P "$(nproc)" -I '{}' sh -c '
-            sh "$1/tests/fuzz/run.sh" -t {} -n 3000 15 "$2" >"$3/fuzz-{}.out" 2>&1
+            sh "$1/tests/fuzz/run.sh" -t {} -n 2000 8 "$2" >"$3/fuzz-{}.out" 2>&1
             echo $? >"$3/fuzz-{}.status"' sh "$root" "$work/asan" "$logs"
         for target in $fuzzed; do
             case_of fuzz "$target" sh -c 'cat "$1.out"; exit "$(cat "$1.status")"' sh "$logs/fuzz-$target"
@@ -227,7 +232,7 @@ if [ -n "$all" ]; then
     # serves for both. It finds something only where there are threads. All else of clang is in the build above.
     # The address space must not be shuffled more than the thread sanitizer of Debian 12 copes with.
     if build clang 'threads compilers property' clang clang++ -Dbuildtype=debugoptimized -Db_sanitize=thread \
-        -Db_lundef=false; then
+        -Db_lundef=false -Dc_args="$lines" -Dcpp_args="$lines"; then
         suites clang clang --suite threads --suite compilers --suite property --no-suite slow --no-suite soak \
             --wrap "setarch -R" --timeout-multiplier 10
     fi

@@ -16,14 +16,14 @@ extern "C" {
      gradient[9] row by row, gradient[3*r+c] = d delta_r / d p_c = (d delta / d uvw) J_P^{-1}; the deformation
                  gradient F is I + gradient. May be NULL. 0 where J_P has no inverse.
    Returns 1 when u,v,w is in the support of a moved control point, else 0 (delta and gradient are then exact
-   zeros: the point keeps its bits). Any thread. The lattice must not need bounds. */
+   zeros: the point keeps its bits). Thread-safe. The lattice must not need bounds. */
 FFD_API int ffd_displacement(const ffd_lattice *lattice, const double uvw[3], double delta[3],
                              double gradient[9]);
 
-/* Carries a normal n to the deformed surface: cof(I + gradient) n, normalised. Returns 1 and writes result;
-   returns 0 and copies n where gradient is all 0 or n is zero or not finite (the bits are kept), or where the
-   result has no direction (collapse): *collapsed is then 1, else 0. collapsed may be NULL; result may be n.
-   Any thread. */
+/* Carries a normal n to the deformed surface: cof(I + gradient) n, normalised. Returns 1 and writes
+   result; returns 0 and copies n where gradient is all 0 or n is zero or not finite (the bits are kept),
+   or where the result has no direction (collapse): *collapsed is then 1, else 0. collapsed may be NULL;
+   result may be n. Thread-safe. */
 FFD_API int ffd_deform_normal(const double gradient[9], const double normal[3], double result[3],
                               int *collapsed);
 

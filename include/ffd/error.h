@@ -9,9 +9,9 @@
 extern "C" {
 #endif
 
-/* Returned by every function that can fail. 0 is success; the numbers never change. A code exists only where
-   a caller would act differently; the words are in ffd_error. Behind each: the exit code of the program
-   `ffd`. */
+/* Returned by every function that can fail. 0 is success; the numbers never change. A code exists
+   only where a caller would act differently; the words are in ffd_error. Behind each: the exit code
+   of the program `ffd`. */
 typedef enum ffd_status {
     FFD_OK = 0,
     FFD_E_GATE = -1,         /* a quality gate of --fail-on is violated (exit 1) */
@@ -36,10 +36,10 @@ typedef struct ffd_error {
 } ffd_error;
 
 /* Writes "FILE[:LINE|:POINTER]: MESSAGE" (or just MESSAGE) and a final 0 to text, cut to capacity bytes.
-   Returns the length of the uncut line. error and text are not NULL unless capacity is 0. Any thread. */
+   Returns the length of the uncut line. error and text are not NULL unless capacity is 0. Thread-safe. */
 FFD_API size_t ffd_error_format(const ffd_error *error, char *text, size_t capacity);
 
-/* The exit code (0 to 7; data/schema/formats.md 1) that stands for a status. Any thread. */
+/* The exit code (0 to 7; data/schema/formats.md 1) that stands for a status. Thread-safe. */
 FFD_API int ffd_status_exit_code(ffd_status status);
 
 #ifdef __cplusplus

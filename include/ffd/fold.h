@@ -54,7 +54,7 @@ typedef struct ffd_folds {
    The proof is of the volume's derivative: a volume that folds nowhere may still overlap itself (a bar bent
    past a full turn).
 
-   lattice must not need bounds. threads: 0 for all; never changes the result. Any thread. Errors:
+   lattice must not need bounds. threads: 0 for all; never changes the result. Thread-safe. Errors:
    FFD_E_ARGUMENT (the lattice still needs bounds), FFD_E_MEMORY. */
 FFD_API ffd_status ffd_folds_find(const ffd_lattice *lattice, int threads, ffd_folds *folds,
                                   ffd_error *error);

@@ -18,7 +18,7 @@ typedef enum ffd_isa {
     FFD_ISA_AVX512 /* with its parts F, DQ and VL */
 } ffd_isa;
 
-/* Whether this build and this processor can run it. Any thread. */
+/* Whether this build and this processor can run it. Thread-safe. */
 FFD_API bool ffd_isa_available(ffd_isa isa);
 
 #ifdef __cplusplus

@@ -20,14 +20,14 @@ typedef enum ffd_format {
     FFD_FORMAT_AUTO = 0, /* by the name's ending */
     FFD_FORMAT_OBJ,
     FFD_FORMAT_GLTF,
-    FFD_FORMAT_GLB,
+    FFD_FORMAT_GLB, /* .glb and .vrm */
     FFD_FORMAT_PLY,
     FFD_FORMAT_OFF,
     FFD_FORMAT_STL
 } ffd_format;
 
-/* The format that a file name's ending (or a bare ending, "obj") stands for, any case; FFD_FORMAT_AUTO if
- * none. */
+/* The format that a file name's ending (or a bare ending, "obj") stands for, any case;
+   FFD_FORMAT_AUTO if none. */
 FFD_API ffd_format ffd_format_from_name(const char *name);
 
 /* A vertex outside of a lattice stays; moves as the continuation of the nearest border point's displacement
@@ -37,15 +37,23 @@ typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE
    one position and one normal get one again, from all faces around them, by area and angle. */
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
+/* Images of a glTF, material libraries and maps of an OBJ, whose output is in another folder: they are copied
+   beside it; or the URIs of a glTF lead back to them. */
 typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
 
 /* Quality gates, to be joined by |. A violated one fails the job with FFD_E_GATE before anything is written.
  */
 typedef enum ffd_gate {
-    FFD_GATE_FOLDS = 1,    /* a deformed volume folds, or is not proven not to */
-    FFD_GATE_OUTSIDE = 2,  /* a vertex is outside of a lattice */
+    /* A deformed volume folds, or is not proven not to; or, with EXTEND, det F <= 0 at a vertex outside. */
+    FFD_GATE_FOLDS = 1,
+    FFD_GATE_OUTSIDE = 2,  /* a vertex is outside of every lattice, or there is none */
     FFD_GATE_MULTIPLE = 4, /* a vertex has several u,v,w */
-    FFD_GATE_SINGULAR = 8  /* a vertex is where the rest volume has no inverse */
+    FFD_GATE_SINGULAR = 8, /* a vertex is where the rest volume has no inverse */
+    FFD_GATE_INVALID = 16, /* a vertex has a coordinate that is not finite */
+    FFD_GATE_TEAR = 32, /* the largest step of a torn edge is more than tear_most; or, where that is negative,
+                           any edge is torn */
+    FFD_GATE_FLIPPED = 64, /* more faces are flipped than flipped_most */
+    FFD_GATE_EDGES = 128   /* a straight edge lies farther than edges_most from the deformed surface */
 } ffd_gate;
 
 typedef enum ffd_log_level { FFD_LOG_WARNING = 0, FFD_LOG_INFO, FFD_LOG_DETAIL } ffd_log_level;
@@ -58,23 +66,53 @@ typedef void (*ffd_log_function)(void *user, ffd_log_level level, const char *li
    nothing about signals. */
 FFD_API void ffd_cleanup_on_signals(void);
 
+/* Input files are mapped into memory where they are large. From now on one that becomes shorter while it is
+   read makes the function that reads it fail with FFD_E_IO; without this the system ends the program by
+   SIGBUS. For programs, at their start, since it installs a handler for SIGBUS: what that does not know as an
+   input's it hands on to the handler that was there before. */
+FFD_API void ffd_guard_inputs(void);
+
+/* Brings back what a run had set aside to replace it (a .gltf and its buffers), and had not replaced when it
+   was killed; or removes it, if the new files were in place. ffd_deform_run and ffd_embed_run do this for
+   their outputs. path: the .gltf, or another output that several files belong to; no stream. Does nothing
+   where there is nothing to do. Errors: FFD_E_IO, FFD_E_MEMORY. */
+FFD_API ffd_status ffd_restore_output(const char *path, ffd_error *error);
+
 /* A mesh file to read. */
 typedef struct ffd_source {
     const char *path;  /* "-": standard input */
     ffd_format format; /* AUTO is not possible for "-" */
     ffd_space space;   /* glTF: the space of the lattice */
-    /* Bytes of memory that the mesh may take; 0, or less than that: 100 MB and 20 times the size of its
-       files. What asks for more (a short file can show or unpack any number of vertices) is refused with
-       FFD_E_LIMIT. Estimated, and without that of the lattice. */
+    /* Bytes of memory that the mesh and the lattices of its job may take; 0, or less than that: 100 MB and 20
+       times the size of their files. What asks for more (a short file can show or unpack any number of
+       vertices, or ask for any number of control points) is refused with FFD_E_LIMIT. Estimated. */
     uint64_t memory;
     int threads; /* for reading and writing it: 0: those of the job, or all cores */
     /* Normals will not be asked for: a format may leave them out, and does not describe them then.
        ffd_deform_run decides on this itself. */
     bool only_positions;
+    /* What the format's specification calls an error is FFD_E_INVALID even where its meaning is plain. Else
+       the log is warned of it. */
+    bool strict;
+    /* allow_extension_count names of glTF extensions, or NULL: a file that requires them is deformed although
+       they are not known, or not supported: FFD_E_UNSUPPORTED else. */
+    const char *const *allow_extensions;
+    size_t allow_extension_count;
 } ffd_source;
 
-/* Whether text is a selector as ffd_deform_desc's only takes it. Errors: FFD_E_ARGUMENT, with the nearest
-   kind. */
+/* What a mesh file has against the specification of its format, where its meaning is plain: viewers open the
+   file, and no vertex could stand elsewhere. */
+typedef struct ffd_flaw {
+    char message[256]; /* the first one of its kind, as ffd_error has it */
+    char pointer[128]; /* JSON pointer to it, "": none */
+    uint64_t line;     /* its line from 1, 0: none */
+    uint64_t count;    /* of the kind */
+} ffd_flaw;
+/* The kinds of one file; what is left over shares the last. */
+#define FFD_FLAWS 8
+
+/* Whether text is a selector as ffd_deform_desc's only takes it. Errors: FFD_E_ARGUMENT,
+   with the nearest kind. */
 FFD_API ffd_status ffd_selector_check(const char *text, ffd_error *error);
 
 /* The files that one run has written so far. Jobs that share the record neither replace nor read what an
@@ -97,9 +135,17 @@ FFD_API ffd_status ffd_share_create_for_lattices(ffd_share **share, ffd_error *e
 /* Frees what is kept and clears the pointer. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_share_destroy(ffd_share **share);
 
+/* One box round the meshes of several jobs, for lattices whose box is "mesh" (`--shared-box`). */
+typedef struct ffd_shared_box ffd_shared_box;
+
+/* A box round nothing. */
+FFD_API ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error);
+/* Frees the box and clears the pointer. NULL and pointers to NULL are allowed. */
+FFD_API void ffd_shared_box_destroy(ffd_shared_box **box);
+
 /* The files that outputs were made from, as make and ninja read them: a rule "OUT: MESH BUFFERS IMAGES
-   LATTICES EMBEDDING" for each job that succeeds. Streams are left out, and images but those that the output
-   holds as they are. One thread at a time. */
+   LATTICES EMBEDDING" for each job that succeeds. Streams are left out, and images and material libraries but
+   those that are copied with the output. One thread at a time. */
 typedef struct ffd_depfile ffd_depfile;
 
 /* Starts a depfile that will be written to path ("-": standard output), under a temporary name until it is
@@ -121,19 +167,33 @@ typedef struct ffd_deform_desc {
     ffd_format output_format;
     const char *const *lattices; /* lattice_count paths, applied in that order; at least one */
     size_t lattice_count;
+    /* All lattices act on the mesh at rest, and each vertex is in one of them: the first that holds it. Else
+       each acts on what the ones before have made. */
+    bool blocks;
     /* set_count values for placeholders of the lattices' moves, or NULL. FFD_E_INVALID for one that no
        lattice has. */
     const ffd_setting *set;
     size_t set_count;
     ffd_outside outside;
-    double falloff;        /* EXTEND: the displacement fades to nothing over this distance, world units; 0: it
-                              does not */
-    const char *embedding; /* the file that `ffd embed` made of this mesh and the only lattice, or NULL */
-    unsigned fail_on;      /* of ffd_gate */
+    double falloff; /* EXTEND: the displacement fades to nothing over this distance, world units; 0: it
+                       does not */
+    /* A vertex that misses a lattice's volume by no more than this is inside, at the nearest point of its
+       border: world units or, relative, parts of the rest lattice's diagonal. Whatever it is, a vertex is
+       inside where its rounding reaches: half an ulp of the number in the file, half a step of quantized
+       ones. */
+    double snap;
+    bool snap_relative;
+    const char *embedding; /* the file that `ffd embed` made of this mesh and the only lattice, with this
+                              snap, or NULL; not with blocks */
+    unsigned fail_on;      /* of ffd_gate, with the values of some: */
+    double tear_most;      /* negative: no edge may be torn */
+    uint64_t flipped_most;
+    double edges_most;
     bool quality; /* fill the result's folds, flipped faces and det F too: they cost time and memory */
     ffd_normals normals;
     const char *as_morph; /* to glTF: leave the base shape and add the deformation as a morph target of this
-                             name, weight 0; NULL: deform it. ffd_check_run does not look at it. */
+                             name, weight 0, or replace the one of this name, whose weight stays; NULL: deform
+                             it. ffd_check_run does not look at it. */
     /* only_count selectors "KIND:NAME", or NULL: only what at least one of them names is moved, counted in
        the result and the gates, and inside of a lattice whose box is "mesh"; all else keeps every byte. glTF
        has the kinds node (with all below it), mesh, material; OBJ group, object, material; other formats have
@@ -147,9 +207,14 @@ typedef struct ffd_deform_desc {
     /* Overwrite an existing output only if it, or a file that belongs to it, would get other bytes: else all
        of them stay untouched. */
     bool if_changed;
-    bool in_place;        /* output is the input (output is NULL then) */
+    bool in_place; /* output is the input (output is NULL then) */
+    /* Everything but the writing, unlike ffd_check_run with the refusals that concern the output and the
+       files beside it; what only the writing finds out is not refused. */
+    bool dry_run;
     ffd_written *written; /* of the run, or NULL */
     ffd_share *share;     /* with the jobs before and after, or NULL */
+    /* What a lattice whose box is "mesh" goes round, in place of the job's own mesh; or NULL. */
+    const ffd_shared_box *shared_box;
     ffd_depfile *depfile; /* gets the rule of the output, which is neither "-" nor in place; or NULL */
     ffd_log_function log; /* may be NULL */
     void *log_user;
@@ -157,37 +222,104 @@ typedef struct ffd_deform_desc {
 
 FFD_API void ffd_deform_desc_init(ffd_deform_desc *desc);
 
+/* Widens the box by the mesh of a job, or what its selectors leave, as the file has it. To be done for all
+   jobs before the first of them runs. Errors: those of reading the mesh, and FFD_E_ARGUMENT for a stream,
+   which could not be read again. */
+FFD_API ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error);
+
 typedef struct ffd_bounds {
     double min[3], max[3]; /* min > max where there is no finite vertex */
 } ffd_bounds;
 
-/* What a job did: the figures of the report (data/schema/formats.md 2). Lengths in world units unless said
- * otherwise. */
+/* What stays as it is where the mesh is moved. */
+typedef enum ffd_behind_kind {
+    FFD_BEHIND_SOCKET = 0, /* an empty node without children */
+    FFD_BEHIND_CAMERA,
+    FFD_BEHIND_LIGHT,
+    FFD_BEHIND_JOINT,
+    FFD_BEHIND_PIVOT, /* a node whose translation, rotation or scale is animated */
+    FFD_BEHIND_PHYSICS_SHAPE,
+    FFD_BEHIND_SPLAT, /* a Gaussian splat that is moved, by more than a translation of all: its rotation and
+                         scale stay */
+    FFD_BEHIND_KIND_COUNT
+} ffd_behind_kind;
+
+#define FFD_BEHIND_NAMES 3
+typedef struct ffd_behind {
+    uint64_t count;
+    /* The first ones in the order of the file (of splats: what shows them), cut to the size, control
+       characters as '?'; "": there is none. */
+    char names[FFD_BEHIND_NAMES][80];
+} ffd_behind;
+
+/* What a job did: the figures of the report (data/schema/formats.md 2). Lengths in world units
+   unless said otherwise. */
 typedef struct ffd_job_result {
     ffd_status status;
     ffd_error error;
     uint64_t vertices;
-    uint64_t counts[FFD_VERTEX_STATUS_COUNT]; /* by ffd_vertex_status; the highest over several lattices */
+    uint64_t counts[FFD_VERTEX_STATUS_COUNT]; /* by ffd_vertex_status; of several lattices: outside is what is
+                                                 outside of all, else the highest one */
+    /* Vertices that are not inside and that nothing shows, which counts leaves out and no gate looks at: in
+       no face, line or point; of hidden nodes (KHR_node_visibility). Those that are not finite are counted.
+     */
+    uint64_t unused, hidden;
+    /* glTF: vertices that morph targets move outside of every lattice, or to coordinates that are not finite,
+       once for each target; and those that the default weights of all targets move outside. The gates count
+       these too. */
+    uint64_t targets_outside, targets_invalid, shown_outside;
+    bool own_box; /* a lattice's box was laid round the mesh of this job */
     uint64_t moved;
     double residual_max, residual_rms; /* relative to the diagonal of the rest lattice */
     double evaluations_mean;
     uint32_t evaluations_max;
+    /* Of vertices that are not hidden, as default weights of morph targets show them; where the deformation
+       becomes a morph target itself (as_morph), of the base. */
     ffd_bounds before, after;
     double displacement_max, displacement_rms;
+    uint64_t
+        moved_twice; /* vertices on a face that two lattices share, which both move, one after the other */
+    uint64_t disagreeing; /* blocks: vertices on a face of theirs that another block moves otherwise */
+    double disagreement;  /* the largest difference from the block that has the vertex */
     uint64_t normals_collapsed;
-    uint64_t normals_carried;     /* RECOMPUTE: those without a face to be computed from, which follow the
-                                     deformation */
+    uint64_t normals_carried;     /* RECOMPUTE: those without a face to be computed from, which
+                                     follow the deformation */
     uint64_t transforms_singular; /* vertices kept because their node's or skin's matrix has no inverse */
+    uint64_t weights_off;         /* vertices whose skin weights do not sum to 1: divided by their sum */
+    double weights_farthest;      /* that such a sum is from 1 */
+    uint64_t weights_none;        /* vertices without skin weights, which follow their first joint */
     bool has_folds;               /* the proof ran: for check, quality and FFD_GATE_FOLDS */
     ffd_folds folds;      /* of all lattices: the worst verdict (some, unknown, none), sums of cells, the
                              least min_det, the witness of the first lattice that has one */
     size_t folds_lattice; /* number of the witness' lattice, from 0 */
     bool has_flipped;     /* for check and quality */
     uint64_t faces, flipped_faces;
+    /* Torn edges: one end moves, and the other stays where the displacement does not fade, or moves otherwise
+       although both are at one border or seam (src/maths.md 7.4). Edges that are not shown do not count.
+       Counted for check, quality, FFD_GATE_TEAR, and where vertices stay in a mesh of at most 5.5 million. */
+    bool has_tear;
+    uint64_t tear_edges;
+    double tear_largest; /* the largest step of one of them */
+    uint64_t
+        tear_vertex; /* an end of it, the one that stays if one does, from 0, in the order of `ffd embed` */
+    char tear_part[256]; /* that has it: "node:NAME", "mesh:NAME", "group:NAME", "object:NAME"; "": no name */
+    uint64_t tear_stays; /* vertices of that part, or else of the mesh, that stay */
+    bool
+        tear_unselected; /* it stays because it is not selected, or cannot be brought back to its own space */
+    bool tear_between;   /* it moves too: other lattices of a chain than its neighbour's, or more or fewer */
+    bool tear_seam; /* the edge crosses two rest faces of a lattice that coincide, and that are moved apart */
+    bool tear_disagrees; /* blocks: it is on a common face, which another block moves otherwise */
+    double det_outside;  /* with EXTEND: the least det F of vertices outside, where it is looked at (check,
+                            quality, FFD_GATE_FOLDS); else infinite */
+    uint64_t det_outside_vertex;
     double det_min, det_max; /* of F at the vertices, for check and quality; min > max where there is none */
     bool has_edges;          /* for check */
     uint64_t edges;          /* each counted once */
-    double deviation_max, deviation_mean; /* of straight edges from the deformed surface */
+    double deviation_max, deviation_mean;     /* of straight edges from the deformed surface */
+    ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* by ffd_behind_kind */
+    ffd_flaw flaws[FFD_FLAWS];                /* flaw_count, of the input */
+    size_t flaw_count;
+    uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
 } ffd_job_result;
 
@@ -207,13 +339,18 @@ FFD_API ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *re
 typedef struct ffd_embed_desc {
     size_t struct_size;
     ffd_source input;
+    /* May be without moves, and placeholders in its moves without values: only its rest matters. */
     const char *lattice;
     const char *output;
     const char *status_output;
+    double snap; /* as ffd_deform_desc's */
+    bool snap_relative;
     int threads;
     bool force;
     ffd_log_function log;
     void *log_user;
+    const ffd_setting *set; /* set_count values for placeholders, as in ffd_deform_desc; or NULL */
+    size_t set_count;
 } ffd_embed_desc;
 
 FFD_API void ffd_embed_desc_init(ffd_embed_desc *desc);
@@ -271,6 +408,8 @@ typedef struct ffd_compare_desc {
     bool relative;
     /* Normals and tangents may differ by this much in each component, which has no unit. */
     double direction_tolerance;
+    ffd_log_function log; /* gets warnings that begin with the file's name; may be NULL */
+    void *log_user;
 } ffd_compare_desc;
 
 /* No tolerances: both must be equal as numbers (0 and -0 are, two NaN are). */
@@ -289,37 +428,72 @@ FFD_API ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison 
 FFD_API ffd_status ffd_comparison_json(const ffd_comparison *comparison, const char *a, const char *b,
                                        char **text, ffd_error *error);
 
-/* `ffd info`: describes a mesh or lattice file as text or JSON. *text is the caller's, freed with
-   ffd_text_free, ends in a line break and 0. */
-FFD_API ffd_status ffd_info_run(const ffd_source *file, bool json, char **text, ffd_error *error);
+typedef struct ffd_info_desc {
+    size_t struct_size; /* sizeof(ffd_info_desc) of the caller */
+    ffd_source file;    /* a mesh, or with the ending .json and no format of its own a lattice */
+    bool json;          /* else text for people */
+    /* Of a mesh: every name that a selector of ffd_deform_desc's only can have, and what has none, with
+       bounds and numbers of vertices and faces. FFD_E_ARGUMENT for a lattice. */
+    bool parts;
+    /* Of a lattice: set_count values for placeholders of its moves, or NULL; those without a value are told
+       by their names. FFD_E_INVALID for one that it does not have, FFD_E_ARGUMENT for a mesh. */
+    const ffd_setting *set;
+    size_t set_count;
+    ffd_log_function log; /* gets warnings that begin with the file's name; may be NULL */
+    void *log_user;
+} ffd_info_desc;
 
-/* `ffd lattice new`: makes a lattice round a mesh (in scene space) and writes it. */
-FFD_API ffd_status ffd_lattice_new_run(const ffd_source *mesh, const ffd_lattice_desc *desc,
-                                       const char *output, bool force, ffd_error *error);
+FFD_API void ffd_info_desc_init(ffd_info_desc *desc);
 
-/* The report (data/schema/formats.md 2). Entries are added in the order of the jobs, and go to its file at
- * once. */
+/* `ffd info`: describes a mesh or lattice file. *text is the caller's, freed with ffd_text_free, ends in a
+   line break and 0; NULL after a failure. */
+FFD_API ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error);
+
+/* `ffd lattice new`: makes one lattice round all that the meshes show (in scene space), or, where they show
+   nothing, round all their vertices, and writes it. */
+typedef struct ffd_lattice_new_desc {
+    size_t struct_size;       /* sizeof(ffd_lattice_new_desc) of the caller */
+    const ffd_source *meshes; /* mesh_count, at least one */
+    size_t mesh_count;
+    /* only_count selectors "KIND:NAME", or NULL: the lattice goes round what at least one of them names. Each
+       mesh must have every name. */
+    const char *const *only;
+    size_t only_count;
+    const ffd_lattice_desc *lattice;
+    const char *output;   /* path, "-" for standard output */
+    bool force;           /* overwrite an existing output */
+    ffd_log_function log; /* gets warnings that begin with a mesh's name; may be NULL */
+    void *log_user;
+} ffd_lattice_new_desc;
+
+FFD_API void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc);
+FFD_API ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error);
+
+/* The report (data/schema/formats.md 2). Entries are added in the order of the jobs, and
+   go to its file at once. */
 typedef struct ffd_report ffd_report;
 
-/* Starts a report that will be written to path ("-": standard output), under a temporary name until it is
-   complete: what cannot be written is known before the first job. Of existing files it replaces reports only
-   (FFD_E_EXISTS). stable: without times. written may be NULL. Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY.
- */
+/* Starts a report at path ("-": standard output): JSON, or of a name that ends in .jsonl JSON Lines, an entry
+   a line. A file stands under its own name from now on, so that what cannot be written is known before the
+   first job; it is whole JSON after each entry, and what was added stays where the program is killed. Of
+   existing files it replaces its own kind only (FFD_E_EXISTS). stable: without times. written may be NULL.
+   Errors: FFD_E_IO, FFD_E_EXISTS, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
                                      ffd_error *error);
-/* Frees a report; one that was not written leaves nothing behind. NULL and pointers to NULL are allowed. */
+/* Frees a report; a file keeps the entries that were added. NULL and pointers to NULL are allowed. */
 FFD_API void ffd_report_destroy(ffd_report **report);
 FFD_API ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
                                   const ffd_job_result *result, ffd_error *error);
-/* Writes the report. At most once. */
+/* Completes the report. At most once, after the jobs. */
 FFD_API ffd_status ffd_report_write(ffd_report *report, ffd_error *error);
 
-/* `ffd report merge`: joins count reports (at least one; "-": standard input) to one and writes it to output
-   ("-": standard output). Every entry keeps its bytes. The entries of one report follow those of the one
-   before; interleave: one of each report in turn, which for those of the shards 0 to count-1 is the order of
-   the manifest. All are checked before anything is written, and held in memory only where they are no files.
-   Errors: FFD_E_ARGUMENT, FFD_E_IO, FFD_E_EXISTS, FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_LIMIT,
-   FFD_E_MEMORY. */
+/* `ffd report merge`: joins count reports (at least one; "-": standard input) to one and writes it to
+   output ("-": standard output). Names that end in .jsonl are of JSON Lines. Every entry keeps its bytes. The
+   entries of one report follow those of the one before; interleave: one of each report in turn, which for
+   those of the shards 0 to count-1 is the order of the manifest (FFD_E_INVALID where one has too few entries
+   for that). All are checked before anything is written,
+   and held in memory only where they are no files. Errors: FFD_E_ARGUMENT, FFD_E_IO, FFD_E_EXISTS,
+   FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_LIMIT, FFD_E_MEMORY. */
 FFD_API ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool interleave,
                                         const char *output, bool force, ffd_error *error);
 

@@ -41,7 +41,9 @@ typedef struct ffd_lattice_desc {
     size_t size[3];     /* control points along u,v,w; default 4,4,4 */
     int degree[3];      /* 1..9, or 0: 3, or size-1 where that is less */
     ffd_knots knots[3]; /* default FFD_KNOTS_DEFAULT */
-    double margin;      /* added on every side, as a fraction of the extent there; >= 0, default 0.05 */
+    double margin[3]; /* added on both sides, as a fraction of the extent there; >= 0, default 0.05; of a box
+                         along u, v, w: x, y, z, or its principal axes; of a cylinder, whose radius and height
+                         get it, all three are equal */
     ffd_spacing spacing;
     double axis[3]; /* cylinder: its axis, need not be of unit length; default 0,0,1 */
     bool principal; /* box: along the principal axes of the points instead of x,y,z */
@@ -50,7 +52,9 @@ typedef struct ffd_lattice_desc {
 FFD_API void ffd_lattice_desc_init(ffd_lattice_desc *desc);
 
 /* Reads a lattice file (JSON; data/schema/lattice.md). On success *lattice is the caller's, to be destroyed.
-   Errors: FFD_E_IO; FFD_E_INVALID with line (syntax) or JSON pointer (meaning); FFD_E_MEMORY, FFD_E_LIMIT. */
+   A file of one line can have 2^26 control points, which take 5 GB: jobs (ffd/job.h) count them against the
+   memory of their input before they are made, and this function does not. Errors: FFD_E_IO; FFD_E_INVALID
+   with line (syntax) or JSON pointer (meaning); FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error);
 
 /* The value of a placeholder: a lattice file can have {"$": "NAME"} in place of any value within its moves.
@@ -65,6 +69,11 @@ typedef struct ffd_setting {
 FFD_API ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
                                         ffd_lattice **lattice, ffd_error *error);
 
+/* The same for what depends on the rest alone, as u,v,w does: a placeholder without a value is no failure;
+   all moves are then left out. */
+FFD_API ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *values, size_t count,
+                                         bool *used, ffd_lattice **lattice, ffd_error *error);
+
 /* The same as ffd_lattice_load from memory: text of size bytes (no final 0 needed); messages use
    name. text is not kept. */
 FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
@@ -76,14 +85,22 @@ FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *
 FFD_API ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
                                       ffd_lattice **lattice, ffd_error *error);
 
-/* Writes the lattice as a file (data/schema/lattice.md), complete or not at all. force: replace an existing
- * file. */
+/* Writes the lattice as a file (data/schema/lattice.md), complete or not at all. force:
+   replace an existing file. */
 FFD_API ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force,
                                     ffd_error *error);
 
-/* Whether the rest box is "mesh", so that ffd_lattice_fit must come before anything that needs control
- * points. */
+/* Whether the rest box goes round meshes ("mesh" or {"meshes": [..]}), so that ffd_lattice_fit must come
+   before anything that needs control points. */
 FFD_API bool ffd_lattice_needs_bounds(const ffd_lattice *lattice);
+
+/* How many meshes the rest box names ({"meshes": [..]}) to go round, rather than the mesh that the lattice is
+   used on. */
+FFD_API size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice);
+
+/* The path of one of them, which the file gives relative to itself. *path is the caller's, freed with
+   ffd_text_free. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error);
 
 /* Fits a "mesh" lattice around the bounds min, max (3 doubles each, world units) and applies its moves. May
    be called again with other bounds. Does nothing where ffd_lattice_needs_bounds is false. Errors:
@@ -109,8 +126,8 @@ FFD_API const double *ffd_lattice_get_weights(const ffd_lattice *lattice, ffd_vo
 /* Evaluates C at u,v,w (in the domain; values outside are taken to its nearest point, closed directions
    modulo their period) and, where jacobian is not NULL, J = [C_u | C_v | C_w] as 9 doubles, row by row:
    jacobian[3*r+c] = dC_r/du_c. At an inner knot the right-hand derivative, at the end of the domain the
-   left-hand one. Basis: Piegl & Tiller A2.1 to A2.3; rational: 4.4. All NaN while ffd_lattice_fit is still
-   needed. Any thread. */
+   left-hand one. Basis: Piegl & Tiller A2.1 to A2.3; rational: 4.4. All NaN while ffd_lattice_fit is
+   still needed. Thread-safe. */
 FFD_API void ffd_lattice_evaluate(const ffd_lattice *lattice, ffd_volume volume, const double uvw[3],
                                   double point[3], double jacobian[9]);
 

@@ -14,7 +14,7 @@ extern "C" {
 #endif
 
 /* The version of the library that runs, "MAJOR.MINOR.PATCH"; compare with FFD_VERSION, that of the headers.
-   Returns a constant string. Any thread. */
+   Returns a constant string. Thread-safe. */
 FFD_API const char *ffd_version(void);
 
 #ifdef __cplusplus

@@ -13,14 +13,14 @@
 #define BYTES_ONES UINT64_C(0x0101010101010101)
 #define BYTES_TOPS UINT64_C(0x8080808080808080)
 
-/* Of eight bytes, the first lowest, those below '!', as blanks and line ends are: their highest bits, and no
-   others. */
+/* Marks those of eight bytes, the first lowest, that are below '!', as blanks and line ends are: sets their
+   highest bits, and no others. */
 static ALWAYS_INLINE uint64_t bytes_low(uint64_t eight)
 {
     return ~((eight | BYTES_TOPS) - '!' * BYTES_ONES) & ~eight & BYTES_TOPS;
 }
 
-/* Likewise those that are not digits. */
+/* Marks those that are not digits in the same way. */
 static ALWAYS_INLINE uint64_t bytes_not_digits(uint64_t eight)
 {
     const uint64_t values = eight ^ '0' * BYTES_ONES;
@@ -33,7 +33,7 @@ static ALWAYS_INLINE uint64_t bytes_gather(uint64_t tops)
     return (tops >> 7) * UINT64_C(0x0102040810204080) >> 56;
 }
 
-/* Of 64 bytes, a bit for each below '!'. */
+/* Returns a bit for each of 64 bytes that is below '!'. */
 static ALWAYS_INLINE uint64_t bytes_low_of_64_by_words(const char *at)
 {
     uint64_t found = 0;
@@ -42,7 +42,7 @@ static ALWAYS_INLINE uint64_t bytes_low_of_64_by_words(const char *at)
     return found;
 }
 
-/* Of 32 bytes, a bit for each that is not a digit. */
+/* Returns a bit for each of 32 bytes that is not a digit. */
 static ALWAYS_INLINE uint32_t bytes_not_digits_of_32_by_words(const char *at)
 {
     uint64_t found = 0;
@@ -60,7 +60,7 @@ static ALWAYS_INLINE uint64_t bytes_number(uint64_t digits)
     return (10000 * fours + (fours >> 32)) & UINT64_C(0xffffffff);
 }
 
-/* Those that sixteen digits make. */
+/* Returns the number that sixteen digits make. */
 typedef struct byte_numbers {
     uint32_t first, second;
 } byte_numbers;
@@ -165,7 +165,7 @@ static ALWAYS_INLINE uint64_t bytes_digits_around_sse2(const char *text, int bef
 #define bytes_digits_around bytes_digits_around_by_words
 #endif
 
-/* Of 64 bytes, a bit for each that is not a digit. */
+/* Returns a bit for each of 64 bytes that is not a digit. */
 static ALWAYS_INLINE uint64_t bytes_not_digits_of_64(const char *at)
 {
     return bytes_not_digits_of_32(at) | (uint64_t)bytes_not_digits_of_32(at + 32) << 32;

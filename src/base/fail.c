@@ -1,4 +1,5 @@
 #include "base/fail.h"
+#include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -59,6 +60,13 @@ ffd_status ffd_fail_file(ffd_error *error, ffd_status status, const char *file, 
         va_end(arguments);
     }
     return status;
+}
+
+ffd_status ffd_fail_errno(ffd_error *error, const char *file, const char *what)
+{
+    const int reason = errno;
+    return ffd_fail_file(error, reason == ENOMEM ? FFD_E_MEMORY : FFD_E_IO, file, "%s: %s", what,
+                         strerror(reason));
 }
 
 ffd_status ffd_fail_line(ffd_error *error, ffd_status status, const char *file, size_t line,

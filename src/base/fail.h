@@ -20,6 +20,8 @@ ffd_status ffd_fail(ffd_error *error, ffd_status status, const char *format, ...
 /* A failure of a file. */
 ffd_status ffd_fail_file(ffd_error *error, ffd_status status, const char *file, const char *format, ...)
     FFD_PRINTF(4, 5);
+/* "WHAT: REASON", the reason by errno: FFD_E_IO, or FFD_E_MEMORY. */
+ffd_status ffd_fail_errno(ffd_error *error, const char *file, const char *what);
 /* A failure at a line (from 1) of a file. */
 ffd_status ffd_fail_line(ffd_error *error, ffd_status status, const char *file, size_t line,
                          const char *format, ...) FFD_PRINTF(5, 6);

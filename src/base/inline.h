@@ -1,5 +1,5 @@
-/* inline.h - functions that are to be one with their callers: only where it knows degrees and wishes can a
-   compiler keep a kernel's sums in registers. */
+/* inline.h - functions that must be inlined: a compiler can keep a kernel's sums in registers only where it
+   knows the degrees and what is asked for. */
 #ifndef FFD_BASE_INLINE_H
 #define FFD_BASE_INLINE_H
 

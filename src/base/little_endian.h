@@ -5,8 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Where the machine has them the same way compilers make vectors of loops over plain copies, and only of
-   these. */
+/* On a little-endian machine compilers turn loops of plain copies into SIMD, and only these. */
 #if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 #define LITTLE_ENDIAN_MACHINE 1
 #else

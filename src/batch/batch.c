@@ -1,22 +1,31 @@
 #include "batch/batch.h"
 #include "base/file/input.h"
+#include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
+#include "base/text/words.h"
 #include "batch/journal.h"
+#include "batch/measure.h"
+#include "batch/mesh_states.h"
+#include "batch/outputs.h"
 #include "batch/progress.h"
-#include "job/judge/result.h"
+#include "batch/task_text.h"
 #include "job/report/depfile.h"
-#include "job/report/report.h"
+#include "job/report/report_file.h"
+#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Jobs that are known at a time: from the first one that has not ended. What ends before it waits here for
-   its turn in the report. */
+/* The most jobs that are known at a time. Where something is told in their order, those that end before an
+   earlier one wait here for their turn. */
 #define WINDOW ((size_t)1024)
 
 /* Jobs that wait for a worker; further ones are not read yet. */
 #define AHEAD ((size_t)256)
+
+/* Bytes of a mesh that several workers may have at a time. */
+#define MOST_SHARED ((uint64_t)1 << 28)
 
 /* Seconds between looks at the clock. */
 #define LOOK 0.1
@@ -28,6 +37,12 @@ typedef struct batch_run {
     job_journal *journal; /* NULL: there is none */
     ffd_report *report;   /* likewise */
     ffd_depfile *depfile; /* likewise */
+    shown_box box;        /* of all meshes, where they share one */
+    path_list box_files;  /* that it was taken from, where there is a depfile */
+    path_list outputs;    /* that depend on these */
+    run_outputs written;  /* by the jobs so far */
+    mesh_states meshes;   /* that they have read */
+    uint64_t jobs;        /* so far */
     batch_progress progress;
     batch_counts counts;
     pool_task *tasks[WINDOW]; /* in their order; count of them */
@@ -47,18 +62,37 @@ static void fail_task(pool_task *task, const ffd_error *error)
     task->outcome = OUTCOME_FAILED;
 }
 
-static void add_task(batch_run *run, pool_task *task)
+/* The name of what the jobs are lines of; NULL: they have none. */
+static const char *manifest_of(const batch_run *run)
+{
+    const job_source_desc *const jobs = &run->desc->jobs;
+    return jobs->manifest || jobs->table ? ffd_jobs_name(run->source) : NULL;
+}
+
+static void find_record(batch_run *run, pool_task *task)
+{
+    byte_buffer *const figures = run->report ? &task->figures : NULL;
+    task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
+}
+
+static ffd_status add_task(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
+    file_stamp stamp; /* of the mesh, whose path is the first word */
     run->tasks[run->count++] = task;
+    task->number = run->jobs++;
+    if (!job->error.status && ffd_outputs_claim(&run->written, manifest_of(run), job, &task->target, error))
+        return FFD_E_MEMORY;
     if (job->error.status) {
         fail_task(task, &job->error);
-        return;
+        return FFD_OK;
     }
     task->mesh = ffd_hash(job->input, strlen(job->input));
+    task->is_large = ffd_file_stamp(job->words.data, &stamp) && stamp.size > MOST_SHARED;
     if (run->journal)
-        task->has_record = ffd_journal_find(run->journal, job->target, &task->record);
+        find_record(run, task);
     run->waiting++;
+    return FFD_OK;
 }
 
 static ffd_status read_jobs(batch_run *run, ffd_error *error)
@@ -69,14 +103,16 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
             return ffd_fail_memory(error);
-        const ffd_status status = ffd_jobs_next(run->source, &task->job, &state, error);
+        ffd_status status = ffd_jobs_next(run->source, &task->job, &state, error);
         if (status || state != LINE_READ) {
             ffd_task_free(task);
             run->ended = state == LINE_NONE;
             run->starved = state == LINE_LATER;
             return status;
         }
-        add_task(run, task);
+        status = add_task(run, task, error);
+        if (status)
+            return status;
     }
     return FFD_OK;
 }
@@ -100,51 +136,54 @@ static void print_plan(const pool_task *task)
 
 static ffd_status report_task(batch_run *run, const pool_task *task, ffd_error *error)
 {
-    if (!run->report)
-        return FFD_OK;
-    if (task->entry.size)
-        return ffd_report_add_text(run->report, task->entry.data, task->entry.size, error);
-    ffd_job_result result;
-    byte_buffer text = {0};
-    ffd_result_clear(&result);
-    result.status = task->failure.status;
-    result.error = task->failure;
-    const report_entry entry = {.line = task->job.line,
-                                .input = task->job.input,
-                                .output = ffd_job_output_name(&task->job),
-                                .result = &result,
-                                .stable = run->desc->pool.stable};
-    ffd_report_entry_text(&entry, &text);
+    byte_buffer made = {0};
+    const byte_buffer *const text = task->entry.size ? &task->entry : &made;
+    if (!task->entry.size)
+        ffd_task_entry(task, run->desc->pool.stable, &made);
     const ffd_status status =
-        text.failed ? ffd_fail_memory(error) : ffd_report_add_text(run->report, text.data, text.size, error);
-    ffd_buffer_free(&text);
+        text->failed ? ffd_fail_memory(error)
+                     : ffd_report_add_text(run->report, task->number, text->data, text->size, error);
+    ffd_buffer_free(&made);
     return status;
 }
 
-/* What a job's end means at once, whichever jobs before it still run. */
-static void note_end(batch_run *run, pool_task *task)
+static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *error)
+{
+    byte_buffer lines = {0};
+    ffd_task_lines(task, manifest_of(run), &lines);
+    ffd_buffer_append(&lines, "", 1);
+    const ffd_status status = lines.failed ? ffd_fail_memory(error) : FFD_OK;
+    if (!status)
+        ffd_progress_print(&run->progress, lines.data);
+    ffd_buffer_free(&lines);
+    return status;
+}
+
+/* Does what follows at once from the end of a job, even if jobs before it still run. */
+static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
 {
     uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
     ++*counts[task->outcome];
     task->noted = true;
-    if (task->log.size && !task->log.failed) {
-        ffd_buffer_append(&task->log, "", 1);
-        ffd_progress_print(&run->progress, task->log.data);
-    }
-    if (task->failure.status)
-        say_error(run, &task->failure);
+    ffd_status status = ffd_states_note(&run->meshes, task, error);
+    if (!status)
+        status = say_task(run, task, error);
     if (task->outcome == OUTCOME_FAILED && run->desc->stop)
         run->ending = true;
     if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
-        ffd_journal_put(run->journal, task->job.target, &task->record);
+        ffd_journal_put(run->journal, &task->target, &task->record, task->figures.data, task->figures.size);
+    if (!status && run->report && !ffd_report_is_ordered(run->report))
+        status = report_task(run, task, error);
+    return status;
 }
 
 /* A job that is not valid ends when those before it have: it could be the one to stop at. Once no more are
    begun it is not begun either. */
-static void note_ends(batch_run *run)
+static ffd_status note_ends(batch_run *run, ffd_error *error)
 {
     bool is_first = true; /* of those that have not ended */
-    for (size_t i = 0; i < run->count; i++) {
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < run->count && !status; i++) {
         pool_task *const task = run->tasks[i];
         const bool is_valid = !task->job.error.status;
         is_first = is_first && task->state != TASK_WAITS && task->state != TASK_RUNS;
@@ -154,36 +193,50 @@ static void note_ends(batch_run *run)
             task->state = TASK_DROPPED;
             run->dropped = true;
         } else {
-            note_end(run, task);
+            status = note_end(run, task, error);
         }
     }
+    return status;
 }
 
-/* What is reported in the order of the jobs. */
+/* What is told in the order of the jobs. */
 static ffd_status tell_task(batch_run *run, const pool_task *task, ffd_error *error)
 {
     if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
         print_plan(task);
-    if (run->depfile && task->rule.size)
+    if (run->depfile && task->rule.size) {
         ffd_depfile_add(run->depfile, &task->rule);
-    return report_task(run, task, error);
+        if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
+            return FFD_E_MEMORY;
+    }
+    return run->report && ffd_report_is_ordered(run->report) ? report_task(run, task, error) : FFD_OK;
 }
 
-/* Takes the jobs that have ended, and none before them has not, out of the window. */
+/* Whether something of the jobs is told in their order. */
+static bool tells_in_order(const batch_run *run)
+{
+    return run->desc->pool.dry || run->depfile || (run->report && ffd_report_is_ordered(run->report));
+}
+
+/* Takes ended jobs out of the window; where they are told in their order, up to the first one that has not
+   ended. */
 static ffd_status take_ended(batch_run *run, ffd_error *error)
 {
-    size_t taken = 0;
+    const bool in_order = tells_in_order(run);
+    size_t kept = 0;
     ffd_status status = FFD_OK;
-    for (; taken < run->count && !status; taken++) {
-        pool_task *const task = run->tasks[taken];
-        if (task->state != TASK_ENDED && task->state != TASK_DROPPED)
-            break;
+    for (size_t i = 0; i < run->count; i++) {
+        pool_task *const task = run->tasks[i];
+        const bool is_over = task->state == TASK_DROPPED || (task->state == TASK_ENDED && task->noted);
+        if (status || !is_over || (in_order && kept > 0)) {
+            run->tasks[kept++] = task;
+            continue;
+        }
         if (task->state == TASK_ENDED)
             status = tell_task(run, task, error);
         ffd_task_free(task);
     }
-    run->count -= taken;
-    memmove(run->tasks, run->tasks + taken, run->count * sizeof *run->tasks);
+    run->count = kept;
     return status;
 }
 
@@ -209,16 +262,16 @@ static void drop_waiting(batch_run *run)
 
 static void heed_interrupts(batch_run *run)
 {
-    const interrupt_request request = ffd_interrupt_requested();
-    if (request != INTERRUPT_NONE)
-        run->ending = true;
+    const bool stops = ffd_interrupt_requested();
+    run->ending = run->ending || stops;
     if (run->ending)
         drop_waiting(run);
-    if (request == INTERRUPT_STOP)
+    if (stops)
         ffd_pool_stop(run->pool);
 }
 
-/* Where the manifest cannot be read on, or no worker be had, what was begun is finished all the same. */
+/* If the rest of the manifest cannot be read, or no worker can be started, the jobs that were begun are
+   finished all the same. */
 static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = read_jobs(run, error);
@@ -232,14 +285,17 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK, first = FFD_OK;
     while (!status) {
+        run->ending = run->ending || ffd_interrupt_requested();
         if (!first)
             first = begin_jobs(run, error);
         if ((ffd_pool_running(run->pool) > 0 || run->starved))
             ffd_pool_wait(run->pool, LOOK);
-        note_ends(run);
+        status = note_ends(run, first ? NULL : error);
         heed_interrupts(run);
-        note_ends(run); /* of those that were stopped */
-        status = take_ended(run, first ? NULL : error);
+        if (!status)
+            status = note_ends(run, first ? NULL : error); /* of those that were stopped */
+        if (!status)
+            status = take_ended(run, first ? NULL : error);
         count_waiting(run);
         ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
         if (run->count == 0 && (run->ended || run->ending))
@@ -276,20 +332,43 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
     return status;
 }
 
+/* No job may write the files of the run itself. */
+static ffd_status claim_own(batch_run *run, ffd_error *error)
+{
+    const char *const own[] = {run->desc->report, run->desc->depfile, run->desc->journal};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < sizeof own / sizeof *own && !status; i++)
+        if (own[i] && !ffd_output_is_stream(own[i]))
+            status = ffd_outputs_reserve(&run->written, own[i], error);
+    return status;
+}
+
 static ffd_status open_all(batch_run *run, ffd_error *error)
 {
     const batch_desc *const desc = run->desc;
     pool_desc pool = desc->pool;
-    ffd_status status = ffd_jobs_open(&desc->jobs, &run->source, error);
+    ffd_status status = FFD_OK;
+    /* Before there are workers a signal ends the program as it ends any other command. */
+    if (desc->shared_box) {
+        ffd_interrupt_watch();
+        status = ffd_batch_measure(&desc->jobs, &pool, desc->depfile && !pool.dry, &run->box, &run->box_files,
+                                   error);
+    }
+    if (!status)
+        status = ffd_jobs_open(&desc->jobs, &run->source, error);
     if (!status)
         status = open_journal(run, error);
-    if (!status && desc->report)
-        status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
+    ffd_interrupt_watch();
     if (!status && desc->depfile && !pool.dry)
         status = ffd_depfile_create(desc->depfile, &run->depfile, error);
+    if (!status && desc->report)
+        status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
+    if (!status)
+        status = claim_own(run, error);
     pool.report = run->report != NULL;
     pool.depfile = run->depfile != NULL;
     pool.records = run->journal != NULL;
+    pool.box = desc->shared_box ? &run->box : NULL;
     pool.origin = status ? NULL : ffd_jobs_name(run->source);
     return status ? status : ffd_pool_create(&pool, &run->pool, error);
 }
@@ -298,14 +377,69 @@ static const char *remark_of(const batch_run *run)
 {
     if (!run->dropped)
         return "";
-    return ffd_interrupt_requested() == INTERRUPT_NONE ? "; the other jobs were not started (--stop)"
-                                                       : "; interrupted, the other jobs were not started";
+    return ffd_interrupt_requested() ? "; interrupted, the other jobs were not started"
+                                     : "; the other jobs were not started (--stop)";
+}
+
+static void say_line(void *user, ffd_log_level level, const char *line)
+{
+    byte_buffer text = {0};
+    (void)level; /* there are warnings only */
+    ffd_buffer_format(&text, "%s\n", line);
+    char *const whole = ffd_buffer_finish(&text);
+    if (whole)
+        ffd_progress_print(user, whole);
+    ffd_free(whole);
+}
+
+/* What the jobs have cost beyond themselves. */
+static void say_counts(batch_run *run)
+{
+    char line[200];
+    const pool_counts counts = ffd_pool_counts(run->pool);
+    snprintf(line, sizeof line,
+             "%" PRIu64 " %s: meshes read %" PRIu64 " %s, u,v,w looked for %" PRIu64 " %s\n", counts.workers,
+             ffd_plural(counts.workers, "worker", "workers"), counts.jobs.reads,
+             ffd_plural(counts.jobs.reads, "time", "times"), counts.jobs.searches,
+             ffd_plural(counts.jobs.searches, "time", "times"));
+    if (run->desc->pool.verbose)
+        ffd_progress_print(&run->progress, line);
+}
+
+/* What is odd about the table. */
+static void say_flaws(batch_run *run)
+{
+    const mesh_log log = {say_line, &run->progress};
+    if (!run->desc->quiet)
+        ffd_flaws_warn(ffd_jobs_flaws(run->source), ffd_jobs_name(run->source), &log);
+}
+
+/* An empty text is valid, but seldom what was meant. */
+static void say_none(batch_run *run)
+{
+    ffd_error note;
+    if (run->desc->quiet || !run->ended || ffd_jobs_count(run->source) > 0)
+        return;
+    ffd_fail_file(&note, FFD_E_INVALID, ffd_jobs_name(run->source), "has no jobs");
+    say_error(run, &note);
+}
+
+/* With one rule for all outputs of what the box that they share was taken from. */
+static ffd_status write_depfile(batch_run *run, ffd_error *error)
+{
+    byte_buffer rule = {0};
+    ffd_status status = FFD_OK;
+    if (run->outputs.count)
+        status = ffd_depfile_common_rule(&run->outputs, &run->box_files, &rule, error);
+    if (!status)
+        ffd_depfile_add(run->depfile, &rule);
+    ffd_buffer_free(&rule);
+    return status ? status : ffd_depfile_write(run->depfile, error);
 }
 
 ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
 {
     batch_run run = {.desc = desc};
-    ffd_interrupt_watch();
     ffd_progress_begin(&run.progress, desc->quiet);
     ffd_status status = open_all(&run, error);
     if (!status) {
@@ -315,7 +449,11 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
         const ffd_status reported = run.report ? ffd_report_write(run.report, status ? NULL : error) : FFD_OK;
         status = status ? status : reported;
         if (!status && run.depfile && !run.counts.failed && !run.dropped)
-            status = ffd_depfile_write(run.depfile, error);
+            status = write_depfile(&run, error);
+        say_flaws(&run);
+        if (!status)
+            say_none(&run);
+        say_counts(&run);
         if (!status)
             ffd_progress_end(&run.progress, &run.counts, desc->pool.dry ? "to do" : "done", remark_of(&run));
     }
@@ -323,9 +461,13 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
     for (size_t i = 0; i < run.count; i++)
         ffd_task_free(run.tasks[i]);
     ffd_pool_destroy(&run.pool);
+    ffd_states_free(&run.meshes);
     ffd_report_destroy(&run.report);
     ffd_depfile_destroy(&run.depfile);
     ffd_journal_close(&run.journal);
     ffd_jobs_close(&run.source);
+    ffd_paths_free(&run.box_files);
+    ffd_paths_free(&run.outputs);
+    ffd_outputs_free(&run.written);
     return status;
 }

@@ -1,4 +1,5 @@
-/* batch.h - many jobs, by several workers, of which none can harm another (data/schema/formats.md 3). */
+/* batch.h - many jobs, done by several workers, so that no job can harm another
+   (data/schema/formats.md 3). */
 #ifndef FFD_BATCH_BATCH_H
 #define FFD_BATCH_BATCH_H
 
@@ -11,12 +12,13 @@ typedef struct batch_desc {
     const char *report;  /* "-": standard output; or NULL */
     const char *depfile; /* with the rules of all outputs; or NULL */
     const char *journal; /* or NULL: where ffd_journal_default_path says */
+    bool shared_box;     /* all meshes have one box */
     bool stop;           /* at the first failure */
     bool quiet;          /* only what went wrong */
 } batch_desc;
 
-/* Runs the batch; says on standard error what people want to know. *failed: a job did, or was not reached.
-   Errors: those of the manifest, the report and the workers; jobs that failed are none. */
+/* Runs the batch, with messages for people on standard error. Sets *failed if a job failed or was not
+   reached. Errors: those of the manifest, the report and the workers; a failed job is not an error. */
 ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error);
 
 #endif

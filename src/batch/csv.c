@@ -2,8 +2,8 @@
 #include "json/json_chars.h"
 #include <string.h>
 
-/* Reads a quoted cell from the quote at text[i]. Returns the index after its closing quote; 0 if there is
- * none. */
+/* Reads a quoted cell from the quote at text[i]. Returns the index after its closing
+   quote; 0 if there is none. */
 static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *cell)
 {
     for (i++; i < size; i++) {
@@ -17,14 +17,14 @@ static size_t take_quoted(const char *text, size_t i, size_t size, byte_buffer *
 }
 
 /* The end of the cell at text[i], which is not quoted. */
-static size_t skip_plain(const char *text, size_t i, size_t size)
+static size_t skip_plain(char separator, const char *text, size_t i, size_t size)
 {
-    while (i < size && text[i] != ',' && text[i] != '"')
+    while (i < size && text[i] != separator && text[i] != '"')
         i++;
     return i;
 }
 
-bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size)
+bool ffd_csv_is_open(csv_scan *scan, const char *separators, const char *text, size_t size)
 {
     for (; scan->at < size; scan->at++) {
         const char c = text[scan->at];
@@ -32,7 +32,7 @@ bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size)
             scan->state = c == '"' ? CSV_QUOTE_ENDS : CSV_QUOTED;
         else if (c == '"' && scan->state != CSV_PLAIN && scan->state != CSV_BROKEN)
             scan->state = CSV_QUOTED; /* begins, or was one of two */
-        else if (c == ',' && scan->state != CSV_BROKEN)
+        else if (c && strchr(separators, c) && scan->state != CSV_BROKEN)
             scan->state = CSV_CELL_BEGINS;
         else if (c == '"' || scan->state == CSV_QUOTE_ENDS)
             scan->state = CSV_BROKEN; /* it is not a row, whatever follows */
@@ -42,18 +42,30 @@ bool ffd_csv_is_open(csv_scan *scan, const char *text, size_t size)
     return scan->state == CSV_QUOTED;
 }
 
-bool ffd_csv_split(const char *text, size_t size, csv_row *row)
+char ffd_csv_separator(const char *text, size_t size)
+{
+    bool quoted = false, has_semicolon = false;
+    for (size_t i = 0; i < size; i++) {
+        quoted = quoted != (text[i] == '"');
+        if (!quoted && text[i] == ',')
+            return ',';
+        has_semicolon = has_semicolon || (!quoted && text[i] == ';');
+    }
+    return has_semicolon ? ';' : ',';
+}
+
+bool ffd_csv_split(char separator, const char *text, size_t size, csv_row *row)
 {
     size_t i = 0;
     row->text.size = row->count = 0;
     for (;; i++) {
         if (i < size && text[i] == '"') {
             i = take_quoted(text, i, size, &row->text);
-            if (i == 0 || (i < size && text[i] != ','))
+            if (i == 0 || (i < size && text[i] != separator))
                 return false;
         } else {
             const size_t first = i;
-            i = skip_plain(text, i, size);
+            i = skip_plain(separator, text, i, size);
             if (i < size && text[i] == '"')
                 return false;
             ffd_buffer_append(&row->text, text + first, i - first);
@@ -79,6 +91,40 @@ bool ffd_csv_is_text(const csv_row *row)
 const char *ffd_csv_next(const csv_row *row, const char *cell)
 {
     return cell ? cell + strlen(cell) + 1 : row->text.data;
+}
+
+static size_t count_digits(const char *text)
+{
+    return strspn(text, "0123456789");
+}
+
+bool ffd_csv_number(const char *cell, bool decimal_comma, byte_buffer *json)
+{
+    const char *c = cell + strspn(cell, " \t");
+    const bool is_negative = *c == '-', has_sign = is_negative || *c == '+';
+    const char *const whole = c + has_sign;
+    const size_t digits = count_digits(whole);
+    const char *const point = whole + digits;
+    const bool has_point = *point == '.' || (decimal_comma && *point == ',');
+    const size_t decimals = has_point ? count_digits(point + 1) : 0;
+    const char *const power = point + has_point + decimals;
+    const bool has_power = *power == 'e' || *power == 'E';
+    const char *const exponent = power + has_power + (has_power && power[1] && strchr("+-", power[1]));
+    const size_t power_digits = has_power ? count_digits(exponent) : 0;
+    const char *const end = exponent + power_digits;
+    if (digits + decimals == 0 || (has_power && power_digits == 0) || end[strspn(end, " \t")])
+        return false;
+    const size_t zeros = strspn(whole, "0");
+    ffd_buffer_text(json, is_negative ? "-" : "");
+    ffd_buffer_text(json, zeros >= digits ? "0" : "");
+    if (zeros < digits)
+        ffd_buffer_append(json, whole + zeros, digits - zeros);
+    if (decimals) {
+        ffd_buffer_text(json, ".");
+        ffd_buffer_append(json, point + 1, decimals);
+    }
+    ffd_buffer_append(json, power, (size_t)(end - power));
+    return true;
 }
 
 void ffd_csv_free(csv_row *row)

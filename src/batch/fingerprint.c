@@ -1,8 +1,9 @@
 #include "batch/fingerprint.h"
+#include "base/file/folder.h"
 #include "base/file/input.h"
-#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/formats.h"
+#include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include <ffd/version.h>
 
@@ -35,7 +36,7 @@ static ffd_status add_files(hash_list *list, hash_cache *cache, const path_list 
     return status;
 }
 
-/* One that is not there, or cannot be read, counts too. */
+/* A file that is missing or cannot be read counts too. */
 static ffd_status add_images(hash_list *list, hash_cache *cache, const path_list *images, ffd_error *error)
 {
     static const hash128 missing = {{0}};
@@ -65,19 +66,27 @@ static ffd_status finish(hash_list *list, ffd_status status, hash128 *hash)
     return status;
 }
 
-/* Whether images go with the output into another folder. */
+/* Whether images and material libraries go with the output into another folder: not from one format to
+   another. */
 static bool copies_images(const ffd_deform_desc *desc)
 {
-    ffd_format format = desc->output_format;
-    if (desc->in_place || desc->resources != FFD_RESOURCES_COPY)
+    ffd_format from_format, format = desc->output_format;
+    if (desc->in_place || desc->resources != FFD_RESOURCES_COPY ||
+        ffd_source_format(&desc->input, &from_format, NULL))
         return false;
     if (format == FFD_FORMAT_AUTO)
         format = ffd_format_from_name(desc->output);
-    char *const from = ffd_path_folder(desc->input.path), *const to = ffd_path_folder(desc->output);
-    const bool apart = from && to && !ffd_file_same(from, to);
-    ffd_free(from);
-    ffd_free(to);
-    return apart && (format == FFD_FORMAT_GLTF || format == FFD_FORMAT_GLB);
+    return ffd_format_table(format) == ffd_format_table(from_format) &&
+           ffd_folders_differ(desc->input.path, desc->output);
+}
+
+bool ffd_fingerprint_has_copies(const ffd_deform_desc *desc, hash_cache *cache)
+{
+    path_list images = {0};
+    const bool has_none =
+        !copies_images(desc) || (!ffd_cache_images(cache, &desc->input, &images, NULL) && images.count == 0);
+    ffd_paths_free(&images);
+    return !has_none;
 }
 
 /* Images that are there become files of the job. */
@@ -93,6 +102,35 @@ static ffd_status add_images_of_input(hash_list *list, hash_cache *cache, const 
             status = ffd_paths_add(files, images.paths[i], error);
     ffd_paths_free(&images);
     return status;
+}
+
+/* What the boxes of lattices go round, but for the mesh itself: the files that they name, and the box that
+   all jobs share. */
+static ffd_status add_boxes(hash_list *list, hash_cache *cache, const ffd_deform_desc *desc, path_list *files,
+                            ffd_error *error)
+{
+    path_list meshes = {0}, read = {0};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < desc->lattice_count && !status; i++)
+        status = ffd_cache_box_meshes(cache, desc->lattices[i], &meshes, error);
+    for (size_t i = 0; i < meshes.count && !status; i++) {
+        ffd_source source = desc->input;
+        source.path = meshes.paths[i];
+        source.format = FFD_FORMAT_AUTO;
+        status = ffd_cache_list(cache, &source, &read, error);
+    }
+    if (!status)
+        status = add_files(list, cache, &read, error);
+    for (size_t i = 0; i < read.count && !status; i++)
+        status = ffd_paths_add(files, read.paths[i], error);
+    ffd_paths_free(&meshes);
+    ffd_paths_free(&read);
+    if (status || !desc->shared_box)
+        return status;
+    const ffd_bounds box = ffd_shown_box_bounds(&desc->shared_box->box);
+    const double sides[] = {box.min[0], box.min[1], box.min[2], box.max[0], box.max[1], box.max[2]};
+    const hash128 hash = ffd_hash_doubles(sides, 6);
+    return add_hash(list, &hash, error);
 }
 
 ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint_words *words,
@@ -116,17 +154,24 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint
     for (size_t i = 0; i < others.count && !status; i++)
         status = ffd_paths_add(files, others.paths[i], error);
     ffd_paths_free(&others);
+    if (!status)
+        status = add_boxes(&list, cache, desc, files, error);
     return finish(&list, status, hash);
 }
 
-/* What the output refers to: its buffers, and images, which may be missing. */
-static ffd_status list_output(const ffd_source *output, path_list *files, path_list *images, ffd_error *error)
+/* What the output refers to: its buffers, and images and material libraries (a format's find_resources finds
+   those that came with it), which may be missing. */
+static ffd_status list_output(const ffd_source *output, bool has_copies, path_list *files, path_list *images,
+                              ffd_error *error)
 {
     ffd_format format;
     mesh_document *document = NULL;
     ffd_status status = ffd_source_format(output, &format, error);
-    if (!status && !ffd_format_table(format)->list_files)
-        return ffd_paths_add(files, output->path, error);
+    if (!status && !ffd_format_table(format)->list_files) {
+        mesh_find_resources_function *const find = ffd_format_table(format)->find_resources;
+        status = ffd_paths_add(files, output->path, error);
+        return !status && has_copies && find ? find(output->path, images, error) : status;
+    }
     if (!status)
         status = ffd_source_open(output, 1, &document, error);
     if (!status)
@@ -143,15 +188,18 @@ ffd_status ffd_fingerprint_output(const ffd_deform_desc *desc, hash128 *hash, ff
                                .format = desc->in_place ? desc->input.format : desc->output_format,
                                .memory = desc->input.memory};
     hash_list list = {0};
-    hash_cache none = {0}; /* an output is looked at once */
     path_list files = {0}, images = {0};
-    ffd_status status = list_output(&output, &files, &images, error);
+    ffd_status status = list_output(&output, copies_images(desc), &files, &images, error);
     if (!status)
-        status = add_files(&list, &none, &files, error);
+        status = add_files(&list, NULL, &files, error);
     if (!status)
-        status = add_images(&list, &none, &images, error);
+        status = add_images(&list, NULL, &images, error);
     ffd_paths_free(&files);
     ffd_paths_free(&images);
-    ffd_cache_free(&none);
     return finish(&list, status, hash);
+}
+
+hash128 ffd_fingerprint_written(const hash128 *bytes)
+{
+    return ffd_hash(bytes, sizeof *bytes);
 }

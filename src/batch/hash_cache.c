@@ -3,30 +3,39 @@
 #include "base/memory/memory.h"
 #include "io/formats.h"
 #include "job/input/source.h"
+#include "lattice/spec_parse.h"
+#include <string.h>
 
-static const cached_file *find(const hash_cache *cache, const char *path, const file_stamp *stamp)
+static cached_file *find(hash_cache *cache, const char *path, const file_stamp *stamp)
 {
     for (size_t i = 0; i < CACHED_FILES; i++) {
-        const cached_file *const file = &cache->files[i];
+        cached_file *const file = &cache->files[i];
         if (file->path && strcmp(file->path, path) == 0 && ffd_stamp_equal(&file->stamp, stamp))
             return file;
     }
     return NULL;
 }
 
+static void forget_file(cached_file *file)
+{
+    ffd_free(file->path);
+    ffd_paths_free(&file->meshes);
+    *file = (cached_file){0};
+}
+
 static void remember(hash_cache *cache, const char *path, const file_stamp *stamp, const hash128 *hash)
 {
     cached_file *const file = &cache->files[cache->next];
-    ffd_free(file->path);
-    *file = (cached_file){ffd_text_copy(path), *stamp, *hash};
+    forget_file(file);
+    *file = (cached_file){.path = ffd_text_copy(path), .stamp = *stamp, .hash = *hash};
     cache->next = (cache->next + 1) % CACHED_FILES;
 }
 
 ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ffd_error *error)
 {
-    /* Looked at before the file is read: what changes it meanwhile makes the stamp an old one. */
+    /* The stamp is taken before the file is read: a change meanwhile makes it an old one. */
     file_stamp stamp;
-    const bool is_file = ffd_file_stamp(path, &stamp);
+    const bool is_file = cache && ffd_file_stamp(path, &stamp);
     const cached_file *const known = is_file ? find(cache, path, &stamp) : NULL;
     if (known) {
         *hash = known->hash;
@@ -51,68 +60,151 @@ static ffd_status copy_list(const path_list *from, path_list *to, ffd_error *err
     return status;
 }
 
-static void forget_mesh(hash_cache *cache)
+static void forget_mesh(cached_mesh *mesh)
 {
-    ffd_free(cache->mesh);
-    cache->mesh = NULL;
-    ffd_paths_free(&cache->mesh_files);
-    ffd_paths_free(&cache->mesh_images);
+    ffd_free(mesh->path);
+    ffd_paths_free(&mesh->files);
+    ffd_paths_free(&mesh->images);
+    *mesh = (cached_mesh){0};
 }
 
-static ffd_status list_opened(hash_cache *cache, const ffd_source *source, ffd_format format,
-                              ffd_error *error)
+static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *source, ffd_format format)
+{
+    file_stamp stamp;
+    if (!ffd_file_stamp(source->path, &stamp))
+        return NULL;
+    for (size_t i = 0; i < CACHED_FILES; i++) {
+        const cached_mesh *const mesh = &cache->meshes[i];
+        if (mesh->path && strcmp(mesh->path, source->path) == 0 && mesh->format == format &&
+            ffd_stamp_equal(&mesh->stamp, &stamp))
+            return mesh;
+    }
+    return NULL;
+}
+
+static ffd_status list_by_document(cached_mesh *mesh, const ffd_source *source, ffd_error *error)
 {
     mesh_document *document = NULL;
-    const bool is_file = ffd_file_stamp(source->path, &cache->stamp);
     ffd_status status = ffd_source_open(source, 1, &document, error);
     if (!status)
-        status = ffd_source_files(source, document, &cache->mesh_files, error);
+        status = ffd_source_files(source, document, &mesh->files, error);
     if (!status && document->format->list_images)
-        status = document->format->list_images(document, &cache->mesh_images, error);
+        status = document->format->list_images(document, &mesh->images, error);
     ffd_source_close(&document);
-    if (!status && is_file)
-        cache->mesh = ffd_text_copy(source->path);
-    cache->format = format;
     return status;
 }
 
-/* Makes the source's the mesh that is known. */
-static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_format format, ffd_error *error)
+static ffd_status look_into(cached_mesh *mesh, const ffd_source *source, ffd_format format, ffd_error *error)
 {
-    file_stamp stamp;
-    if (cache->mesh && strcmp(cache->mesh, source->path) == 0 && cache->format == format &&
-        ffd_file_stamp(source->path, &stamp) && ffd_stamp_equal(&stamp, &cache->stamp))
+    const mesh_format *const table = ffd_format_table(format);
+    const bool is_file = ffd_file_stamp(source->path, &mesh->stamp);
+    const ffd_status status = table->list_files || !table->find_resources
+                                  ? list_by_document(mesh, source, error)
+                                  : table->find_resources(source->path, &mesh->images, error);
+    if (!status && is_file)
+        mesh->path = ffd_text_copy(source->path);
+    mesh->format = format;
+    return status;
+}
+
+/* The mesh of the source, lent until the next one is asked for. */
+static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_format format,
+                            const cached_mesh **known, ffd_error *error)
+{
+    *known = find_mesh(cache, source, format);
+    if (*known)
         return FFD_OK;
-    forget_mesh(cache);
-    return list_opened(cache, source, format, error);
+    cached_mesh *const mesh = &cache->meshes[cache->next_mesh];
+    forget_mesh(mesh);
+    *known = mesh;
+    const ffd_status status = look_into(mesh, source, format, error);
+    cache->next_mesh = (cache->next_mesh + 1) % CACHED_FILES;
+    return status;
 }
 
 ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error)
 {
     ffd_format format;
+    const cached_mesh *mesh;
     ffd_status status = ffd_source_format(source, &format, error);
     if (status)
         return status;
     if (!ffd_format_table(format)->list_files)
         return ffd_paths_add(files, source->path, error);
-    status = know_mesh(cache, source, format, error);
-    return status ? status : copy_list(&cache->mesh_files, files, error);
+    status = know_mesh(cache, source, format, &mesh, error);
+    return status ? status : copy_list(&mesh->files, files, error);
 }
 
 ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error)
 {
     ffd_format format;
+    const cached_mesh *mesh;
     ffd_status status = ffd_source_format(source, &format, error);
-    if (status || !ffd_format_table(format)->list_images)
+    if (status || !(ffd_format_table(format)->list_images || ffd_format_table(format)->find_resources))
         return status;
-    status = know_mesh(cache, source, format, error);
-    return status ? status : copy_list(&cache->mesh_images, images, error);
+    status = know_mesh(cache, source, format, &mesh, error);
+    return status ? status : copy_list(&mesh->images, images, error);
+}
+
+/* Whether the text of a lattice may have the member "meshes", however it is written. */
+static bool may_name_meshes(const file_input *input)
+{
+    static const char key[] = "\"meshes\"";
+    const char *at = (const char *)input->data, *const end = at + input->size;
+    for (; at < end; at++) {
+        if (*at == '\\')
+            return true;
+        if (*at == '"' && (size_t)(end - at) >= sizeof key - 1 && memcmp(at, key, sizeof key - 1) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Adds the meshes that a lattice file names for its box. One that cannot be read fails its job later. */
+static ffd_status look_through(const char *path, path_list *meshes, ffd_error *error)
+{
+    const spec_settings rest_only = {.may_be_open = true};
+    lattice_spec *spec = NULL;
+    file_input input;
+    size_t size;
+    if (ffd_file_load(path, &input, NULL))
+        return FFD_OK;
+    const bool may = may_name_meshes(&input);
+    ffd_file_unload(&input);
+    if (!may || ffd_spec_load(path, &rest_only, &spec, &size, NULL))
+        return FFD_OK;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < spec->mesh_count && !status; i++) {
+        char *mesh = NULL;
+        status = ffd_spec_mesh(spec, i, &mesh, error);
+        if (!status)
+            status = ffd_paths_add(meshes, mesh, error);
+        ffd_free(mesh);
+    }
+    ffd_spec_free(spec);
+    return status;
+}
+
+ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error)
+{
+    file_stamp stamp;
+    cached_file *const file = ffd_file_stamp(path, &stamp) ? find(cache, path, &stamp) : NULL;
+    if (!file)
+        return look_through(path, meshes, error);
+    if (!file->is_looked_through) {
+        const ffd_status status = look_through(path, &file->meshes, error);
+        if (status)
+            return status;
+        file->is_looked_through = true;
+    }
+    return copy_list(&file->meshes, meshes, error);
 }
 
 void ffd_cache_free(hash_cache *cache)
 {
     for (size_t i = 0; i < CACHED_FILES; i++)
-        ffd_free(cache->files[i].path);
-    forget_mesh(cache);
+        forget_file(&cache->files[i]);
+    for (size_t i = 0; i < CACHED_FILES; i++)
+        forget_mesh(&cache->meshes[i]);
     *cache = (hash_cache){0};
 }

@@ -38,9 +38,9 @@ void ffd_description_set(job_description *description, const char *name, const j
 const char *ffd_description_name(const job_description *description, const job_statement *statement);
 /* The value of a statement, likewise. */
 const char *ffd_description_value(const job_description *description, const job_statement *statement);
-/* The value of the first such part; NULL where there is none. */
+/* The value of the first such part; NULL if there is none. */
 const char *ffd_description_find(const job_description *description, job_part part);
-/* What is wrong with a member; NULL: nothing. */
+/* Returns what is wrong with a member; NULL: nothing. */
 const char *ffd_description_wrong(const job_description *description, const char *name);
 /* Leaves an empty description. */
 void ffd_description_free(job_description *description);

@@ -3,17 +3,53 @@
 #include "base/memory/memory.h"
 #include "json/json_parse.h"
 #include "json/json_setting.h"
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
-/* Sets a placeholder to a cell. */
-static void set_cell(job_description *job, const char *column, const char *cell)
+#define CELL_RULES (JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS)
+
+static bool is_json(const char *text)
 {
     json_setting value;
-    if (ffd_json_setting_parse(cell, JSON_NO_NUL | JSON_DOUBLES | JSON_INTEGERS, &value))
+    const bool parsed = ffd_json_setting_parse(text, CELL_RULES, &value) == FFD_OK && !value.quoted;
+    ffd_json_setting_free(&value);
+    return parsed;
+}
+
+/* The JSON of a number that is written in another way (to be freed); NULL: the cell is none. */
+static char *number_of(const job_commons *commons, const char *cell, csv_flaw *flaw)
+{
+    byte_buffer text = {0};
+    char *number = NULL;
+    if (!is_json(cell) && ffd_csv_number(cell, commons->decimal_comma, &text))
+        number = ffd_buffer_finish(&text);
+    ffd_buffer_free(&text);
+    if (number && !is_json(number)) { /* out of range */
+        ffd_free(number);
+        number = NULL;
+    }
+    /* A decimal comma belongs to the table. */
+    const bool is_flaw = number && !flaw->cell[0] && !(commons->decimal_comma && strchr(cell, ','));
+    if (is_flaw) {
+        snprintf(flaw->cell, sizeof flaw->cell, "%s", cell);
+        snprintf(flaw->number, sizeof flaw->number, "%s", number);
+    }
+    return number;
+}
+
+/* Sets a placeholder to a cell. */
+static void set_cell(const job_commons *commons, const char *column, const char *cell, job_description *job,
+                     csv_flaw *flaw)
+{
+    char *const number = number_of(commons, cell, flaw);
+    json_setting value;
+    if (ffd_json_setting_parse(number ? number : cell, CELL_RULES, &value))
         job->texts.failed = true;
     else
         ffd_description_set(job, column, &value.tree, 0);
     ffd_json_setting_free(&value);
+    ffd_free(number);
 }
 
 /* Adds a path, which is relative to folder ("": to the current one). */
@@ -37,45 +73,63 @@ static void add_lattices(job_description *job, const job_commons *commons)
         ffd_description_add(job, JOB_LATTICE, NULL, commons->lattices[i]);
 }
 
-/* In the folder of outputs, the output has the name of the input. */
-static void add_output(job_description *job, const char *folder, const char *input)
+/* In the folder of outputs, the output has the name of the input; of one that makes several, with the number
+   of the row: STEM-ROW.EXT. */
+static void add_output(job_description *job, const char *folder, const char *input, uint64_t number)
 {
-    char *const name = ffd_text_copy(ffd_path_name(input));
+    char *const stem = ffd_path_stem(input);
+    byte_buffer text = {.failed = !stem};
+    if (stem && number)
+        ffd_buffer_format(&text, "%s-%" PRIu64 "%s", stem, number, ffd_path_ending(input));
+    else
+        ffd_buffer_text(&text, ffd_path_name(input));
+    char *const name = ffd_buffer_finish(&text);
     if (name)
         add_path(job, JOB_OUTPUT, folder, name);
     else
         job->texts.failed = true;
+    ffd_free(stem);
     ffd_free(name);
+}
+
+bool ffd_column_is_ignored(const char *ignored, const char *column)
+{
+    const size_t length = strlen(column);
+    for (const char *word = ignored; word && *word; word += strcspn(word, ","), word += *word == ',')
+        if (strcspn(word, ",") == length && memcmp(word, column, length) == 0)
+            return true;
+    return false;
 }
 
 /* "in", "out", "lattice" are files, other columns values of placeholders. Relative paths start at the table's
    folder, those of outputs at the batch's. */
 static void describe_cell(const job_commons *commons, const char *column, const char *cell,
-                          job_description *job)
+                          job_description *job, csv_flaw *flaw)
 {
     const char *const out_dir = commons->out_dir;
     if (strcmp(column, "in") != 0 && strcmp(column, "out") != 0 && strcmp(column, "lattice") != 0)
-        set_cell(job, column, cell);
+        set_cell(commons, column, cell, job, flaw);
     else if (*cell && *column == 'o')
         add_path(job, JOB_OUTPUT, out_dir ? out_dir : commons->folder, cell);
     else if (*cell)
         add_path(job, *column == 'i' ? JOB_INPUT : JOB_LATTICE, commons->folder, cell);
 }
 
-void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row,
-                      job_description *job)
+void ffd_describe_row(const job_commons *commons, const csv_row *columns, const csv_row *row, uint64_t number,
+                      job_description *job, csv_flaw *flaw)
 {
     const char *column = NULL, *cell = NULL;
     for (size_t i = 0; i < row->count; i++) {
         column = ffd_csv_next(columns, column);
         cell = ffd_csv_next(row, cell);
-        describe_cell(commons, column, cell, job);
+        if (!ffd_column_is_ignored(commons->ignored, column))
+            describe_cell(commons, column, cell, job, flaw);
     }
     if (commons->input && !ffd_description_find(job, JOB_INPUT))
         ffd_description_add(job, JOB_INPUT, NULL, commons->input);
     const char *const input = ffd_description_find(job, JOB_INPUT);
     if (commons->out_dir && input && !ffd_description_find(job, JOB_OUTPUT))
-        add_output(job, commons->out_dir, input);
+        add_output(job, commons->out_dir, input, number);
     if (!ffd_description_find(job, JOB_LATTICE))
         add_lattices(job, commons);
 }
@@ -84,6 +138,6 @@ void ffd_describe_file(const job_commons *commons, const char *path, job_descrip
 {
     ffd_description_add(job, JOB_INPUT, NULL, path);
     if (commons->out_dir)
-        add_output(job, commons->out_dir, path);
+        add_output(job, commons->out_dir, path, 0);
     add_lattices(job, commons);
 }

@@ -1,9 +1,12 @@
 #include "batch/job_source.h"
 #include "base/file/glob.h"
+#include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
+#include "base/text/words.h"
 #include "batch/csv.h"
+#include "batch/file_table.h"
 #include "batch/job_rows.h"
 #include "batch/lines.h"
 #include "batch/manifest.h"
@@ -20,10 +23,14 @@ struct job_source {
     uint64_t line;      /* that the last one begins in */
     line_reader reader; /* of manifest or table */
     csv_row columns, row;
-    csv_scan scan;    /* of the row */
-    bool row_goes_on; /* in lines that have not come yet */
-    bool is_lost;     /* a row was too long: where the next one begins is not known */
-    file_list files;  /* of a pattern */
+    char separator;       /* of cells; 0: not known yet */
+    bool numbers_outputs; /* a mesh that serves several rows is written with the number of the row */
+    file_table meshes;    /* how many rows (2: several) each serves; not known of a stream, where all may */
+    mesh_flaws flaws;     /* of the table */
+    csv_scan scan;        /* of the row */
+    bool row_goes_on;     /* in lines that have not come yet */
+    bool is_lost;         /* a row was too long: where the next one begins is not known */
+    file_list files;      /* of a pattern */
 };
 
 /* Lines */
@@ -32,9 +39,18 @@ struct job_source {
 static bool is_blank(const byte_buffer *line)
 {
     for (size_t i = 0; i < line->size; i++)
-        if (!strchr(" \t\r", line->data[i]))
+        if (line->data[i] == 0 || !strchr(" \t\r", line->data[i]))
             return false;
     return true;
+}
+
+/* Whether a line is of NUL bytes, as in a file that was not written to the end before a crash. */
+static bool is_zeros(const byte_buffer *line)
+{
+    for (size_t i = 0; i < line->size; i++)
+        if (line->data[i] != 0)
+            return false;
+    return line->size > 0;
 }
 
 /* Skips a byte order mark, which some editors write. */
@@ -84,8 +100,9 @@ static ffd_status next_row(job_source *source, csv_row *row, line_state *state, 
         source->line = reader->number;
         source->scan = (csv_scan){0};
     }
+    const char separators[] = {source->separator ? source->separator : ',', source->separator ? 0 : ';', 0};
     while (!status && *state == LINE_READ && !reader->too_long &&
-           ffd_csv_is_open(&source->scan, reader->line.data, reader->line.size))
+           ffd_csv_is_open(&source->scan, separators, reader->line.data, reader->line.size))
         status = ffd_lines_next(reader, true, state, error);
     source->row_goes_on = *state == LINE_LATER && source->scan.at > 0;
     if (*state == LINE_NONE && source->scan.at > 0)
@@ -93,14 +110,22 @@ static ffd_status next_row(job_source *source, csv_row *row, line_state *state, 
     if (status || *state != LINE_READ)
         return status;
     source->is_lost = reader->too_long;
-    *valid = !reader->too_long && ffd_csv_split(reader->line.data, reader->line.size, row);
+    if (!source->separator)
+        source->separator = ffd_csv_separator(reader->line.data, reader->line.size);
+    *valid = !reader->too_long && ffd_csv_split(source->separator, reader->line.data, reader->line.size, row);
     return row->text.failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
 static job_commons list_commons(const job_source *source)
 {
     const job_source_desc *const desc = &source->desc;
-    return (job_commons){source->folder, desc->out_dir, desc->pattern, desc->lattices, desc->lattice_count};
+    return (job_commons){.folder = source->folder,
+                         .out_dir = desc->out_dir,
+                         .input = desc->pattern,
+                         .lattices = desc->lattices,
+                         .lattice_count = desc->lattice_count,
+                         .ignored = desc->ignored,
+                         .decimal_comma = source->separator == ';'};
 }
 
 /* Fails the job of a row; returns false. */
@@ -127,21 +152,88 @@ static bool check_row(const job_source *source, bool valid, batch_job *job)
     if (!valid)
         return refuse_row(source, job, "not a valid CSV row");
     if (source->row.count != source->columns.count)
-        return refuse_row(source, job, "the row has %zu cells, but the table has %zu columns",
-                          source->row.count, source->columns.count);
+        return refuse_row(source, job, "the row has %zu %s, but the table has %zu %s", source->row.count,
+                          ffd_plural(source->row.count, "cell", "cells"), source->columns.count,
+                          ffd_plural(source->columns.count, "column", "columns"));
     return ffd_csv_is_text(&source->row) || refuse_row(source, job, "a cell is not text in UTF-8");
+}
+
+/* The mesh of a row as a path from here (to be freed); NULL: it has none, or memory runs out. */
+static char *mesh_of(const job_source *source)
+{
+    const job_commons commons = list_commons(source);
+    const csv_row *const columns = &source->columns, *const row = &source->row;
+    job_description description = {0};
+    csv_flaw flaw = {0};
+    ffd_describe_row(&commons, columns, row, 0, &description, &flaw);
+    const char *const mesh = ffd_description_find(&description, JOB_INPUT);
+    char *const path = mesh ? ffd_text_copy(mesh) : NULL;
+    ffd_description_free(&description);
+    return path;
+}
+
+/* Whether the mesh of a row serves others too, as far as that is known. */
+static bool is_repeated(const job_source *source)
+{
+    uint64_t rows;
+    if (ffd_file_is_stream(source->desc.table))
+        return true;
+    char *const mesh = mesh_of(source);
+    const hash128 file = mesh ? ffd_file_identity(mesh) : (hash128){{0}};
+    ffd_free(mesh);
+    return ffd_files_find(&source->meshes, &file, &rows) && rows > 1;
 }
 
 static ffd_status read_row(job_source *source, bool valid, batch_job *job)
 {
     job_description description = {0};
+    csv_flaw flaw = {0};
     if (!check_row(source, valid, job))
         return FFD_OK;
     const job_commons commons = list_commons(source);
-    ffd_describe_row(&commons, &source->columns, &source->row, &description);
-    const ffd_status status = ffd_job_make(&source->frame, &description, job);
+    const uint64_t number = source->numbers_outputs && is_repeated(source) ? source->count : 0;
+    ffd_describe_row(&commons, &source->columns, &source->row, number, &description, &flaw);
+    if (flaw.cell[0])
+        ffd_flaw_line(&source->flaws, source->frame.name, (size_t)job->line, &job->error,
+                      "\"%s\" is no number in JSON, and is read as %s", flaw.cell, flaw.number);
+    const ffd_status status = job->error.status ? FFD_OK : ffd_job_make(&source->frame, &description, job);
     ffd_description_free(&description);
     return status;
+}
+
+static bool has_column(const job_source *source, const char *column)
+{
+    const char *name = NULL;
+    for (size_t i = 0; i < source->columns.count; i++) {
+        name = ffd_csv_next(&source->columns, name);
+        if (strcmp(name, column) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* A name that no column has is a mistake. */
+static ffd_status check_ignored(const job_source *source, ffd_error *error)
+{
+    const char *word = source->desc.ignored;
+    for (size_t length; word && *word; word += length + (word[length] == ',')) {
+        char name[64];
+        length = strcspn(word, ",");
+        snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : sizeof name - 1), word);
+        if (length && !has_column(source, name))
+            return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                                 "the table has no column \"%s\" (--csv-ignore)", name);
+    }
+    return FFD_OK;
+}
+
+/* Where lines end as on old Macs, the whole table is one line. */
+static bool has_lone_return(const char *name)
+{
+    const char *found = strchr(name, '\r');
+    while (found && found[1] == '\n')
+        found = strchr(found + 1, '\r');
+    return found;
 }
 
 static ffd_status check_columns(const job_source *source, ffd_error *error)
@@ -153,6 +245,9 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
                              "the name of a column is not text in UTF-8");
     for (size_t i = 0; i < columns->count; i++) {
         const char *other = name = ffd_csv_next(columns, name);
+        if (has_lone_return(name))
+            return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                                 "the lines end with CR alone: a table needs LF or CR LF");
         if (!*name)
             return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
                                  "column %zu of the table has no name", i + 1);
@@ -163,7 +258,7 @@ static ffd_status check_columns(const job_source *source, ffd_error *error)
                                      "two columns of the table are named \"%.60s\"", name);
         }
     }
-    return FFD_OK;
+    return check_ignored(source, error);
 }
 
 /* Waits for the first row: without it there is nothing to do. */
@@ -175,13 +270,17 @@ static ffd_status read_columns(job_source *source, ffd_error *error)
     do {
         ffd_stream_wait(source->reader.stream);
         status = next_row(source, &source->columns, &state, &valid, error);
-    } while (!status && state == LINE_LATER && ffd_interrupt_requested() == INTERRUPT_NONE);
-    if (status)
+    } while (!status && state == LINE_LATER && !ffd_interrupt_requested());
+    if (status || ffd_interrupt_requested())
         return status;
     if (state != LINE_READ || !valid)
         return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, 1,
                              "the first row of the table must name its columns");
-    return check_columns(source, error);
+    status = check_columns(source, error);
+    if (!status && source->separator == ';')
+        status = ffd_flaw_line(&source->flaws, source->frame.name, (size_t)source->line, error,
+                               "the columns are separated by semicolons: numbers may have a decimal comma");
+    return status;
 }
 
 /* Patterns */
@@ -222,7 +321,7 @@ static ffd_status refuse_equal_names(const job_source *source, ffd_error *error)
 static ffd_status find_files(job_source *source, ffd_error *error)
 {
     const ffd_status status = ffd_glob(source->desc.pattern, &source->files, error);
-    if (status)
+    if (status || ffd_interrupt_requested())
         return status;
     if (source->files.count == 0)
         return ffd_fail_file(error, FFD_E_IO, source->desc.pattern, "no file matches this pattern");
@@ -230,6 +329,16 @@ static ffd_status find_files(job_source *source, ffd_error *error)
 }
 
 /* All of them */
+
+static void free_source(job_source *source)
+{
+    ffd_lines_close(&source->reader);
+    ffd_csv_free(&source->columns);
+    ffd_csv_free(&source->row);
+    ffd_files_free(&source->meshes);
+    ffd_glob_free(&source->files);
+    ffd_free(source->folder);
+}
 
 static ffd_status open_text(job_source *source, const char *path, ffd_error *error)
 {
@@ -243,12 +352,49 @@ static ffd_status open_text(job_source *source, const char *path, ffd_error *err
     return ffd_lines_open(path, source->frame.name, &source->reader, error);
 }
 
+static bool has_output_column(const job_source *source)
+{
+    return has_column(source, "out") && !ffd_column_is_ignored(source->desc.ignored, "out");
+}
+
+static ffd_status count_row(const job_source *other, file_table *meshes, ffd_error *error)
+{
+    uint64_t rows = 0;
+    char *const mesh = mesh_of(other);
+    if (!mesh)
+        return FFD_OK;
+    const hash128 file = ffd_file_identity(mesh);
+    ffd_free(mesh);
+    const bool is_known = ffd_files_find(meshes, &file, &rows);
+    return is_known && rows > 1 ? FFD_OK : ffd_files_put(meshes, &file, is_known ? 2 : 1, error);
+}
+
+/* Reads the whole table beforehand for the meshes that serve several rows. */
+static ffd_status count_meshes(job_source *source, ffd_error *error)
+{
+    job_source other = {.desc = source->desc, .frame = source->frame};
+    line_state state = LINE_READ;
+    bool valid;
+    batch_job row = {0};
+    ffd_status status = open_text(&other, source->desc.table, error);
+    if (!status)
+        status = read_columns(&other, error);
+    while (!status && state == LINE_READ) {
+        status = next_row(&other, &other.row, &state, &valid, error);
+        if (!status && state == LINE_READ && check_row(&other, valid, &row))
+            status = count_row(&other, &source->meshes, error);
+    }
+    free_source(&other);
+    return status;
+}
+
 ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_error *error)
 {
     *source = ffd_alloc_zero(1, sizeof **source);
     if (!*source)
         return ffd_fail_memory(error);
     (*source)->desc = *desc;
+    (*source)->flaws.strict = desc->strict;
     (*source)->frame = (batch_frame){desc->pattern, "", desc->defaults, desc->default_count, desc->resume};
     ffd_status status;
     if (desc->manifest)
@@ -259,13 +405,16 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
         status = find_files(*source, error);
     if (!status && desc->table)
         status = read_columns(*source, error);
+    (*source)->numbers_outputs = !status && desc->table && desc->out_dir && !has_output_column(*source);
+    if (!status && (*source)->numbers_outputs && !ffd_file_is_stream(desc->table))
+        status = count_meshes(*source, error);
     if (status)
         ffd_jobs_close(source);
     return status;
 }
 
 /* The next job of any shard. */
-static ffd_status advance(job_source *source, line_state *state, bool *valid, ffd_error *error)
+static ffd_status find_next(job_source *source, line_state *state, bool *valid, ffd_error *error)
 {
     *valid = true;
     if (source->desc.manifest) {
@@ -278,6 +427,16 @@ static ffd_status advance(job_source *source, line_state *state, bool *valid, ff
     *state = source->count < source->files.count ? LINE_READ : LINE_NONE;
     source->line = source->count + 1;
     return FFD_OK;
+}
+
+/* The same; a text without a job before NUL bytes is none. */
+static ffd_status advance(job_source *source, line_state *state, bool *valid, ffd_error *error)
+{
+    const ffd_status status = find_next(source, state, valid, error);
+    if (status || *state != LINE_READ || source->count > 0 || !is_zeros(&source->reader.line))
+        return status;
+    return ffd_fail_line(error, FFD_E_INVALID, source->frame.name, (size_t)source->line,
+                         "NUL bytes, and no job before them");
 }
 
 ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, ffd_error *error)
@@ -298,13 +457,25 @@ ffd_status ffd_jobs_next(job_source *source, batch_job *job, line_state *state, 
     return status ? ffd_fail_memory(error) : FFD_OK;
 }
 
+uint64_t ffd_jobs_count(const job_source *source)
+{
+    return source->count;
+}
+
 double ffd_jobs_fraction(const job_source *source)
 {
     if (source->files.count)
         return (double)source->count / (double)source->files.count;
     const byte_stream *const stream = source->reader.stream;
+    if (!stream) /* a pattern that was not looked through to its end */
+        return -1;
     const uint64_t size = ffd_stream_size(stream);
     return size ? (double)ffd_stream_position(stream) / (double)size : -1;
+}
+
+const mesh_flaws *ffd_jobs_flaws(const job_source *source)
+{
+    return &source->flaws;
 }
 
 const char *ffd_jobs_name(const job_source *source)
@@ -316,11 +487,7 @@ void ffd_jobs_close(job_source **source)
 {
     if (!*source)
         return;
-    ffd_lines_close(&(*source)->reader);
-    ffd_csv_free(&(*source)->columns);
-    ffd_csv_free(&(*source)->row);
-    ffd_glob_free(&(*source)->files);
-    ffd_free((*source)->folder);
+    free_source(*source);
     ffd_free(*source);
     *source = NULL;
 }

@@ -15,10 +15,10 @@ typedef struct job_maker {
 } job_maker;
 
 /* Options of `ffd deform` that are the batch's own business, or have a member of their own. */
-static const char *const reserved[] = {"jobs",    "shard",      "resume",  "journal", "timeout",
-                                       "stop",    "keep-going", "dry-run", "in",      "csv",
-                                       "lattice", "depfile",    "out-dir", "report",  "report-stable",
-                                       "quiet",   "verbose",    "help",    "set"};
+static const char *const reserved[] = {
+    "jobs",          "shard", "resume",  "journal", "timeout", "stop",       "keep-going",
+    "dry-run",       "in",    "csv",     "lattice", "depfile", "out-dir",    "report",
+    "report-stable", "quiet", "verbose", "help",    "set",     "shared-box", "csv-ignore"};
 enum { RESERVED = sizeof reserved / sizeof *reserved };
 
 /* Options whose values are files, whose relative paths start where the manifest's do. */
@@ -189,7 +189,8 @@ static bool add_settings(job_maker *maker)
     return true;
 }
 
-/* Whether a statement says what an option of the batch says: of settings, by their names. */
+/* Whether a statement of the job overrides an option of the batch. Settings (NAME=VALUE) are
+   compared by their names. */
 static bool overrides(const job_description *description, const job_statement *statement,
                       const batch_default *option)
 {
@@ -202,7 +203,7 @@ static bool overrides(const job_description *description, const job_statement *s
     return strncmp(option->value, name, length) == 0 && option->value[length] == '=';
 }
 
-/* Those of the batch that the job does not have. */
+/* Adds the options of the batch that the job does not set. */
 static void add_defaults(job_maker *maker)
 {
     const job_description *const description = maker->description;
@@ -297,6 +298,16 @@ ffd_status ffd_job_make(const batch_frame *frame, const job_description *descrip
 const char *ffd_job_output_name(const batch_job *job)
 {
     return job->output ? job->output : job->target ? job->input : NULL;
+}
+
+const char *ffd_job_option(const batch_job *job, const char *name)
+{
+    const size_t length = strlen(name);
+    const char *word = job->words.data, *value = NULL; /* of several the last one holds */
+    for (size_t i = 0; i < job->word_count; i++, word += strlen(word) + 1)
+        if (strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && word[2 + length] == '=')
+            value = word + 2 + length + 1;
+    return value;
 }
 
 void ffd_job_free(batch_job *job)

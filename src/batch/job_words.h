@@ -37,8 +37,10 @@ typedef struct batch_job {
 /* Makes an empty job, whose line is set, do what a description says. What is wrong with that comes into the
    job's error; returns FFD_OK or FFD_E_MEMORY. */
 ffd_status ffd_job_make(const batch_frame *frame, const job_description *description, batch_job *job);
-/* What its output is called: NULL where it has none. */
+/* Returns the name of its output; NULL if it has none. */
 const char *ffd_job_output_name(const batch_job *job);
+/* Returns the value of an option among its words; NULL: it has none. */
+const char *ffd_job_option(const batch_job *job, const char *name);
 /* Leaves an empty job. */
 void ffd_job_free(batch_job *job);
 

@@ -1,4 +1,5 @@
 #include "batch/lines.h"
+#include "base/system/interrupt.h"
 #include <string.h>
 
 ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reader, ffd_error *error)
@@ -33,7 +34,8 @@ static ffd_status end_line(line_reader *reader, ffd_error *error)
 static ffd_status take_bytes(line_reader *reader, line_state *state, ffd_error *error)
 {
     ffd_status status;
-    while (ffd_stream_is_ready(reader->stream)) {
+    /* A line may be endless. */
+    while (ffd_stream_is_ready(reader->stream) && !ffd_interrupt_requested()) {
         const int c = ffd_stream_byte(reader->stream, &status, error);
         const char byte = (char)c;
         if (c < 0)

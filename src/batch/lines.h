@@ -23,7 +23,7 @@ ffd_status ffd_lines_open(const char *path, const char *name, line_reader *reade
 typedef enum line_state {
     LINE_NONE, /* there are no more */
     LINE_READ,
-    LINE_LATER /* it has not come yet, or not all of it: to be asked for again, with the same append */
+    LINE_LATER /* the line is not complete yet: call again with the same append */
 } line_state;
 
 /* Reads the next line, as far as it has come. append: to what is there, after a line break. Errors:

@@ -3,12 +3,13 @@
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
 #include "base/system/thread.h"
+#include <ffd/job.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Seconds that running jobs have to finish when all are to be stopped; and that a worker has for removing
-   what it was writing. */
-#define GRACE 0.5
+   what it was writing. Both together are less than a second. */
+#define GRACE 0.4
 
 typedef struct pool_worker {
     worker_process *process; /* NULL: not started, or ended */
@@ -26,6 +27,8 @@ struct worker_pool {
     int processors;             /* that they share */
     pool_worker *workers;       /* desc.workers */
     worker_process **processes; /* the same, for waiting */
+    bool rehearsed;             /* of a dry run: a job was tried, all but the writing */
+    pool_counts counts;
 };
 
 ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error)
@@ -84,11 +87,16 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.records = desc->records;
     head.resume = desc->resume;
     head.dry = desc->dry;
+    head.rehearse = desc->dry && !pool->rehearsed;
     head.depfile = desc->depfile;
     head.report = desc->report;
     head.stable = desc->stable;
     head.quiet = desc->quiet;
     head.verbose = desc->verbose;
+    head.measure = desc->measure;
+    head.has_box = desc->box != NULL;
+    if (desc->box)
+        head.box = *desc->box;
     const bool sent = !text.failed && ffd_process_send(worker->process, &head, sizeof head) &&
                       ffd_process_send(worker->process, text.data, text.size);
     ffd_buffer_free(&text);
@@ -111,31 +119,40 @@ static bool is_taken(const worker_pool *pool, const pool_worker *worker, const p
     return false;
 }
 
+/* The first task whose mesh the worker has, or nobody. If there is none, the first one of all whose mesh is
+   not large: to read it once more costs less than a processor that waits. Of a large one N workers would take
+   N times the memory, while the threads of one are as many. */
 static pool_task *choose(const worker_pool *pool, const pool_worker *worker, pool_task *const *tasks,
                          size_t count)
 {
-    for (size_t i = 0; i < count; i++)
-        if (tasks[i] && tasks[i]->state == TASK_WAITS && !is_taken(pool, worker, tasks[i]))
+    pool_task *first = NULL;
+    for (size_t i = 0; i < count; i++) {
+        if (!tasks[i] || tasks[i]->state != TASK_WAITS)
+            continue;
+        if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]))
             return tasks[i];
-    return NULL;
+        if (!first && !tasks[i]->is_large)
+            first = tasks[i];
+    }
+    return first;
 }
 
-/* Tasks that can run at once, this one among them: meshes that differ, as far as workers go. */
+/* Counts the tasks that can run at the same time, with those that run: one a worker at most, and one a large
+   mesh. */
 static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size_t count)
 {
-    int found = 0;
-    const hash128 *last = NULL;
-    for (int i = 0; i < pool->desc.workers; i++)
-        found += pool->workers[i].task != NULL;
+    int found = (int)ffd_pool_running(pool);
+    const hash128 *large = NULL;
     for (size_t i = 0; i < count && found < pool->desc.workers; i++) {
         const pool_task *const task = tasks[i];
-        if (!task || task->state != TASK_WAITS || (last && ffd_hash_equal(last, &task->mesh)) ||
-            is_taken(pool, NULL, task))
+        if (!task || task->state != TASK_WAITS)
+            continue;
+        if (task->is_large && ((large && ffd_hash_equal(large, &task->mesh)) || is_taken(pool, NULL, task)))
             continue;
         found++;
-        last = &task->mesh;
+        large = task->is_large ? &task->mesh : large;
     }
-    return found < 1 ? 1 : found;
+    return found;
 }
 
 static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *task)
@@ -162,9 +179,10 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
             return FFD_OK; /* with those that there are */
         if (status)
             return status;
+        pool->counts.workers += !worker->has_mesh;
         begin_task(pool, worker, task);
-        const int runnable = count_runnable(pool, tasks, count), share = pool->processors / runnable;
-        /* Where it cannot be sent the worker has ended, which shows when its answer is read. */
+        const int share = pool->processors / count_runnable(pool, tasks, count);
+        /* If it cannot be sent, the worker has ended, which shows when its answer is read. */
         worker->was_told = send_task(pool, worker, task,
                                      desc->threads ? desc->threads
                                      : share < 1   ? 1
@@ -184,7 +202,7 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
 }
 
 /* Takes the answer, once it is complete. False if it is not valid. */
-static bool take_answer(pool_worker *worker)
+static bool take_answer(worker_pool *pool, pool_worker *worker)
 {
     byte_buffer *const bytes = &worker->answer;
     wire_answer head;
@@ -192,21 +210,31 @@ static bool take_answer(pool_worker *worker)
         return true;
     memcpy(&head, bytes->data, sizeof head);
     if (!worker->task || head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST ||
-        head.rule_size > WIRE_MOST)
+        head.rule_size > WIRE_MOST || head.figures_size > WIRE_MOST)
         return false;
-    if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size)
+    if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size)
         return true;
-    const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size;
+    const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
+                      *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
     pool_task *const task = worker->task;
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
-    ffd_buffer_append(&task->rule, entry + head.entry_size, head.rule_size);
-    const bool lost = task->log.failed || task->entry.failed || task->rule.failed;
+    ffd_buffer_append(&task->rule, rule, head.rule_size);
+    if (head.outcome != OUTCOME_SKIPPED)
+        task->figures.size = 0;
+    ffd_buffer_append(&task->figures, figures, head.figures_size);
+    const bool lost = task->log.failed || task->entry.failed || task->rule.failed || task->figures.failed;
     if (head.out_of_memory || lost)
         ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
     task->record = head.record;
+    task->box = head.box;
+    task->mesh_state = head.state;
+    task->has_mesh_state = head.has_state;
+    pool->counts.jobs.reads += head.counts.reads;
+    pool->counts.jobs.searches += head.counts.searches;
     task->has_record = head.has_record;
     worker->retires = head.retires;
+    pool->rehearsed = pool->rehearsed || head.rehearsed;
     bytes->size = 0;
     end_task(worker, lost ? OUTCOME_FAILED : (wire_outcome)head.outcome);
     return true;
@@ -247,15 +275,17 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
         return;
     }
     describe_failure(pool, worker, &end, &task->failure);
-    if (task->job.target)
+    if (task->job.target) {
+        ffd_restore_output(task->job.target, NULL); /* it may have been killed among the renames */
         ffd_temporary_discard(task->job.target);
+    }
     end_task(worker, OUTCOME_FAILED);
 }
 
-static void receive(const worker_pool *pool, pool_worker *worker)
+static void receive(worker_pool *pool, pool_worker *worker)
 {
     const bool alive = ffd_process_receive(worker->process, &worker->answer);
-    const bool understood = take_answer(worker) && !worker->answer.failed;
+    const bool understood = take_answer(pool, worker) && !worker->answer.failed;
     if (understood && alive && !worker->retires)
         return;
     if (!understood && alive)
@@ -312,6 +342,11 @@ size_t ffd_pool_running(const worker_pool *pool)
     return count;
 }
 
+pool_counts ffd_pool_counts(const worker_pool *pool)
+{
+    return pool->counts;
+}
+
 void ffd_pool_stop(worker_pool *pool)
 {
     const double end = ffd_clock_seconds() + GRACE;
@@ -348,5 +383,6 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->log);
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);
+    ffd_buffer_free(&task->figures);
     ffd_free(task);
 }

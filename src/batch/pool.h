@@ -10,7 +10,8 @@ typedef struct pool_desc {
     int threads;        /* of a job; 0: what the others leave it */
     double timeout;     /* seconds that a job may take; 0: any */
     const char *origin; /* the name of the manifest, for messages */
-    bool records, resume, dry, depfile, report, stable, quiet, verbose; /* as in wire_task */
+    bool records, resume, dry, depfile, report, stable, quiet, verbose, measure; /* as in wire_task */
+    const shown_box *box; /* that all jobs share, or NULL */
 } pool_desc;
 
 typedef enum task_state { TASK_WAITS, TASK_RUNS, TASK_ENDED, TASK_DROPPED } task_state;
@@ -18,33 +19,47 @@ typedef enum task_state { TASK_WAITS, TASK_RUNS, TASK_ENDED, TASK_DROPPED } task
 /* A job on its way through the pool. */
 typedef struct pool_task {
     batch_job job;
-    hash128 mesh;      /* of the name of its input: neighbours with the same one are left to one worker */
+    uint64_t number;   /* in the run, from 0 */
+    hash128 target;    /* which file its output is */
+    hash128 mesh;      /* of the name of its input: a worker goes on with the one that it has */
+    bool is_large;     /* the input: it is left to one worker */
     job_record record; /* before: of the last time, where has_record; afterwards: of this time, likewise */
     bool has_record;
+    byte_buffer figures; /* likewise: of the run that made the output, as JSON, ended by 0; or empty */
     task_state state;
     bool was_returned; /* by a worker that had ended before it could take it */
     bool noted;        /* what its end means at once was seen to */
     /* Once it has ended: */
     wire_outcome outcome;
-    byte_buffer log;   /* lines for people */
-    byte_buffer rule;  /* of the depfile */
-    byte_buffer entry; /* of the report; empty where only `failure` is known */
-    ffd_error failure; /* of a job whose worker ended, or that was not valid from the start */
+    bool has_mesh_state;
+    hash128 mesh_state; /* as wire_answer's state */
+    byte_buffer log;    /* lines for people */
+    byte_buffer rule;   /* of the depfile; or the files of a measured mesh */
+    shown_box box;      /* of a measured mesh */
+    byte_buffer entry;  /* of the report; empty where no worker has made it */
+    ffd_error failure;  /* of a job whose worker ended, or that was not valid from the start */
 } pool_task;
 
 typedef struct worker_pool worker_pool;
 
-/* Makes a pool without workers: they are started when there are tasks. desc's texts must outlive it. Errors:
-   FFD_E_MEMORY. */
+/* Makes a pool without workers: they are started when there are tasks. desc's texts must outlive it.
+   Errors: FFD_E_MEMORY. */
 ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error);
 /* Gives waiting tasks, which are listed in their order with gaps (NULL), to idle workers. Errors: no worker
    can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
-/* Waits until a task has ended, for so many seconds at most, and takes note of what has happened. */
+/* Waits until a task has ended, at most for this many seconds, and takes note of what has happened. */
 void ffd_pool_wait(worker_pool *pool, double seconds);
 /* The number of tasks that run. */
 size_t ffd_pool_running(const worker_pool *pool);
-/* Lets running tasks come to their end for a moment; then ends them, as failures. */
+/* What the jobs have cost beyond themselves. */
+typedef struct pool_counts {
+    uint64_t workers; /* that were given jobs */
+    share_counts jobs;
+} pool_counts;
+/* Returns the counts so far. */
+pool_counts ffd_pool_counts(const worker_pool *pool);
+/* Gives running tasks a moment to finish, then ends the others as failures. */
 void ffd_pool_stop(worker_pool *pool);
 /* Ends the workers. Sets *pool to NULL; it may be NULL before. */
 void ffd_pool_destroy(worker_pool **pool);

@@ -1,6 +1,7 @@
 #include "batch/progress.h"
 #include "base/system/clock.h"
 #include "base/system/terminal.h"
+#include "base/text/words.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -46,7 +47,8 @@ static void describe(const batch_progress *progress, const batch_counts *counts,
         format_time(seconds * (1 - fraction) / fraction, time, sizeof time);
         snprintf(left, sizeof left, ", %s left", time);
     }
-    snprintf(text, capacity, "%" PRIu64 " jobs, %" PRIu64 " failed, %.*f/s%s", jobs, counts->failed,
+    snprintf(text, capacity, "%" PRIu64 " %s, %" PRIu64 " failed, %.*f/s%s", jobs,
+             ffd_plural(jobs, "job", "jobs"), counts->failed,
              seconds > 0 && (double)jobs / seconds < 10 ? 1 : 0, seconds > 0 ? (double)jobs / seconds : 0.0,
              left);
 }
@@ -102,6 +104,7 @@ void ffd_progress_end(batch_progress *progress, const batch_counts *counts, cons
     if (seconds < 60)
         snprintf(time, sizeof time, "%.1f s", seconds);
     fprintf(stderr,
-            "ffd: %" PRIu64 " job%s in %s: %" PRIu64 " %s, %" PRIu64 " up to date, %" PRIu64 " failed%s\n",
-            jobs, jobs == 1 ? "" : "s", time, counts->done, done, counts->skipped, counts->failed, remark);
+            "ffd: %" PRIu64 " %s in %s: %" PRIu64 " %s, %" PRIu64 " up to date, %" PRIu64 " failed%s\n", jobs,
+            ffd_plural(jobs, "job", "jobs"), time, counts->done, done, counts->skipped, counts->failed,
+            remark);
 }

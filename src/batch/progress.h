@@ -18,11 +18,11 @@ typedef struct batch_progress {
 
 /* Starts the clock. quiet: nothing but the lines of ffd_progress_print is written. */
 void ffd_progress_begin(batch_progress *progress, bool quiet);
-/* fraction: of all jobs, negative where it is not known. Writes where it is time to. */
+/* Writes the progress if it is time to. fraction: of all jobs; negative if it is not known. */
 void ffd_progress_show(batch_progress *progress, const batch_counts *counts, double fraction);
-/* Lines "ffd: ..." of a log, each ended by a line break, where no bar is in their way. */
+/* Writes lines "ffd: ..." of a log, each ended by a line break, and moves the bar out of their way. */
 void ffd_progress_print(batch_progress *progress, const char *lines);
-/* The last word: what was done, and in which time. done: what counts->done are. */
+/* Writes the last line: what was done, and in which time. done: what counts->done are. */
 void ffd_progress_end(batch_progress *progress, const batch_counts *counts, const char *done,
                       const char *remark);
 

@@ -5,9 +5,11 @@
 
 #include "base/memory/hash.h"
 #include "base/system/process.h"
+#include "job/chain/job_cache.h"
+#include "job/input/shown_box.h"
 #include <stdint.h>
 
-/* By this name a worker knows that it is one. */
+/* The program's name in argv[0] by which a process knows that it is a worker. */
 #define WORKER_NAME "ffd batch worker"
 
 /* What a finished job was made of, and what it made. */
@@ -24,26 +26,35 @@ typedef struct wire_task {
     uint32_t word_count, content_words;
     int32_t threads;
     bool has_record;
-    bool records; /* records are wanted */
-    bool resume;  /* outputs that are up to date stay, others are replaced */
-    bool dry;     /* nothing is to be deformed */
-    bool depfile; /* the rule of a depfile is wanted */
-    bool report;  /* the entry of a report is wanted */
-    bool stable;  /* without times */
-    bool quiet;   /* no warnings */
-    bool verbose; /* what else there is to say */
+    bool records;  /* records are wanted */
+    bool resume;   /* outputs that are up to date stay, others are replaced */
+    bool dry;      /* nothing is to be written */
+    bool rehearse; /* of a dry run: all is to be done but the writing */
+    bool depfile;  /* the rule of a depfile is wanted */
+    bool report;   /* the entry of a report is wanted */
+    bool stable;   /* without times */
+    bool quiet;    /* no warnings */
+    bool verbose;  /* what else there is to say */
+    bool measure;  /* only the box of the mesh is wanted, and its files where depfile is set */
+    bool has_box;
+    shown_box box; /* that all jobs share, where has_box */
 } wire_task;
 
 typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire_outcome;
 
 /* From a worker: an answer, followed by its texts. */
 typedef struct wire_answer {
-    uint64_t log_size;   /* lines for people, each with its line break */
-    uint64_t entry_size; /* of the report */
-    uint64_t rule_size;  /* of the depfile */
+    uint64_t log_size;     /* lines for people, each with its line break */
+    uint64_t entry_size;   /* of the report */
+    uint64_t rule_size;    /* of the depfile; of a measured mesh its files, each ended by 0 */
+    uint64_t figures_size; /* of the job, as JSON, ended by 0 */
     job_record record;
+    hash128 state;       /* of the files of the mesh, where has_state (job_cache.h) */
+    share_counts counts; /* of this job */
+    shown_box box;       /* of a measured mesh */
     uint8_t outcome;
-    bool has_record;
+    bool has_record, has_state;
+    bool rehearsed;     /* all was done but the writing */
     bool retires;       /* the worker ends, and is to be given nothing more */
     bool out_of_memory; /* so that there are no texts, although the job failed */
 } wire_answer;

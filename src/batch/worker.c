@@ -1,10 +1,15 @@
 #include "batch/worker.h"
 #include "base/file/cleanup.h"
+#include "base/file/mapping.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
+#include "batch/settings.h"
 #include "batch/wire.h"
+#include "job/chain/chain_load.h"
+#include "job/chain/job_cache.h"
+#include "job/input/shown_box.h"
 #include "job/judge/result.h"
 #include "job/report/depfile.h"
 #include "job/report/report.h"
@@ -17,7 +22,7 @@ typedef struct batch_worker {
     byte_buffer text;  /* of the task: words, then content, then what input and output are called */
     char **words;
     size_t word_capacity;
-    byte_buffer log, entry, rule; /* of the answer */
+    byte_buffer log, entry, rule, figures; /* of the answer */
 } batch_worker;
 
 /* The word after this one. */
@@ -81,8 +86,8 @@ static bool is_up_to_date(const wire_task *task, const ffd_deform_desc *desc, wi
            ffd_hash_equal(&answer->record.outputs, &task->record.outputs);
 }
 
-/* What is kept for the next jobs counts as memory too: if there is too little, there may be enough without
- * it. */
+/* What is kept for the next jobs counts as memory too: if there is too little, there may
+   be enough without it. */
 static ffd_status deform(ffd_deform_desc *desc, ffd_job_result *result)
 {
     byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
@@ -111,25 +116,55 @@ static ffd_status look_at_files(batch_worker *worker, const wire_task *task, con
     return status;
 }
 
+/* Looks for what would be refused, but for what only the mesh shows. */
+static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
+{
+    const chain_files files = {.paths = desc->lattices,
+                               .count = desc->lattice_count,
+                               .set = desc->set,
+                               .set_count = desc->set_count,
+                               .mesh = &desc->input};
+    const ffd_status status =
+        desc->in_place ? FFD_OK : ffd_output_check(desc->output, desc->force || desc->if_changed, error);
+    return status ? status : ffd_chain_check(&files, error);
+}
+
+/* What the output is, which was just written: read again where its bytes were not hashed on their way. */
+static bool know_output(batch_worker *worker, const ffd_deform_desc *desc, hash128 *output)
+{
+    hash128 bytes;
+    if (!ffd_cache_find_output(worker->share, &bytes) || ffd_fingerprint_has_copies(desc, &worker->hashes))
+        return ffd_fingerprint_output(desc, output, NULL) == FFD_OK;
+    *output = ffd_fingerprint_written(&bytes);
+    return true;
+}
+
 /* Deforms, or sees that it need not. */
-static ffd_status do_job(const wire_task *task, ffd_deform_desc *desc, wire_answer *answer,
-                         ffd_job_result *result)
+static ffd_status do_job(batch_worker *worker, const wire_task *task, ffd_deform_desc *desc,
+                         wire_answer *answer, ffd_job_result *result)
 {
     if (is_up_to_date(task, desc, answer)) {
         answer->outcome = OUTCOME_SKIPPED;
         return FFD_OK;
     }
-    /* What an earlier run left is this one's to replace. */
+    /* This run may replace what an earlier one left. */
     desc->force = desc->force || task->resume;
-    if (task->dry)
-        return desc->in_place
-                   ? FFD_OK
-                   : ffd_output_check(desc->output, desc->force || desc->if_changed, &result->error);
+    if (task->dry && !task->rehearse)
+        return plan(desc, &result->error);
+    desc->dry_run = task->dry;
+    answer->rehearsed = task->dry;
+    const share_counts before = ffd_cache_counts(worker->share);
+    ffd_cache_begin_job(worker->share, task->records);
     const ffd_status status = deform(desc, result);
+    answer->counts.reads = ffd_cache_counts(worker->share).reads - before.reads;
+    answer->counts.searches = ffd_cache_counts(worker->share).searches - before.searches;
+    answer->has_state = ffd_cache_find_state(worker->share, &answer->state);
+    if (task->dry)
+        return status;
     /* The output exists: a signal that ends the worker now is seen first. */
     ffd_process_defer_stop(true);
     if (!status && task->records)
-        answer->has_record = ffd_fingerprint_output(desc, &answer->record.outputs, NULL) == FFD_OK;
+        answer->has_record = know_output(worker, desc, &answer->record.outputs);
     return status;
 }
 
@@ -141,6 +176,39 @@ static ffd_status blame_manifest(const char *origin, const wire_task *task, ffd_
         return error->status;
     ffd_error_format(error, what, sizeof what);
     return ffd_fail_line(error, FFD_E_INVALID, origin, (size_t)task->line, "%s", what);
+}
+
+/* Measures the mesh of a job for the box that all jobs share. */
+static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
+                          wire_answer *answer, ffd_error *error)
+{
+    path_list files = {0};
+    const ffd_status status = ffd_shown_box_add(&answer->box, &desc->input, desc->only, desc->only_count,
+                                                task->depfile ? &files : NULL, NULL, error);
+    for (size_t i = 0; i < files.count && !status; i++)
+        ffd_buffer_append(&worker->rule, files.paths[i], strlen(files.paths[i]) + 1);
+    ffd_paths_free(&files);
+    return status;
+}
+
+/* Does all that is wanted of a job. */
+static ffd_status do_task(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
+                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
+{
+    const ffd_shared_box shared = {.box = task->box};
+    const unsigned losses = ffd_mapping_losses();
+    /* What a killed run had set aside is to be read. */
+    ffd_status status =
+        desc->in_place && !task->dry ? ffd_restore_output(desc->input.path, &result->error) : FFD_OK;
+    if (!status && task->measure)
+        return measure(worker, task, desc, answer, &result->error);
+    desc->shared_box = task->has_box ? &shared : NULL;
+    if (!status)
+        status = look_at_files(worker, task, words, desc, answer, &result->error);
+    status = ffd_mapping_judge(losses, status, &result->error);
+    if (!status)
+        status = do_job(worker, task, desc, answer, result);
+    return status;
 }
 
 static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_answer *answer,
@@ -164,15 +232,33 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     desc.share = worker->share;
     if (desc.threads == 0)
         desc.threads = task->threads;
-    ffd_status status = look_at_files(worker, task, &words, &desc, answer, &result->error);
-    if (!status)
-        status = do_job(task, &desc, answer, result);
+    const ffd_status status = do_task(worker, task, &words, &desc, answer, result);
     if (status)
         worker->rule.size = 0;
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(&result->error, desc.input.path);
     worker->program->close(opened);
     return status ? blame_manifest(origin, task, &result->error) : FFD_OK;
+}
+
+static void make_entry(batch_worker *worker, const wire_task *task, const wire_answer *answer,
+                       const ffd_job_result *result)
+{
+    const char *const words = worker->text.data, *name = words;
+    byte_buffer set = {0};
+    for (uint32_t i = 0; i < task->word_count + task->content_words + 1; i++)
+        name = next_word(name);
+    ffd_settings_json(words, task->word_count, &set);
+    const report_entry entry = {.line = task->line,
+                                .input = name,
+                                .output = next_word(name),
+                                .set = set.failed ? NULL : set.data,
+                                .result = result,
+                                .planned = task->dry && !answer->rehearsed && !result->status,
+                                .stable = task->stable};
+    ffd_report_entry_text(&entry, &worker->entry);
+    worker->entry.failed = worker->entry.failed || set.failed;
+    ffd_buffer_free(&set);
 }
 
 static void answer_task(batch_worker *worker, const wire_task *task, wire_answer *answer)
@@ -182,31 +268,27 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     result.status = run_words(worker, task, answer, &result);
     if (result.status) {
         answer->outcome = OUTCOME_FAILED;
-        log_error(worker, &result.error);
+        if (!task->measure) /* the job itself will say it */
+            log_error(worker, &result.error);
     }
     /* One that has run out of memory may do so again, with any job. */
     answer->retires = result.status == FFD_E_MEMORY;
-    if (!task->report)
-        return;
-    const char *name = worker->text.data;
-    for (uint32_t i = 0; i < task->word_count + task->content_words + 1; i++)
-        name = next_word(name);
-    const report_entry entry = {.line = task->line,
-                                .input = name,
-                                .output = next_word(name),
-                                .result = &result,
-                                .skipped = answer->outcome == OUTCOME_SKIPPED,
-                                .stable = task->stable};
-    ffd_report_entry_text(&entry, &worker->entry);
+    if (answer->has_record && !task->dry) {
+        ffd_report_figures(&result, &worker->figures);
+        ffd_buffer_append(&worker->figures, "", 1);
+    }
+    if (task->report && answer->outcome != OUTCOME_SKIPPED)
+        make_entry(worker, task, answer, &result);
 }
 
-/* If there is no memory for the message, the answer says so. */
+/* If memory runs out for the message, the answer says so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule};
-    for (int i = 0; i < 3; i++)
+    byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures};
+    enum { TEXTS = sizeof texts / sizeof *texts };
+    for (int i = 0; i < TEXTS; i++)
         answer->out_of_memory = answer->out_of_memory || texts[i]->failed;
-    for (int i = 0; i < 3 && answer->out_of_memory; i++)
+    for (int i = 0; i < TEXTS && answer->out_of_memory; i++)
         texts[i]->size = 0;
     if (answer->out_of_memory)
         answer->outcome = OUTCOME_FAILED;
@@ -214,8 +296,9 @@ static bool send_answer(batch_worker *worker, wire_answer *answer)
     answer->log_size = worker->log.size;
     answer->entry_size = worker->entry.size;
     answer->rule_size = worker->rule.size;
+    answer->figures_size = worker->figures.size;
     bool sent = ffd_process_give(answer, sizeof *answer);
-    for (int i = 0; i < 3 && sent; i++)
+    for (int i = 0; i < TEXTS && sent; i++)
         sent = ffd_process_give(texts[i]->data, texts[i]->size);
     return sent;
 }
@@ -230,6 +313,7 @@ int ffd_worker_run(const worker_program *program)
     batch_worker worker = {.program = program};
     wire_task task;
     ffd_cleanup_on_crashes();
+    ffd_guard_inputs();
     ffd_interrupt_ignore();
     ffd_process_follow_parent();
     worker.text.failed = ffd_share_create(&worker.share, NULL) != FFD_OK;
@@ -237,7 +321,8 @@ int ffd_worker_run(const worker_program *program)
     while (going && read_task(&worker, &task)) {
         wire_answer answer;
         memset(&answer, 0, sizeof answer); /* the bytes between members too: they are sent */
-        worker.log.size = worker.entry.size = worker.rule.size = 0;
+        ffd_shown_box_clear(&answer.box);
+        worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = 0;
         answer_task(&worker, &task, &answer);
         going = send_answer(&worker, &answer) && !answer.retires;
         ffd_process_defer_stop(false);
@@ -249,6 +334,7 @@ int ffd_worker_run(const worker_program *program)
     ffd_buffer_free(&worker.log);
     ffd_buffer_free(&worker.entry);
     ffd_buffer_free(&worker.rule);
+    ffd_buffer_free(&worker.figures);
     ffd_free(worker.words);
     return code;
 }

@@ -2,7 +2,6 @@
 #ifndef FFD_BATCH_WORKER_H
 #define FFD_BATCH_WORKER_H
 
-#include "base/text/buffer.h"
 #include <ffd/job.h>
 
 /* What the program makes of a job's words. */

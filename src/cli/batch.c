@@ -8,7 +8,7 @@
 
 typedef struct settings {
     cli_deform_settings jobs; /* what the options that each job can have are checked with */
-    const char *journal, *table, *pattern;
+    const char *journal, *table, *ignored, *pattern;
     int at_once;
     uint64_t shard, shards;
     double timeout;
@@ -18,9 +18,8 @@ typedef struct settings {
 } settings;
 
 /* Options that a job can have and that say something of the batch here. */
-static const char *const common[] = {"lattice",      "out-dir", "report",  "report-stable",
-                                     "threads",      "quiet",   "verbose", "help",
-                                     "input-format", "depfile", NULL};
+static const char *const common[] = {"lattice", "out-dir", "report",  "report-stable", "threads", "quiet",
+                                     "verbose", "help",    "depfile", "shared-box",    NULL};
 
 static bool set_shard(void *context, const cli_option *option, const char *value)
 {
@@ -56,6 +55,7 @@ static const cli_option own_options[] = {
      AT(pattern), NULL},
     {"csv", 0, "TABLE", "one job per row: columns in, lattice, out; others set placeholders of the lattice",
      cli_set_text, AT(table), NULL},
+    {"csv-ignore", 0, "COLUMN,...", "leave these columns of the table out", cli_set_text, AT(ignored), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
@@ -96,6 +96,8 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "needs MANIFEST, or --in, or --csv";
     if (manifest && (s->table || s->pattern || jobs->out_dir || jobs->job.lattice_count))
         return "MANIFEST cannot be used with --in, --csv, --lattice or --out-dir";
+    if (s->ignored && !s->table)
+        return "--csv-ignore needs --csv";
     if (!manifest && !s->table && !jobs->job.lattice_count)
         return "--in needs a lattice (-l FILE)";
     if (!manifest && !s->table && !jobs->out_dir && !jobs->in_place)
@@ -123,6 +125,7 @@ static int run_batch(const settings *s, const cli_words *words)
     const cli_job *job = &s->jobs.job;
     const batch_desc desc = {.jobs = {.manifest = words->count ? words->words[0] : NULL,
                                       .table = s->table,
+                                      .ignored = s->ignored,
                                       .pattern = s->pattern,
                                       .lattices = job->lattices,
                                       .lattice_count = job->lattice_count,
@@ -130,6 +133,7 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .defaults = s->defaults,
                                       .default_count = s->default_count,
                                       .resume = s->resume,
+                                      .strict = job->strict,
                                       .shard = s->shard,
                                       .shards = s->shards ? s->shards : 1},
                              .pool = {.workers = s->at_once,
@@ -143,6 +147,7 @@ static int run_batch(const settings *s, const cli_words *words)
                              .report = job->report,
                              .depfile = s->jobs.depfile_path,
                              .journal = s->journal,
+                             .shared_box = job->shares_box,
                              .stop = s->stop,
                              .quiet = job->logging.quiet};
     bool failed;

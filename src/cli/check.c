@@ -50,27 +50,62 @@ static void print_witness(const ffd_folds *folds, const char *lattice)
     printf(" deformed, det J is %g (%s)\n", folds->witness_det, lattice);
 }
 
-static void print_folds(const ffd_folds *folds, const char *lattice)
+static void print_folds(const ffd_job_result *result, const char *lattice)
 {
+    const ffd_folds *const folds = &result->folds;
+    const char *const s = folds->cells == 1 ? "" : "s";
     printf("  folds          ");
     if (folds->verdict == FFD_FOLDS_NONE)
-        printf("none, proven in all %" PRIu64 " cells", folds->cells);
+        printf("none, proven in %s %" PRIu64 " cell%s inside the lattice", folds->cells == 1 ? "the" : "all",
+               folds->cells, s);
     else if (folds->verdict == FFD_FOLDS_UNKNOWN)
-        printf("unknown: %" PRIu64 " of %" PRIu64 " cells could not be decided", folds->unknown_cells,
-               folds->cells);
+        printf("unknown: %" PRIu64 " of %" PRIu64 " cell%s could not be decided", folds->unknown_cells,
+               folds->cells, s);
     else
-        printf("some: %" PRIu64 " of %" PRIu64 " cells", folds->folded_cells, folds->cells);
-    printf("; det J is at least %g of its mean at rest\n", folds->min_det);
+        printf("some: %" PRIu64 " of %" PRIu64 " cell%s", folds->folded_cells, folds->cells, s);
+    printf("; det J is at least %g of its mean at rest", folds->min_det);
+    if (result->det_outside <= 0)
+        printf("; outside it det F falls to %g, at vertex %" PRIu64, result->det_outside,
+               result->det_outside_vertex);
+    printf("\n");
     if (folds->has_witness)
         print_witness(folds, lattice);
+}
+
+/* Why the edge with the largest step is torn. */
+static void print_tear_reason(const ffd_job_result *result)
+{
+    const uint64_t faces = result->disagreeing, stay = result->tear_stays;
+    if (result->tear_disagrees)
+        printf("; blocks move %" PRIu64 " vert%s on their faces differently", faces,
+               faces == 1 ? "ex" : "ices");
+    else if (result->tear_seam)
+        printf("; the two faces of a lattice's seam are moved apart");
+    else if (result->tear_between)
+        printf("; the lattices move its two ends differently");
+    else
+        printf("; %" PRIu64 " vert%s", stay, stay == 1 ? "ex stays" : "ices stay");
+}
+
+static void print_tear(const ffd_job_result *result)
+{
+    printf("  torn edges     %" PRIu64, result->tear_edges);
+    if (result->tear_edges) {
+        printf(", the largest step is %g at vertex %" PRIu64, result->tear_largest, result->tear_vertex);
+        if (*result->tear_part)
+            printf(" of %s", result->tear_part);
+        print_tear_reason(result);
+    }
+    printf("\n");
 }
 
 static void print_summary(const cli_job *job, const char *input, const ffd_job_result *result)
 {
     printf("%s\n", cli_display_name(input));
     print_statuses(result);
-    print_folds(&result->folds, cli_display_name(job->lattices[result->folds_lattice]));
+    print_folds(result, cli_display_name(job->lattices[result->folds_lattice]));
     printf("  flipped faces  %" PRIu64 " of %" PRIu64 "\n", result->flipped_faces, result->faces);
+    print_tear(result);
     if (result->det_min <= result->det_max)
         printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
     printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",
@@ -86,7 +121,7 @@ static int check(cli_job *job, const char *input, ffd_report *report)
     const bool reported = job->report && cli_is_stream(job->report);
     if ((status == FFD_OK || status == FFD_E_GATE) && !reported && !job->logging.quiet)
         print_summary(job, input, &result);
-    return cli_job_ended(&result, input, NULL, report);
+    return cli_job_ended(job, &result, input, NULL, report);
 }
 
 static int run(const cli_command *command, int count, char **arguments)

@@ -33,7 +33,10 @@ void cli_log(void *user, ffd_log_level level, const char *line)
     const cli_logging *logging = user;
     if (logging->quiet || (level != FFD_LOG_WARNING && !logging->verbose))
         return;
-    cli_complain("%s: %s", cli_display_name(logging->subject), line);
+    if (logging->subject)
+        cli_complain("%s: %s", cli_display_name(logging->subject), line);
+    else
+        cli_complain("%s", line);
 }
 
 int cli_fail(const ffd_error *error)

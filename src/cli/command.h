@@ -36,7 +36,8 @@ void cli_print_help(const cli_command *command);
 /* What is common to commands that log: filled by the options -q, -v. */
 typedef struct cli_logging {
     bool quiet, verbose;
-    const char *subject; /* the mesh that is being worked on, "-" for standard input */
+    /* The mesh that is being worked on, "-" for standard input; NULL: the lines name it themselves. */
+    const char *subject;
 } cli_logging;
 
 /* An ffd_log_function whose user is a cli_logging. */

@@ -4,31 +4,14 @@
 #include <string.h>
 
 typedef struct settings {
-    double tolerance, normal_tolerance;
-    bool relative, has_normal_tolerance;
+    cli_distance tolerance;
+    double normal_tolerance;
+    bool has_normal_tolerance;
     ffd_format input_format;
     uint64_t memory;
-    bool json, help;
+    bool strict, json, help;
     cli_logging logging;
 } settings;
-
-/* "0.01", or "1e-6r": relative. */
-static bool set_tolerance(void *context, const cli_option *option, const char *value)
-{
-    settings *s = context;
-    char number[512];
-    size_t length = strlen(value);
-    s->relative = length > 0 && value[length - 1] == 'r';
-    length -= s->relative;
-    if (length < sizeof number) {
-        memcpy(number, value, length);
-        number[length] = 0;
-        if (cli_parse_number(number, &s->tolerance) && s->tolerance >= 0)
-            return true;
-    }
-    cli_complain("--%s: \"%s\" is not a number of at least 0, alone or followed by r", option->name, value);
-    return false;
-}
 
 static bool set_normal_tolerance(void *context, const cli_option *option, const char *value)
 {
@@ -43,13 +26,14 @@ static bool set_normal_tolerance(void *context, const cli_option *option, const 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"tolerance", 0, "T",
-     "positions may differ by T in a coordinate, or by T of A's diagonal (1e-6r); default 0", set_tolerance,
-     0, NULL},
+     "positions may differ by T in a coordinate, or by T of A's diagonal (1e-6r); default 0",
+     cli_set_distance, AT(tolerance), NULL},
     {"normal-tolerance", 0, "T",
      "normals and tangents may differ by T in a component; default 0, or the number of a T with r",
      set_normal_tolerance, 0, NULL},
     {"json", 0, NULL, "the result as JSON", cli_set_flag, AT(json), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; format of the input named -, else of both", cli_set_format,
      AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors and the exit code (and --json)", cli_set_flag, AT(logging.quiet), NULL},
@@ -63,7 +47,7 @@ static ffd_source source(const settings *s, const char *file, const char *other)
 {
     const bool other_only = strcmp(other, "-") == 0 && strcmp(file, "-") != 0;
     const ffd_format format = other_only ? FFD_FORMAT_AUTO : s->input_format;
-    return (ffd_source){.path = file, .format = format, .memory = s->memory};
+    return (ffd_source){.path = file, .format = format, .memory = s->memory, .strict = s->strict};
 }
 
 /* "3 differences: 2 positions, 1 other" */
@@ -97,8 +81,9 @@ static int print_json(const ffd_comparison *comparison, const char *a, const cha
 static int print_verdict(const settings *s, const ffd_comparison *comparison, const char *a, const char *b)
 {
     if (s->logging.verbose && !s->logging.quiet)
-        cli_complain("%llu positions compared, largest difference of a coordinate %g",
-                     (unsigned long long)comparison->positions_compared, comparison->position_difference_max);
+        cli_complain("%llu position%s compared, largest difference of a coordinate %g",
+                     (unsigned long long)comparison->positions_compared,
+                     comparison->positions_compared == 1 ? "" : "s", comparison->position_difference_max);
     if (s->json)
         return print_json(comparison, a, b);
     if (s->logging.quiet || comparison->equal)
@@ -111,15 +96,19 @@ static int print_verdict(const settings *s, const ffd_comparison *comparison, co
     return EXIT_NO;
 }
 
-static int compare(const settings *s, const char *a, const char *b)
+static int compare(settings *s, const char *a, const char *b)
 {
     ffd_compare_desc desc;
     ffd_compare_desc_init(&desc);
     desc.a = source(s, a, b);
     desc.b = source(s, b, a);
-    desc.tolerance = s->tolerance;
-    desc.relative = s->relative;
-    desc.direction_tolerance = s->has_normal_tolerance ? s->normal_tolerance : s->relative ? s->tolerance : 0;
+    desc.tolerance = s->tolerance.value;
+    desc.relative = s->tolerance.is_relative;
+    desc.direction_tolerance = s->has_normal_tolerance    ? s->normal_tolerance
+                               : s->tolerance.is_relative ? s->tolerance.value
+                                                          : 0;
+    desc.log = cli_log;
+    desc.log_user = &s->logging;
     if (!cli_knows_format(a, desc.a.format) || !cli_knows_format(b, desc.b.format))
         return EXIT_USAGE;
     ffd_comparison comparison;

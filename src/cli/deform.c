@@ -20,7 +20,7 @@ const cli_option cli_deform_options[] = {
     {"depfile", 0, "FILE", "write what OUT was made from, for make and ninja", cli_set_text, AT(depfile_path),
      NULL},
     {"resources", 0, "copy|reference",
-     "images of a .gltf written elsewhere: copied, or referred to; default copy", cli_set_choice,
+     "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_choice,
      AT(resources), resources_names},
     {"output-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(output_format), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
@@ -113,10 +113,10 @@ static int deform(settings *s, const char *input, const char *output, ffd_report
     ffd_deform_desc desc;
     describe(s, input, output, &desc);
     if (!ffd_deform_run(&desc, &result, NULL) && s->job.logging.verbose && !s->job.logging.quiet)
-        cli_complain("%s: %llu of %llu vertices moved, by %g at most", cli_display_name(input),
+        cli_complain("%s: %llu of %llu %s moved, by %g at most", cli_display_name(input),
                      (unsigned long long)result.moved, (unsigned long long)result.vertices,
-                     result.displacement_max);
-    return cli_job_ended(&result, input, s->in_place ? input : output, report);
+                     result.vertices == 1 ? "vertex" : "vertices", result.displacement_max);
+    return cli_job_ended(&s->job, &result, input, s->in_place ? input : output, report);
 }
 
 static int run_job(cli_job *job, const char *input, ffd_report *report)
@@ -212,6 +212,10 @@ static int run_all(settings *s, const cli_words *words, size_t inputs)
     ffd_error error;
     if (s->depfile_path && ffd_depfile_create(s->depfile_path, &s->depfile, &error))
         return cli_fail(&error);
+    /* What a killed run had set aside counts for the shared box too. If it cannot come back, its job says
+     * why. */
+    for (size_t i = 0; i < inputs && s->in_place && s->job.shares_box; i++)
+        ffd_restore_output(words->words[i], NULL);
     int code = cli_job_run_all(&s->job, words, inputs, run_job);
     if (!code && s->depfile && ffd_depfile_write(s->depfile, &error))
         code = cli_fail(&error);

@@ -16,7 +16,7 @@ typedef struct cli_deform_settings {
     bool force, if_changed, in_place;
 } cli_deform_settings;
 
-/* Those of ffd deform alone; cli_job_options are the others. */
+/* The options of ffd deform alone; the others are cli_job_options. */
 extern const cli_option cli_deform_options[];
 
 /* The members of a worker_program (batch/worker.h). */

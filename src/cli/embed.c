@@ -1,31 +1,42 @@
 /* embed.c - ffd embed: u,v,w of every vertex as a NumPy file. */
 #include "cli/command.h"
+#include "cli/names.h"
+#include "cli/values.h"
 #include <string.h>
 
 typedef struct settings {
     const char *lattice, *output, *status;
     int threads, space;
+    cli_distance snap;
     ffd_format input_format;
     uint64_t memory;
-    bool force, help;
+    bool strict, force, help;
     cli_logging logging;
+    cli_values values;
+    cli_names allowed;
 } settings;
 
 static const char *const space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
-    {"lattice", 'l', "LATTICE", "lattice file", cli_set_text, AT(lattice), NULL},
+    {"lattice", 'l', "LATTICE", "lattice file; it needs no moves, and no values for placeholders in them",
+     cli_set_text, AT(lattice), NULL},
+    {"set", 0, "NAME=VALUE", "value of the placeholder {\"$\": \"NAME\"} in the moves; repeatable",
+     cli_add_value, AT(values), NULL},
     {"output", 'o', "FILE.npy", "u,v,w: float64, N x 3, NaN where outside; statuses and hashes after it",
      cli_set_text, AT(output), NULL},
     {"status", 0, "FILE.npy", "uint8 for each vertex: 0 inside, 1 outside, 2 multiple, 3 singular, 4 invalid",
      cli_set_text, AT(status), NULL},
     {"space", 0, "scene|mesh", "glTF: the space that the lattice is in; default scene", cli_set_choice,
      AT(space), space_names},
+    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all processors",
      cli_set_count, AT(threads), NULL},
     {"force", 0, NULL, "overwrite existing outputs", cli_set_flag, AT(force), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
+    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
@@ -39,11 +50,20 @@ static int embed(settings *s, const char *input)
     ffd_job_result result;
     ffd_error error;
     ffd_embed_desc_init(&desc);
-    desc.input = (ffd_source){
-        .path = input, .format = s->input_format, .space = (ffd_space)s->space, .memory = s->memory};
+    desc.input = (ffd_source){.path = input,
+                              .format = s->input_format,
+                              .space = (ffd_space)s->space,
+                              .memory = s->memory,
+                              .strict = s->strict,
+                              .allow_extensions = s->allowed.names,
+                              .allow_extension_count = s->allowed.count};
     desc.lattice = s->lattice;
+    desc.set = s->values.set;
+    desc.set_count = s->values.count;
     desc.output = s->output;
     desc.status_output = s->status;
+    desc.snap = s->snap.value;
+    desc.snap_relative = s->snap.is_relative;
     desc.threads = s->threads;
     desc.force = s->force;
     desc.log = cli_log;
@@ -59,7 +79,7 @@ static bool replaces_input(const settings *s, const char *output, const char *me
            (strcmp(output, mesh) == 0 || strcmp(output, s->lattice) == 0);
 }
 
-/* What is wrong with the options and words, or NULL. */
+/* Returns what is wrong with the options and words, or NULL. */
 static const char *mistake(const settings *s, const cli_words *words)
 {
     if (words->count != 1)
@@ -89,7 +109,10 @@ static int act(const cli_command *command, void *context, const cli_words *words
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    return cli_run(command, &s, &s.help, count, arguments, act);
+    const int code = cli_run(command, &s, &s.help, count, arguments, act);
+    cli_values_free(&s.values);
+    cli_names_free(&s.allowed);
+    return code;
 }
 
 static const cli_example examples[] = {

@@ -1,18 +1,26 @@
 /* info.c - ffd info: what is in a mesh or lattice file. */
 #include "cli/command.h"
+#include "cli/values.h"
 #include <stdio.h>
 
 typedef struct settings {
     ffd_format input_format;
     uint64_t memory;
-    bool json, help;
-    cli_logging logging; /* the text itself is data: nothing is left to be silent about, or to add */
+    bool strict, json, parts, help;
+    cli_values values;
+    cli_logging logging;
 } settings;
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"json", 0, NULL, "as JSON", cli_set_flag, AT(json), NULL},
+    {"parts", 0, NULL, "of a mesh: every name that --only takes, with bounds, vertices and faces",
+     cli_set_flag, AT(parts), NULL},
+    {"set", 0, "NAME=VALUE",
+     "of a lattice: value of the placeholder {\"$\": \"NAME\"} in its moves; repeatable", cli_add_value,
+     AT(values), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "print only errors besides the text", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
@@ -20,12 +28,21 @@ static const cli_option options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static int describe(const settings *s, const char *file)
+static int describe(settings *s, const char *file)
 {
-    const ffd_source source = {.path = file, .format = s->input_format, .memory = s->memory};
+    ffd_info_desc desc;
     ffd_error error;
     char *text;
-    if (ffd_info_run(&source, s->json, &text, &error))
+    ffd_info_desc_init(&desc);
+    desc.file =
+        (ffd_source){.path = file, .format = s->input_format, .memory = s->memory, .strict = s->strict};
+    desc.json = s->json;
+    desc.parts = s->parts;
+    desc.set = s->values.set;
+    desc.set_count = s->values.count;
+    desc.log = cli_log;
+    desc.log_user = &s->logging;
+    if (ffd_info_run(&desc, &text, &error))
         return cli_fail(&error);
     fputs(text, stdout);
     ffd_text_free(text);
@@ -40,18 +57,21 @@ static int act(const cli_command *command, void *context, const cli_words *words
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
-    return cli_run(command, &s, &s.help, count, arguments, act);
+    const int code = cli_run(command, &s, &s.help, count, arguments, act);
+    cli_values_free(&s.values);
+    return code;
 }
 
 static const cli_example examples[] = {
     {"what is in a mesh", "ffd info robot.glb"},
+    {"the names of its parts, for --only", "ffd info robot.glb --parts"},
     {"a lattice, for a program to read", "ffd info bend.json --json"},
     {NULL, NULL},
 };
 
 const cli_command cli_info = {"info",
                               "what is in a mesh or a lattice file",
-                              "usage: ffd info FILE [--json]\n",
+                              "usage: ffd info FILE [--json] [--parts] [--set NAME=VALUE]\n",
                               {.first = options},
                               run,
                               "MESH|LATTICE",

@@ -1,5 +1,6 @@
 #include "cli/job.h"
 #include "cli/nearest.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,32 +9,6 @@ static bool add_lattice(void *context, const cli_option *option, const char *val
     cli_job *job = context;
     job->lattices[job->lattice_count] = NULL;
     return cli_set_text(&job->lattices[job->lattice_count++], option, value);
-}
-
-/* NAME=VALUE. */
-static bool add_setting(void *context, const cli_option *option, const char *value)
-{
-    cli_job *job = context;
-    const char *equals = strchr(value, '=');
-    if (!equals || equals == value) {
-        cli_complain("--%s: \"%s\" is not NAME=VALUE", option->name, value);
-        return false;
-    }
-    const size_t length = (size_t)(equals - value);
-    for (size_t i = 0; i < job->set_count; i++)
-        if (strlen(job->set[i].name) == length && memcmp(job->set[i].name, value, length) == 0) {
-            cli_complain("--%s: \"%.*s\" is set twice", option->name, (int)length, value);
-            return false;
-        }
-    char *name = malloc(length + 1);
-    if (!name) {
-        cli_complain("out of memory");
-        return false;
-    }
-    memcpy(name, value, length);
-    name[length] = 0;
-    job->set[job->set_count++] = (ffd_setting){name, equals + 1};
-    return true;
 }
 
 static bool add_selector(void *context, const cli_option *option, const char *value)
@@ -49,16 +24,64 @@ static bool add_selector(void *context, const cli_option *option, const char *va
     return true;
 }
 
-static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", NULL};
-static const ffd_gate gates[] = {FFD_GATE_FOLDS, FFD_GATE_OUTSIDE, FFD_GATE_MULTIPLE, FFD_GATE_SINGULAR};
+static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
+                                         "tear=", "flipped", "flipped=", "edges=",   NULL};
+static const ffd_gate gates[] = {FFD_GATE_FOLDS,   FFD_GATE_OUTSIDE, FFD_GATE_MULTIPLE, FFD_GATE_SINGULAR,
+                                 FFD_GATE_INVALID, FFD_GATE_TEAR,    FFD_GATE_TEAR,     FFD_GATE_FLIPPED,
+                                 FFD_GATE_FLIPPED, FFD_GATE_EDGES};
+
+/* Takes the value of a gate: of several the strictest. text: "LENGTH" or "N", and what follows in the list;
+ * NULL: there is none. */
+static bool set_gate_value(cli_job *job, const cli_option *option, ffd_gate gate, const char *text,
+                           size_t length)
+{
+    const char *const name = gate == FFD_GATE_TEAR ? "tear" : gate == FFD_GATE_EDGES ? "edges" : "flipped";
+    const bool counts = gate == FFD_GATE_FLIPPED;
+    char copy[64] = "";
+    double value = 0;
+    bool valid = !text;
+    if (text && length < sizeof copy) {
+        memcpy(copy, text, length);
+        valid = cli_parse_number(copy, &value) && value >= 0 &&
+                (!counts || (value < 0x1p53 && value == floor(value)));
+    }
+    if (!valid) {
+        cli_complain("--%s: \"%.*s\" is not a %s of the gate %s", option->name,
+                     (int)(length < 60 ? length : 60), text, counts ? "number" : "length", name);
+        return false;
+    }
+    const bool is_first = !(job->fail_on & (unsigned)gate);
+    if (gate == FFD_GATE_TEAR)
+        value = text ? value : -1;
+    if (gate == FFD_GATE_TEAR && (is_first || value < job->tear_most))
+        job->tear_most = value;
+    if (gate == FFD_GATE_EDGES && (is_first || value < job->edges_most))
+        job->edges_most = value;
+    if (gate == FFD_GATE_FLIPPED && (is_first || (uint64_t)value < job->flipped_most))
+        job->flipped_most = (uint64_t)value;
+    return true;
+}
+
+/* A name ends in '=' where a value follows. */
+static bool is_gate(const char *name, const char *word, size_t length)
+{
+    const size_t size = strlen(name);
+    const bool takes_value = name[size - 1] == '=';
+    return (takes_value ? length >= size : length == size) && memcmp(name, word, size) == 0;
+}
 
 static bool add_gate(cli_job *job, const cli_option *option, const char *word, size_t length)
 {
-    cli_nearest nearest = {.word = word, .length = length};
+    cli_nearest nearest = {.word = word, .length = strcspn(word, "=,")};
     for (int i = 0; gate_names[i]; i++) {
-        if (strlen(gate_names[i]) == length && memcmp(gate_names[i], word, length) == 0) {
+        if (is_gate(gate_names[i], word, length)) {
+            const size_t size = strlen(gate_names[i]);
+            const char *const value = gate_names[i][size - 1] == '=' ? word + size : NULL;
+            const bool has_value = gates[i] & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES);
+            const bool taken =
+                !has_value || set_gate_value(job, option, gates[i], value, value ? length - size : 0);
             job->fail_on |= (unsigned)gates[i];
-            return true;
+            return taken;
         }
         cli_nearest_offer(&nearest, gate_names[i]);
     }
@@ -88,15 +111,23 @@ static const char *const space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(cli_job, field)
 const cli_option cli_job_options[] = {
-    {"lattice", 'l', "LATTICE", "lattice file; several are applied in this order", add_lattice, 0, NULL},
+    {"lattice", 'l', "LATTICE", "lattice file; several act in this order, or with --blocks side by side",
+     add_lattice, 0, NULL},
     {"set", 0, "NAME=VALUE",
-     "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", add_setting, 0,
-     NULL},
+     "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_add_value,
+     AT(values), NULL},
+    {"shared-box", 0, NULL,
+     "a lattice's \"box\": \"mesh\" goes round all IN (in batch: all jobs), not round each", cli_set_flag,
+     AT(shares_box), NULL},
     {"outside", 0, "keep|extend|error",
      "vertices outside the lattice: stay, follow its border, or fail (exit 5); default keep", cli_set_choice,
      AT(outside), outside_names},
     {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
      cli_set_positive, AT(falloff), NULL},
+    {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
+    {"blocks", 0, NULL,
+     "all -l act on the mesh at rest, each vertex in the first that holds it; default in turn", cli_set_flag,
+     AT(blocks), NULL},
     {"normals", 0, "transform|recompute|keep",
      "normals, tangents: carried along, from the deformed faces, or kept; default transform", cli_set_choice,
      AT(normals), normals_names},
@@ -107,13 +138,15 @@ const cli_option cli_job_options[] = {
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
      add_selector, 0, NULL},
     {"as-morph", 0, "NAME",
-     "glTF out: leave the shape, and add the deformation as a morph target of this name", cli_set_text,
-     AT(as_morph), NULL},
+     "glTF out: leave the shape; add, or replace, the morph target of this name by the deformation",
+     cli_set_text, AT(as_morph), NULL},
     {"embedding", 0, "FILE.npy", "u,v,w that ffd embed has written for this mesh and rest lattice",
      cli_set_text, AT(embedding), NULL},
-    {"fail-on", 0, "GATES", "exit 1 and write nothing if there are any of folds,outside,multiple,singular",
-     add_gates, 0, gate_names},
-    {"report", 0, "FILE|-", "JSON report", cli_set_text, AT(report), NULL},
+    {"fail-on", 0, "GATES",
+     "exit 1 if any: folds,outside,multiple,singular,invalid,tear[=D],flipped[=N],edges=D", add_gates, 0,
+     gate_names},
+    {"report", 0, "FILE|-", "JSON report; JSON Lines if the name ends in .jsonl", cli_set_text, AT(report),
+     NULL},
     {"report-stable", 0, NULL, "leave the seconds out of the report", cli_set_flag, AT(stable), NULL},
     {"threads", 'j', "N", "number of threads; never changes the output; default all processors",
      cli_set_count, AT(threads), NULL},
@@ -121,6 +154,8 @@ const cli_option cli_job_options[] = {
      "instruction set of the kernels; never changes the output; default auto", cli_set_choice, AT(isa),
      isa_names},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
+    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
@@ -130,9 +165,8 @@ const cli_option cli_job_options[] = {
 
 static void free_lists(cli_job *job)
 {
-    for (size_t i = 0; i < job->set_count; i++)
-        free((char *)(uintptr_t)job->set[i].name);
-    free(job->set);
+    cli_values_free(&job->values);
+    cli_names_free(&job->allowed);
     free(job->lattices);
     free(job->only);
 }
@@ -142,8 +176,7 @@ bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **a
 {
     job->lattices = calloc((size_t)count + 1, sizeof *job->lattices);
     job->only = calloc((size_t)count + 1, sizeof *job->only);
-    job->set = calloc((size_t)count + 1, sizeof *job->set);
-    if (!job->lattices || !job->only || !job->set) {
+    if (!job->lattices || !job->only) {
         free_lists(job);
         cli_complain("out of memory");
         *exit_code = ffd_status_exit_code(FFD_E_MEMORY);
@@ -173,6 +206,8 @@ static const char *wrong_streams(const cli_job *job, const cli_words *words, siz
         meshes += cli_is_stream(words->words[i]);
     for (size_t i = 0; i < job->lattice_count; i++)
         others += cli_is_stream(job->lattices[i]);
+    if (meshes && job->shares_box)
+        return "--shared-box reads each IN twice, which standard input cannot be";
     return meshes + others > 1 || (others && inputs > 1) ? "standard input can be read only once" : NULL;
 }
 
@@ -198,6 +233,8 @@ const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t i
         return "no lattice is given (-l FILE)";
     if (job->falloff > 0 && job->outside != FFD_OUTSIDE_EXTEND)
         return "--falloff needs --outside extend";
+    if (job->embedding && job->blocks)
+        return "--embedding works with one lattice, and not with --blocks";
     if (job->embedding && job->lattice_count > 1)
         return "--embedding works with one lattice, but several -l are given";
     if (job->embedding && inputs > 1)
@@ -219,17 +256,28 @@ bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t in
 void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
 {
     ffd_deform_desc_init(desc);
-    desc->input = (ffd_source){
-        .path = input, .format = job->input_format, .space = (ffd_space)job->space, .memory = job->memory};
+    desc->input = (ffd_source){.path = input,
+                               .format = job->input_format,
+                               .space = (ffd_space)job->space,
+                               .memory = job->memory,
+                               .strict = job->strict,
+                               .allow_extensions = job->allowed.names,
+                               .allow_extension_count = job->allowed.count};
     desc->lattices = job->lattices;
     desc->lattice_count = job->lattice_count;
-    desc->set = job->set;
-    desc->set_count = job->set_count;
+    desc->set = job->values.set;
+    desc->set_count = job->values.count;
     desc->outside = (ffd_outside)job->outside;
     desc->falloff = job->falloff;
+    desc->snap = job->snap.value;
+    desc->snap_relative = job->snap.is_relative;
+    desc->blocks = job->blocks;
     desc->embedding = job->embedding;
     desc->as_morph = job->as_morph;
     desc->fail_on = job->fail_on;
+    desc->tear_most = job->tear_most;
+    desc->flipped_most = job->flipped_most;
+    desc->edges_most = job->edges_most;
     desc->quality = job->report != NULL;
     desc->normals = (ffd_normals)job->normals;
     desc->only = job->only;
@@ -238,15 +286,18 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->isa = (ffd_isa)job->isa;
     desc->written = job->written;
     desc->share = job->share;
+    desc->shared_box = job->shared_box;
     desc->log = cli_log;
     desc->log_user = &job->logging;
     job->logging.subject = input;
 }
 
-int cli_job_ended(const ffd_job_result *result, const char *input, const char *output, ffd_report *report)
+int cli_job_ended(cli_job *job, const ffd_job_result *result, const char *input, const char *output,
+                  ffd_report *report)
 {
     ffd_error error;
     int code = result->status ? cli_fail(&result->error) : EXIT_DONE;
+    job->own_box = job->own_box || result->own_box;
     if (report && ffd_report_add(report, input, output, result, &error))
         code = cli_fail(&error);
     return code;
@@ -261,7 +312,29 @@ static int run_each(cli_job *job, const cli_words *words, size_t inputs, cli_job
         if (own)
             code = inputs == 1 ? own : EXIT_NO;
     }
+    if (inputs > 1 && job->own_box && !job->logging.quiet)
+        cli_complain(
+            "the lattice's box was laid round each of the %zu meshes by itself: parts that meet need "
+            "one box round all of them (--shared-box)",
+            inputs);
     return code;
+}
+
+/* Lays the shared box round all inputs. One that cannot be read is left out: its own job says so. */
+static int share_box(cli_job *job, const cli_words *words, size_t inputs)
+{
+    ffd_error error;
+    if (!job->shares_box)
+        return EXIT_DONE;
+    if (ffd_shared_box_create(&job->shared_box, &error))
+        return cli_fail(&error);
+    for (size_t i = 0; i < inputs; i++) {
+        ffd_deform_desc desc;
+        cli_job_describe(job, words->words[i], &desc);
+        if (ffd_shared_box_add(job->shared_box, &desc, &error) == FFD_E_MEMORY)
+            return cli_fail(&error);
+    }
+    return EXIT_DONE;
 }
 
 int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job_function one)
@@ -274,6 +347,8 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
         (job->report && ffd_report_create(job->report, job->stable, job->written, &report, &error)))
         code = cli_fail(&error);
     else
+        code = share_box(job, words, inputs);
+    if (!code)
         code = run_each(job, words, inputs, one, report);
     if (report && ffd_report_write(report, &error)) {
         const int own = cli_fail(&error);
@@ -282,5 +357,6 @@ int cli_job_run_all(cli_job *job, const cli_words *words, size_t inputs, cli_job
     ffd_report_destroy(&report);
     ffd_written_destroy(&job->written);
     ffd_share_destroy(&job->share);
+    ffd_shared_box_destroy(&job->shared_box);
     return code;
 }

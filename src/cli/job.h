@@ -3,6 +3,8 @@
 #define FFD_CLI_JOB_H
 
 #include "cli/command.h"
+#include "cli/names.h"
+#include "cli/values.h"
 
 /* Filled by cli_job_options. Each command's own settings begin with it. */
 typedef struct cli_job {
@@ -10,20 +12,26 @@ typedef struct cli_job {
     size_t lattice_count;
     const char **only;
     size_t only_count;
-    ffd_setting *set; /* their names are owned */
-    size_t set_count;
+    cli_values values;
+    cli_names allowed; /* extensions */
     int outside, normals, space;
     double falloff; /* 0: not given */
+    cli_distance snap;
+    bool blocks;
     const char *embedding;
     const char *as_morph;
-    unsigned fail_on; /* of ffd_gate */
+    unsigned fail_on; /* of ffd_gate, with the values of some: */
+    double tear_most, edges_most;
+    uint64_t flipped_most;
     const char *report;
     int threads, isa;
     ffd_format input_format;
     uint64_t memory;
-    bool stable;
-    ffd_written *written; /* by the jobs so far */
-    ffd_share *share;     /* of several jobs: all have one set of lattices */
+    bool strict, stable, shares_box;
+    bool own_box;               /* a job laid a lattice's box round its own mesh */
+    ffd_shared_box *shared_box; /* of all jobs, or NULL */
+    ffd_written *written;       /* by the jobs so far */
+    ffd_share *share;           /* of several jobs: all have one set of lattices */
     cli_logging logging;
     bool help;
 } cli_job;
@@ -37,8 +45,8 @@ bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **a
 /* Frees the words and what the options have filled. */
 void cli_job_end(cli_job *job, cli_words *words);
 
-/* What is wrong with the options, given the meshes that are read (the first inputs of words; the others are
-   written), or NULL. */
+/* Returns what is wrong with the options, given the meshes that are read (the first inputs of words; the
+   others are written), or NULL. */
 const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs);
 
 /* Whether the formats of all inputs are known. Else says what is missing. */
@@ -52,7 +60,8 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc);
 
 /* Says how a job ended if it failed, and adds it to the report (NULL: there is none). Returns its exit code.
  */
-int cli_job_ended(const ffd_job_result *result, const char *input, const char *output, ffd_report *report);
+int cli_job_ended(cli_job *job, const ffd_job_result *result, const char *input, const char *output,
+                  ffd_report *report);
 
 /* Does one mesh; returns its exit code. */
 typedef int (*cli_job_function)(cli_job *job, const char *input, ffd_report *report);

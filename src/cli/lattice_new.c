@@ -1,17 +1,21 @@
-/* lattice_new.c - ffd lattice new: a lattice round a mesh. */
+/* lattice_new.c - ffd lattice new: a lattice round meshes. */
 #include "cli/command.h"
+#include "cli/names.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct settings {
     ffd_lattice_desc desc;
+    const char **only;
+    size_t only_count;
     const char *output;
     int shape, spacing;
     ffd_format input_format;
     uint64_t memory;
-    bool force, help;
-    bool has_axis;
+    bool strict, force, help;
+    bool has_axis, has_margins; /* has_margins: --margin has three numbers */
+    cli_names allowed;
     cli_logging logging;
 } settings;
 
@@ -103,10 +107,28 @@ static bool set_knots(void *context, const cli_option *option, const char *value
 static bool set_margin(void *context, const cli_option *option, const char *value)
 {
     settings *s = context;
-    if (cli_parse_number(value, &s->desc.margin) && s->desc.margin >= 0)
-        return true;
-    cli_complain("--%s: \"%s\" is not a number of at least 0", option->name, value);
-    return false;
+    char part[3][32];
+    bool right = split_three(value, part);
+    s->has_margins = strchr(value, ',') != NULL;
+    for (int a = 0; right && a < 3; a++)
+        right = cli_parse_number(part[a], &s->desc.margin[a]) && s->desc.margin[a] >= 0;
+    if (!right)
+        cli_complain("--%s: \"%s\" is not a number of at least 0, nor three like 0.1,0,0.1", option->name,
+                     value);
+    return right;
+}
+
+static bool add_only(void *context, const cli_option *option, const char *value)
+{
+    settings *s = context;
+    ffd_error error;
+    (void)option; /* the message names it */
+    if (ffd_selector_check(value, &error)) {
+        cli_fail(&error);
+        return false;
+    }
+    s->only[s->only_count++] = value;
+    return true;
 }
 
 static bool set_axis(void *context, const cli_option *option, const char *value)
@@ -146,7 +168,11 @@ static const cli_option options[] = {
     {"size", 0, "N,M,O", "control points along u, v, w; default 4,4,4", set_size, 0, NULL},
     {"degree", 0, "N,M,O", "1 to 9; default 3, or less where there are fewer points", set_degree, 0, NULL},
     {"knots", 0, "K,K,K", "clamped, open, uniform or closed; default clamped", set_knots, 0, knots_names},
-    {"margin", 0, "F", "space left on every side, as a fraction of the extent; default 0.05", set_margin, 0,
+    {"margin", 0, "F|X,Y,Z",
+     "space on both sides, as a fraction of the extent; three: along a box's axes; default 0.05", set_margin,
+     0, NULL},
+    {"only", 0, "KIND:NAME",
+     "round this only, repeatable; glTF: node, mesh, material; OBJ: group, object, material", add_only, 0,
      NULL},
     {"spacing", 0, "greville|uniform", "of the control points of a box; default greville", cli_set_choice,
      AT(spacing), spacing_names},
@@ -155,6 +181,8 @@ static const cli_option options[] = {
     {"axes", 0, "principal", "a box along the mesh's principal axes", set_axes, 0, NULL},
     {"force", 0, NULL, "overwrite an existing file", cli_set_flag, AT(force), NULL},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
+    {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
+    {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},
     {"input-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(input_format), NULL},
     {"quiet", 'q', NULL, "only errors", cli_set_flag, AT(logging.quiet), NULL},
     {"verbose", 'v', NULL, "say more", cli_set_flag, AT(logging.verbose), NULL},
@@ -162,20 +190,49 @@ static const cli_option options[] = {
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
-static int create(settings *s, const char *mesh)
+static int create(settings *s, const cli_words *words)
 {
-    const ffd_source source = {.path = mesh, .format = s->input_format, .memory = s->memory};
+    ffd_source *const meshes = calloc(words->count, sizeof *meshes);
+    ffd_lattice_new_desc desc;
     ffd_error error;
+    if (!meshes) {
+        cli_complain("out of memory");
+        return ffd_status_exit_code(FFD_E_MEMORY);
+    }
+    for (size_t i = 0; i < words->count; i++)
+        meshes[i] = (ffd_source){.path = words->words[i],
+                                 .format = s->input_format,
+                                 .memory = s->memory,
+                                 .strict = s->strict,
+                                 .allow_extensions = s->allowed.names,
+                                 .allow_extension_count = s->allowed.count};
     s->desc.shape = (ffd_lattice_shape)s->shape;
     s->desc.spacing = (ffd_spacing)s->spacing;
-    return ffd_lattice_new_run(&source, &s->desc, s->output, s->force, &error) ? cli_fail(&error) : EXIT_DONE;
+    ffd_lattice_new_desc_init(&desc);
+    desc.meshes = meshes;
+    desc.mesh_count = words->count;
+    desc.only = s->only;
+    desc.only_count = s->only_count;
+    desc.lattice = &s->desc;
+    desc.output = s->output;
+    desc.force = s->force;
+    desc.log = cli_log;
+    desc.log_user = &s->logging;
+    const int code = ffd_lattice_new_run(&desc, &error) ? cli_fail(&error) : EXIT_DONE;
+    free(meshes);
+    return code;
 }
 
-/* What is wrong with the options and words, or NULL. */
+/* Returns what is wrong with the options and words, or NULL. */
 static const char *mistake(const settings *s, const cli_words *words)
 {
-    if (words->count != 1)
-        return "needs one MESH";
+    size_t streams = 0;
+    for (size_t i = 0; i < words->count; i++)
+        streams += strcmp(words->words[i], "-") == 0;
+    if (words->count == 0)
+        return "needs at least one MESH";
+    if (streams > 1)
+        return "standard input can be read only once";
     if (!s->output)
         return "no output is given (-o LATTICE)";
     if (ffd_format_from_name(s->output) != FFD_FORMAT_AUTO)
@@ -184,6 +241,9 @@ static const char *mistake(const settings *s, const cli_words *words)
         return "--axis needs --shape cylinder";
     if (s->desc.principal && s->shape != FFD_SHAPE_BOX)
         return "--axes needs --shape box: a cylinder has --axis";
+    if (s->has_margins && s->shape != FFD_SHAPE_BOX)
+        return "three numbers of --margin need --shape box: a cylinder has one margin, of its radius and "
+               "height";
     return NULL;
 }
 
@@ -193,28 +253,41 @@ static int act(const cli_command *command, void *context, const cli_words *words
     const char *why = mistake(s, words);
     if (why)
         return cli_usage(command, why);
-    return cli_knows_format(words->words[0], s->input_format) ? create(s, words->words[0]) : EXIT_USAGE;
+    for (size_t i = 0; i < words->count; i++)
+        if (!cli_knows_format(words->words[i], s->input_format))
+            return EXIT_USAGE;
+    return create(s, words);
 }
 
 static int run(const cli_command *command, int count, char **arguments)
 {
     settings s = {0};
     ffd_lattice_desc_init(&s.desc);
-    return cli_run(command, &s, &s.help, count, arguments, act);
+    s.only = calloc((size_t)count + 1, sizeof *s.only);
+    if (!s.only) {
+        cli_complain("out of memory");
+        return ffd_status_exit_code(FFD_E_MEMORY);
+    }
+    const int code = cli_run(command, &s, &s.help, count, arguments, act);
+    free(s.only);
+    cli_names_free(&s.allowed);
+    return code;
 }
 
 static const cli_example examples[] = {
     {"a box with more control points along y", "ffd lattice new cow.obj -o cow.json --size 4,6,4"},
     {"a cylinder round an upright column",
      "ffd lattice new column.obj -o column.json --shape cylinder --axis y"},
+    {"one box round several parts", "ffd lattice new cow.obj vase.obj -o both.json --margin 0.1,0,0.1"},
     {NULL, NULL},
 };
 
-const cli_command cli_lattice_new = {"lattice new",
-                                     "make a lattice round a mesh",
-                                     "usage: ffd lattice new MESH -o LATTICE [--size 4,4,4] [--degree 3,3,3] "
-                                     "[--shape box|cylinder] [options]\n",
-                                     {.first = options},
-                                     run,
-                                     "MESH",
-                                     examples};
+const cli_command cli_lattice_new = {
+    "lattice new",
+    "make a lattice round meshes",
+    "usage: ffd lattice new MESH... -o LATTICE [--size 4,4,4] [--degree 3,3,3] "
+    "[--shape box|cylinder] [options]\n",
+    {.first = options},
+    run,
+    "MESH",
+    examples};

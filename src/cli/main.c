@@ -152,13 +152,16 @@ static int run(int count, char **arguments)
    them stays an error. */
 static void occupy_closed_streams(void)
 {
-    for (int i = 0; i < 3; i++)
-        if (!fopen("/dev/null", "r"))
-            break;
+    FILE *file;
+    do
+        file = fopen("/dev/null", "r");
+    while (file && fileno(file) < 3);
+    if (file)
+        fclose(file);
 }
 
-/* Past a limit on the size of files a write shall fail like any other, with a message, and not end the
- * program. */
+/* Past a limit on the size of files a write shall fail like any other, with a message,
+   and not end the program. */
 static void ignore_size_signal(void)
 {
 #ifdef SIGXFSZ
@@ -172,7 +175,13 @@ int main(int argc, char **argv)
     ignore_size_signal();
     ffd_cleanup_on_signals();
     static const worker_program program = {cli_deform_open, cli_deform_close};
-    int code = argc == 1 && ffd_worker_is(argv[0]) ? ffd_worker_run(&program) : run(argc - 1, argv + 1);
+    int code;
+    if (argc == 1 && ffd_worker_is(argv[0])) {
+        code = ffd_worker_run(&program);
+    } else {
+        ffd_guard_inputs();
+        code = run(argc - 1, argv + 1);
+    }
     errno = 0;
     if (fflush(stdout) != 0 || ferror(stdout)) {
         cli_complain("standard output: cannot be written%s%s", errno ? ": " : "",

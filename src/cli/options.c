@@ -73,6 +73,23 @@ bool cli_set_positive(void *settings, const cli_option *option, const char *valu
     return true;
 }
 
+bool cli_set_distance(void *settings, const cli_option *option, const char *value)
+{
+    cli_distance *const distance = field(settings, option);
+    char number[512];
+    const size_t length = strlen(value);
+    const bool is_relative = length > 0 && value[length - 1] == 'r';
+    if (length - is_relative < sizeof number) {
+        memcpy(number, value, length - is_relative);
+        number[length - is_relative] = 0;
+        distance->is_relative = is_relative;
+        if (cli_parse_number(number, &distance->value) && distance->value >= 0)
+            return true;
+    }
+    cli_complain("--%s: \"%s\" is not a number of at least 0, alone or followed by r", option->name, value);
+    return false;
+}
+
 bool cli_set_count(void *settings, const cli_option *option, const char *value)
 {
     char *end;
@@ -222,7 +239,8 @@ static bool parse_long(const cli_table *options, void *settings, const char *tex
         return unknown_option(options, text, length);
     const char *value = equals ? equals + 1 : NULL;
     if (!option->value && value) {
-        cli_complain("--%s takes no value", option->name);
+        cli_complain(captured ? "--%s takes no value: true or false is wanted" : "--%s takes no value",
+                     option->name);
         return false;
     }
     if (option->value && !value) {

@@ -6,10 +6,22 @@
 #include <stddef.h>
 
 /* The mesh formats, for help and complaints. */
-#define CLI_FORMATS "obj, gltf, glb, ply, off or stl"
+#define CLI_FORMATS "obj, gltf, glb, vrm, ply, off or stl"
 
 /* What --memory does. */
-#define CLI_MEMORY "memory that a mesh may take, as 700M or 4G; default 100M and 20 times its files"
+#define CLI_MEMORY                                                                                           \
+    "memory that mesh and lattices may take, as 700M or 4G; default 100M and 20 times their files"
+
+/* What --strict does. */
+#define CLI_STRICT "refuse what the format's specification calls an error even where its meaning is plain"
+
+/* What --allow-extension does. */
+#define CLI_ALLOW_EXTENSION                                                                                  \
+    "read a glTF file that requires this extension although it is not known; repeatable"
+
+/* What --snap does. */
+#define CLI_SNAP                                                                                             \
+    "a vertex no farther than D from the lattice (Dr: parts of its diagonal) is inside; default 0"
 
 typedef struct cli_option cli_option;
 
@@ -71,6 +83,14 @@ bool cli_set_choice(void *settings, const cli_option *option, const char *value)
 bool cli_set_format(void *settings, const cli_option *option, const char *value);
 /* A double, positive and finite. */
 bool cli_set_positive(void *settings, const cli_option *option, const char *value);
+/* A length, or with r after it a part of another one. */
+typedef struct cli_distance {
+    double value;
+    bool is_relative;
+} cli_distance;
+
+/* A cli_distance. */
+bool cli_set_distance(void *settings, const cli_option *option, const char *value);
 /* A uint64_t: bytes, as 700M or 4G. */
 bool cli_set_bytes(void *settings, const cli_option *option, const char *value);
 

@@ -1,5 +1,5 @@
-/* attribute.h - many normals and tangents at once, and tangents for normals that come from elsewhere (public:
-   ffd/deform.h). */
+/* attribute.h - many normals and tangents at once, and tangents for normals that come from elsewhere
+   (public: ffd/deform.h). */
 #ifndef FFD_DEFORM_ATTRIBUTE_H
 #define FFD_DEFORM_ATTRIBUTE_H
 

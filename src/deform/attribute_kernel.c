@@ -1,5 +1,5 @@
 /* attribute_kernel.c - compiled once for each instruction set with lanes: FFD_NORMAL_KERNEL and
-   FFD_TANGENT_KERNEL are the functions' names, FFD_LANES the number of directions in hand at a time.
+   FFD_TANGENT_KERNEL are the functions' names, FFD_LANES the number of SIMD lanes, each with one direction.
    Operation by operation it is attribute.c. */
 #include "deform/attribute_kernel.h"
 #include "base/vector/lanes.h"
@@ -35,7 +35,7 @@ static ALWAYS_INLINE lanes largest_entry(const lanes m[9])
     return largest;
 }
 
-/* Where the square root is that of vec_length. */
+/* A mask of the lanes whose square root is that of vec_length. */
 static ALWAYS_INLINE mask is_ordinary(lanes square)
 {
     return (square > 1e-280) & (square < 1e300);

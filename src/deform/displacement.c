@@ -21,7 +21,8 @@ static void sum_differences(const ffd_lattice *lattice, const lattice_basis *bas
 }
 
 /* The displacement of one point; by_uvw and jacobian are both there or both NULL. Returns whether a moved
-   control point acts on it; else nothing is written. */
+   control point acts on it; else nothing is written. Where all that act move alike, rounding would make the
+   sum miss what they have in common. */
 static bool displace_rational(const ffd_lattice *lattice, const double uvw[3], double delta[3],
                               double *by_uvw, double *jacobian)
 {
@@ -32,9 +33,24 @@ static bool displace_rational(const ffd_lattice *lattice, const double uvw[3], d
     if (!ffd_displacement_reaches(lattice, basis.span))
         return false;
     sum_differences(lattice, &basis, delta, by_uvw);
+    const double *const shared = ffd_displacement_shared(lattice, basis.span, inside);
+    if (shared)
+        memcpy(delta, shared, 3 * sizeof *delta);
+    if (by_uvw && ffd_displacement_shared(lattice, basis.span, NULL))
+        memset(by_uvw, 0, 9 * sizeof *by_uvw);
     if (jacobian)
         ffd_lattice_sum_rational(lattice, &basis, lattice->rest, lattice->rest_weights, point, jacobian);
     return true;
+}
+
+static void shift(const double shared[3], double delta[3], double *by_uvw, double *jacobian)
+{
+    static const double unit[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    memcpy(delta, shared, 3 * sizeof *delta);
+    if (by_uvw)
+        memset(by_uvw, 0, 9 * sizeof *by_uvw);
+    if (jacobian) /* any that has an inverse: by_uvw is 0 */
+        memcpy(jacobian, unit, sizeof unit);
 }
 
 /* As displace_rational. Where the lattice knows d uvw / d p, by_uvw is the gradient and jacobian NULL. */
@@ -45,19 +61,30 @@ static bool displace(const ffd_lattice *lattice, const double uvw[3], bool inver
     double inside[3], numbers[2 * FIELD_NUMBERS + 1];
     const cell_use use = jacobian ? CELL_GRADIENTS : by_uvw ? CELL_BY_UVW : CELL_VALUES;
     size_t number[3];
+    int span[3];
     kernel_cell cell;
     if (lattice->rest_weights)
         return displace_rational(lattice, uvw, delta, by_uvw, jacobian);
     ffd_displacement_wrap(lattice, uvw, inside);
     for (int a = 0; a < 3; a++)
         number[a] = ffd_knots_span_number(&lattice->knots[a], inside[a]);
-    if (!ffd_displacement_cell_points(lattice, ffd_extraction_kernel_scalar, number, use, numbers))
+    const cell_motion motion =
+        ffd_displacement_cell_points(lattice, ffd_extraction_kernel_scalar, number, use, numbers);
+    if (motion.kind == CELL_STILL)
         return false;
+    ffd_displacement_spans(lattice, number, span);
+    if (motion.kind == CELL_SHIFTED) {
+        shift(ffd_displacement_shared(lattice, span, NULL), delta, by_uvw, jacobian);
+        return true;
+    }
+    const double *const shared = motion.knots ? ffd_displacement_shared(lattice, span, inside) : NULL;
     ffd_displacement_cell_begin(lattice, number, use, numbers, &cell);
     cell.inverse = inverse ? cell.inverse : NULL;
     const kernel_points points = {
         .uvw = inside, .which = which, .count = 1, .delta = delta, .gradient = by_uvw, .jacobian = jacobian};
     ffd_kernel_scalar(&cell, &points);
+    if (shared)
+        memcpy(delta, shared, 3 * sizeof *delta);
     return true;
 }
 

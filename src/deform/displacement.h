@@ -1,5 +1,5 @@
 /* displacement.h - the displacement of many points at once, and by the lattice's own parameters (public:
-   ffd/deform.h). */
+   ffd/deform.h). Declares displacement.c and displacement_batch.c. */
 #ifndef FFD_DEFORM_DISPLACEMENT_H
 #define FFD_DEFORM_DISPLACEMENT_H
 
@@ -31,8 +31,8 @@ typedef struct batch_stretch {
     uint32_t cell;  /* of the batch */
 } batch_stretch;
 
-/* Numbers of cells (displacement_cell.h) that batches had before: neighbours in a mesh often come back to
-   them. */
+/* Numbers of cells (displacement_cell.h) that batches had before: neighbours in a mesh
+   often come back to them. */
 #define KEPT_CELLS ((size_t)1024)
 #define KEPT_NUMBERS (KEPT_CELLS * (3 * 4 * 4 * 4 + 1))
 
@@ -40,12 +40,15 @@ typedef struct batch_stretch {
 #define KEPT_IN_ALL (2 * KEPT_NUMBERS)
 
 typedef struct kept_cells {
-    int threads;                /* that share the memory; set by whoever made the scratch, 0 as 1 */
-    const ffd_lattice *lattice; /* whose cells they are; NULL: there are none */
-    cell_use use;               /* of them */
-    size_t count, numbers;      /* capacity in cells, and the numbers that each has */
-    size_t keys[KEPT_CELLS];    /* 1 + key of a batch_cell; 0: none */
-    bool acts[KEPT_CELLS];      /* a moved control point acts in it */
+    int threads;                 /* that share the memory; set by whoever made the scratch, 0 as 1 */
+    const ffd_lattice *lattice;  /* whose cells they are; NULL: there are none */
+    cell_use use;                /* of them */
+    size_t count, numbers;       /* capacity in cells, and the numbers that each has */
+    size_t keys[KEPT_CELLS];     /* 1 + key of a batch_cell; 0: none */
+    uint16_t places[KEPT_CELLS]; /* of its numbers: one after the other as they come, so that few pages are
+                                    touched */
+    uint16_t used;               /* places that are taken */
+    cell_motion motions[KEPT_CELLS];
     double all_numbers[KEPT_NUMBERS];
 } kept_cells;
 
@@ -73,7 +76,7 @@ typedef struct displacement_batch {
     uint8_t *moves;   /* moves[n]: what ffd_displacement returns */
 } displacement_batch;
 
-/* To be called before the first batch, unless the scratch is zeroed, and before one of a lattice that
+/* Must be called before the first batch, unless the scratch is zeroed, and before a batch of a lattice that
    may have the address of an earlier one. */
 void ffd_displacement_scratch_clear(displacement_scratch *scratch);
 

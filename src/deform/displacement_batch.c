@@ -147,33 +147,74 @@ static void begin_cells(const ffd_lattice *lattice, cell_use use, kept_cells *ke
     kept->count = share / numbers < KEPT_CELLS ? share / numbers : KEPT_CELLS;
     if (kept->count == 0)
         kept->count = 1;
+    kept->used = 0;
     memset(kept->keys, 0, sizeof kept->keys);
 }
 
-/* The numbers of a cell, found where they are not kept; NULL where no moved control point acts in it. */
-static const double *find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
-                                  const batch_cell *cell, kept_cells *kept)
+/* How a cell moves, and the numbers of one that bends; found where they are not kept. */
+static cell_motion find_numbers(const ffd_lattice *lattice, extraction_kernel *extract,
+                                const batch_cell *cell, kept_cells *kept, const double **numbers)
 {
     const size_t slot = (cell->key * 0x9e3779b97f4a7c15u >> 40) % kept->count;
-    double *const numbers = kept->all_numbers + slot * kept->numbers;
+    if (kept->keys[slot] == 0)
+        kept->places[slot] = kept->used++;
+    double *const kept_numbers = kept->all_numbers + kept->places[slot] * kept->numbers;
     if (kept->keys[slot] != cell->key + 1) {
         kept->keys[slot] = cell->key + 1;
-        kept->acts[slot] = ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, numbers);
+        kept->motions[slot] =
+            ffd_displacement_cell_points(lattice, extract, cell->span, kept->use, kept_numbers);
     }
-    return kept->acts[slot] ? numbers : NULL;
+    *numbers = kept_numbers;
+    return kept->motions[slot];
 }
 
-static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
-                          const displacement_batch *batch, const batch_cell *of,
-                          displacement_scratch *scratch)
+/* All points of a cell by the same displacement. */
+static void shift_cell(const double shared[3], const displacement_batch *batch, const uint32_t *which,
+                       size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        stay(batch, which[k]);
+        memcpy(batch->delta + 3 * (size_t)which[k], shared, 3 * sizeof *shared);
+        batch->moves[which[k]] = 1;
+    }
+}
+
+/* A parameter at which points are on a knot. */
+typedef struct knot_place {
+    int direction;
+    double u;
+} knot_place;
+
+static int list_knots(const ffd_lattice *lattice, const int span[3], uint8_t knots, knot_place places[6])
+{
+    int count = 0;
+    for (int bit = 0; bit < 6; bit++)
+        if (knots >> bit & 1)
+            places[count++] = (knot_place){bit / 2, lattice->knots[bit / 2].t[span[bit / 2] + bit % 2]};
+    return count;
+}
+
+/* The points on knots of a cell, where fewer control points act than between: those may move alike. */
+static void shift_on_knots(const ffd_lattice *lattice, const int span[3], uint8_t knots, const double *uvw,
+                           const displacement_batch *batch, const uint32_t *which, size_t count)
+{
+    knot_place places[6];
+    const int most = list_knots(lattice, span, knots, places);
+    for (size_t k = 0; k < count; k++, uvw += 3) {
+        int i = 0;
+        while (i < most && uvw[places[i].direction] != places[i].u)
+            i++;
+        const double *const shared = i < most ? ffd_displacement_shared(lattice, span, uvw) : NULL;
+        if (shared)
+            memcpy(batch->delta + 3 * (size_t)which[k], shared, 3 * sizeof *shared);
+    }
+}
+
+static void bend_cell(const ffd_lattice *lattice, const kernel_pair *kernel, const displacement_batch *batch,
+                      const batch_cell *of, const double *numbers, displacement_scratch *scratch)
 {
     const uint32_t *const which = scratch->sorted + of->first;
-    const double *const numbers = find_numbers(lattice, kernel->extract, of, &scratch->kept);
     kernel_cell cell;
-    for (size_t k = 0; k < of->count && !numbers; k++)
-        stay(batch, which[k]);
-    if (!numbers)
-        return;
     ffd_displacement_cell_begin(lattice, of->span, scratch->kept.use, numbers, &cell);
     const kernel_points points = {.uvw = scratch->uvw + 3 * (size_t)of->first,
                                   .which = which,
@@ -186,6 +227,26 @@ static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
         batch->moves[which[k]] = 1;
     for (size_t k = 0; k < of->count && cell.rest.points; k++)
         ffd_displacement_to_space(scratch->jacobian + 9 * which[k], batch->gradient + 9 * which[k]);
+}
+
+static void displace_cell(const ffd_lattice *lattice, const kernel_pair *kernel,
+                          const displacement_batch *batch, const batch_cell *of,
+                          displacement_scratch *scratch)
+{
+    const uint32_t *const which = scratch->sorted + of->first;
+    const double *numbers;
+    int span[3];
+    const cell_motion motion = find_numbers(lattice, kernel->extract, of, &scratch->kept, &numbers);
+    ffd_displacement_spans(lattice, of->span, span);
+    for (size_t k = 0; k < of->count && motion.kind == CELL_STILL; k++)
+        stay(batch, which[k]);
+    if (motion.kind == CELL_SHIFTED)
+        shift_cell(ffd_displacement_shared(lattice, span, NULL), batch, which, of->count);
+    if (motion.kind == CELL_BENT)
+        bend_cell(lattice, kernel, batch, of, numbers, scratch);
+    if (motion.knots)
+        shift_on_knots(lattice, span, motion.knots, scratch->uvw + 3 * (size_t)of->first, batch, which,
+                       of->count);
 }
 
 void ffd_displacements(const ffd_lattice *lattice, ffd_isa isa, const displacement_batch *batch,

@@ -20,6 +20,178 @@ bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3])
     return false;
 }
 
+/* Where a parameter is in a span: on its first knot, between, or on the last one, which is the domain's end.
+ */
+typedef enum span_place { ON_FIRST_KNOT, BETWEEN_KNOTS, ON_LAST_KNOT, SPAN_PLACES } span_place;
+
+/* Functions of a span, of its degree + 1: first to first + count - 1. */
+typedef struct function_range {
+    int first, count;
+} function_range;
+
+/* Those that are not 0 at a place. At a knot of multiplicity m there are m fewer than between knots, and one
+   at the end of a clamped direction. */
+static function_range acting_at(const knot_vector *knots, int span, span_place place)
+{
+    const int degree = knots->degree;
+    const double *const t = knots->t + span;
+    int absent = 0;
+    if (place == ON_FIRST_KNOT)
+        while (absent < degree && t[-absent] == t[0])
+            absent++;
+    else if (place == ON_LAST_KNOT)
+        while (absent < degree && t[1 + absent] == t[1])
+            absent++;
+    return (function_range){place == ON_LAST_KNOT ? absent : 0, degree + 1 - absent};
+}
+
+static span_place place_of(const knot_vector *knots, int span, double u)
+{
+    const double *const t = knots->t + span;
+    return u <= t[0] ? ON_FIRST_KNOT : u < t[1] ? BETWEEN_KNOTS : ON_LAST_KNOT;
+}
+
+/* The index of function i of a span's among the control points of its direction. */
+static size_t index_of(const knot_vector *knots, int span, int i)
+{
+    return ffd_knots_point(knots, (size_t)(span - knots->degree + i));
+}
+
+/* The first control point of a block of a cell's. */
+static size_t first_of(const ffd_lattice *lattice, const int span[3], const function_range block[3])
+{
+    size_t index[3];
+    for (int a = 0; a < 3; a++)
+        index[a] = index_of(&lattice->knots[a], span[a], block[a].first);
+    return index[0] + lattice->size[0] * (index[1] + lattice->size[1] * index[2]);
+}
+
+/* Whether each control point of the block moves like its neighbours in it. */
+static bool moves_alike(const ffd_lattice *lattice, const int span[3], const function_range block[3])
+{
+    for (int k = 0; k < block[2].count; k++) {
+        const size_t plane = lattice->size[1] * index_of(&lattice->knots[2], span[2], block[2].first + k);
+        for (int j = 0; j < block[1].count; j++) {
+            const size_t row =
+                lattice->size[0] * (plane + index_of(&lattice->knots[1], span[1], block[1].first + j));
+            for (int i = 0; i < block[0].count; i++) {
+                const size_t point = row + index_of(&lattice->knots[0], span[0], block[0].first + i);
+                const unsigned char wanted =
+                    (unsigned char)((i + 1 < block[0].count ? POINT_LIKE_NEXT_U : 0) |
+                                    (i == 0 && j + 1 < block[1].count ? POINT_LIKE_NEXT_V : 0) |
+                                    (i + j == 0 && k + 1 < block[2].count ? POINT_LIKE_NEXT_W : 0));
+                if ((lattice->moved[point] & wanted) != wanted)
+                    return false;
+            }
+        }
+    }
+    return true;
+}
+
+/* The displacement that the control points of the block have, or NULL, as of ffd_displacement_shared. */
+static const double *shared_in(const ffd_lattice *lattice, const int span[3], const function_range block[3])
+{
+    const size_t first = first_of(lattice, span, block);
+    const bool weight_moved =
+        lattice->weights_moved && lattice->rest_weights[first] != lattice->deformed_weights[first];
+    return lattice->moved[first] && !weight_moved && moves_alike(lattice, span, block)
+               ? lattice->difference + 3 * first
+               : NULL;
+}
+
+const double *ffd_displacement_shared(const ffd_lattice *lattice, const int span[3], const double *uvw)
+{
+    function_range block[3];
+    for (int a = 0; a < 3; a++) {
+        const span_place place = uvw ? place_of(&lattice->knots[a], span[a], uvw[a]) : BETWEEN_KNOTS;
+        block[a] = acting_at(&lattice->knots[a], span[a], place);
+    }
+    if (uvw)
+        return shared_in(lattice, span, block);
+    const size_t first = first_of(lattice, span, block);
+    return lattice->moved[first] & POINT_BEGINS_CELL ? lattice->difference + 3 * first : NULL;
+}
+
+/* The bit of cell_motion's knots for the last direction along which a place is on a knot; 0: it is on none.
+ */
+static uint8_t knot_bit(const span_place place[3])
+{
+    for (int a = 3; a-- > 0;)
+        if (place[a] != BETWEEN_KNOTS)
+            return (uint8_t)(1 << (2 * a + (place[a] == ON_LAST_KNOT)));
+    return 0;
+}
+
+/* The functions that act at each place of a cell. */
+typedef struct cell_blocks {
+    function_range block[3][SPAN_PLACES];
+    span_place last[3];
+} cell_blocks;
+
+/* Whether the place, which is on a knot, has a displacement of its own. That of a single control point need
+   not be looked for: the sum over it alone is exact. */
+static bool shares_at(const ffd_lattice *lattice, const int span[3], const cell_blocks *blocks,
+                      const span_place place[3])
+{
+    const function_range block[3] = {blocks->block[0][place[0]], blocks->block[1][place[1]],
+                                     blocks->block[2][place[2]]};
+    return block[0].count * block[1].count * block[2].count > 1 && shared_in(lattice, span, block);
+}
+
+/* The knots of a cell on which some place has a displacement of its own: those of cell_motion. */
+static uint8_t find_knots(const ffd_lattice *lattice, const int span[3], const cell_blocks *blocks)
+{
+    uint8_t knots = 0;
+    for (int w = 0; w <= (int)blocks->last[2]; w++)
+        for (int v = 0; v <= (int)blocks->last[1]; v++)
+            for (int u = 0; u <= (int)blocks->last[0]; u++) {
+                const span_place place[3] = {(span_place)u, (span_place)v, (span_place)w};
+                const uint8_t bit = knot_bit(place);
+                if (bit && !(knots & bit) && shares_at(lattice, span, blocks, place))
+                    knots |= bit;
+            }
+    return knots;
+}
+
+/* Those of a cell that is bent. But for the domain's end all places that may share something have the cell's
+   first control point in common. */
+static uint8_t knots_that_share(const ffd_lattice *lattice, const int span[3])
+{
+    cell_blocks blocks;
+    function_range all[3];
+    bool at_end = false;
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &lattice->knots[a];
+        const bool is_last = span[a] == knots->spans[knots->span_count - 1];
+        blocks.last[a] = is_last ? ON_LAST_KNOT : BETWEEN_KNOTS;
+        at_end = at_end || is_last;
+        all[a] = (function_range){0, knots->degree + 1};
+    }
+    if (!at_end && !(lattice->moved[first_of(lattice, span, all)] & POINT_LIKE_NEXT))
+        return 0;
+    for (int a = 0; a < 3; a++)
+        for (int place = 0; place <= (int)blocks.last[a]; place++)
+            blocks.block[a][place] = acting_at(&lattice->knots[a], span[a], (span_place)place);
+    return find_knots(lattice, span, &blocks);
+}
+
+static cell_motion motion_of(const ffd_lattice *lattice, const int span[3])
+{
+    if (!ffd_displacement_reaches(lattice, span))
+        return (cell_motion){CELL_STILL, 0};
+    if (!lattice->moves_alike)
+        return (cell_motion){CELL_BENT, 0};
+    if (ffd_displacement_shared(lattice, span, NULL))
+        return (cell_motion){CELL_SHIFTED, 0};
+    return (cell_motion){CELL_BENT, knots_that_share(lattice, span)};
+}
+
+void ffd_displacement_spans(const ffd_lattice *lattice, const size_t number[3], int span[3])
+{
+    for (int a = 0; a < 3; a++)
+        span[a] = lattice->knots[a].spans[number[a]];
+}
+
 void ffd_displacement_wrap(const ffd_lattice *lattice, const double uvw[3], double inside[3])
 {
     for (int a = 0; a < 3; a++)
@@ -84,18 +256,18 @@ size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use)
     return (needs_rest(lattice, use) ? 2 : 1) * field_numbers(lattice, use);
 }
 
-bool ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
-                                  const size_t number[3], cell_use use, double *numbers)
+cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
+                                         const size_t number[3], cell_use use, double *numbers)
 {
     int span[3];
-    for (int a = 0; a < 3; a++)
-        span[a] = lattice->knots[a].spans[number[a]];
-    if (!ffd_displacement_reaches(lattice, span))
-        return false;
+    ffd_displacement_spans(lattice, number, span);
+    const cell_motion motion = motion_of(lattice, span);
+    if (motion.kind != CELL_BENT)
+        return motion;
     load_field(lattice, extract, lattice->difference, number, use, numbers);
     if (needs_rest(lattice, use))
         load_field(lattice, extract, lattice->rest, number, use, numbers + field_numbers(lattice, use));
-    return true;
+    return motion;
 }
 
 void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], cell_use use,

@@ -8,6 +8,24 @@
 /* Whether a moved control point acts in the cell whose last knot intervals are span. */
 bool ffd_displacement_reaches(const ffd_lattice *lattice, const int span[3]);
 
+/* The displacement that all control points which act at u,v,w have, where it is one and the same and no
+   weight of theirs moved; else NULL, as for 0. Where u,v,w is on a knot fewer of them act than elsewhere in
+   the cell. uvw NULL: what those have that act anywhere in it. Lent by the lattice. */
+const double *ffd_displacement_shared(const ffd_lattice *lattice, const int span[3], const double *uvw);
+
+typedef enum motion_kind {
+    CELL_STILL,   /* no moved control point acts in it */
+    CELL_SHIFTED, /* all by the same displacement, which ffd_displacement_shared tells */
+    CELL_BENT
+} motion_kind;
+
+/* How the points of a cell move. */
+typedef struct cell_motion {
+    uint8_t kind;  /* motion_kind */
+    uint8_t knots; /* of a bent one: for points on these of its knots ffd_displacement_shared has to be asked.
+                      Bit 2 a: on the first one along direction a, 2 a + 1: on the last */
+} cell_motion;
+
 /* What is wanted of a cell's points. */
 typedef enum cell_use {
     CELL_VALUES,   /* displacements */
@@ -18,10 +36,12 @@ typedef enum cell_use {
 
 /* Numbers that the kernel's fields take in a cell of the lattice. */
 size_t ffd_displacement_cell_numbers(const ffd_lattice *lattice, cell_use use);
-/* Finds them, and one more for the kernel's use, for the cell with these non-empty spans. Returns whether a
-   moved control point acts in it; else nothing is written. */
-bool ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
-                                  const size_t number[3], cell_use use, double *numbers);
+/* Tells how the cell with these non-empty spans moves. Where it bends, finds the numbers, and one more for
+   the kernel's use; else nothing is written. */
+cell_motion ffd_displacement_cell_points(const ffd_lattice *lattice, extraction_kernel *extract,
+                                         const size_t number[3], cell_use use, double *numbers);
+/* The spans that these numbers are of. */
+void ffd_displacement_spans(const ffd_lattice *lattice, const size_t number[3], int span[3]);
 /* The cell itself, with these numbers. */
 void ffd_displacement_cell_begin(const ffd_lattice *lattice, const size_t number[3], cell_use use,
                                  const double *numbers, kernel_cell *cell);

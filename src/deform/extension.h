@@ -14,7 +14,7 @@ double ffd_extension_fade(double distance, double falloff, double *slope);
      gradient[9] row by row, d delta_r / d p_c = w D (d uvw / d p) + w' delta(u,v,w) direction^T, D being the
                  derivative of delta by u,v,w. May be NULL.
    Returns 0, with exact zeros, where no moved control point acts on the border there, and from the distance
-   falloff on; else 1. Any thread. */
+   falloff on; else 1. Thread-safe. */
 int ffd_extension_displacement(const ffd_lattice *lattice, const boundary_point *nearest, double falloff,
                                double delta[3], double gradient[9]);
 

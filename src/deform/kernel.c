@@ -1,5 +1,5 @@
 /* kernel.c - compiled once for each instruction set: FFD_KERNEL is the function's name, FFD_LANES the number
-   of points that it has in hand at a time.
+   of SIMD lanes, each with one point.
 
    The functions t^i (1-t)^(d-i) are all >= 0, and exact at both ends of the span; the binomial coefficients
    that make them Bernstein polynomials are part of the points (NURBS Book 1.3). The tensor product is summed
@@ -282,7 +282,7 @@ static ALWAYS_INLINE void displace_all(const kernel_cell *cell, const int degree
 void FFD_KERNEL(const kernel_cell *cell, const kernel_points *points)
 {
     static const int cubic[3] = {3, 3, 3};
-    /* What the compiler knows it unrolls. */
+    /* The compiler unrolls loops whose bounds it knows. */
     if (cell->degree[0] != 3 || cell->degree[1] != 3 || cell->degree[2] != 3)
         displace_all(cell, cell->degree, points, points->gradient, points->jacobian);
     else if (points->jacobian)

@@ -6,6 +6,8 @@
 #include "embed/direct/affine_kernel.h"
 #include "embed/direct/separable.h"
 #include "embed/frame/box_tree.h"
+#include "embed/locator_border.h"
+#include "embed/near_border.h"
 #include <math.h>
 
 /* The middle of the control points' bounds, and how far they reach from it. */
@@ -20,6 +22,7 @@ static void find_origin(ffd_locator *locator)
         locator->origin[a] = 0.5 * box.lo[a] + 0.5 * box.hi[a];
         locator->extent[a] = fmax(box.hi[a] - locator->origin[a], locator->origin[a] - box.lo[a]);
     }
+    locator->hull = box;
 }
 
 /* Copies of the lattice's knot vectors that start at 0 and end near 1; the spans are the lattice's own. */
@@ -59,7 +62,8 @@ ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_l
         return ffd_fail_memory(error);
     made->lattice = lattice;
     made->isa = isa;
-    if (!shift_knots(made)) {
+    made->border = ffd_locator_border_create();
+    if (!made->border || !shift_knots(made)) {
         ffd_locator_destroy(&made);
         return ffd_fail_memory(error);
     }
@@ -87,6 +91,7 @@ void ffd_locator_destroy(ffd_locator **locator)
         return;
     ffd_separable_free(*locator);
     ffd_cells_destroy(&(*locator)->cells);
+    ffd_locator_border_destroy((*locator)->border);
     for (int a = 0; a < 3; a++)
         ffd_free((*locator)->knots[a].t);
     ffd_free(*locator);
@@ -101,7 +106,7 @@ const char *ffd_locator_get_method(const ffd_locator *locator)
 
 static const ffd_location nowhere = {.uvw = {NAN, NAN, NAN}, .status = FFD_OUTSIDE};
 
-/* p = xyz with the origin subtracted. False where the verdict on the point is there already. */
+/* p = xyz with the origin subtracted. Returns false if the verdict on the point is known already. */
 static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], ffd_location *location)
 {
     *location = nowhere;
@@ -109,7 +114,7 @@ static bool begin(const ffd_locator *locator, const double xyz[3], double p[3], 
         p[a] = xyz[a] - locator->origin[a];
     if (!vec_is_finite(xyz))
         location->status = FFD_POINT_INVALID;
-    return vec_is_finite(p); /* else it is not one, or farther away than doubles reach */
+    return vec_is_finite(p); /* else xyz is not finite, or too far away for doubles */
 }
 
 static affine_kernel *const affine_kernels[] = {
@@ -167,6 +172,20 @@ ffd_status ffd_locator_find(const ffd_locator *locator, const double *xyz, size_
             ffd_separable_find(locator, p, &locations[i]);
     }
     return FFD_OK;
+}
+
+ffd_status ffd_locator_find_near(const ffd_locator *locator, const double *xyz, size_t count,
+                                 const ffd_border_allowance *allowance, ffd_location *locations,
+                                 ffd_error *error)
+{
+    const ffd_status status = ffd_locator_find(locator, xyz, count, locations, error);
+    return status || !allowance ? status
+                                : ffd_near_border_find(locator, xyz, count, allowance, locations, error);
+}
+
+bool ffd_locator_has_seam(const ffd_locator *locator, int direction)
+{
+    return locator->cells && ffd_cells_have_seam(locator->cells, direction);
 }
 
 bool ffd_locator_is_strained(const ffd_locator *locator)

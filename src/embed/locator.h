@@ -9,6 +9,9 @@
 ffd_status ffd_locator_create_for(const ffd_lattice *lattice, ffd_isa isa, ffd_locator **locator,
                                   ffd_error *error);
 
+/* Whether the two rest faces of this direction coincide (ffd_lattice_is_seam). */
+bool ffd_locator_has_seam(const ffd_locator *locator, int direction);
+
 /* Whether points so far used up a part of the memory budget (FFD_E_LIMIT): then less is left for others. */
 bool ffd_locator_is_strained(const ffd_locator *locator);
 

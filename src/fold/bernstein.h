@@ -11,10 +11,9 @@
 /* Coefficients of a polynomial of this order. */
 size_t ffd_bernstein_count(const int order[3]);
 
-/* A product's coefficients are convex combinations of products of coefficients:
-   c_k = sum_i C(m,i) C(n,k-i) / C(m+n,k) a_i b_{k-i} (Farouki & Rajan, Algorithms for polynomials in
-   Bernstein form, 1988). With every coefficient multiplied by its binomials ("weighted") that is plain
-   convolution. */
+/* A product's coefficients are convex combinations of products of coefficients: c_k = sum_i C(m,i) C(n,k-i) /
+   C(m+n,k) a_i b_{k-i} (Farouki & Rajan, Algorithms for polynomials in Bernstein form, 1988). With every
+   coefficient multiplied by its binomials ("weighted") that is plain convolution. */
 void ffd_bernstein_weight(const double *from, const int order[3], double *to); /* to may be from */
 void ffd_bernstein_unweight(double *coefficients, const int order[3], double factor);
 

@@ -6,7 +6,7 @@
 #include "fold/scratch.h"
 #include "fold/verdict.h"
 
-/* No more than so many boxes are looked at. */
+/* Looks at no more boxes than this. */
 void ffd_cell_decide(const fold_plan *plan, size_t cell, long boxes, fold_scratch *scratch,
                      cell_verdict *verdict);
 
@@ -15,7 +15,8 @@ void ffd_cell_decide(const fold_plan *plan, size_t cell, long boxes, fold_scratc
 double ffd_cell_refine(const fold_plan *plan, size_t cell, fold_scratch *scratch, double *least_seen,
                        long *boxes);
 
-/* How many boxes of this plan's size are as much work as `boxes` of a cubic lattice without weights. */
+/* Returns how many boxes of this plan's size are as much work as `boxes` of a cubic
+   lattice without weights. */
 long ffd_cell_boxes(const fold_plan *plan, long boxes);
 
 #endif

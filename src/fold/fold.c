@@ -165,7 +165,7 @@ static double refine(fold_work *work, double least_seen)
         if (before >= ffd_fold_target(least_seen) || boxes <= 0)
             return before;
         const double lower = ffd_cell_refine(&work->plan, cell, work->scratch[0], &least_seen, &boxes);
-        if (!(lower > before)) /* no better is to be had */
+        if (!(lower > before)) /* no better bound can be found */
             return before;
         work->lower[cell] = lower;
         find_lower(work, tile);

@@ -1,5 +1,4 @@
-/* plan.h - what the cells of one lattice's fold proof share, and the memory that a worker needs for a cell.
- */
+/* plan.h - what the cells of one lattice's fold proof share. Declares plan.c and volume.c. */
 #ifndef FFD_FOLD_PLAN_H
 #define FFD_FOLD_PLAN_H
 
@@ -37,7 +36,7 @@ void ffd_fold_cell_at(const fold_plan *plan, size_t number, size_t index[3], int
 void ffd_fold_cell_read(const fold_plan *plan, ffd_volume volume, const size_t index[3], double *points,
                         double *weights, const double *matrix[3]);
 
-/* volume.c */
+/* Measures the rest volume (volume.c). Errors: FFD_E_MEMORY. */
 ffd_status ffd_fold_volume(const fold_plan *plan, signed_volume *volume, ffd_error *error);
 
 #endif

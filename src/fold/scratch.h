@@ -22,7 +22,7 @@ typedef struct fold_scratch {
     double *coefficients[CELL_DEPTH + 1], *weights[CELL_DEPTH + 1]; /* of the box at each depth */
 } fold_scratch;
 
-/* NULL when there is no memory. */
+/* NULL if memory runs out. */
 fold_scratch *ffd_fold_scratch_create(const fold_plan *plan);
 /* Frees it; NULL is allowed. */
 void ffd_fold_scratch_destroy(fold_scratch *scratch);

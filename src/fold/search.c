@@ -56,7 +56,7 @@ static void look_at_least(cell_search *search, const box *part, const box_view *
     }
 }
 
-/* Whether all coefficients are 0 within their rounding: what there is to see of the sign has been seen. */
+/* Whether all coefficients are 0 within their rounding: no smaller box can show the sign. */
 static bool is_lost(const cell_search *search, const box *part)
 {
     return ffd_bernstein_greatest_size(part->coefficients, ffd_bernstein_count(search->order)) <=

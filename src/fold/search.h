@@ -1,5 +1,5 @@
 /* search.h - one cell while it is searched: the figures, the boxes that it is halved into, and what their
-   coefficients say. */
+   coefficients say. Main header of the search: declares figures.c, box.c, border.c, search.c. */
 #ifndef FFD_FOLD_SEARCH_H
 #define FFD_FOLD_SEARCH_H
 
@@ -46,7 +46,7 @@ typedef struct box_view {
     double least_weight, greatest_weight;
 } box_view;
 
-/* figures.c: relative to the mean determinant of the rest volume. */
+/* Figures relative to the mean determinant of the rest volume. */
 
 /* A value of the scaled cell; of W^4 det J with this W. */
 double ffd_search_relative(const cell_search *search, double value, double weight);
@@ -61,7 +61,7 @@ void ffd_search_set_folded(cell_search *search, const double local[3], double re
 /* The factor from a cell's scaled determinant to values relative to the rest volume's mean. */
 scaled ffd_search_unit(const fold_plan *plan, const size_t index[3], int exponent);
 
-/* box.c */
+/* Makes the box that is the whole cell. */
 void ffd_box_make(cell_search *search, box *whole);
 /* The lower half of `whole` into the next depth's slot; whole becomes the upper half. */
 void ffd_box_halve(const cell_search *search, box *whole, int a, int depth, box *lower);
@@ -74,13 +74,13 @@ double ffd_box_weight(const cell_search *search, const box *part, const double t
 /* The least coefficient. */
 double ffd_box_least(const cell_search *search, const box *part);
 
-/* border.c: view's figures anew, without the coefficients that the border's zeros excuse. */
+/* Finds view's figures anew, without the coefficients that the border's zeros excuse. */
 void ffd_border_view(cell_search *search, const box *part, const bool touches[3][2], box_view *view);
 
-/* search.c: halves the box until it is decided, or good enough to refine min_det. */
+/* Halves the box until it is decided, or good enough to refine min_det. */
 void ffd_search_box(cell_search *search, box *part, int depth);
 
-/* What is as much work as this many boxes: a cell's coefficients. */
+/* A cell's coefficients are as much work as this many boxes. */
 #define DETERMINANT_COST 8
 
 #endif

@@ -5,6 +5,9 @@
 #include "io/off/off_format.h"
 #include "io/ply/ply_format.h"
 #include "io/stl/stl_format.h"
+#include "io/text/content.h"
+#include <stdio.h>
+#include <string.h>
 
 const mesh_format *ffd_format_table(ffd_format format)
 {
@@ -26,12 +29,23 @@ const mesh_format *ffd_format_table(ffd_format format)
     return NULL;
 }
 
+/* Adds to the message of a file that is not valid what it seems to be, if that is another format. */
+static void tell_content(const mesh_format *format, const file_input *input, ffd_error *error)
+{
+    const content_kind *const kind = ffd_content_kind(input->data, input->size);
+    const size_t length = strlen(error->message);
+    if (kind && ffd_format_table(kind->format) != format)
+        snprintf(error->message + length, sizeof error->message - length, "; it seems to be %s", kind->name);
+}
+
 ffd_status ffd_format_open(const mesh_format *format, file_input *input, const ffd_source *source,
                            mesh_document **document, ffd_error *error)
 {
     const ffd_status status = format->open(input, source, document, error);
     if (!status)
         (*document)->format = format;
+    else if (status == FFD_E_INVALID && error)
+        tell_content(format, input, error);
     return status;
 }
 
@@ -41,7 +55,8 @@ ffd_format ffd_format_from_name(const char *name)
         const char *ending;
         ffd_format format;
     } known[] = {{".obj", FFD_FORMAT_OBJ}, {".gltf", FFD_FORMAT_GLTF}, {".glb", FFD_FORMAT_GLB},
-                 {".ply", FFD_FORMAT_PLY}, {".off", FFD_FORMAT_OFF},   {".stl", FFD_FORMAT_STL}};
+                 {".vrm", FFD_FORMAT_GLB}, {".ply", FFD_FORMAT_PLY},   {".off", FFD_FORMAT_OFF},
+                 {".stl", FFD_FORMAT_STL}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_path_has_ending(name, known[i].ending))
             return known[i].format;

@@ -5,7 +5,7 @@
 #include "mesh/mesh.h"
 
 /* For messages. */
-#define FORMAT_NAMES "obj, gltf, glb, ply, off or stl"
+#define FORMAT_NAMES "obj, gltf, glb, vrm, ply, off or stl"
 
 /* The table for a format; NULL for FFD_FORMAT_AUTO. */
 const mesh_format *ffd_format_table(ffd_format format);

@@ -1,4 +1,5 @@
 /* compare.c - the job of `ffd compare`, and its result as JSON. */
+#include "base/file/mapping.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 #include "mesh/difference.h"
@@ -20,7 +21,7 @@ static ffd_status open_source(const ffd_source *given, mesh_document **document,
     return ffd_source_open(&source, 0, document, error);
 }
 
-/* No more than the largest number, also where the box's sides are more. */
+/* Returns at most the largest double, even if the box's sides are longer. */
 static double find_diagonal(const mesh_document *document)
 {
     ffd_bounds box = ffd_bounds_empty();
@@ -40,7 +41,7 @@ static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, 
 {
     const double diagonal = desc->relative ? find_diagonal(a) : 0;
     const double tolerance = desc->relative ? desc->tolerance * diagonal : desc->tolerance;
-    /* Within the largest number everything is that is finite, and an infinity still differs from it. */
+    /* At most the largest double: every finite difference is within that, and an infinite one is not. */
     ffd_difference_begin(comparison, fmin(tolerance, DBL_MAX), fmin(desc->direction_tolerance, DBL_MAX));
     comparison->diagonal = diagonal;
     if (a->format == b->format)
@@ -52,16 +53,23 @@ static ffd_status compare(const ffd_compare_desc *desc, const mesh_document *a, 
 
 ffd_status ffd_compare_run(const ffd_compare_desc *desc, ffd_comparison *comparison, ffd_error *error)
 {
+    const mesh_log log = {desc->log, desc->log_user};
     mesh_document *first = NULL, *second = NULL;
     if (desc->struct_size != sizeof *desc || !desc->a.path || !desc->b.path)
         return ffd_fail(error, FFD_E_ARGUMENT, "the description of the comparison is not complete");
     if (!(desc->tolerance >= 0) || !(desc->direction_tolerance >= 0))
         return ffd_fail(error, FFD_E_ARGUMENT, "a tolerance must not be negative");
+    const unsigned losses = ffd_mapping_losses();
     ffd_status status = open_source(&desc->a, &first, error);
     if (!status)
         status = open_source(&desc->b, &second, error);
     if (!status)
         status = compare(desc, first, second, comparison, error);
+    status = ffd_mapping_judge(losses, status, error);
+    if (!status) {
+        ffd_flaws_warn(&first->flaws, ffd_source_name(&desc->a), &log);
+        ffd_flaws_warn(&second->flaws, ffd_source_name(&desc->b), &log);
+    }
     ffd_source_close(&second);
     ffd_source_close(&first);
     return status;

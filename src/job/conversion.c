@@ -1,7 +1,8 @@
 #include "job/conversion.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "io/formats.h"
 #include "io/write/write.h"
-#include "job/input/source.h"
 #include <math.h>
 
 bool ffd_conversion_needed(const mesh_document *document, ffd_format format)
@@ -18,27 +19,124 @@ ffd_status ffd_conversion_check(const mesh_document *document, ffd_format format
                     target ? target->name : "the output's format");
 }
 
-static ffd_status check_values(const double *values, const double *less, size_t count,
-                               const model_target *target, const char *path, ffd_error *error)
+static bool fits(double value, const model_target *target)
 {
-    for (size_t i = 0; i < count; i++) {
-        const double value = less ? values[i] - less[i] : values[i];
-        if (!(fabs(value) <= target->largest_coordinate))
-            return ffd_fail_file(error, FFD_E_INVALID, path,
-                                 "%c of vertex %zu (counted from 0) is %g, too large for the numbers of %s",
-                                 "xyz"[i % 3], i / 3, value, target->name);
-    }
-    return FFD_OK;
+    return fabs(value) <= target->largest_coordinate || (target->takes_not_finite && !isfinite(value));
 }
 
+static double coordinate(const mesh_model *model, size_t i, bool morph)
+{
+    return morph ? model->morph_positions[i] - model->positions[i] : model->positions[i];
+}
+
+/* The first coordinate, or (morph) offset to one, that the target's numbers cannot hold, of the positions
+   with a mark (NULL: of all); SIZE_MAX: there is none. */
+static size_t find_unfit(const mesh_model *model, const model_target *target, const uint8_t *marks,
+                         bool *morph)
+{
+    for (int pass = 0; pass < (model->morph_positions ? 2 : 1); pass++) {
+        *morph = pass == 1;
+        for (size_t i = 0; i < 3 * model->position_count; i++)
+            if ((!marks || marks[i / 3]) && !fits(coordinate(model, i, *morph), target))
+                return i;
+    }
+    return SIZE_MAX;
+}
+
+/* Marks the positions of all that the target holds; NULL where memory runs out. */
+static uint8_t *mark_held(const mesh_model *model, const model_target *target)
+{
+    const bool held[MODEL_KINDS] = {[MODEL_FACES] = true,
+                                    [MODEL_LINES] = target->holds & MODEL_HAS_LINES,
+                                    [MODEL_POINTS] = target->holds & MODEL_HAS_POINTS};
+    uint8_t *const marks = ffd_alloc_zero(model->position_count, 1);
+    for (int k = 0; k < MODEL_KINDS && marks; k++)
+        for (size_t i = 0; held[k] && i < model->lists[k].corner_count; i++)
+            marks[model->lists[k].corners[i].position] = 1;
+    return marks;
+}
+
+static ffd_status refuse(const mesh_model *model, const model_target *target, size_t i, bool morph,
+                         const char *path, ffd_error *error)
+{
+    const double value = coordinate(model, i, morph);
+    const char axis = "xyz"[i % 3];
+    if (isfinite(value))
+        return ffd_fail_file(error, FFD_E_INVALID, path,
+                             "%c of vertex %zu (counted from 0) is %g, too large for the numbers of %s", axis,
+                             i / 3, value, target->name);
+    return ffd_fail_file(
+        error, FFD_E_INVALID, path,
+        "%c of vertex %zu (counted from 0) is not finite (%s): readers of %s take no such number", axis,
+        i / 3,
+        isnan(value) ? "nan"
+        : value > 0  ? "inf"
+                     : "-inf",
+        target->name);
+}
+
+/* A target without room for positions that nothing uses writes those only of what it holds. */
 static ffd_status check_range(const mesh_model *model, const model_target *target, const char *path,
                               ffd_error *error)
 {
-    const size_t count = 3 * model->position_count;
-    ffd_status status = check_values(model->positions, NULL, count, target, path, error);
-    if (status == FFD_OK && model->morph_positions)
-        status = check_values(model->morph_positions, model->positions, count, target, path, error);
-    return status;
+    bool morph;
+    size_t unfit = find_unfit(model, target, NULL, &morph);
+    if (unfit != SIZE_MAX && !(target->holds & MODEL_HAS_LOOSE)) {
+        uint8_t *const marks = mark_held(model, target);
+        if (!marks)
+            return ffd_fail_memory(error);
+        unfit = find_unfit(model, target, marks, &morph);
+        ffd_free(marks);
+    }
+    return unfit == SIZE_MAX ? FFD_OK : refuse(model, target, unfit, morph, path, error);
+}
+
+/* Makes vectors that are not finite zero. Returns how many there are. */
+static size_t clear_not_finite(double *vectors, size_t count, size_t numbers)
+{
+    size_t cleared = 0;
+    for (size_t i = 0; vectors && i < count; i++, vectors += numbers) {
+        bool finite = true;
+        for (size_t c = 0; c < numbers; c++)
+            finite = finite && isfinite(vectors[c]);
+        cleared += !finite;
+        for (size_t c = 0; c < numbers && !finite; c++)
+            vectors[c] = 0;
+    }
+    return cleared;
+}
+
+/* Without a normal, a texture coordinate or a colour the shape is still what it is. */
+static void clear_attributes(mesh_model *model, const model_target *target, const mesh_log *log)
+{
+    if (target->takes_not_finite)
+        return;
+    const size_t normals = clear_not_finite(model->normals, model->normal_count, 3),
+                 texcoords = clear_not_finite(model->texcoords, model->texcoord_count, 2),
+                 colours = clear_not_finite(model->colours, model->position_count, 4);
+    if (normals + texcoords + colours)
+        ffd_log_line(log, FFD_LOG_WARNING, "not finite, and zero in %s: %zu %s, %zu texture %s, %zu %s",
+                     target->name, normals, ffd_plural(normals, "normal", "normals"), texcoords,
+                     ffd_plural(texcoords, "coordinate", "coordinates"), colours,
+                     ffd_plural(colours, "colour", "colours"));
+}
+
+/* No format has brighter colours than 1. */
+static void limit_colours(mesh_model *model, const model_target *target, const mesh_log *log)
+{
+    size_t limited = 0;
+    for (size_t i = 0; model->colours && i < model->position_count; i++) {
+        bool above = false;
+        for (double *value = model->colours + 4 * i, *end = value + 4; value < end; value++)
+            if (isfinite(*value) && *value > 1) {
+                above = true;
+                *value = 1;
+            }
+        limited += above;
+    }
+    if (limited && target->holds & MODEL_HAS_COLOURS)
+        ffd_log_line(log, FFD_LOG_WARNING, "above 1, and 1 in %s: %zu %s", target->name, limited,
+                     ffd_plural(limited, "colour", "colours"));
 }
 
 static void warn(const mesh_model *model, const conversion_morph *morph, const model_target *target,
@@ -48,8 +146,10 @@ static void warn(const mesh_model *model, const conversion_morph *morph, const m
     ffd_model_describe_loss(model, target->holds, lost, sizeof lost);
     if (*lost)
         ffd_log_line(log, FFD_LOG_WARNING, "%s cannot hold: %s", target->name, lost);
+    if (model->position_count == 0 && model->features & MODEL_HAS_HIDDEN)
+        ffd_log_line(log, FFD_LOG_WARNING, "the displayed scene is empty: the output has no vertices");
     if (morph && !ffd_model_morphs(model))
-        ffd_log_line(log, FFD_LOG_WARNING, "nothing moves: no morph target is added");
+        ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
 }
 
 /* The model as it is to be written; models take what they need from the budget. */
@@ -80,8 +180,11 @@ ffd_status ffd_conversion_save(const mesh_document *document, const conversion_m
     ffd_status status = make_model(document, morph, &budget, &model, error);
     if (status == FFD_OK)
         status = check_range(&model, target, options->path, error);
-    if (status == FFD_OK)
-        status = target->write(&model, options, output, error);
+    if (status == FFD_OK) {
+        clear_attributes(&model, target, log);
+        limit_colours(&model, target, log);
+        status = target->write(&model, options, output, log, error);
+    }
     if (status == FFD_OK)
         warn(&model, morph, target, log);
     ffd_model_free(&model);

@@ -1,9 +1,12 @@
 /* deform.c - the job of `ffd deform`. */
+#include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/system/clock.h"
 #include "io/formats.h"
+#include "job/chain/job_cache.h"
 #include "job/conversion.h"
 #include "job/deform_job.h"
+#include "job/input/shown_box.h"
 #include "job/input/source.h"
 #include "job/report/depfile.h"
 #include "job/report/output_set.h"
@@ -13,6 +16,13 @@ void ffd_deform_desc_init(ffd_deform_desc *desc)
 {
     memset(desc, 0, sizeof *desc);
     desc->struct_size = sizeof *desc;
+}
+
+/* What a killed run had set aside comes back before it is read. */
+static ffd_status restore_output(const ffd_deform_desc *desc, ffd_error *error)
+{
+    const char *const path = desc->in_place ? desc->input.path : desc->output;
+    return path && !ffd_output_is_stream(path) ? ffd_restore_output(path, error) : FFD_OK;
 }
 
 /* Where the result goes: path, format and whether it may replace a file. */
@@ -74,6 +84,32 @@ static void warn_of_name(const deform_job *job, const char *name)
                      "the depfile names \"%s\": make or ninja cannot read such a name", name);
 }
 
+/* Adds the paths that are not there yet. */
+static ffd_status add_paths(path_list *to, const path_list *from, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    const size_t before = to->count;
+    for (size_t i = 0; i < from->count && !status; i++) {
+        size_t k = 0;
+        while (k < before && strcmp(to->paths[k], from->paths[i]) != 0)
+            k++;
+        if (k == before)
+            status = ffd_paths_add(to, from->paths[i], error);
+    }
+    return status;
+}
+
+/* Whether a lattice has the shared box. */
+static bool goes_round_all(const deform_job *job)
+{
+    for (size_t i = 0; i < job->chain.count; i++) {
+        const ffd_lattice *const lattice = job->chain.links[i].lattice;
+        if (ffd_lattice_needs_bounds(lattice) && ffd_lattice_get_mesh_count(lattice) == 0)
+            return true;
+    }
+    return false;
+}
+
 /* The rule of the output, given the files of the mesh. */
 static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffer *rule, ffd_error *error)
 {
@@ -84,6 +120,10 @@ static ffd_status make_rule(const deform_job *job, path_list *inputs, byte_buffe
             status = ffd_paths_add(inputs, desc->lattices[i], error);
     if (!status && desc->embedding && !ffd_file_is_stream(desc->embedding))
         status = ffd_paths_add(inputs, desc->embedding, error);
+    for (size_t i = 0; i < job->chain.count && !status; i++)
+        status = add_paths(inputs, &job->chain.links[i].box_files, error);
+    if (!status && desc->shared_box && goes_round_all(job))
+        status = add_paths(inputs, &desc->shared_box->files, error);
     if (!status)
         status = ffd_depfile_rule(desc->output, inputs, rule, error);
     if (status)
@@ -112,8 +152,18 @@ static ffd_status write_all(deform_job *job, const mesh_save_options *options, f
     return status;
 }
 
+/* Whether the output is what the share wants to know the hash of. What is converted may refer to files under
+   other names. */
+static bool is_hashed(const deform_job *job)
+{
+    return ffd_cache_hashes_output(job->desc->share) && !job->document->converted &&
+           ffd_source_is_alone(job->document);
+}
+
 static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_error *error)
 {
+    const bool hashed = is_hashed(job);
+    hash128 hash;
     byte_buffer rule = {0};
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
@@ -122,13 +172,39 @@ static ffd_status save(deform_job *job, const mesh_save_options *options, ffd_er
     ffd_output_record(output, ffd_written_list(job->desc->written));
     if (job->desc->if_changed)
         ffd_output_keep_equal(output);
+    if (hashed)
+        ffd_output_hash(output);
     status = write_all(job, options, output, &rule, error);
+    status = ffd_mapping_judge(job->losses, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     if (!status && job->desc->depfile)
         ffd_depfile_add(job->desc->depfile, &rule);
+    if (!status && hashed && ffd_output_hash_value(output, &hash))
+        ffd_cache_put_output(job->desc->share, &hash);
     ffd_buffer_free(&rule);
     ffd_output_destroy(&output);
+    return status;
+}
+
+/* Refuses what writing would refuse because of other files than OUT. */
+static ffd_status rehearse(deform_job *job, const mesh_save_options *options, ffd_error *error)
+{
+    const mesh_format *const format = job->document->format, *const to = ffd_format_table(options->format);
+    ffd_format from;
+    path_list files = {0};
+    if (!ffd_conversion_needed(job->document, options->format))
+        return format->check_save ? format->check_save(job->document, options, NULL, &job->log, error)
+                                  : FFD_OK;
+    if (!to->list_beside || ffd_output_is_stream(options->path))
+        return FFD_OK;
+    ffd_status status = ffd_source_format(&job->desc->input, &from, error);
+    if (!status)
+        status = to->list_beside(options->path, to->count_beside(options->input, from, options->format),
+                                 &files, error);
+    for (size_t i = 0; i < files.count && !status; i++)
+        status = ffd_output_check(files.paths[i], options->force, error);
+    ffd_paths_free(&files);
     return status;
 }
 
@@ -141,7 +217,7 @@ static ffd_status check_morph(const deform_job *job, const mesh_save_options *op
                          "cannot hold a morph target: only .gltf and .glb can (--as-morph)");
 }
 
-/* Lets the base shape stay where a morph target is wanted. */
+/* Keeps the base shape if a morph target is wanted. */
 static ffd_status begin_morph(deform_job *job, ffd_error *error)
 {
     const mesh_format *format = job->document->format;
@@ -154,7 +230,7 @@ static ffd_status begin_morph(deform_job *job, ffd_error *error)
     return format->keep_base(job->document, job->desc->as_morph, error);
 }
 
-/* Whether nothing that is asked for looks at normals. */
+/* Whether nothing that is asked for needs normals. */
 static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_options *options)
 {
     ffd_format input;
@@ -165,7 +241,9 @@ static bool needs_only_positions(const ffd_deform_desc *desc, const mesh_save_op
 static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     mesh_save_options options;
-    ffd_status status = resolve_output(job->desc, &options, error);
+    ffd_status status = restore_output(job->desc, error);
+    if (!status)
+        status = resolve_output(job->desc, &options, error);
     if (!status)
         status = check_morph(job, &options, error);
     job->only_positions = !status && needs_only_positions(job->desc, &options);
@@ -179,9 +257,10 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
         job->document->converted = ffd_conversion_needed(job->document, options.format);
     if (!status)
         status = ffd_deform_job_run(job, result, error);
-    if (status)
-        return status;
+    if (status || job->desc->dry_run)
+        return status ? status : rehearse(job, &options, error);
     const double start = ffd_clock_seconds();
+    options.indices_left = &result->indices_left;
     status = save(job, &options, error);
     result->seconds_write = ffd_clock_seconds() - start;
     return status;

@@ -1,14 +1,20 @@
 #include "job/deform_job.h"
+#include "base/file/mapping.h"
+#include "base/memory/memory.h"
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "base/vector/isa.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
+#include "job/chain/lattice_memory.h"
+#include "job/chain/overlaps.h"
 #include "job/input/selection.h"
 #include "job/input/source.h"
+#include "job/judge/behind.h"
 #include "job/judge/figures.h"
 #include "job/judge/gates.h"
 #include "job/judge/result.h"
+#include "job/judge/tear_figures.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
 #include "job/pass/recompute.h"
@@ -21,6 +27,8 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
     const char *embedding = desc->embedding;
     if (!embedding)
         return FFD_OK;
+    if (desc->blocks)
+        return ffd_fail(error, FFD_E_ARGUMENT, "--embedding cannot be used with --blocks");
     if (desc->lattice_count != 1)
         return ffd_fail(error, FFD_E_ARGUMENT, "an embedding belongs to one lattice, not to %zu",
                         desc->lattice_count);
@@ -40,6 +48,8 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
+    if (!(desc->snap >= 0 && isfinite(desc->snap)))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
     if (!ffd_isa_available(desc->isa))
@@ -53,7 +63,7 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
                                 ffd_job_result *result)
 {
     ffd_result_clear(result);
-    *job = (deform_job){.desc = desc, .check = check};
+    *job = (deform_job){.desc = desc, .check = check, .losses = ffd_mapping_losses()};
     const ffd_status status = check_desc(desc, &result->error);
     if (status)
         return status;
@@ -71,7 +81,8 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     const bool is_file = ffd_cache_holds_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
     ffd_status status = ffd_source_open(&source, job->threads, &job->document, error);
     if (!status)
-        status = ffd_selection_apply(desc, ffd_source_name(&desc->input), job->document, error);
+        status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
+                                     job->document, error);
     if (!status)
         ffd_cache_describe_mesh(desc->share, desc, job->only_positions, is_file ? &stamp : NULL,
                                 job->document);
@@ -81,18 +92,30 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
 ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
-    const chain_files files = {desc->lattices, desc->lattice_count, desc->set, desc->set_count};
-    const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff};
+    const chain_files files = {.paths = desc->lattices,
+                               .count = desc->lattice_count,
+                               .set = desc->set,
+                               .set_count = desc->set_count,
+                               .mesh = &desc->input,
+                               .shared = desc->shared_box,
+                               .log = &job->log};
+    const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
+                                   desc->snap_relative};
     const double start = ffd_clock_seconds();
     if (desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
     ffd_status status = ffd_chain_load(&files, &outside, desc->isa, desc->share, &job->chain, error);
+    job->chain.blocks = desc->blocks && desc->lattice_count > 1;
     if (!status)
         job->document = ffd_cache_take_mesh(desc->share, desc, job->only_positions);
     job->document_is_shared = job->document;
     if (!status && !job->document)
         status = open_mesh(job, error);
+    if (!status)
+        ffd_result_note_flaws(result, &job->document->flaws);
+    for (size_t l = 0; l < job->chain.count; l++)
+        result->own_box = result->own_box || !job->chain.links[l].locator;
     result->seconds_read = ffd_clock_seconds() - start;
     return status;
 }
@@ -107,15 +130,43 @@ static bool has_normals(const mesh_document *document)
 
 static bool wants_figures(const deform_job *job)
 {
-    return job->check || job->desc->quality;
+    return job->check || job->desc->quality || job->desc->fail_on & (FFD_GATE_FLIPPED | FFD_GATE_EDGES);
 }
 
-/* What can be refused before a vertex is touched, and memory for the results. */
+/* With points outside that move, the gate of folds looks at det F there too. */
+static bool wants_determinants(const deform_job *job)
+{
+    return wants_figures(job) ||
+           (job->desc->fail_on & FFD_GATE_FOLDS && job->desc->outside == FFD_OUTSIDE_EXTEND);
+}
+
+/* A conversion writes what the weights of the morph targets show. */
+static bool converts_shown(const deform_job *job)
+{
+    return job->document->converted && ffd_mesh_shows_shapes(job->document);
+}
+
+/* A gate of faces does not pass where some of them are not known. */
+static ffd_status check_gates(const deform_job *job, ffd_error *error)
+{
+    const size_t unknown = job->document->unknown_drawings;
+    if (unknown == 0 || !(job->desc->fail_on & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_GATE, ffd_source_name(&job->desc->input),
+                         "--fail-on tear, flipped and edges cannot be judged: the faces of %zu %s not known",
+                         unknown, unknown == 1 ? "primitive are" : "primitives are");
+}
+
+/* Refuses what can be refused before a vertex is touched, and allocates memory for the results. */
 static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *error)
 {
     const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
     const mesh_format *format = job->document->format;
     ffd_status status = ffd_mesh_check(job->document, error);
+    if (!status)
+        status = check_gates(job, error);
+    if (!status)
+        status = ffd_mesh_warn(job->document, &job->log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
     job->document->results_replace =
         !ffd_cache_holds_meshes(job->desc->share) && !wants_figures(job) && !job->recomputes;
@@ -124,9 +175,14 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
+    if (!status)
+        status = ffd_lattice_memory_share(&job->chain, &arrays->budget, error);
+    job->document->shown = converts_shown(job);
     if (!status && (wants_figures(job) || job->recomputes))
         status = ffd_figures_prepare(job, arrays, error);
-    job->threads = ffd_pass_threads(&arrays->budget, job->check ? job->chain.count : 0, job->threads);
+    job->document->shown = false;
+    job->threads =
+        ffd_pass_threads(&arrays->budget, job->check ? ffd_chain_layers(&job->chain) : 0, job->threads);
     return status;
 }
 
@@ -136,16 +192,57 @@ static ffd_status locate(deform_job *job, ffd_error *error)
     const ffd_status status = ffd_chain_fit(&job->chain, job->document, job->threads, error);
     if (status || !embedding)
         return status;
-    return ffd_embedding_reuse(embedding, job->document, job->chain.links[0].lattice, job->threads,
+    const chain_link *const link = &job->chain.links[0];
+    return ffd_embedding_reuse(embedding, job->document, link->lattice, link->snap, job->threads,
                                &job->embedding, error);
+}
+
+/* What u,v,w of a mesh depend on. */
+static hash128 located_in(const chain_link *link)
+{
+    const hash128 parts[] = {link->rest, ffd_hash_doubles(&link->snap, 1)};
+    return ffd_hash(parts, sizeof parts);
+}
+
+/* Sends what is shown through the chain, and hands it back: the totals, which count base and targets, then
+   have what concerns the output. */
+static ffd_status deform_shown(deform_job *job, const mesh_pass *first, ffd_error *error)
+{
+    mesh_pass pass = *first;
+    pass_totals totals;
+    pass.embedding = NULL; /* it is of the base */
+    pass.locations = NULL;
+    pass.is_located = false;
+    job->document->shown = true;
+    const ffd_status status = ffd_pass_run(&pass, &totals, error);
+    job->totals.moved = totals.moved;
+    job->totals.first_overflow = totals.first_overflow;
+    job->totals.normals_collapsed = totals.normals_collapsed;
+    job->totals.det_min = totals.det_min;
+    job->totals.det_max = totals.det_max;
+    return status;
+}
+
+/* Sends base and targets through the chain. Those of a conversion of something else are only counted. */
+static ffd_status send(deform_job *job, const mesh_pass *pass, ffd_error *error)
+{
+    if (!converts_shown(job))
+        return ffd_pass_run(pass, &job->totals, error);
+    mesh_pass counting = *pass;
+    counting.write = counting.attributes = counting.determinants = false;
+    counting.counts_shapes = true;
+    counting.deformed = counting.gradients = NULL;
+    const ffd_status status = ffd_pass_run(&counting, &job->totals, error);
+    return status ? status : deform_shown(job, pass, error);
 }
 
 static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error *error)
 {
     ffd_share *const share = job->chain.count == 1 && !job->desc->embedding ? job->desc->share : NULL;
+    const hash128 rest = located_in(&job->chain.links[0]);
     bool is_located;
-    ffd_location *const locations = ffd_cache_locations(share, job->document, job->document_is_shared,
-                                                        &job->chain.links[0].rest, &is_located);
+    ffd_location *const locations =
+        ffd_cache_locations(share, job->document, job->document_is_shared, &rest, &is_located);
     const mesh_pass pass = {.document = job->document,
                             .chain = &job->chain,
                             .links = job->chain.count,
@@ -158,9 +255,14 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE,
                             .deformed = arrays->deformed,
                             .gradients = arrays->gradients,
-                            .determinants = wants_figures(job)};
+                            .determinants = wants_determinants(job),
+                            .bounds_shown = true,
+                            .kept = job->kept,
+                            .kept_stride = (size_t)ffd_mesh_vertex_count(job->document)};
     recompute_counts counts = {0};
-    ffd_status status = ffd_pass_run(&pass, &job->totals, error);
+    if (!is_located && !job->desc->embedding)
+        ffd_cache_count_search(job->desc->share);
+    ffd_status status = send(job, &pass, error);
     if (!status)
         ffd_cache_locations_filled(share);
     if (!status && job->recomputes && job->totals.moved)
@@ -171,15 +273,17 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
     return status;
 }
 
-/* The figures that cost time of their own, and what the gates say of them all. */
+/* Computes the figures that cost extra time, then judges all figures by the gates. */
 static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *result, ffd_error *error)
 {
     const ffd_deform_desc *desc = job->desc;
     const char *name = ffd_source_name(&desc->input);
     const double start = ffd_clock_seconds();
-    ffd_status status = ffd_policies_judge(desc, name, job->check, &job->chain, &job->totals, error);
+    ffd_status status = ffd_policies_judge(desc, name, &job->chain, &job->totals, error);
     if (!status && (wants_figures(job) || desc->fail_on & FFD_GATE_FOLDS))
         status = ffd_figures_folds(&job->chain, job->threads, result, error);
+    if (!status)
+        status = ffd_tear_figures_find(job, arrays, result, error);
     if (!status && wants_figures(job))
         status = ffd_figures_faces(job, arrays, result, error);
     if (!status)
@@ -198,28 +302,51 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         status = locate(job, error);
     if (!status)
+        status = ffd_tear_figures_prepare(job, error);
+    if (!status)
         status = deform(job, &arrays, error);
     if (!status) {
         ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
+        status = ffd_behind_find(job, result, error);
+    }
+    if (!status) {
         status = judge(job, &arrays, result, error);
     }
+    status = ffd_mapping_judge(job->losses, status, error);
+    if (!status)
+        ffd_flaws_warn(&job->document->flaws, NULL, &job->log);
+    if (!status)
+        status = ffd_overlaps_warn(&job->chain, &job->log, error);
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
-    if (!status && job->desc->only_count && job->totals.vertices == 0)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "--only selects no vertices");
-    if (!status && !job->check)
+    if (!status)
+        ffd_behind_warn(result, &job->log);
+    if (!status && job->totals.vertices == 0)
+        ffd_log_line(&job->log, FFD_LOG_WARNING, "%s",
+                     job->desc->only_count ? "--only selects no vertices"
+                                           : "there are no vertices to deform");
+    if (!status && !job->check) {
         ffd_figures_warn(job, result);
+        ffd_tear_figures_warn(job, result);
+    }
     ffd_figures_free(&arrays);
+    ffd_free(job->kept);
+    job->kept = NULL;
     return status;
 }
 
 ffd_status ffd_deform_job_end(deform_job *job, ffd_status status, ffd_job_result *result, ffd_error *error)
 {
+    /* A job that has written was judged before that: what becomes shorter later changes nothing. */
+    if (status)
+        status = ffd_mapping_judge(job->losses, status, &result->error);
     result->status = status;
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(&result->error, ffd_source_name(&job->desc->input));
     ffd_embedding_close(&job->embedding);
     ffd_model_free(&job->base);
+    if (job->document) /* the next job may want it otherwise */
+        job->document->shown = job->document->converted = false;
     if (status == FFD_OK)
         ffd_cache_put_mesh(job->desc->share, job->desc, job->document);
     else

@@ -4,8 +4,8 @@
 
 #include "job/judge/job_state.h"
 
-/* Clears result and takes desc, after a look at what does not concern the output. Errors: FFD_E_ARGUMENT,
-   FFD_E_EXISTS, in result. */
+/* Clears result and takes desc, after checking the options that do not concern the output. Errors:
+   FFD_E_ARGUMENT, FFD_E_EXISTS, in result. */
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result);
 

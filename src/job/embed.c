@@ -1,16 +1,19 @@
 /* embed.c - the job of `ffd embed`. */
 #include "base/file/folder.h"
+#include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
 #include "base/system/thread.h"
 #include "io/npy/npy.h"
 #include "job/chain/chain_load.h"
+#include "job/chain/lattice_memory.h"
 #include "job/input/embedding_file.h"
 #include "job/input/source.h"
 #include "job/judge/result.h"
 #include "job/pass/chain_fit.h"
 #include "job/pass/pass.h"
+#include <math.h>
 #include <string.h>
 
 void ffd_embed_desc_init(ffd_embed_desc *desc)
@@ -27,6 +30,7 @@ typedef struct embedding {
     uint8_t *statuses;
     size_t count;
     hash128 positions, lattice;
+    unsigned losses; /* of inputs, before (base/file/mapping.h) */
 } embedding;
 
 static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made, ffd_error *error)
@@ -35,17 +39,19 @@ static ffd_status write_files(const ffd_embed_desc *desc, const embedding *made,
     ffd_status status = ffd_output_create(&output, error);
     if (status)
         return status;
-    status = ffd_output_begin(output, desc->output, desc->force, error);
-    if (!status)
-        status = ffd_embedding_write(output, made->uvw, made->statuses, made->count, &made->positions,
-                                     &made->lattice, error);
-    if (!status && desc->status_output) {
+    if (desc->status_output) {
         status = ffd_output_begin(output, desc->status_output, desc->force, error);
         if (!status)
             status = ffd_npy_begin(output, "|u1", made->count, 0, error);
         if (!status)
             status = ffd_output_write(output, made->statuses, made->count, error);
     }
+    if (!status)
+        status = ffd_output_begin(output, desc->output, desc->force, error);
+    if (!status)
+        status = ffd_embedding_write(output, made->uvw, made->statuses, made->count, &made->positions,
+                                     &made->lattice, error);
+    status = ffd_mapping_judge(made->losses, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
     ffd_output_destroy(&output);
@@ -59,7 +65,8 @@ static ffd_status check_output(const ffd_embed_desc *desc, const char *path, ffd
     return ffd_output_check(path, desc->force, error);
 }
 
-/* Where a file that need not exist will appear; NULL where there is no folder for it, or no memory. */
+/* Returns the full path of a file that need not exist; NULL if its folder does not
+   exist or memory runs out. */
 static char *path_of(const char *path)
 {
     char *folder = ffd_path_folder(path);
@@ -89,7 +96,12 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 {
     if (desc->struct_size != sizeof *desc || !desc->input.path || !desc->lattice || !desc->output)
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
-    ffd_status status = check_output(desc, desc->output, error);
+    if (!(desc->snap >= 0 && isfinite(desc->snap)))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
+    /* What a killed run had set aside. */
+    ffd_status status = ffd_output_is_stream(desc->output) ? FFD_OK : ffd_restore_output(desc->output, error);
+    if (!status)
+        status = check_output(desc, desc->output, error);
     if (!status && desc->status_output)
         status = check_output(desc, desc->status_output, error);
     if (!status && desc->status_output && is_one_file(desc->output, desc->status_output))
@@ -101,9 +113,12 @@ static ffd_status check_outputs(const ffd_embed_desc *desc, ffd_error *error)
 /* Reads the mesh and fits the lattice, which has been read, to it. */
 static ffd_status open_mesh(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
+    const mesh_log log = {desc->log, desc->log_user};
     ffd_status status = ffd_source_open(&desc->input, threads, &made->document, error);
     if (!status)
         status = ffd_mesh_check(made->document, error);
+    if (!status)
+        status = ffd_mesh_warn(made->document, &log, error);
     if (!status)
         status = ffd_chain_fit(&made->chain, made->document, threads, error);
     return status;
@@ -114,8 +129,9 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
 {
     made->count = (size_t)ffd_mesh_vertex_count(made->document);
     memory_budget budget = made->document->budget;
-    const ffd_status status =
-        ffd_budget_take(&budget, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error);
+    ffd_status status = ffd_lattice_memory_share(&made->chain, &budget, error);
+    if (!status)
+        status = ffd_budget_take(&budget, made->count, 3 * sizeof *made->uvw + sizeof *made->statuses, error);
     if (status)
         return status;
     made->uvw = ffd_alloc(made->count, 3 * sizeof *made->uvw);
@@ -134,7 +150,8 @@ static ffd_status make(embedding *made, int threads, pass_totals *totals, ffd_er
 /* Writes the embedding together with what it was made of. */
 static ffd_status write(const ffd_embed_desc *desc, embedding *made, int threads, ffd_error *error)
 {
-    made->lattice = ffd_embedding_hash_lattice(made->chain.links[0].lattice);
+    const chain_link *const link = &made->chain.links[0];
+    made->lattice = ffd_embedding_hash_rest(link->lattice, link->snap);
     const ffd_status status = ffd_embedding_hash_positions(made->document, threads, &made->positions, error);
     return status ? status : write_files(desc, made, error);
 }
@@ -152,11 +169,16 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
     const double opened = ffd_clock_seconds();
     result->seconds_read = opened - start;
     status = make(made, threads, &totals, error);
+    status = ffd_mapping_judge(made->losses, status, error);
     if (status)
         return status;
     const double embedded = ffd_clock_seconds();
     ffd_result_fill(result, &totals, embedded - opened);
+    ffd_result_note_flaws(result, &made->document->flaws);
+    ffd_flaws_warn(&made->document->flaws, NULL, &log);
     ffd_result_warn(&totals, &made->chain, false, &log);
+    if (totals.vertices == 0)
+        ffd_log_line(&log, FFD_LOG_WARNING, "there are no vertices");
     status = write(desc, made, threads, error);
     result->seconds_write = ffd_clock_seconds() - embedded;
     return status;
@@ -165,15 +187,24 @@ static ffd_status embed(const ffd_embed_desc *desc, embedding *made, double star
 static ffd_status run(const ffd_embed_desc *desc, ffd_job_result *result, ffd_error *error)
 {
     const double start = ffd_clock_seconds();
-    const chain_files files = {.paths = &desc->lattice, .count = 1};
-    const chain_outside outside = {.extend = false};
-    embedding made = {0};
+    const mesh_log log = {desc->log, desc->log_user};
+    const chain_files files = {.paths = &desc->lattice,
+                               .count = 1,
+                               .set = desc->set,
+                               .set_count = desc->set_count,
+                               .rest_only = true,
+                               .mesh = &desc->input,
+                               .log = &log};
+    const chain_outside outside = {.snap = desc->snap, .snap_is_relative = desc->snap_relative};
+    embedding made = {.losses = ffd_mapping_losses()};
     ffd_status status = check_outputs(desc, error);
     if (!status)
         status = ffd_chain_load(&files, &outside, FFD_ISA_AUTO, NULL, &made.chain, error);
     if (status)
         return status;
     status = embed(desc, &made, start, result, error);
+    if (status)
+        status = ffd_mapping_judge(made.losses, status, error);
     if (status && status != FFD_E_ARGUMENT)
         ffd_fail_name_file(error, ffd_source_name(&desc->input));
     ffd_free(made.uvw);

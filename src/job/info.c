@@ -1,15 +1,42 @@
 /* info.c - the job of `ffd info`. */
+#include "base/file/mapping.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "job/info_lattice.h"
 #include "job/info_mesh.h"
 #include "job/info_text.h"
 #include "job/input/source.h"
+#include <string.h>
 
-static ffd_status write_facts(const ffd_source *file, byte_buffer *out, ffd_error *error)
+void ffd_info_desc_init(ffd_info_desc *desc)
 {
-    const bool lattice = file->format == FFD_FORMAT_AUTO && ffd_path_has_ending(file->path, ".json");
+    memset(desc, 0, sizeof *desc);
+    desc->struct_size = sizeof *desc;
+}
+
+/* What is asked for must be there in a file of its kind. */
+static ffd_status check_desc(const ffd_info_desc *desc, bool lattice, ffd_error *error)
+{
+    if (desc->struct_size != sizeof *desc || !desc->file.path)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the description of what to describe is not complete");
+    if (lattice && desc->parts)
+        return ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->file),
+                             "a lattice has no parts (--parts is for meshes)");
+    if (!lattice && desc->set_count > 0)
+        return ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->file),
+                             "a mesh has no placeholders (--set is for lattices)");
+    return FFD_OK;
+}
+
+static ffd_status write_facts(const ffd_info_desc *desc, byte_buffer *out, ffd_error *error)
+{
+    const ffd_source *const file = &desc->file;
+    const bool lattice =
+        file->path && file->format == FFD_FORMAT_AUTO && ffd_path_has_ending(file->path, ".json");
     json_text json;
+    const ffd_status wrong = check_desc(desc, lattice, error);
+    if (wrong)
+        return wrong;
     ffd_json_begin(&json, out);
     ffd_json_object(&json, NULL, false);
     ffd_json_string(&json, "format", "ffd-info");
@@ -17,26 +44,28 @@ static ffd_status write_facts(const ffd_source *file, byte_buffer *out, ffd_erro
     ffd_json_string(&json, "file", file->path);
     ffd_json_string(&json, "kind", lattice ? "lattice" : "mesh");
     const ffd_status status =
-        lattice ? ffd_info_lattice(file->path, &json, error) : ffd_info_mesh(file, &json, error);
+        lattice ? ffd_info_lattice(desc, &json, error) : ffd_info_mesh(desc, &json, error);
     if (status != FFD_OK)
         return status;
     ffd_json_end(&json, '}');
     return out->failed ? ffd_fail_memory(error) : FFD_OK;
 }
 
-ffd_status ffd_info_run(const ffd_source *file, bool json, char **text, ffd_error *error)
+ffd_status ffd_info_run(const ffd_info_desc *desc, char **text, ffd_error *error)
 {
     byte_buffer facts = {0};
+    const unsigned losses = ffd_mapping_losses();
     *text = NULL;
-    ffd_status status = write_facts(file, &facts, error);
-    if (status == FFD_OK && !json)
+    ffd_status status = write_facts(desc, &facts, error);
+    status = ffd_mapping_judge(losses, status, error);
+    if (status == FFD_OK && !desc->json)
         status = ffd_info_render(facts.data, facts.size, text, error);
     else if (status == FFD_OK) {
         *text = ffd_buffer_finish(&facts);
         status = *text ? FFD_OK : ffd_fail_memory(error);
     }
     if (status != FFD_OK && status != FFD_E_ARGUMENT)
-        ffd_fail_name_file(error, ffd_source_name(file));
+        ffd_fail_name_file(error, ffd_source_name(&desc->file));
     ffd_buffer_free(&facts);
     return status;
 }

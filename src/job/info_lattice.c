@@ -1,9 +1,16 @@
 #include "job/info_lattice.h"
+#include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "job/chain/lattice_memory.h"
+#include "job/info_box.h"
+#include "job/info_layers.h"
+#include "lattice/build.h"
 #include "lattice/lattice.h"
-#include "lattice/spec.h"
+#include "lattice/spec_parse.h"
 #include "mesh/bounds.h"
 #include <ffd/embedding.h>
+#include <math.h>
+#include <stdio.h>
 
 static const char *knot_word(knot_kind kind)
 {
@@ -24,13 +31,13 @@ static const char *knot_word(knot_kind kind)
     return NULL;
 }
 
-static const char *rest_word(rest_kind kind)
+static const char *rest_word(const lattice_spec *spec)
 {
-    switch (kind) {
+    switch (spec->rest) {
     case SPEC_BOX:
         return "box";
     case SPEC_BOX_MESH:
-        return "mesh";
+        return spec->mesh_count ? "meshes" : "mesh";
     case SPEC_CYLINDER:
         return "cylinder";
     case SPEC_POINTS:
@@ -70,10 +77,32 @@ static ffd_bounds bounds_of(const double *points, size_t count)
     return bounds;
 }
 
+static void write_nulls(const char *const *keys, size_t count, json_text *json)
+{
+    for (size_t i = 0; i < count; i++)
+        ffd_json_null(json, keys[i]);
+}
+
+/* The names of placeholders without a value; nothing where all have one. */
+static void write_open(const intern_table *open, json_text *json)
+{
+    if (open->count == 0)
+        return;
+    ffd_json_array(json, "open_placeholders", true);
+    for (size_t i = 0; i < open->count; i++)
+        ffd_json_string(json, NULL, ffd_intern_key(open, (uint32_t)i));
+    ffd_json_end(json, ']');
+}
+
 static void write_moves(const ffd_lattice *lattice, json_text *json)
 {
+    static const char *const unknown[] = {"moved", "largest_move", "weights_moved"};
     size_t moved = 0;
     double largest = 0;
+    if (lattice->spec->open.count > 0) {
+        write_nulls(unknown, sizeof unknown / sizeof *unknown, json);
+        return;
+    }
     for (size_t i = 0; i < lattice->count; i++) {
         const double length = vec_length(lattice->difference + 3 * i);
         moved += lattice->moved[i] != 0;
@@ -110,32 +139,100 @@ static ffd_status write_volume(const ffd_lattice *lattice, json_text *json, ffd_
     const ffd_bounds rest = bounds_of(lattice->rest, lattice->count);
     const ffd_bounds deformed = bounds_of(lattice->deformed, lattice->count);
     ffd_bounds_json(json, "rest_bounds", &rest);
-    ffd_bounds_json(json, "deformed_bounds", &deformed);
+    if (lattice->spec->open.count > 0)
+        ffd_json_null(json, "deformed_bounds");
+    else
+        ffd_bounds_json(json, "deformed_bounds", &deformed);
     ffd_json_number(json, "diagonal", lattice->diagonal);
     write_moves(lattice, json);
     return write_inversion(lattice, json, error);
 }
 
-ffd_status ffd_info_lattice(const char *path, json_text *json, ffd_error *error)
+static ffd_status check_values(const ffd_info_desc *desc, const bool *used, ffd_error *error)
+{
+    for (size_t i = 0; i < desc->set_count; i++)
+        if (!used[i])
+            return ffd_fail_file(error, FFD_E_INVALID, desc->file.path,
+                                 "the lattice has no placeholder {\"$\": \"%.60s\"} (--set)",
+                                 desc->set[i].name);
+    return FFD_OK;
+}
+
+/* Control points that would take more memory than is allowed are not made; else they fit. */
+static ffd_status build(lattice_spec *spec, memory_budget *budget, ffd_lattice **lattice, bool *fits,
+                        ffd_error *error)
+{
+    memory_budget knots = *budget;
+    const ffd_status too_large = ffd_lattice_memory_take(budget, spec, 0, error);
+    *fits = !too_large;
+    if (!too_large)
+        return ffd_spec_build(spec, NULL, NULL, lattice, error);
+    return ffd_budget_take(&knots, ffd_spec_knot_bytes(spec), 1, NULL)
+               ? too_large
+               : ffd_spec_build_knots(spec, lattice, error);
+}
+
+/* Reads the lattice, with values that it must have placeholders for; others may stay open. */
+static ffd_status load(const ffd_info_desc *desc, ffd_lattice **lattice, bool *fits, ffd_error *error)
+{
+    bool *const used = ffd_alloc_zero(desc->set_count, sizeof *used);
+    const spec_settings settings = {desc->set, used, desc->set_count, true};
+    memory_budget budget = ffd_budget_make(desc->file.memory);
+    lattice_spec *spec = NULL;
+    size_t size = 0;
+    if (!used)
+        return ffd_fail_memory(error);
+    ffd_status status = ffd_spec_load(desc->file.path, &settings, &spec, &size, error);
+    ffd_budget_add_file(&budget, size, 0);
+    if (!status)
+        status = check_values(desc, used, error);
+    if (!status)
+        status = build(spec, &budget, lattice, fits, error);
+    if (status)
+        ffd_spec_free(spec);
+    ffd_free(used);
+    return status;
+}
+
+/* What is known without control points. */
+static void write_unbuilt(const ffd_lattice *lattice, bool fits, json_text *json)
+{
+    static const char *const unknown[] = {"rest_bounds",  "deformed_bounds", "diagonal", "moved",
+                                          "largest_move", "weights_moved",   "inversion"};
+    ffd_json_bool(json, "rational", lattice->spec->weights || lattice->spec->deformed_weights);
+    write_nulls(unknown, sizeof unknown / sizeof *unknown, json);
+    if (lattice->spec->open.count > 0)
+        ffd_json_null(json, "moves");
+    else
+        ffd_json_count(json, "moves", lattice->spec->move_count);
+    const bool comes = ffd_lattice_needs_bounds(lattice) && ffd_lattice_get_mesh_count(lattice) == 0;
+    if (fits || comes) /* the rest is decided by meshes that are not known */
+        return;
+    char reason[100];
+    snprintf(reason, sizeof reason, "the control points need %.0f MB of memory (--memory allows more)",
+             ceil(1e-6 * (double)ffd_spec_point_bytes(lattice->spec)));
+    ffd_json_string(json, "points_unknown", reason);
+}
+
+ffd_status ffd_info_lattice(const ffd_info_desc *desc, json_text *json, ffd_error *error)
 {
     ffd_lattice *lattice = NULL;
-    ffd_status status = ffd_lattice_load(path, &lattice, error);
+    ffd_bounds box;
+    bool fits = false;
+    ffd_status status = load(desc, &lattice, &fits, error);
     if (status != FFD_OK)
         return status;
     write_directions(lattice, json);
     ffd_json_count(json, "control_points", lattice->count);
-    ffd_json_string(json, "rest", rest_word(lattice->spec->rest));
-    if (ffd_lattice_needs_bounds(lattice)) {
-        /* The rest is decided by the mesh that the lattice is used on. */
-        ffd_json_bool(json, "rational", lattice->spec->weights || lattice->spec->deformed_weights);
-        static const char *const unknown[] = {"rest_bounds",  "deformed_bounds", "diagonal", "moved",
-                                              "largest_move", "weights_moved",   "inversion"};
-        for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++)
-            ffd_json_null(json, unknown[i]);
-        ffd_json_count(json, "moves", lattice->spec->move_count);
-    } else {
+    ffd_json_string(json, "rest", rest_word(lattice->spec));
+    write_open(&lattice->spec->open, json);
+    status = ffd_info_box(lattice, &desc->file, fits, &box, json, error);
+    ffd_info_layers(lattice, &box, json);
+    if (!status && lattice->rest) {
         ffd_json_bool(json, "rational", lattice->rest_weights != NULL);
         status = write_volume(lattice, json, error);
+    } else if (!status) {
+        write_unbuilt(lattice, fits, json);
     }
     ffd_lattice_destroy(&lattice);
     return status;

@@ -1,6 +1,7 @@
 #include "job/info_mesh.h"
 #include "io/openmesh/half_edges.h"
 #include "io/openmesh/topology.h"
+#include "job/info_parts.h"
 #include "job/input/source.h"
 #include "mesh/bounds.h"
 
@@ -13,10 +14,11 @@ typedef struct vertex_facts {
 static void write_vertices(const mesh_document *document, json_text *json)
 {
     vertex_facts facts = {.bounds = ffd_bounds_empty()};
+    ffd_bounds hidden = ffd_bounds_empty(); /* of what is no part of the shape shown */
     for (size_t part = 0; part < document->part_count; part++) {
         const mesh_part *p = &document->parts[part];
         if (!p->repeats_positions) {
-            facts.not_finite += ffd_source_widen(document, part, &facts.bounds);
+            facts.not_finite += ffd_source_widen(document, part, p->hidden ? &hidden : &facts.bounds);
             facts.vertices += p->vertex_count;
         }
         facts.normals += p->normal_count;
@@ -91,12 +93,19 @@ ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd
     return status == FFD_OK ? survey_faces(document, json, error) : status;
 }
 
-ffd_status ffd_info_mesh(const ffd_source *source, json_text *json, ffd_error *error)
+ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *error)
 {
+    const mesh_log log = {desc->log, desc->log_user};
     mesh_document *document;
-    ffd_status status = ffd_source_open(source, 0, &document, error);
+    ffd_status status = ffd_source_open(&desc->file, 0, &document, error);
+    if (status == FFD_OK)
+        document->shown = true;
     if (status == FFD_OK)
         status = ffd_info_document(document, json, error);
+    if (status == FFD_OK && desc->parts)
+        status = ffd_info_parts(document, json, error);
+    if (status == FFD_OK)
+        ffd_flaws_warn(&document->flaws, ffd_source_name(&desc->file), &log);
     ffd_source_close(&document);
     return status;
 }

@@ -5,7 +5,7 @@
 #include "mesh/mesh.h"
 
 /* Appends the members that describe a mesh to an open JSON object. Errors: those of opening it. */
-ffd_status ffd_info_mesh(const ffd_source *source, json_text *json, ffd_error *error);
+ffd_status ffd_info_mesh(const ffd_info_desc *desc, json_text *json, ffd_error *error);
 
 /* The same for a mesh that is open. */
 ffd_status ffd_info_document(const mesh_document *document, json_text *json, ffd_error *error);

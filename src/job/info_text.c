@@ -1,6 +1,7 @@
 #include "job/info_text.h"
 #include "base/memory/memory.h"
 #include "base/text/buffer.h"
+#include "base/text/words.h"
 #include "json/json_parse.h"
 #include <stdio.h>
 #include <string.h>
@@ -120,6 +121,73 @@ static void render_line(renderer *r, size_t depth, const char *name, uint32_t va
     ffd_buffer_text(r->out, "\n");
 }
 
+/* The numbers of an array within one of a thing's members: "min" of "bounds". */
+static void write_corner(renderer *r, uint32_t bounds, const char *key)
+{
+    const uint32_t corner = ffd_json_span_member(r->facts, bounds, key);
+    if (corner != JSON_NONE)
+        write_value(r, corner);
+}
+
+/* "12 faces", of the member "faces"; one: its word for one. */
+static void write_count(renderer *r, uint32_t thing, const char *key, const char *one)
+{
+    double count = 0;
+    ffd_json_span_number(r->facts, ffd_json_span_member(r->facts, thing, key), &count);
+    ffd_buffer_format(r->out, "%.0f %s", count, ffd_plural((uint64_t)count, one, key));
+}
+
+/* What a thing draws, on one line: a mesh may have thousands of them. */
+static void write_drawing(renderer *r, uint32_t thing)
+{
+    const uint32_t bounds = ffd_json_span_member(r->facts, thing, "bounds");
+    write_count(r, thing, "vertices", "vertex");
+    ffd_buffer_text(r->out, ", ");
+    write_count(r, thing, "faces", "face");
+    if (!is_kind(r, bounds, JSON_OBJECT))
+        return;
+    ffd_buffer_text(r->out, ", from ");
+    write_corner(r, bounds, "min");
+    ffd_buffer_text(r->out, " to ");
+    write_corner(r, bounds, "max");
+}
+
+/* The selector of a thing with a name, the kind and number of one without. The caller's; NULL: no memory. */
+static char *thing_name(const renderer *r, uint32_t thing)
+{
+    const uint32_t selector = ffd_json_span_member(r->facts, thing, "selector");
+    if (selector != JSON_NONE)
+        return ffd_json_span_string(r->facts, selector, NULL);
+    double number = 0;
+    byte_buffer text = {0};
+    char *const kind = ffd_json_span_string(r->facts, ffd_json_span_member(r->facts, thing, "kind"), NULL);
+    ffd_json_span_number(r->facts, ffd_json_span_member(r->facts, thing, "number"), &number);
+    ffd_buffer_format(&text, "%s %.0f", kind ? kind : "", number);
+    char *const name = kind ? ffd_buffer_finish(&text) : NULL;
+    ffd_free(kind);
+    ffd_buffer_free(&text);
+    return name;
+}
+
+/* A selector is written as it is: it is an argument of --only. */
+static void render_thing(renderer *r, size_t depth, uint32_t thing)
+{
+    char *const name = thing_name(r, thing);
+    const size_t used = INDENT * depth + text_width(name ? name : "");
+    if (!name) {
+        r->failed = true;
+    } else if (!r->out) {
+        r->width = used > r->width ? used : r->width;
+    } else {
+        write_spaces(r->out, INDENT * depth);
+        write_string(r->out, name);
+        write_spaces(r->out, r->width + GAP - used);
+        write_drawing(r, thing);
+        ffd_buffer_text(r->out, "\n");
+    }
+    ffd_free(name);
+}
+
 static void render_value(renderer *r, size_t depth, const char *name, uint32_t value);
 
 /* An element of an array has its number for a name. */
@@ -130,7 +198,10 @@ static void render_elements(renderer *r, size_t depth, uint32_t array)
          v = ffd_json_span_after(r->facts, v)) {
         char number[32];
         snprintf(number, sizeof number, "%zu", i++);
-        render_value(r, depth, number, v);
+        if (ffd_json_span_member(r->facts, v, "faces") != JSON_NONE)
+            render_thing(r, depth, v);
+        else
+            render_value(r, depth, number, v);
     }
 }
 

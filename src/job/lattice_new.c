@@ -1,60 +1,140 @@
 /* lattice_new.c - the job of `ffd lattice new`. */
+#include "base/file/mapping.h"
 #include "base/memory/memory.h"
+#include "job/chain/lattice_memory.h"
+#include "job/input/selection.h"
 #include "job/input/source.h"
+#include "lattice/lattice.h"
 #include <math.h>
 #include <string.h>
 
-/* The positions of all vertices in the lattice's space (free with ffd_free); NULL when there is no memory. */
-static double *all_positions(const mesh_document *document, uint64_t count)
+void ffd_lattice_new_desc_init(ffd_lattice_new_desc *desc)
 {
-    double *xyz = count <= SIZE_MAX ? ffd_alloc((size_t)count, 3 * sizeof *xyz) : NULL;
-    size_t first = 0;
-    for (size_t part = 0; xyz && part < document->part_count; part++) {
-        if (document->parts[part].repeats_positions)
-            continue;
-        const size_t vertices = document->parts[part].vertex_count;
-        ffd_source_positions(document, part, 0, vertices, xyz + 3 * first);
-        first += vertices;
-    }
-    return xyz;
+    memset(desc, 0, sizeof *desc);
+    desc->struct_size = sizeof *desc;
 }
 
-static ffd_status create_round(const ffd_source *mesh, const ffd_lattice_desc *desc, ffd_lattice **lattice,
-                               ffd_error *error)
+/* Places in the lattice's space. */
+typedef struct place_list {
+    double *xyz; /* 3 a place */
+    size_t count, capacity;
+} place_list;
+
+/* What of a part goes to the list: of the selected vertices those that are shown, or all. */
+typedef struct part_places {
+    const mesh_part *part;
+    bool all;
+    place_list *places;
+} part_places;
+
+static bool add_place(void *context, size_t vertex, const double place[3])
+{
+    const part_places *const of = context;
+    place_list *const places = of->places;
+    if (!ffd_part_selects(of->part, vertex) || (!of->all && !ffd_part_shows(of->part, vertex)))
+        return true;
+    if (!ffd_grow((void **)&places->xyz, &places->capacity, places->count + 1, 3 * sizeof *places->xyz))
+        return false;
+    memcpy(places->xyz + 3 * places->count++, place, 3 * sizeof *place);
+    return true;
+}
+
+static ffd_status list_places(mesh_document *document, bool all, place_list *places, ffd_error *error)
+{
+    for (size_t i = 0; i < document->part_count; i++) {
+        part_places of = {&document->parts[i], all, places};
+        if (!of.part->repeats_positions && !ffd_source_visit_places(document, i, add_place, &of))
+            return ffd_fail_memory(error);
+    }
+    return FFD_OK;
+}
+
+static ffd_status add_mesh(const ffd_lattice_new_desc *desc, const ffd_source *mesh, bool all,
+                           place_list *places, ffd_error *error)
 {
     static const ffd_bounds everywhere = {{-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, {HUGE_VAL, HUGE_VAL, HUGE_VAL}};
+    const mesh_log log = {desc->log, desc->log_user};
     mesh_document *document;
     ffd_status status = ffd_source_open(mesh, 0, &document, error);
-    if (status != FFD_OK)
+    if (status)
         return status;
-    const uint64_t count = ffd_mesh_vertex_count(document);
-    double *xyz = NULL;
-    status = ffd_mesh_check(document, error);
-    if (status == FFD_OK && document->format->check_reach)
+    status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(mesh), document, error);
+    if (!status)
+        status = ffd_mesh_check(document, error);
+    if (!status && document->format->check_reach)
         status = document->format->check_reach(document, &everywhere, error);
-    if (status == FFD_OK) {
-        xyz = all_positions(document, count);
-        status = xyz ? ffd_lattice_create(desc, xyz, (size_t)count, lattice, error) : ffd_fail_memory(error);
-    }
-    ffd_free(xyz);
+    if (!status)
+        status = ffd_mesh_mark_used(document, error);
+    if (!status)
+        status = list_places(document, all, places, error);
+    if (!status && !all) /* the second time they are said */
+        ffd_flaws_warn(&document->flaws, ffd_source_name(mesh), &log);
     ffd_source_close(&document);
-    /* Other failures are of the description, not of the mesh. */
     if (status == FFD_E_INVALID)
         ffd_fail_name_file(error, ffd_source_name(mesh));
     return status;
 }
 
-ffd_status ffd_lattice_new_run(const ffd_source *mesh, const ffd_lattice_desc *desc, const char *output,
-                               bool force, ffd_error *error)
+static ffd_status add_meshes(const ffd_lattice_new_desc *desc, bool all, place_list *places, ffd_error *error)
 {
-    if (!ffd_output_is_stream(output) && ffd_file_same(mesh->path, output))
-        return ffd_fail_file(error, FFD_E_ARGUMENT, output, "the lattice would replace its mesh");
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < desc->mesh_count && !status; i++)
+        status = add_mesh(desc, &desc->meshes[i], all, places, error);
+    return status;
+}
+
+/* Sizes that are not valid are told by ffd_lattice_create. */
+static ffd_status check_memory(const ffd_lattice_new_desc *desc, ffd_error *error)
+{
+    lattice_spec spec = {.count = 1};
+    memory_budget budget = ffd_budget_make(desc->meshes[0].memory);
+    for (int a = 0; a < 3; a++) {
+        spec.size[a] = desc->lattice->size[a];
+        if (spec.size[a] < 1 || spec.size[a] > FFD_MAX_CONTROL_POINTS / spec.count)
+            return FFD_OK;
+        spec.count *= spec.size[a];
+    }
+    return ffd_lattice_memory_take(&budget, &spec, 0, error);
+}
+
+static ffd_status create_round(const ffd_lattice_new_desc *desc, ffd_lattice **lattice, ffd_error *error)
+{
+    place_list points = {0};
+    const unsigned losses = ffd_mapping_losses();
+    ffd_status status = add_meshes(desc, false, &points, error);
+    if (!status && points.count == 0 && !ffd_file_is_stream(desc->meshes[0].path))
+        status = add_meshes(desc, true, &points, error);
+    status = ffd_mapping_judge(losses, status, error);
+    if (!status)
+        status = ffd_lattice_create(desc->lattice, points.xyz, points.count, lattice, error);
+    ffd_free(points.xyz);
+    /* Other failures are of the description, not of the meshes. */
+    if (status == FFD_E_INVALID)
+        ffd_fail_name_file(error, ffd_source_name(&desc->meshes[0]));
+    return status;
+}
+
+static ffd_status check_desc(const ffd_lattice_new_desc *desc, ffd_error *error)
+{
+    if (desc->struct_size != sizeof *desc || !desc->meshes || desc->mesh_count == 0 || !desc->lattice ||
+        !desc->output || (desc->only_count && !desc->only))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the description of the new lattice is not complete");
+    for (size_t i = 0; i < desc->mesh_count && !ffd_output_is_stream(desc->output); i++)
+        if (ffd_file_same(desc->meshes[i].path, desc->output))
+            return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output, "the lattice would replace its mesh");
+    return ffd_output_check(desc->output, desc->force, error);
+}
+
+ffd_status ffd_lattice_new_run(const ffd_lattice_new_desc *desc, ffd_error *error)
+{
     ffd_lattice *lattice = NULL;
-    ffd_status status = ffd_output_check(output, force, error);
-    if (status == FFD_OK)
-        status = create_round(mesh, desc, &lattice, error);
-    if (status == FFD_OK)
-        status = ffd_lattice_save(lattice, output, force, error);
+    ffd_status status = check_desc(desc, error);
+    if (!status)
+        status = check_memory(desc, error);
+    if (!status)
+        status = create_round(desc, &lattice, error);
+    if (!status)
+        status = ffd_lattice_save(lattice, desc->output, desc->force, error);
     ffd_lattice_destroy(&lattice);
     return status;
 }

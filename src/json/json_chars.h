@@ -13,9 +13,9 @@ bool ffd_utf8_is_valid(const char *text, size_t size);
 /* Writes a character as UTF-8; returns its 1 to 4 bytes. */
 size_t ffd_utf8_write(uint32_t code, char bytes[4]);
 
-/* Reads one character of a string's inside at c: plain UTF-8 or an escape (a surrogate pair is one
-   character). Returns the position after it; NULL for a control character, invalid UTF-8 or an invalid
-   escape. */
+/* Reads one character of a string's inside at c: plain UTF-8 or an escape (a surrogate pair is
+   one character). Returns the position after it; NULL for a control character, invalid UTF-8
+   or an invalid escape. */
 const char *ffd_json_char(const char *c, const char *last, uint32_t *code);
 
 /* Skips ASCII characters that need no escape, several at a time: perhaps not all of them. */

@@ -3,7 +3,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static json_edit *add(json_edits *edits, uint32_t begin, uint32_t end)
 {

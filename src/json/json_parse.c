@@ -12,8 +12,8 @@
 /* Offsets have 32 bits. */
 #define LARGEST_TEXT ((size_t)UINT32_MAX - 1)
 
-/* Up to so many characters, a number without an exponent is in the range of a double, a whole one in that of
-   64 bits, whose longest has 20. */
+/* A number of up to this many characters without an exponent is in the range of a double, a whole one in that
+   of 64 bits, whose longest has 20. */
 #define SAFE_FOR_DOUBLE 300
 #define SAFE_FOR_INTEGER 18
 #define INTEGER_CAPACITY 24

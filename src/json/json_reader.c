@@ -174,12 +174,9 @@ ffd_status ffd_json_read_object(json_cursor cursor, const char *const *known, si
 
 ffd_status ffd_json_read_array(json_cursor cursor, size_t count, const char *what)
 {
-    if (!ffd_cursor_is(cursor, JSON_ARRAY))
+    if (!ffd_cursor_is(cursor, JSON_ARRAY) || ffd_cursor_count(cursor) != count)
         return ffd_cursor_fail(cursor, "must be an array of %zu %s, not %s", count, what,
                                ffd_json_describe(cursor).text);
-    if (ffd_cursor_count(cursor) != count)
-        return ffd_cursor_fail(cursor, "has %zu %s where %zu are needed", ffd_cursor_count(cursor), what,
-                               count);
     return FFD_OK;
 }
 

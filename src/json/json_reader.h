@@ -62,7 +62,7 @@ ffd_status ffd_cursor_fail(json_cursor cursor, const char *format, ...) FFD_PRIN
 ffd_status ffd_cursor_fail_as(json_cursor cursor, ffd_status status, const char *format, ...)
     FFD_PRINTF(3, 4);
 
-/* What a value is, in words with its article: "an object", "the number 3.5", "the text "abc"". */
+/* What a value is, in words with an article: "an object", "the number 3.5", "the text "abc"". */
 typedef struct json_words {
     char text[96];
 } json_words;

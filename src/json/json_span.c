@@ -102,6 +102,11 @@ static bool spells(const json_span *tree, uint32_t begin, uint32_t end, const ch
     while (c < last && t < text_last) {
         uint32_t code = 0;
         char bytes[4];
+        if (*c != '\\') { /* both are UTF-8 */
+            if (*c++ != *t++)
+                return false;
+            continue;
+        }
         c = ffd_json_char(c, last, &code);
         const size_t length = ffd_utf8_write(code, bytes);
         if ((size_t)(text_last - t) < length || memcmp(t, bytes, length) != 0)

@@ -43,8 +43,8 @@ void ffd_json_span_free(json_span *tree);
 
 /* The member of an object; JSON_NONE where there is none, or where object is JSON_NONE or no object. */
 uint32_t ffd_json_span_member(const json_span *tree, uint32_t object, const char *key);
-/* Element i of an array, counted from the first one; JSON_NONE as above. In a loop, use
-   ffd_json_span_after. */
+/* Element i of an array, counted from the first one; JSON_NONE as above. In a loop,
+   use ffd_json_span_after. */
 uint32_t ffd_json_span_element(const json_span *tree, uint32_t array, size_t i);
 
 /* The first member or element of a container; JSON_NONE where there is none. */
@@ -52,7 +52,7 @@ uint32_t ffd_json_span_first(const json_span *tree, uint32_t container);
 /* The member or element after `value`; JSON_NONE at the end. */
 uint32_t ffd_json_span_after(const json_span *tree, uint32_t value);
 
-/* The number of a value; false where it is not a number. Too large ones give an infinity. */
+/* The number of a value; false if it is not a number. Too large ones give an infinity. */
 bool ffd_json_span_number(const json_span *tree, uint32_t value, double *number);
 /* The characters of a string, UTF-8, ended by 0 (size, which may be NULL, shows a 0 inside). Free with
    ffd_free. NULL: no memory. */

@@ -19,8 +19,8 @@ static void line_break(json_text *json)
         ffd_buffer_text(json->out, "  ");
 }
 
-/* File names are bytes: those that are not UTF-8 become the replacement character, so that what comes out is
- * JSON. */
+/* File names are bytes: those that are not UTF-8 become the replacement character, so that
+   what comes out is JSON. */
 static void quoted(byte_buffer *out, const char *text)
 {
     const char *const last = text + strlen(text);
@@ -151,4 +151,19 @@ void ffd_json_vector(json_text *json, const char *key, const double *values, siz
     for (size_t i = 0; i < count; i++)
         ffd_json_number(json, NULL, values[i]);
     ffd_json_end(json, ']');
+}
+
+/* Strings have no line breaks: each is followed by indentation. */
+void ffd_json_join_lines(const char *text, size_t size, byte_buffer *out)
+{
+    const char *const end = text + size;
+    for (const char *line = text; line < end;) {
+        const char *const found = memchr(line, '\n', (size_t)(end - line)), *const stop = found ? found : end;
+        ffd_buffer_append(out, line, (size_t)(stop - line));
+        const bool is_between = stop > line && stop[-1] == ',';
+        for (line = stop; line < end && strchr(" \n", *line);)
+            line++;
+        if (is_between && line < end)
+            ffd_buffer_text(out, " ");
+    }
 }

@@ -45,6 +45,8 @@ void ffd_json_bool(json_text *json, const char *key, bool value);
 void ffd_json_null(json_text *json, const char *key);
 /* A value that is JSON already, with its line breaks. */
 void ffd_json_raw(json_text *json, const char *key, const char *text, size_t size);
+/* Appends a text that these functions have written, all on one line. */
+void ffd_json_join_lines(const char *text, size_t size, byte_buffer *out);
 /* An array of numbers on one line. */
 void ffd_json_vector(json_text *json, const char *key, const double *values, size_t count);
 

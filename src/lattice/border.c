@@ -39,35 +39,45 @@ static bool are_equal(const double a[4], const double b[4], const double toleran
     for (int c = 0; c < 3; c++)
         if (!(fabs(a[c] / a[3] - b[c] / b[3]) <= tolerance[c]))
             return false;
-    return fabs(a[3] - b[3]) <= 16 * DBL_EPSILON * a[3];
+    return true;
 }
 
-/* The first control point, and 16 eps of how far the others are from it. */
-static void size_up(const ffd_lattice *lattice, const double *points, double tolerance[3])
+/* Whether the weights of a pair are in the ratio of those before, which the first pair sets. */
+static bool is_in_ratio(const double a[4], const double b[4], double *ratio)
+{
+    if (*ratio == 0)
+        *ratio = b[3] / a[3];
+    return fabs(*ratio * a[3] - b[3]) <= 16 * DBL_EPSILON * b[3];
+}
+
+/* So many eps of the control points' sizes, as in the file. */
+static void size_up(const ffd_lattice *lattice, const double *points, double eps, double tolerance[3])
 {
     for (int a = 0; a < 3; a++) {
-        double extent = 0;
+        double most = 0;
         for (size_t i = 0; i < lattice->count; i++)
-            extent = fmax(extent, fabs(points[3 * i + (size_t)a] - points[a]));
-        tolerance[a] = 16 * DBL_EPSILON * extent;
+            most = fmax(most, fabs(points[3 * i + (size_t)a]));
+        tolerance[a] = eps * DBL_EPSILON * most;
     }
 }
 
-static bool faces_are_one(const ffd_lattice *lattice, ffd_volume volume, int direction)
+/* Whether the first and the last face have the same control points to so many eps and, if these are asked
+   for, weights in one ratio. */
+static bool faces_meet(const ffd_lattice *lattice, ffd_volume volume, int direction, double eps, bool weights)
 {
     border_face first, last;
-    double tolerance[3], a[4], b[4];
+    double tolerance[3], a[4], b[4], ratio = 0;
     size_t index[3];
     ffd_border_face(lattice, volume, direction, 0, &first);
     ffd_border_face(lattice, volume, direction, 1, &last);
-    size_up(lattice, first.points, tolerance);
+    size_up(lattice, first.points, eps, tolerance);
     const int across = (direction + 1) % 3, along = (direction + 2) % 3;
     index[direction] = 0;
     for (index[across] = 0; index[across] < lattice->size[across]; index[across]++)
         for (index[along] = 0; index[along] < lattice->size[along]; index[along]++) {
             ffd_border_point(&first, index, first.points, a);
             ffd_border_point(&last, index, first.points, b);
-            if (!are_equal(a, b, tolerance))
+            if (!are_equal(a, b, tolerance) || (weights && !is_in_ratio(a, b, &ratio)))
                 return false;
         }
     return true;
@@ -76,6 +86,10 @@ static bool faces_are_one(const ffd_lattice *lattice, ffd_volume volume, int dir
 bool ffd_lattice_is_seam(const ffd_lattice *lattice, int direction)
 {
     return !ffd_knots_closed(&lattice->knots[direction]) &&
-           faces_are_one(lattice, FFD_VOLUME_REST, direction) &&
-           faces_are_one(lattice, FFD_VOLUME_DEFORMED, direction);
+           faces_meet(lattice, FFD_VOLUME_REST, direction, 16, false);
+}
+
+bool ffd_lattice_opens_seam(const ffd_lattice *lattice, int direction)
+{
+    return !faces_meet(lattice, FFD_VOLUME_DEFORMED, direction, 64, true);
 }

@@ -22,9 +22,14 @@ void ffd_border_face(const ffd_lattice *lattice, ffd_volume volume, int directio
 void ffd_border_point(const border_face *face, const size_t index[3], const double origin[3],
                       double point[4]);
 
-/* Whether the first and the last face of a direction that is not closed are one surface at rest, and stay one
-   when deformed: a bar bent to a ring. The volume then goes on across them as across a closed direction's
-   seam. Control points count as equal within 16 eps of the lattice's extent. */
+/* Whether the first and the last face of a direction that is not closed have the same control points at rest,
+   within 16 eps of their size: a full turn that is not closed. What lies on both has one u,v,w, the least,
+   whatever the moves. Weights may differ: flat faces are then still one, with other parameters along them;
+   others meet where they cross. */
 bool ffd_lattice_is_seam(const ffd_lattice *lattice, int direction);
+
+/* Whether the moves may take the faces of such a direction apart: false is certain. True where a moved
+   control point of one is not that of the other, or where weights are not in one ratio. */
+bool ffd_lattice_opens_seam(const ffd_lattice *lattice, int direction);
 
 #endif

@@ -1,11 +1,11 @@
 #include "lattice/build.h"
 #include "base/memory/memory.h"
-#include "base/vector/vec.h"
 #include "lattice/cylinder.h"
 #include "lattice/lattice.h"
 #include "lattice/moves.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -137,17 +137,21 @@ static ffd_status set_points(const lattice_spec *spec, const double *min, const 
         return status;
     memcpy(lattice->deformed, spec->deformed_points ? spec->deformed_points : lattice->rest,
            spec->count * 3 * sizeof *lattice->deformed);
-    status = ffd_moves_apply(spec, &region, lattice, error);
-    return status ? status : ffd_lattice_finish(lattice, error);
+    if (spec->move_count == 0)
+        return ffd_lattice_finish(lattice, error);
+    status = ffd_lattice_make_difference(lattice, error);
+    if (!status)
+        status = ffd_moves_apply(spec, &region, lattice, error);
+    return status ? status : ffd_lattice_finish_moved(lattice, error);
 }
 
-ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
-                          ffd_error *error)
+static ffd_status build(lattice_spec *spec, const double *min, const double *max, bool points,
+                        ffd_lattice **lattice, ffd_error *error)
 {
     *lattice = NULL;
     ffd_lattice *result = ffd_alloc_zero(1, sizeof *result);
     ffd_status status = result ? make_knots(spec, result, error) : ffd_fail_memory(error);
-    if (!status && (spec->rest != SPEC_BOX_MESH || min))
+    if (!status && points)
         status = set_points(spec, min, max, result, error);
     if (status) {
         ffd_fail_name_file(error, spec->name);
@@ -157,4 +161,37 @@ ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *m
     result->spec = spec;
     *lattice = result;
     return FFD_OK;
+}
+
+ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
+                          ffd_error *error)
+{
+    return build(spec, min, max, spec->rest != SPEC_BOX_MESH || min, lattice, error);
+}
+
+ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
+{
+    return build(spec, NULL, NULL, false, lattice, error);
+}
+
+uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)
+{
+    /* Twice the knots, the lattice's and the locator's, and the numbers of the spans. */
+    const uint64_t each = 2 * sizeof(double) + sizeof(int);
+    uint64_t bytes = 0;
+    for (int a = 0; a < 3; a++)
+        bytes += (spec->size[a] + 2 * ((uint64_t)spec->degree[a] + 1)) * each +
+                 spec->list_count[a] * sizeof(double);
+    return bytes;
+}
+
+uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
+{
+    uint64_t each = 3 * 3 * sizeof(double) + 1; /* rest, deformed, difference, moved */
+    each += spec->weights || spec->deformed_weights ? 2 * sizeof(double) : 0;
+    each += spec->points ? 3 * sizeof(double) : 0;
+    each += spec->deformed_points ? 3 * sizeof(double) : 0;
+    each += spec->weights ? sizeof(double) : 0;
+    each += spec->deformed_weights ? sizeof(double) : 0;
+    return spec->count * each;
 }

@@ -8,11 +8,12 @@
 #include "lattice/principal.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
+#include <float.h>
 
 void ffd_lattice_desc_init(ffd_lattice_desc *desc)
 {
-    *desc =
-        (ffd_lattice_desc){.struct_size = sizeof *desc, .size = {4, 4, 4}, .margin = 0.05, .axis = {0, 0, 1}};
+    *desc = (ffd_lattice_desc){
+        .struct_size = sizeof *desc, .size = {4, 4, 4}, .margin = {0.05, 0.05, 0.05}, .axis = {0, 0, 1}};
 }
 
 static ffd_status check_counts(const ffd_lattice_desc *desc, ffd_error *error)
@@ -66,10 +67,15 @@ static ffd_status check_desc(const ffd_lattice_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a shape of lattices", (int)desc->shape);
     if (desc->spacing != FFD_SPACING_GREVILLE && desc->spacing != FFD_SPACING_UNIFORM)
         return ffd_fail(error, FFD_E_ARGUMENT, "%d is not a kind of spacing", (int)desc->spacing);
-    if (!(desc->margin >= 0) || !isfinite(desc->margin))
-        return ffd_fail(error, FFD_E_ARGUMENT, "margin %g is not 0 or more", desc->margin);
+    for (int a = 0; a < 3; a++)
+        if (!(desc->margin[a] >= 0) || !isfinite(desc->margin[a]))
+            return ffd_fail(error, FFD_E_ARGUMENT, "margin %g is not 0 or more", desc->margin[a]);
     if (cylinder && desc->spacing != FFD_SPACING_GREVILLE)
         return ffd_fail(error, FFD_E_ARGUMENT, "uniform spacing is for boxes, not for cylinders");
+    if (cylinder && (desc->margin[0] != desc->margin[1] || desc->margin[1] != desc->margin[2]))
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "margins %g %g %g are for boxes; a cylinder has one, of its radius and height",
+                        desc->margin[0], desc->margin[1], desc->margin[2]);
     if (cylinder && desc->principal)
         return ffd_fail(error, FFD_E_ARGUMENT, "principal axes are for boxes; a cylinder has its own axis");
     if (cylinder &&
@@ -145,6 +151,20 @@ static ffd_status use_principal_axes(const double *xyz, size_t count, double axe
     return FFD_OK;
 }
 
+/* Coordinates along other axes than the world's, and places made of them, are rounded to the size of the
+   world's coordinates: far from the origin by more than a search's tolerance along the axis that is short
+   there. Widens what has no margin by that, so that it holds every point. */
+#define AXES_ROUNDING (16 * DBL_EPSILON)
+
+static double rounding_of_axes(const double *xyz, size_t count)
+{
+    double min[3], max[3], size = 0;
+    if (find_bounds(xyz, count, world_axes, min, max))
+        for (int c = 0; c < 3; c++)
+            size += AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]));
+    return size;
+}
+
 static ffd_status fill_box(const ffd_lattice_desc *desc, const double *xyz, size_t count, lattice_spec *spec,
                            ffd_error *error)
 {
@@ -158,6 +178,14 @@ static ffd_status fill_box(const ffd_lattice_desc *desc, const double *xyz, size
         status = find_bounds_or_fail(xyz, count, spec->box_axes, min, max, error);
     if (!status)
         status = ffd_shape_grow_box(min, max, desc->margin, spec->box_min, spec->box_max, error);
+    const double rounding = !status && desc->principal ? rounding_of_axes(xyz, count) : 0;
+    for (int a = 0; a < 3 && !status; a++) {
+        spec->box_min[a] = fmin(spec->box_min[a], min[a] - rounding);
+        spec->box_max[a] = fmax(spec->box_max[a], max[a] + rounding);
+        if (!isfinite(spec->box_max[a] - spec->box_min[a]))
+            status =
+                ffd_fail(error, FFD_E_INVALID, "a box of side %g is too large for a double", max[a] - min[a]);
+    }
     return status;
 }
 
@@ -175,10 +203,12 @@ static double greatest_radius(const double *xyz, size_t count, const double fram
     return sqrt(greatest);
 }
 
-/* The extents that the margin is a fraction of are the cylinder's diameter and height. */
+/* The extents that the margin, which is one number, is a fraction of are the cylinder's diameter and height.
+ */
 static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz, size_t count,
                                 lattice_spec *spec, ffd_error *error)
 {
+    static const double none[3] = {0, 0, 0};
     double frame[9], min[3], max[3], grown_min[3], grown_max[3], middle[3];
     double *const zero = frame, *const side = frame + 3, *const axis = frame + 6;
     for (int c = 0; c < 3; c++)
@@ -189,7 +219,7 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
     ffd_status status = find_bounds_or_fail(xyz, count, frame, min, max, error);
     /* Without margin: it widens what is flat, and refuses what is too large. */
     if (!status)
-        status = ffd_shape_grow_box(min, max, 0, grown_min, grown_max, error);
+        status = ffd_shape_grow_box(min, max, none, grown_min, grown_max, error);
     if (status)
         return status;
     for (int a = 0; a < 3; a++)
@@ -197,8 +227,9 @@ static ffd_status fill_cylinder(const ffd_lattice_desc *desc, const double *xyz,
     const double least = 0.5 * fmin(grown_max[0] - grown_min[0], grown_max[1] - grown_min[1]);
     const double radius = fmax(greatest_radius(xyz, count, frame, middle), least);
     spec->rest = SPEC_CYLINDER;
-    spec->radius[1] = radius * (1 + 2 * desc->margin);
-    spec->height = (grown_max[2] - grown_min[2]) * (1 + 2 * desc->margin);
+    const double height = grown_max[2] - grown_min[2], rounding = rounding_of_axes(xyz, count);
+    spec->radius[1] = fmax(radius * (1 + 2 * desc->margin[0]), radius + rounding);
+    spec->height = fmax(height * (1 + 2 * desc->margin[0]), height + 2 * rounding);
     spec->angle[1] = 360;
     for (int c = 0; c < 3; c++) {
         spec->center[c] = zero[c] * middle[0] + side[c] * middle[1] + axis[c] * middle[2];

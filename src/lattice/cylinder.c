@@ -18,7 +18,7 @@
 #define LEAST_RADIUS (1.0 / 32)
 #define WEIGHT_TOLERANCE 1e-9
 
-/* The factor g(v) of the weights; false where they are not such a product. */
+/* The factor g(v) of the weights; false if they are not such a product. */
 static bool weights_along_v(const lattice_spec *spec, ring_point *points)
 {
     const size_t *const size = spec->size;

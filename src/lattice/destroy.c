@@ -10,11 +10,15 @@ void ffd_spec_free(lattice_spec *spec)
     ffd_free(spec->name);
     for (int a = 0; a < 3; a++)
         ffd_free(spec->list[a]);
+    for (size_t i = 0; i < spec->mesh_count; i++)
+        ffd_free(spec->meshes[i]);
+    ffd_free(spec->meshes);
     ffd_free(spec->points);
     ffd_free(spec->weights);
     ffd_free(spec->deformed_points);
     ffd_free(spec->deformed_weights);
     ffd_free(spec->moves);
+    ffd_intern_free(&spec->open);
     ffd_free(spec);
 }
 

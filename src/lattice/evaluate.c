@@ -36,7 +36,7 @@ typedef struct summand {
     const double *weights; /* or NULL */
 } summand;
 
-/* Sums over one row, one plane, the whole cell; by_x is not used where there is no derivative by x yet. */
+/* Sums over one row, one plane, the whole cell; by_x is not used if there is no derivative by x yet. */
 typedef struct partial_sum {
     double value[4], by_u[4], by_v[4], by_w[4];
 } partial_sum;

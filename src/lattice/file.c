@@ -1,22 +1,20 @@
 /* file.c - lattice files: load, save, and fit to a mesh. */
 #include "base/file/input.h"
 #include "base/file/output.h"
+#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "lattice/build.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 #include "lattice/spec_parse.h"
+#include "lattice/spec_set.h"
 #include "lattice/spec_text.h"
+#include <string.h>
 
-static ffd_status parse(const char *text, size_t size, const char *name, const spec_settings *settings,
-                        ffd_lattice **lattice, ffd_error *error)
+/* Makes the lattice of a spec, which it takes. */
+static ffd_status build(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
 {
-    *lattice = NULL;
-    lattice_spec *spec;
-    ffd_status status = ffd_spec_parse(text, size, name, settings, &spec, error);
-    if (status)
-        return status;
-    status = ffd_spec_build(spec, NULL, NULL, lattice, error);
+    const ffd_status status = ffd_spec_build(spec, NULL, NULL, lattice, error);
     if (status)
         ffd_spec_free(spec);
     return status;
@@ -25,7 +23,10 @@ static ffd_status parse(const char *text, size_t size, const char *name, const s
 ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
                              ffd_error *error)
 {
-    return parse(text, size, name, NULL, lattice, error);
+    lattice_spec *spec;
+    *lattice = NULL;
+    const ffd_status status = ffd_spec_parse(text, size, name, NULL, &spec, error);
+    return status ? status : build(spec, lattice, error);
 }
 
 ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error)
@@ -33,17 +34,69 @@ ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *
     return ffd_lattice_load_set(path, NULL, 0, NULL, lattice, error);
 }
 
-ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
-                                ffd_lattice **lattice, ffd_error *error)
+ffd_status ffd_spec_load(const char *path, const spec_settings *settings, lattice_spec **spec, size_t *size,
+                         ffd_error *error)
 {
-    const spec_settings settings = {values, used, count};
-    *lattice = NULL;
+    *spec = NULL;
     file_input input;
+    const unsigned losses = ffd_mapping_losses();
     ffd_status status = ffd_file_load(path, &input, error);
     if (status)
         return status;
-    status = parse((const char *)input.data, input.size, path, &settings, lattice, error);
+    *size = input.size;
+    status = ffd_spec_parse((const char *)input.data, input.size, path, settings, spec, error);
     ffd_file_unload(&input);
+    status = ffd_mapping_judge(losses, status, error);
+    if (!status && ffd_file_is_stream(path) && (*spec)->mesh_count > 0)
+        status = ffd_fail(
+            error, FFD_E_ARGUMENT,
+            "the lattice's box goes round meshes named relative to its file: it cannot be read from %s",
+            ffd_path_display_name(path));
+    if (status) {
+        ffd_spec_free(*spec);
+        *spec = NULL;
+    }
+    return status;
+}
+
+static ffd_status load(const char *path, const spec_settings *settings, ffd_lattice **lattice,
+                       ffd_error *error)
+{
+    lattice_spec *spec;
+    size_t size;
+    *lattice = NULL;
+    const ffd_status status = ffd_spec_load(path, settings, &spec, &size, error);
+    return status ? status : build(spec, lattice, error);
+}
+
+ffd_status ffd_lattice_load_set(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                ffd_lattice **lattice, ffd_error *error)
+{
+    const spec_settings settings = {.values = values, .used = used, .count = count};
+    return load(path, &settings, lattice, error);
+}
+
+ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                 ffd_lattice **lattice, ffd_error *error)
+{
+    const spec_settings settings = {.values = values, .used = used, .count = count, .may_be_open = true};
+    return load(path, &settings, lattice, error);
+}
+
+ffd_status ffd_lattice_list_open(const char *path, const ffd_setting *values, size_t count, bool *used,
+                                 intern_table *open, ffd_error *error)
+{
+    const spec_settings settings = {.values = values, .used = used, .count = count, .may_be_open = true};
+    lattice_spec *spec;
+    size_t size;
+    uint32_t number;
+    ffd_status status = ffd_spec_load(path, &settings, &spec, &size, error);
+    for (uint32_t i = 0; !status && i < spec->open.count; i++) {
+        const char *const name = ffd_intern_key(&spec->open, i);
+        if (!ffd_intern(open, name, strlen(name), &number))
+            status = ffd_fail_memory(error);
+    }
+    ffd_spec_free(spec);
     return status;
 }
 
@@ -69,6 +122,23 @@ ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool f
 bool ffd_lattice_needs_bounds(const ffd_lattice *lattice)
 {
     return lattice->spec && lattice->spec->rest == SPEC_BOX_MESH;
+}
+
+size_t ffd_lattice_get_mesh_count(const ffd_lattice *lattice)
+{
+    return lattice->spec ? lattice->spec->mesh_count : 0;
+}
+
+ffd_status ffd_spec_mesh(const lattice_spec *spec, size_t i, char **path, ffd_error *error)
+{
+    const char *const mesh = spec->meshes[i];
+    *path = ffd_path_is_absolute(mesh) ? ffd_text_copy(mesh) : ffd_path_beside(spec->name, mesh);
+    return *path ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_lattice_get_mesh(const ffd_lattice *lattice, size_t i, char **path, ffd_error *error)
+{
+    return ffd_spec_mesh(lattice->spec, i, path, error);
 }
 
 ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const double max[3], ffd_error *error)

@@ -127,12 +127,10 @@ static double largest_number(const ffd_lattice *lattice)
     return largest;
 }
 
-static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
+static ffd_status check_difference(const ffd_lattice *lattice, ffd_error *error)
 {
-    double *const difference = lattice->difference;
+    const double *const difference = lattice->difference;
     const double largest = largest_number(lattice);
-    for (size_t c = 0; c < 3 * lattice->count; c++)
-        difference[c] = lattice->deformed[c] - lattice->rest[c];
     for (size_t c = 0; c < 3 * lattice->count; c++) {
         if (!(fabs(difference[c]) <= largest))
             return fail_difference(lattice, c, error);
@@ -141,15 +139,51 @@ static ffd_status make_difference(ffd_lattice *lattice, ffd_error *error)
                             name_of(lattice, FFD_VOLUME_REST, c / 3).text,
                             ffd_number_text(lattice->rest[c]).text);
     }
-    for (size_t i = 0; i < lattice->count; i++)
-        lattice->moved[i] =
-            (difference[3 * i] != 0) | (difference[3 * i + 1] != 0) | (difference[3 * i + 2] != 0);
-    for (size_t i = 0; i < lattice->count && lattice->rest_weights; i++) {
-        const bool other = lattice->rest_weights[i] != lattice->deformed_weights[i];
-        lattice->weights_moved |= other;
-        lattice->moved[i] |= other;
-    }
     return FFD_OK;
+}
+
+/* Marks the control points that move. */
+static void mark_moved(ffd_lattice *lattice)
+{
+    const double *const difference = lattice->difference;
+    for (size_t i = 0; i < lattice->count; i++) {
+        const bool moved = difference[3 * i] != 0 || difference[3 * i + 1] != 0 || difference[3 * i + 2] != 0;
+        lattice->moved[i] = moved ? POINT_MOVED : 0;
+    }
+    for (size_t i = 0; i < lattice->count && lattice->rest_weights; i++)
+        if (lattice->rest_weights[i] != lattice->deformed_weights[i]) {
+            lattice->weights_moved = true;
+            lattice->moved[i] = POINT_MOVED;
+        }
+}
+
+static bool weight_moved(const ffd_lattice *lattice, size_t point)
+{
+    return lattice->weights_moved && lattice->rest_weights[point] != lattice->deformed_weights[point];
+}
+
+/* Whether two control points move by the same displacement, other than 0, and nothing else. */
+static bool moves_like(const ffd_lattice *lattice, size_t a, size_t b)
+{
+    const double *const x = lattice->difference + 3 * a, *const y = lattice->difference + 3 * b;
+    return lattice->moved[a] && x[0] == y[0] && x[1] == y[1] && x[2] == y[2] && !weight_moved(lattice, a) &&
+           !weight_moved(lattice, b);
+}
+
+/* Marks those that move like the next one along a direction; the last ones of a closed direction go on with
+   the first. */
+static void mark_like_next(ffd_lattice *lattice)
+{
+    const size_t *const size = lattice->size, step[3] = {1, size[0], size[0] * size[1]};
+    for (size_t i = 0; i < lattice->count; i++)
+        for (int a = 0; a < 3 && lattice->moved[i]; a++) {
+            const size_t at = i / step[a] % size[a];
+            const size_t next = at + 1 < size[a] ? i + step[a] : i - at * step[a];
+            if (!moves_like(lattice, i, next))
+                continue;
+            lattice->moved[i] |= (unsigned char)(POINT_LIKE_NEXT_U << a);
+            lattice->moves_alike = true;
+        }
 }
 
 /* d uvw / d t times the inverse of d p / d t. */
@@ -164,22 +198,72 @@ static void make_inverse(ffd_lattice *lattice)
     }
 }
 
-ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error)
+/* Whether d+1 points from one on along a direction are each like the next one, and, unless these are single
+   points, each begin a row or plane that is alike. */
+static bool begins_alike(const ffd_lattice *lattice, size_t point, int a, unsigned char begins)
+{
+    const size_t steps[3] = {1, lattice->size[0], lattice->size[0] * lattice->size[1]};
+    const size_t size = lattice->size[a], step = steps[a], at = point / step % size;
+    const size_t order = (size_t)lattice->knots[a].degree + 1;
+    const bool closed = lattice->knots[a].functions > size;
+    if (!closed && at + order > size)
+        return false;
+    for (size_t s = 0; s < order; s++) {
+        const unsigned char bits = lattice->moved[point - at * step + (at + s) % size * step];
+        const unsigned char wanted = (unsigned char)(begins | (s + 1 < order ? POINT_LIKE_NEXT_U << a : 0));
+        if ((bits & wanted) != wanted)
+            return false;
+    }
+    return true;
+}
+
+static void mark_blocks(ffd_lattice *lattice)
+{
+    for (int a = 0; a < 3 && lattice->moves_alike; a++) {
+        const unsigned char begins = a == 0 ? 0 : (unsigned char)(POINT_BEGINS_ROW << (a - 1));
+        for (size_t i = 0; i < lattice->count; i++)
+            if ((lattice->moved[i] & begins) == begins && begins_alike(lattice, i, a, begins))
+                lattice->moved[i] |= (unsigned char)(POINT_BEGINS_ROW << a);
+    }
+}
+
+ffd_status ffd_lattice_make_difference(ffd_lattice *lattice, ffd_error *error)
+{
+    if (!lattice->difference)
+        lattice->difference = ffd_alloc_whole(lattice->count, 3 * sizeof *lattice->difference);
+    if (!lattice->difference)
+        return ffd_fail_memory(error);
+    for (size_t c = 0; c < 3 * lattice->count; c++)
+        lattice->difference[c] = lattice->deformed[c] - lattice->rest[c];
+    return FFD_OK;
+}
+
+ffd_status ffd_lattice_finish_moved(ffd_lattice *lattice, ffd_error *error)
 {
     ffd_status status = check_points(lattice, error);
     if (!status)
         status = make_diagonal(lattice, error);
     if (status)
         return status;
-    if (!lattice->difference)
-        lattice->difference = ffd_alloc_whole(lattice->count, 3 * sizeof *lattice->difference);
     if (!lattice->moved)
         lattice->moved = ffd_alloc(lattice->count, sizeof *lattice->moved);
-    if (!lattice->difference || !lattice->moved)
+    if (!lattice->moved)
         return ffd_fail_memory(error);
-    lattice->weights_moved = false;
+    lattice->weights_moved = lattice->moves_alike = false;
     make_inverse(lattice);
-    return make_difference(lattice, error);
+    status = check_difference(lattice, error);
+    if (status)
+        return status;
+    mark_moved(lattice);
+    mark_like_next(lattice);
+    mark_blocks(lattice);
+    return FFD_OK;
+}
+
+ffd_status ffd_lattice_finish(ffd_lattice *lattice, ffd_error *error)
+{
+    const ffd_status status = ffd_lattice_make_difference(lattice, error);
+    return status ? status : ffd_lattice_finish_moved(lattice, error);
 }
 
 void ffd_lattice_get_size(const ffd_lattice *lattice, size_t size[3])

@@ -9,14 +9,15 @@
 #include <math.h>
 #include <string.h>
 
-/* With "units": "box" what is a length or a position (by, to, about, within, and what a matrix acts on) is in
-   fractions of the rest region's sides, along them; directions, angles and factors are the same in both
-   units. */
+/* With "units": "box" what is a length or a position (by, to, about, within, and what a matrix acts
+   on) is in fractions of the rest region's sides, along them; directions, angles and factors are
+   the same in both units. */
 
 /* The moves of one lattice while they are applied. */
 typedef struct move_work {
     const ffd_lattice *lattice;
     double *points;          /* those that move */
+    double *difference;      /* their displacements from rest */
     unsigned char *selected; /* of the current move, one byte a control point */
     bool box_units;
     rest_region region;
@@ -273,14 +274,31 @@ static void act(ready_move *ready, double p[3])
     }
 }
 
+/* Moves one coordinate of a point to where the action has it. `by` adds to the displacement as it is; another
+   action adds what the point gains, and where it takes the point back to its place at rest nothing is left.
+ */
+static void move_coordinate(const lattice_move *move, int c, double to, double rest, double *p,
+                            double *difference)
+{
+    const double from = *p;
+    if (move->action == MOVE_BY) {
+        *p += move->weight * move->vector[c];
+        *difference += move->weight * move->vector[c];
+        return;
+    }
+    *p = move->weight == 1 ? to : from + move->weight * (to - from);
+    if (*p != from)
+        *difference = *p == rest ? 0 : *difference + (*p - from);
+}
+
 static ffd_status move_point(const move_work *work, ready_move *ready, size_t point)
 {
-    double *const p = work->points + 3 * point;
-    const double weight = ready->move.weight;
+    double *const p = work->points + 3 * point, *const difference = work->difference + 3 * point;
     double moved[3] = {p[0], p[1], p[2]};
     act(ready, moved);
     for (int c = 0; c < 3; c++)
-        p[c] = weight == 1 ? moved[c] : p[c] + weight * (moved[c] - p[c]);
+        move_coordinate(&ready->move, c, moved[c], work->lattice->rest[3 * point + (size_t)c], &p[c],
+                        &difference[c]);
     if (vec_is_finite(p))
         return FFD_OK;
     const size_t *const size = work->lattice->size;
@@ -323,10 +341,9 @@ static ffd_status apply_move(move_work *work, const lattice_move *move)
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
                            ffd_error *error)
 {
-    if (spec->move_count == 0)
-        return FFD_OK;
     move_work work = {.lattice = lattice,
                       .points = lattice->deformed,
+                      .difference = lattice->difference,
                       .box_units = spec->box_units,
                       .region = *region,
                       .file = spec->name,

@@ -1,5 +1,4 @@
 #include "lattice/ring.h"
-#include "base/text/number.h"
 #include "base/vector/trig.h"
 #include "lattice/shapes.h"
 #include "spline/basis.h"
@@ -38,7 +37,7 @@ static void set_angles(const knot_vector *knots, double first, double last, ring
         ffd_sincos_degrees(ffd_shape_between(first, last, fraction_of(knots, j)), &points[j].y, &points[j].x);
 }
 
-/* The direction of C at a parameter (the weight's division does not change it). False where C is 0. */
+/* The direction of C at a parameter (the weight's division does not change it). Returns false if C is 0. */
 static bool direction_at(const knot_vector *knots, const ring_point *points, double v, double direction[2])
 {
     double value[MAX_ORDER], sum[2] = {0, 0};
@@ -202,8 +201,8 @@ static void arc_of_span(const knot_vector *knots, const ring_point *points, int 
 #define TURN_DEPTH 60
 
 /* The degrees by which the arc turns round the origin. Where its control points lie on one side of a line
-   through the origin, so does the arc, and its ends show the turn; else it is halved. False where it comes
-   too near to the origin. */
+   through the origin, so does the arc, and its ends show the turn; else it is halved. Returns false if it
+   comes too near to the origin. */
 static bool turn_of_arc(const bezier_arc *arc, int depth, double *turn)
 {
     const double *const first = arc->point[0], *const last = arc->point[arc->degree];

@@ -25,8 +25,8 @@ static double diagonal_of(const double min[3], const double max[3])
     return size > 1 ? size : 1;
 }
 
-ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double margin, double grown_min[3],
-                              double grown_max[3], ffd_error *error)
+ffd_status ffd_shape_grow_box(const double min[3], const double max[3], const double margin[3],
+                              double grown_min[3], double grown_max[3], ffd_error *error)
 {
     const double diagonal = diagonal_of(min, max);
     for (int c = 0; c < 3; c++) {
@@ -36,7 +36,7 @@ ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double m
         const double side = max[c] - min[c];
         const bool flat = !(side > FLAT_SIDE * diagonal);
         const double half = flat ? 0.5 * FLAT_WIDTH * diagonal : 0;
-        const double out = margin * (flat ? FLAT_WIDTH * diagonal : side);
+        const double out = margin[c] * (flat ? FLAT_WIDTH * diagonal : side);
         grown_min[c] = (flat ? 0.5 * min[c] + 0.5 * max[c] - half : min[c]) - out;
         grown_max[c] = (flat ? 0.5 * min[c] + 0.5 * max[c] + half : max[c]) + out;
         if (!isfinite(grown_max[c] - grown_min[c]))

@@ -11,10 +11,10 @@ typedef struct rest_region {
     double origin[3], frame[9];
 } rest_region;
 
-/* A box grown by margin on every side, as a fraction of the side; sides of no length are widened
-   first, so that the volume is not empty. FFD_E_INVALID where the result is not finite. */
-ffd_status ffd_shape_grow_box(const double min[3], const double max[3], double margin, double grown_min[3],
-                              double grown_max[3], ffd_error *error);
+/* A box grown on both sides of each direction by its margin, a fraction of the side; sides of no length are
+   widened first, so that the volume is not empty. FFD_E_INVALID where the result is not finite. */
+ffd_status ffd_shape_grow_box(const double min[3], const double max[3], const double margin[3],
+                              double grown_min[3], double grown_max[3], ffd_error *error);
 /* The region of a box from min to max along axes (rows). */
 void ffd_shape_box_region(const double min[3], const double max[3], const double axes[9],
                           rest_region *region);

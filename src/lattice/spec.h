@@ -1,7 +1,8 @@
-/* spec.h - a lattice as its file describes it, before there are control points. */
+/* spec.h - a lattice as its file describes it, before there are control points (freed by destroy.c). */
 #ifndef FFD_LATTICE_SPEC_H
 #define FFD_LATTICE_SPEC_H
 
+#include "base/memory/intern.h"
 #include "spline/knots.h"
 #include <ffd/lattice.h>
 
@@ -47,7 +48,10 @@ typedef struct lattice_spec {
     double box_axes[9]; /* rows are the box's directions; identity where not given */
     bool has_axes;
     ffd_spacing spacing;
-    double margin;
+    double margin[3]; /* of SPEC_BOX_MESH, in each direction */
+    char **meshes;    /* mesh_count files that it goes round, as the lattice file names them; none: the mesh
+                         that the lattice is used on */
+    size_t mesh_count;
     double center[3], radius[2], height, angle[2]; /* degrees */
     double axis[3], zero[3];                       /* unit vectors, perpendicular */
     double *points;                                /* 3*count, SPEC_POINTS */
@@ -57,10 +61,11 @@ typedef struct lattice_spec {
     bool box_units;
     lattice_move *moves;
     size_t move_count;
+    intern_table open; /* names of placeholders without a value; where there are some, there are no moves */
 } lattice_spec;
 
-/* Whether a cylinder goes round once: a span of angles that was written in decimals may miss 360 by its
- * rounding. */
+/* Whether a cylinder goes round once: a span of angles that was written in decimals may
+   miss 360 by its rounding. */
 #define SPEC_TURN_TOLERANCE 1e-9
 static inline bool ffd_spec_full_turn(const lattice_spec *spec)
 {
@@ -72,6 +77,7 @@ typedef struct spec_settings {
     const ffd_setting *values; /* count */
     bool *used;                /* likewise; marked, never cleared */
     size_t count;
+    bool may_be_open; /* where a placeholder has no value, the moves are left out instead of refused */
 } spec_settings;
 
 #define SPEC_FORMAT "ffd-lattice"

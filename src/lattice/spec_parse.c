@@ -11,8 +11,8 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-static const char *const top_keys[] = {"format", "version", "size",     "degree", "knots",
-                                       "rest",   "weights", "deformed", "units",  "moves"};
+static const char *const top_keys[] = {"format",  "version",  "size",  "degree", "knots",   "rest",
+                                       "weights", "deformed", "units", "moves",  SPEC_NOTES};
 
 static ffd_status read_format(json_cursor root)
 {
@@ -23,7 +23,6 @@ static ffd_status read_format(json_cursor root)
     return status ? status : ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
 }
 
-/* Before the keys are judged: a newer version may have more of them. */
 static ffd_status read_version(json_cursor root)
 {
     json_cursor cursor;
@@ -114,10 +113,10 @@ static ffd_status read_knot_list(json_cursor cursor, size_t count, const char *w
 
 static ffd_status read_closed_list(json_cursor cursor, lattice_spec *spec, size_t a)
 {
-    static const char *const keys[] = {"closed"};
+    static const char *const keys[] = {"closed", SPEC_NOTES};
     json_cursor list;
     spec->kind[a] = KNOTS_CLOSED_LIST;
-    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = ffd_json_require(cursor, "closed", &list);
     return status ? status : read_knot_list(list, spec->size[a] + 1, "breakpoints", spec, a);
@@ -195,8 +194,8 @@ static ffd_status read_weights(json_cursor cursor, size_t count, double **weight
 
 static ffd_status read_deformed(json_cursor cursor, lattice_spec *spec)
 {
-    static const char *const keys[] = {"points", "weights"};
-    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    static const char *const keys[] = {"points", "weights", SPEC_NOTES};
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     const json_cursor points = ffd_cursor_member(cursor, "points");
     const json_cursor weights = ffd_cursor_member(cursor, "weights");
     if (!status && ffd_cursor_exists(points))
@@ -220,8 +219,8 @@ static ffd_status read_rest_weights(json_cursor cursor, lattice_spec *spec)
     return read_weights(cursor, spec->count, &spec->weights);
 }
 
-/* The members in the order in which they need each other. Only size and rest must be there; the readers of
-   degree and knots supply what a missing value means. */
+/* The members but the moves, in the order in which they need each other. Only size and rest must be there;
+   the readers of degree and knots supply what a missing value means. */
 static ffd_status read_members(json_cursor root, lattice_spec *spec)
 {
     static const struct member {
@@ -236,7 +235,6 @@ static ffd_status read_members(json_cursor root, lattice_spec *spec)
         {"weights", read_rest_weights, false, false},
         {"deformed", read_deformed, false, false},
         {"units", read_units, false, false},
-        {"moves", ffd_spec_parse_moves, false, false},
     };
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < COUNT_OF(members) && !status; i++) {
@@ -250,17 +248,23 @@ static ffd_status read_members(json_cursor root, lattice_spec *spec)
     return status;
 }
 
-static ffd_status read_root(json_cursor root, lattice_spec *spec)
+/* Before all else: a newer version may mean something else by all that follows. */
+static ffd_status check_kind(json_cursor root)
 {
     if (!ffd_cursor_is(root, JSON_OBJECT))
         return ffd_cursor_fail(root, "a lattice is an object, not %s", ffd_json_describe(root).text);
-    ffd_status status = read_format(root);
-    if (!status)
-        status = read_version(root);
-    if (!status)
-        status = ffd_json_read_object(root, top_keys, COUNT_OF(top_keys));
+    const ffd_status status = read_format(root);
+    return status ? status : read_version(root);
+}
+
+static ffd_status read_root(json_cursor root, bool with_moves, lattice_spec *spec)
+{
+    const json_cursor moves = ffd_cursor_member(root, "moves");
+    ffd_status status = ffd_spec_read_object(root, top_keys, COUNT_OF(top_keys));
     if (!status)
         status = read_members(root, spec);
+    if (!status && with_moves && ffd_cursor_exists(moves))
+        status = ffd_spec_parse_moves(moves, spec);
     return status;
 }
 
@@ -268,9 +272,13 @@ static ffd_status read_root(json_cursor root, lattice_spec *spec)
 static ffd_status read_tree(json_file *file, const spec_settings *settings, lattice_spec *spec)
 {
     spec_values values = {0};
-    ffd_status status = ffd_spec_set(file, ffd_json_span_member(file->tree, 0, "moves"), settings, &values);
+    ffd_status status = check_kind(ffd_cursor_top(file));
     if (!status)
-        status = read_root(ffd_cursor_top(file), spec);
+        status = ffd_spec_set(file, ffd_json_span_member(file->tree, 0, "moves"), settings, &values);
+    if (!status)
+        status = read_root(ffd_cursor_top(file), values.open.count == 0, spec);
+    spec->open = values.open;
+    values.open = (intern_table){0};
     ffd_spec_values_free(&values);
     return status;
 }
@@ -278,7 +286,7 @@ static ffd_status read_tree(json_file *file, const spec_settings *settings, latt
 ffd_status ffd_spec_parse(const char *text, size_t size, const char *name, const spec_settings *settings,
                           lattice_spec **spec, ffd_error *error)
 {
-    static const spec_settings none = {NULL, NULL, 0};
+    static const spec_settings none = {.count = 0};
     const json_input input = {
         .text = text, .size = size, .name = name, .rules = JSON_ALLOW_MARK | JSON_NO_NUL | JSON_DOUBLES};
     json_span tree = {0};

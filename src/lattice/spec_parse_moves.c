@@ -63,9 +63,9 @@ static ffd_status read_at(json_cursor cursor, const lattice_spec *spec, lattice_
 
 static ffd_status read_within(json_cursor cursor, lattice_move *move)
 {
-    static const char *const keys[] = {"min", "max"};
+    static const char *const keys[] = {"min", "max", SPEC_NOTES};
     move->has_within = true;
-    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = ffd_json_member_doubles(cursor, "min", 3, move->within_min);
     if (!status)
@@ -102,9 +102,9 @@ static ffd_status read_factor(json_cursor cursor, double factor[3])
 
 static ffd_status read_scale(json_cursor cursor, lattice_move *move)
 {
-    static const char *const keys[] = {"factor", "about"};
+    static const char *const keys[] = {"factor", "about", SPEC_NOTES};
     json_cursor factor;
-    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = ffd_json_require(cursor, "factor", &factor);
     if (!status)
@@ -116,7 +116,7 @@ static ffd_status read_scale(json_cursor cursor, lattice_move *move)
 static ffd_status read_axial(json_cursor cursor, const char *const *known, size_t count, const char *amount,
                              lattice_move *move)
 {
-    ffd_status status = ffd_json_read_object(cursor, known, count);
+    ffd_status status = ffd_spec_read_object(cursor, known, count);
     if (!status)
         status = ffd_spec_read_axis(cursor, "axis", move->axis);
     if (!status && move->action == MOVE_BEND)
@@ -129,19 +129,19 @@ static ffd_status read_axial(json_cursor cursor, const char *const *known, size_
 /* rotate, twist */
 static ffd_status read_turn(json_cursor cursor, lattice_move *move)
 {
-    static const char *const keys[] = {"axis", "degrees", "about"};
+    static const char *const keys[] = {"axis", "degrees", "about", SPEC_NOTES};
     return read_axial(cursor, keys, COUNT_OF(keys), "degrees", move);
 }
 
 static ffd_status read_taper(json_cursor cursor, lattice_move *move)
 {
-    static const char *const keys[] = {"axis", "factor", "about"};
+    static const char *const keys[] = {"axis", "factor", "about", SPEC_NOTES};
     return read_axial(cursor, keys, COUNT_OF(keys), "factor", move);
 }
 
 static ffd_status read_bend(json_cursor cursor, lattice_move *move)
 {
-    static const char *const keys[] = {"axis", "toward", "degrees", "about"};
+    static const char *const keys[] = {"axis", "toward", "degrees", "about", SPEC_NOTES};
     const ffd_status status = read_axial(cursor, keys, COUNT_OF(keys), "degrees", move);
     if (status || ffd_direction_perpendicular(move->axis, move->vector))
         return status;
@@ -222,9 +222,9 @@ static ffd_status read_weight(json_cursor cursor, lattice_move *move)
 
 static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattice_move *move)
 {
-    static const char *const keys[] = {"at",     "within", "weight", "by",    "to",  "scale",
-                                       "rotate", "matrix", "twist",  "taper", "bend"};
-    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    static const char *const keys[] = {"at",     "within", "weight", "by",    "to",   "scale",
+                                       "rotate", "matrix", "twist",  "taper", "bend", SPEC_NOTES};
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = read_selection(cursor, spec, move);
     if (!status)

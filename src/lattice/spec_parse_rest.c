@@ -1,4 +1,5 @@
 #include "lattice/spec_parse_rest.h"
+#include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/vec.h"
 #include "lattice/direction.h"
@@ -61,9 +62,9 @@ static ffd_status read_spacing(json_cursor cursor, ffd_spacing *spacing)
 
 static ffd_status read_box(json_cursor cursor, lattice_spec *spec)
 {
-    static const char *const keys[] = {"min", "max", "spacing", "axes"};
+    static const char *const keys[] = {"min", "max", "spacing", "axes", "meshes", SPEC_NOTES};
     spec->rest = SPEC_BOX;
-    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = ffd_json_member_doubles(cursor, "min", 3, spec->box_min);
     if (!status)
@@ -78,35 +79,93 @@ static ffd_status read_box(json_cursor cursor, lattice_spec *spec)
     return status ? status : check_sides(cursor, spec);
 }
 
-static ffd_status read_margin(json_cursor cursor, double *margin)
+/* A number, or three: one for each direction. */
+static ffd_status read_margin(json_cursor cursor, double margin[3])
 {
-    const ffd_status status = ffd_json_read_double(cursor, margin);
-    if (!status && *margin < 0)
-        return ffd_cursor_fail(cursor, "margin %s is less than 0", ffd_number_text(*margin).text);
+    ffd_status status;
+    if (ffd_cursor_is(cursor, JSON_ARRAY)) {
+        status = ffd_json_read_doubles(cursor, 3, margin);
+    } else {
+        status = ffd_json_read_double(cursor, margin);
+        margin[1] = margin[2] = margin[0];
+    }
+    for (int a = 0; a < 3 && !status; a++)
+        if (margin[a] < 0)
+            return ffd_cursor_fail(cursor, "margin %s is less than 0", ffd_number_text(margin[a]).text);
     return status;
 }
 
 static ffd_status refuse_margin(json_cursor cursor)
 {
-    return ffd_cursor_fail(cursor, "a margin goes only with \"box\": \"mesh\"");
+    return ffd_cursor_fail(cursor, "a margin goes only with a box round meshes");
 }
 
-/* "box": {...}, or "box": "mesh" with a margin beside it. */
+/* Keys that are known elsewhere in a rest: the nearest known one would mislead. */
+static ffd_status refuse_misplaced(json_cursor box)
+{
+    static const char *const of_sides[] = {"min", "max", "spacing", "axes"};
+    const bool meshes = ffd_cursor_exists(ffd_cursor_member(box, "meshes"));
+    const json_cursor margin = ffd_cursor_member(box, "margin");
+    for (size_t i = 0; i < COUNT_OF(of_sides) && meshes; i++) {
+        const json_cursor member = ffd_cursor_member(box, of_sides[i]);
+        if (ffd_cursor_exists(member))
+            return ffd_cursor_fail(member,
+                                   "\"%s\" goes only with a box that has \"min\" and \"max\": one round "
+                                   "\"meshes\" is along x, y, z, and its control points are at the Greville "
+                                   "abscissae",
+                                   of_sides[i]);
+    }
+    if (!ffd_cursor_exists(margin))
+        return FFD_OK;
+    return meshes ? ffd_cursor_fail(margin, "a margin stands beside \"box\", not in it")
+                  : refuse_margin(margin);
+}
+
+/* {"meshes": [..]}: the files that the box goes round. */
+static ffd_status read_meshes(json_cursor box, lattice_spec *spec)
+{
+    static const char *const keys[] = {"meshes", SPEC_NOTES};
+    const json_cursor list = ffd_cursor_member(box, "meshes");
+    ffd_status status = ffd_spec_read_object(box, keys, COUNT_OF(keys));
+    spec->rest = SPEC_BOX_MESH;
+    if (!status && !ffd_cursor_is(list, JSON_ARRAY))
+        return ffd_cursor_fail(list, "is not a list of mesh files");
+    if (status)
+        return status;
+    const size_t count = ffd_cursor_count(list);
+    if (count == 0)
+        return ffd_cursor_fail(list, "names no mesh");
+    spec->meshes = ffd_alloc_zero(count, sizeof *spec->meshes);
+    if (!spec->meshes)
+        return ffd_fail_memory(box.file->error);
+    json_cursor path = ffd_cursor_first(list);
+    for (; spec->mesh_count < count && !status; path = ffd_cursor_next(path)) {
+        status = ffd_spec_read_path(path, &spec->meshes[spec->mesh_count]);
+        spec->mesh_count += !status;
+    }
+    return status;
+}
+
+/* "box": {"min": ..}, or "box": "mesh" or {"meshes": ..} with a margin beside it. */
 static ffd_status read_any_box(json_cursor rest, lattice_spec *spec)
 {
     static const char *const names[] = {"mesh"};
     const json_cursor box = ffd_cursor_member(rest, "box"), margin = ffd_cursor_member(rest, "margin");
     size_t index;
-    ffd_status status;
+    ffd_status status = refuse_misplaced(box);
+    if (status)
+        return status;
     if (ffd_cursor_is(box, JSON_STRING)) {
         spec->rest = SPEC_BOX_MESH;
         status = ffd_json_read_word(box, names, COUNT_OF(names), &index);
+    } else if (ffd_cursor_exists(ffd_cursor_member(box, "meshes"))) {
+        status = read_meshes(box, spec);
     } else {
         status = read_box(box, spec);
     }
     if (status || !ffd_cursor_exists(margin))
         return status;
-    return spec->rest == SPEC_BOX_MESH ? read_margin(margin, &spec->margin) : refuse_margin(margin);
+    return spec->rest == SPEC_BOX_MESH ? read_margin(margin, spec->margin) : refuse_margin(margin);
 }
 
 static ffd_status read_zero(json_cursor cylinder, lattice_spec *spec)
@@ -159,9 +218,9 @@ static ffd_status read_angle(json_cursor cylinder, double angle[2])
 
 static ffd_status read_cylinder(json_cursor cursor, lattice_spec *spec)
 {
-    static const char *const keys[] = {"center", "axis", "zero", "radius", "height", "angle"};
+    static const char *const keys[] = {"center", "axis", "zero", "radius", "height", "angle", SPEC_NOTES};
     spec->rest = SPEC_CYLINDER;
-    ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = ffd_json_member_doubles(cursor, "center", 3, spec->center);
     if (!status)
@@ -179,11 +238,11 @@ static ffd_status read_cylinder(json_cursor cursor, lattice_spec *spec)
 
 ffd_status ffd_spec_parse_rest(json_cursor cursor, lattice_spec *spec)
 {
-    static const char *const keys[] = {"box", "cylinder", "points", "margin"};
+    static const char *const keys[] = {"box", "cylinder", "points", "margin", SPEC_NOTES};
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             spec->box_axes[3 * r + c] = r == c;
-    const ffd_status status = ffd_json_read_object(cursor, keys, COUNT_OF(keys));
+    const ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (status)
         return status;
     const json_cursor box = ffd_cursor_member(cursor, "box"),

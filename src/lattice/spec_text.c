@@ -1,5 +1,6 @@
 #include "lattice/spec_text.h"
 #include "json/json_text.h"
+#include <string.h>
 
 static void write_counts(json_text *json, const char *key, const size_t values[], size_t count)
 {
@@ -69,6 +70,25 @@ static void write_box(json_text *json, const lattice_spec *spec)
     ffd_json_end(json, '}');
 }
 
+static void write_mesh_box(json_text *json, const lattice_spec *spec)
+{
+    if (spec->mesh_count == 0) {
+        ffd_json_string(json, "box", "mesh");
+    } else {
+        ffd_json_object(json, "box", false);
+        ffd_json_array(json, "meshes", false);
+        for (size_t i = 0; i < spec->mesh_count; i++)
+            ffd_json_string(json, NULL, spec->meshes[i]);
+        ffd_json_end(json, ']');
+        ffd_json_end(json, '}');
+    }
+    const bool is_one = memcmp(spec->margin, spec->margin + 1, 2 * sizeof *spec->margin) == 0;
+    if (is_one)
+        ffd_json_number(json, "margin", *spec->margin);
+    else
+        ffd_json_vector(json, "margin", spec->margin, 3);
+}
+
 static void write_cylinder(json_text *json, const lattice_spec *spec)
 {
     ffd_json_object(json, "cylinder", false);
@@ -89,8 +109,7 @@ static void write_rest(json_text *json, const lattice_spec *spec)
         write_box(json, spec);
         break;
     case SPEC_BOX_MESH:
-        ffd_json_string(json, "box", "mesh");
-        ffd_json_number(json, "margin", spec->margin);
+        write_mesh_box(json, spec);
         break;
     case SPEC_CYLINDER:
         write_cylinder(json, spec);
@@ -213,8 +232,8 @@ char *ffd_spec_text(const lattice_spec *spec, size_t *size)
         write_deformed(&json, spec);
     if (spec->box_units)
         ffd_json_string(&json, "units", "box");
-    if (spec->move_count > 0)
-        write_moves(&json, spec);
+    /* Also where there are none: a file that is new shows where they go. */
+    write_moves(&json, spec);
     ffd_json_end(&json, '}');
     *size = buffer.size;
     return ffd_buffer_finish(&buffer);

@@ -1,6 +1,57 @@
 #include "lattice/spec_values.h"
 #include "base/memory/memory.h"
 #include "lattice/direction.h"
+#include <string.h>
+
+#define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+
+static bool is_known(const char *key, const char *const *known, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(known[i], key) == 0)
+            return true;
+    return false;
+}
+
+/* The nearest word by its letters would be another one. */
+static ffd_status refuse_foreign(json_cursor cursor, const char *const *known, size_t count)
+{
+    static const struct foreign {
+        const char *word, *key;
+    } words[] = {{"translate", "by"}, {"translation", "by"},   {"move", "by"},      {"offset", "by"},
+                 {"delta", "by"},     {"displace", "by"},      {"position", "to"},  {"rotation", "rotate"},
+                 {"turn", "rotate"},  {"angle", "degrees"},    {"deg", "degrees"},  {"shear", "matrix"},
+                 {"skew", "matrix"},  {"transform", "matrix"}, {"center", "about"}, {"pivot", "about"}};
+    for (size_t i = 0; i < COUNT_OF(words); i++) {
+        json_cursor member = cursor;
+        member.value = ffd_json_span_member(cursor.tree, cursor.value, words[i].word);
+        if (ffd_cursor_exists(member) && is_known(words[i].key, known, count) &&
+            !is_known(words[i].word, known, count))
+            return ffd_cursor_fail(member, "unknown key \"%s\"; use \"%s\"", words[i].word, words[i].key);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_spec_check_notes(json_cursor object)
+{
+    static const char *const keys[] = {SPEC_NOTES};
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        /* As it is in the text: there are no placeholders for notes. */
+        json_cursor note = object;
+        note.value = ffd_json_span_member(object.tree, object.value, keys[i]);
+        if (ffd_cursor_exists(note) && !ffd_cursor_is(note, JSON_STRING))
+            return ffd_cursor_fail(note, "must be a text, not %s", ffd_json_describe(note).text);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_spec_read_object(json_cursor cursor, const char *const *known, size_t count)
+{
+    ffd_status status = refuse_foreign(cursor, known, count);
+    if (!status)
+        status = ffd_json_read_object(cursor, known, count);
+    return status ? status : ffd_spec_check_notes(cursor);
+}
 
 ffd_status ffd_spec_read_points(json_cursor cursor, size_t count, double **points)
 {
@@ -16,6 +67,21 @@ ffd_status ffd_spec_read_points(json_cursor cursor, size_t count, double **point
     return status;
 }
 
+ffd_status ffd_spec_read_path(json_cursor cursor, char **path)
+{
+    *path = NULL;
+    if (!ffd_cursor_is(cursor, JSON_STRING))
+        return ffd_cursor_fail(cursor, "is %s, not the name of a file", ffd_json_describe(cursor).text);
+    *path = ffd_json_span_string(cursor.tree, cursor.value, NULL);
+    if (!*path)
+        return ffd_fail_memory(cursor.file->error);
+    if (**path && strcmp(*path, "-") != 0)
+        return FFD_OK;
+    ffd_free(*path);
+    *path = NULL;
+    return ffd_cursor_fail(cursor, "is %s, not the name of a file", ffd_json_describe(cursor).text);
+}
+
 ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3])
 {
     static const char *const names[] = {"x", "y", "z"};
@@ -25,7 +91,7 @@ ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3
         return status;
     if (ffd_cursor_is(cursor, JSON_STRING)) {
         size_t index;
-        status = ffd_json_read_word(cursor, names, sizeof names / sizeof *names, &index);
+        status = ffd_json_read_word(cursor, names, COUNT_OF(names), &index);
         for (size_t c = 0; c < 3; c++)
             axis[c] = c == index;
         return status;

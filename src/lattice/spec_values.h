@@ -4,9 +4,19 @@
 
 #include "json/json_reader.h"
 
+/* Keys that any object of the file may have: texts for people. */
+#define SPEC_NOTES "comment", "name"
+
+/* Reads an object whose keys are all known; those of SPEC_NOTES are texts. A word that other programs have
+   for a known key is answered with that key. */
+ffd_status ffd_spec_read_object(json_cursor cursor, const char *const *known, size_t count);
+/* Whether the notes of an object are texts. */
+ffd_status ffd_spec_check_notes(json_cursor object);
 /* Reads count points, each an array of three numbers, into a new block of 3*count (free with ffd_free, after
    a failure too). */
 ffd_status ffd_spec_read_points(json_cursor cursor, size_t count, double **points);
+/* Reads the name of a file (free with ffd_free). */
+ffd_status ffd_spec_read_path(json_cursor cursor, char **path);
 /* Reads a member that is a direction: three numbers, not all 0, or "x", "y", "z". axis gets unit length. */
 ffd_status ffd_spec_read_axis(json_cursor object, const char *key, double axis[3]);
 

@@ -21,7 +21,7 @@ static inline void ffd_bounds_widen(ffd_bounds *box, const double point[3])
     }
 }
 
-/* Appends "key": {"min": [..], "max": [..]}, or null where there are no points. */
+/* Appends "key": {"min": [..], "max": [..]}, or null if there are no points. */
 void ffd_bounds_json(json_text *json, const char *key, const ffd_bounds *box);
 
 #endif

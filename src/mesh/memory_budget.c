@@ -4,7 +4,7 @@
 #define LEAST (100 * MEGABYTE)
 #define BYTES_PER_BYTE 20
 
-/* Of the program itself, before it has read anything. */
+/* Bytes of the program itself, before it has read anything. */
 #define PROGRAM (16 * MEGABYTE)
 
 /* Of a file's byte: itself, and of vectors in six characters each (0 0 0), or 12 bytes, twice 24. */

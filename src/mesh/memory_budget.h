@@ -1,5 +1,4 @@
-/* memory_budget.h - the memory that a document may ask for: a short file must not be able to take any amount.
- */
+/* memory_budget.h - the memory that a document may take: a short file must not be able to take any amount. */
 #ifndef FFD_MESH_MEMORY_BUDGET_H
 #define FFD_MESH_MEMORY_BUDGET_H
 
@@ -19,8 +18,7 @@ typedef struct memory_budget {
     bool is_shared; /* with another document of the same files: they are allowed for already */
 } memory_budget;
 
-/* The budget of a document without files: 100 MB, or `asked` where that is more, with the program itself in
- * it. */
+/* The budget of a document without files: 100 MB, or `asked` if that is more, the program itself included. */
 memory_budget ffd_budget_make(uint64_t asked);
 /* Adds a file: 20 times its size is allowed, and of that kept_per_byte times its size is taken. */
 void ffd_budget_add_file(memory_budget *budget, uint64_t size, uint64_t kept_per_byte);
@@ -35,9 +33,9 @@ uint64_t ffd_budget_left(const memory_budget *budget);
 ffd_status ffd_budget_check(const memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
 /* Takes them, for as long as the document is open. Errors: FFD_E_LIMIT; nothing is taken then. */
 ffd_status ffd_budget_take(memory_budget *budget, uint64_t count, uint64_t size, ffd_error *error);
-/* Gives back what was taken so. */
+/* Returns to the budget what was taken so. */
 void ffd_budget_return(memory_budget *budget, uint64_t count, uint64_t size);
-/* How many of the threads, 1 at least, the budget allows where each takes size bytes. */
+/* Returns how many of the threads (at least 1) the budget allows if each takes size bytes. */
 int ffd_budget_threads(const memory_budget *budget, int threads, uint64_t size);
 
 #ifdef __cplusplus

@@ -2,7 +2,9 @@
    mesh_format table.
 
    A document keeps the bytes of its file. It shows its vertices as parts; a job reads a part's streams in any
-   order, hands results back, and has the document saved: the same bytes with the results spliced in. */
+   order, hands results back, and has the document saved: the same bytes with the results spliced in.
+
+   Main header of meshes: declares faces.c, part.c. */
 #ifndef FFD_MESH_MESH_H
 #define FFD_MESH_MESH_H
 
@@ -11,8 +13,11 @@
 #include "base/file/path_list.h"
 #include "base/text/buffer.h"
 #include "base/vector/vec.h"
+#include "mesh/flaws.h"
 #include "mesh/memory_budget.h"
+#include "mesh/mesh_log.h"
 #include "mesh/model.h"
+#include "mesh/rounding.h"
 #include "mesh/selector.h"
 #include "json/json_text.h"
 #include <ffd/job.h>
@@ -27,6 +32,8 @@ typedef enum mesh_stream { MESH_POSITIONS, MESH_NORMALS, MESH_TANGENTS, MESH_STR
  */
 typedef struct mesh_shape {
     bool has[MESH_STREAMS];
+    mesh_rounding rounding; /* of the offsets to positions */
+    double weight;          /* that it is shown with before any animation: 0 where it is not */
 } mesh_shape;
 
 /* Vertices that share one transform into the lattice's space. */
@@ -39,8 +46,11 @@ typedef struct mesh_part {
     const uint32_t *normal_start;
     bool has_tangents; /* tangent i belongs to vertex i and to normal i; only with normal_start NULL */
 
+    mesh_rounding rounding; /* of the positions */
+
     const mesh_shape *shapes; /* only with normal_start NULL. Lent by the document. */
     size_t shape_count;
+    bool shows_shapes; /* the weight of some shape is not 0: what is shown is not the part's own vertices */
 
     /* The vertices are those of an earlier part (same positions, same transform), listed again for other
        normals or tangents: they are not counted, embedded or written a second time. */
@@ -54,15 +64,31 @@ typedef struct mesh_part {
     bool skinned; /* every vertex has a linear and offset of its own (read_transforms); those above are then
                      not used, and identity and singular are false */
 
-    /* What select has left: a vertex whose byte is 0 stays as it is and is not counted, a normal whose byte
-       is 0 stays. NULL: all vertices; the normals of the selected vertices. Lent by the document. */
+    /* What is selected: a vertex whose byte is 0 stays as it is and is not counted, a normal whose byte is 0
+       stays. NULL: all vertices; the normals of the selected vertices. Lent by the document. */
     const uint8_t *selected, *selected_normals;
     bool skipped; /* nothing of the part is selected */
+
+    /* The vertices are the centres of Gaussian splats, whose rotations and scales the streams do not show. */
+    bool splats;
+    size_t place; /* of splats: the number by which place_name knows what shows them; or MESH_NO_PLACE */
+    /* A vertex whose byte is 0 is in no face, line or point. NULL: all are in one, or there are none, or
+       ffd_mesh_mark_used was not called. Lent by the document. */
+    const uint8_t *used;
+    bool hidden; /* a viewer does not show the part */
 } mesh_part;
+
+#define MESH_NO_PLACE SIZE_MAX
 
 static inline bool ffd_part_selects(const mesh_part *part, size_t vertex)
 {
     return !part->skipped && (!part->selected || part->selected[vertex]);
+}
+
+/* Whether the vertex is part of what is shown: a box goes round those that are. */
+static inline bool ffd_part_shows(const mesh_part *part, size_t vertex)
+{
+    return !part->hidden && (!part->used || part->used[vertex]);
 }
 
 /* Polygons over all vertices of the document, for topology. Vertex numbers count the vertices of parts in
@@ -78,7 +104,27 @@ typedef struct mesh_faces {
     size_t repeated;
 } mesh_faces;
 
+/* What the file has at a point beside vertices: a joint, a camera and so on. */
+typedef struct mesh_place {
+    double at[3];   /* in the lattice's space */
+    unsigned kinds; /* a set of PLACE_BIT */
+    size_t number;  /* by which place_name knows it */
+} mesh_place;
+#define PLACE_BIT(kind) (1u << (kind)) /* of an ffd_behind_kind */
+
+typedef struct mesh_places {
+    mesh_place *list;
+    size_t count;
+} mesh_places;
+
 typedef struct mesh_document mesh_document;
+
+/* What was found of the weights of skinned vertices. */
+typedef struct skin_weights {
+    uint64_t off;    /* vertices whose weights do not sum to 1: they are divided by their sum */
+    uint64_t none;   /* vertices whose weights are all 0: they follow their first joint */
+    double farthest; /* that a sum other than 0 is from 1 */
+} skin_weights;
 
 /* Makes arrays for the vertices and faces that are counted, and for their corners. A failure leaves nothing
    to be freed. Errors: FFD_E_MEMORY, FFD_E_LIMIT: the memory budget does not allow them. */
@@ -99,18 +145,11 @@ typedef struct mesh_save_options {
     bool force;
     ffd_resources resources;
     const char *input; /* the document's file, which a conversion must not replace; NULL or "-": none */
-    /* Gets the further files that the output holds as they are: images that are copied beside it, or are
-       there already. NULL: not wanted. */
+    /* Gets the further files that the output holds as they are: images and material libraries that are
+       copied beside it, or are there already. NULL: not wanted. */
     path_list *copied;
+    uint64_t *indices_left; /* gets how many indices in extensions cannot follow; NULL: not wanted */
 } mesh_save_options;
-
-typedef struct mesh_log {
-    ffd_log_function function; /* may be NULL */
-    void *user;
-} mesh_log;
-
-/* Sends one line to a log. Does nothing if the log is NULL or has no function. */
-void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
 
 /* x = linear p + offset, in place. */
 static inline void ffd_point_transform(const double linear[9], const double offset[3], double point[3])
@@ -121,7 +160,7 @@ static inline void ffd_point_transform(const double linear[9], const double offs
 }
 
 /* Takes the positions of a part's vertices [first, first + count) (3 doubles each) from the file's space to
-   the lattice's: x = linear p + offset. Any thread. */
+   the lattice's: x = linear p + offset. Thread-safe. */
 void ffd_part_transform(const mesh_document *document, size_t part, size_t first, size_t count,
                         double *points);
 /* The same with the vertices' own transforms, as read_transforms gives them. */
@@ -133,16 +172,30 @@ typedef ffd_status mesh_open_function(file_input *input, const ffd_source *sourc
 typedef void mesh_close_function(mesh_document *document);
 typedef ffd_status mesh_list_files_function(const mesh_document *document, path_list *files,
                                             ffd_error *error);
+typedef ffd_status mesh_find_resources_function(const char *path, path_list *files, ffd_error *error);
+typedef size_t mesh_count_beside_function(const char *input, ffd_format from, ffd_format to);
+typedef ffd_status mesh_list_beside_function(const char *output, size_t count, path_list *files,
+                                             ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
+typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_log *log, ffd_error *error);
 /* Results of vertices are written in ranges that begin at its multiples. */
 #define MESH_RANGE_STEP ((size_t)1024)
 
 typedef ffd_status mesh_check_reach_function(const mesh_document *document, const ffd_bounds *reach,
                                              ffd_error *error);
+typedef ffd_status mesh_list_places_function(const mesh_document *document, mesh_places *places,
+                                             ffd_error *error);
+typedef char *mesh_place_name_function(const mesh_document *document, size_t number);
 typedef ffd_status mesh_select_function(mesh_document *document, const mesh_selector *selectors, size_t count,
                                         ffd_error *error);
+typedef struct mesh_listing mesh_listing; /* listing.h */
+typedef ffd_status mesh_list_parts_function(const mesh_document *document, mesh_listing *listing,
+                                            ffd_error *error);
+typedef ffd_status mesh_mark_used_function(mesh_document *document, ffd_error *error);
 typedef void mesh_read_function(const mesh_document *document, size_t part, size_t first, size_t count,
                                 double *values);
+typedef void mesh_read_transforms_function(const mesh_document *document, size_t part, size_t first,
+                                           size_t count, double *transforms, skin_weights *found);
 typedef void mesh_read_offsets_function(const mesh_document *document, size_t part, size_t shape,
                                         mesh_stream stream, size_t first, size_t count, double *xyz);
 typedef ffd_status mesh_keep_base_function(mesh_document *document, const char *name, ffd_error *error);
@@ -156,6 +209,11 @@ typedef void mesh_write_offsets_function(mesh_document *document, size_t part, s
 typedef ffd_status mesh_save_function(mesh_document *document, const mesh_save_options *options,
                                       file_output *output, const mesh_log *log, ffd_error *error);
 typedef ffd_status mesh_faces_function(const mesh_document *document, mesh_faces *faces, ffd_error *error);
+typedef struct vertex_marks vertex_marks; /* mixed_faces.h */
+typedef ffd_status mesh_mixed_faces_function(const mesh_document *document, const vertex_marks *marks,
+                                             mesh_faces *faces, ffd_error *error);
+typedef uint64_t mesh_name_part_function(const mesh_document *document, uint64_t vertex, uint8_t *marks,
+                                         char *name, size_t capacity);
 typedef ffd_status mesh_corner_normals_function(const mesh_document *document, const mesh_faces *faces,
                                                 uint32_t *normals, ffd_error *error);
 typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
@@ -175,14 +233,31 @@ typedef struct mesh_format {
     mesh_list_files_function *list_files;
     /* Adds the images beside the file or below, whether they are there or not. NULL: none. */
     mesh_list_files_function *list_images;
+    /* The same, of images and of what else is copied with an output, by a look into the file at a path,
+       without opening a document. A file that cannot be read has none. NULL: nothing is copied. */
+    mesh_find_resources_function *find_resources;
+    /* Counts the files that saving a mesh as `to` writes beside its output, images not among them, by a look
+       into the file at input. What cannot be read has none. NULL: there are none. */
+    mesh_count_beside_function *count_beside;
+    /* Adds the first `count` of them. */
+    mesh_list_beside_function *list_beside;
     /* Refuses (FFD_E_UNSUPPORTED) what the parts' streams do not show as it is, before anything is embedded
        or deformed: skins, morph targets, compressed data. A document that only is to be described need not
        pass. NULL: they show all. Called by ffd_mesh_check. */
     mesh_check_function *check;
+    /* Says in a log which values of the file are not what the format has there, and what becomes of them.
+       NULL: such values are refused. Errors: FFD_E_MEMORY. Called by ffd_mesh_warn. */
+    mesh_warn_function *warn;
     double largest_coordinate; /* that the format's numbers can hold */
     /* Refuses (FFD_E_UNSUPPORTED) if, in a box of the lattice's space (edges may be infinite), the document
        shows something that its parts cannot change and that is selected. NULL: the parts are all. */
     mesh_check_reach_function *check_reach;
+    /* Lists what the file has beside vertices that stays where it is, as far as it belongs to what is
+       selected, in the order of the file. places->list is the caller's to free, also after a failure. NULL:
+       nothing. */
+    mesh_list_places_function *list_places;
+    /* The name of such a place, the caller's to free; NULL where memory runs out. */
+    mesh_place_name_function *place_name;
     bool normals_of_faces; /* faces have normals, which saving renews, and vertices none */
 
     /* From now on only what one of the selectors names is moved, counted and written: sets selected and
@@ -191,22 +266,32 @@ typedef struct mesh_format {
        the file. */
     unsigned selector_kinds;
     mesh_select_function *select;
+    /* Adds to a listing that is begun each name that select takes, with what all that have it draw, by kind
+       and in the order of the file; and each thing without a name of a kind that has names. NULL: nothing has
+       one. Errors: FFD_E_MEMORY, FFD_E_UNSUPPORTED, and what is found in the file. */
+    mesh_list_parts_function *list_parts;
 
-    /* Raw values of the file, as double: 3 a position or normal, 4 a tangent (x,y,z and the handedness). Any
-     * thread. */
+    /* Sets used of the parts that have vertices which no face, line or point names. Those whose faces cannot
+       be read keep NULL. Called once (ffd_mesh_mark_used). NULL: every vertex is in one. Errors:
+       FFD_E_MEMORY, FFD_E_LIMIT. */
+    mesh_mark_used_function *mark_used;
+
+    /* Raw values of the file, as double: 3 a position or normal, 4 a tangent (x,y,z and the
+       handedness). Thread-safe. */
     mesh_read_function *read_positions;
     mesh_read_function *read_normals;
     mesh_read_function *read_tangents;
 
-    /* Of a skinned part: 12 numbers a vertex, linear row by row and offset. NULL where no part is skinned. */
-    mesh_read_function *read_transforms;
+    /* Of a skinned part: 12 numbers a vertex, linear row by row and offset. found: NULL, or gets what its
+       weights are like added. NULL where no part is skinned. */
+    mesh_read_transforms_function *read_transforms;
 
     /* Offsets of a part's morph target to one of the streams that it has: 3 a vertex, of tangents too. NULL
        where no part has shapes. */
     mesh_read_offsets_function *read_offsets;
 
-    /* From now on the base shape stays, results are offsets of a further morph target of this name, and parts
-       show no morph targets. At most once, before begin_results. NULL: the format has no morph targets. */
+    /* From now on the base shape stays, and results are offsets of a further morph target of this name. At
+     * most once, before begin_results. NULL: the format has no morph targets. */
     mesh_keep_base_function *keep_base;
 
     /* Results. begin_results must come first: it allocates memory, and frees what an earlier deformation of
@@ -220,15 +305,26 @@ typedef struct mesh_format {
 
     mesh_write_offsets_function *write_offsets;
 
-    /* Writes the file (and what belongs to it) into output; byte-identical to the input where nothing
-     * changed. */
+    /* Writes the file (and what belongs to it) into output; byte-identical to the input
+       where nothing changed. */
     mesh_save_function *save;
+    /* Refuses what save refuses because of files other than the output's own: output is NULL, and nothing is
+       written. NULL: there are none. */
+    mesh_save_function *check_save;
 
     /* Topology and description. describe appends members to an open JSON object. */
     mesh_faces_function *faces;
-    /* The normal of each corner that faces has given, or MESH_NO_NORMAL: numbers count the normals of the
-       parts in order. Of documents with normals only. NULL: the normal of the corner's vertex, in the one
-       part. */
+    /* The faces whose vertices are not all marked alike, and perhaps others, with the positions of their
+       vertices; the rest have none that count. Vertices at one position are marked alike. Errors:
+       FFD_E_MEMORY, FFD_E_LIMIT, and what is found in the file. */
+    mesh_mixed_faces_function *mixed_faces;
+    /* Writes what shows a vertex (by its number in the document) as a selector, "node:NAME", or "" where it
+       has no name. Returns how many of its vertices are marked (a byte for each of the document), and clears
+       their marks. NULL: nothing has names. */
+    mesh_name_part_function *name_part;
+    /* The normal of each corner that faces has given, or MESH_NO_NORMAL: numbers count the normals
+       of the parts in order. Of documents with normals only. NULL: the normal of the corner's
+       vertex, in the one part. */
     mesh_corner_normals_function *corner_normals;
     /* Fills an empty model (which the caller frees in every case) with the mesh as the parts transform it,
        and with the results where there are some. */
@@ -247,13 +343,25 @@ struct mesh_document {
     size_t part_count;
     double largest_coordinate; /* that the file's numbers can hold; 0: that of the format */
     memory_budget budget;
+    mesh_flaws flaws; /* that opening has found */
+    /* Things whose faces, lines or points cannot be known (the flaws say why): they are among no faces. */
+    size_t unknown_drawings;
+    bool used_is_marked; /* ffd_mesh_mark_used was called */
     /* Set before results: they are for another format (model), not for the file, and so not rounded to the
        steps of its integers. */
     bool converted;
     /* Set before the first results, and not changed: nobody looks at what the document was before once they
        are written, so that they may replace it. */
     bool results_replace;
+    /* Set by a job: positions, normals and tangents are read as the weights of the morph targets show them,
+       and results are of these. */
+    bool shown;
+    /* Results are offsets of a morph target of its own (keep_base): the others stay. */
+    bool keeps_base;
 };
+
+/* Whether some part shows more than its own vertices. */
+bool ffd_mesh_shows_shapes(const mesh_document *document);
 
 static inline ffd_status ffd_mesh_check(const mesh_document *document, ffd_error *error)
 {
@@ -261,8 +369,23 @@ static inline ffd_status ffd_mesh_check(const mesh_document *document, ffd_error
     return format->check ? format->check(document, error) : FFD_OK;
 }
 
-/* The number of the document's vertices, in the order of `ffd embed`: parts that repeat positions do not
-   count. */
+static inline ffd_status ffd_mesh_warn(const mesh_document *document, const mesh_log *log, ffd_error *error)
+{
+    const mesh_format *format = document->format;
+    return format->warn ? format->warn(document, log, error) : FFD_OK;
+}
+
+/* Sets used of the parts, once. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+ffd_status ffd_mesh_mark_used(mesh_document *document, ffd_error *error);
+
+/* For formats: takes a byte for each of count vertices from the document's budget, all 0; to be freed with
+   ffd_free. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+ffd_status ffd_used_make(mesh_document *document, size_t count, uint8_t **used, ffd_error *error);
+/* Whether some of these bytes are 0 and some are not: else they say nothing, and are freed. */
+bool ffd_used_keep(mesh_document *document, size_t count, uint8_t **used);
+
+/* The number of the document's vertices, in the order of `ffd embed`: parts that repeat
+   positions do not count. */
 uint64_t ffd_mesh_vertex_count(const mesh_document *document);
 
 /* The number of each part's first vertex in the document; of a part that repeats positions it is that of the

@@ -1,5 +1,4 @@
-/* mesh_log.c - formats the lines of a log. */
-#include "mesh/mesh.h"
+#include "mesh/mesh_log.h"
 #include <stdarg.h>
 #include <stdio.h>
 

@@ -20,7 +20,7 @@ void ffd_model_free(mesh_model *model)
     *model = (mesh_model){0};
 }
 
-/* What is made for a corner, with its part in place of a face, and for a run with its names. */
+/* Bytes that are allocated for a corner, with its share of a face, and for a run with its names. */
 #define CORNER_BYTES (sizeof(model_corner) + sizeof(size_t) / 3 + 1)
 #define RUN_BYTES 96
 

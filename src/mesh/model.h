@@ -4,7 +4,9 @@
    the other formats are special cases of that. Positions and normals are those of the deformed scene.
 
    What a source has is noted as features. Some of them are the model's own content, others are only words for
-   what was left behind; a target says which of them it holds, and a warning names the rest. */
+   what was left behind; a target says which of them it holds, and a warning names the rest.
+
+   Main header of models: declares model.c, model_features.c, model_morph.c. */
 #ifndef FFD_MESH_MODEL_H
 #define FFD_MESH_MODEL_H
 
@@ -60,7 +62,7 @@ typedef enum model_feature {
     /* Left behind in the source. */
     MODEL_HAS_MATERIALS = 1 << 15,
     MODEL_HAS_TEXTURES = 1 << 16,
-    MODEL_HAS_MORE_TEXCOORDS = 1 << 17, /* further sets, or third coordinates */
+    MODEL_HAS_MORE_TEXCOORDS = 1 << 17, /* further sets, those of other textures, or third coordinates */
     MODEL_HAS_TANGENTS = 1 << 18,
     MODEL_HAS_FACE_COLOURS = 1 << 19,
     MODEL_HAS_SMOOTHING = 1 << 20,
@@ -82,7 +84,8 @@ typedef struct mesh_model {
     /* Where a morph target brings each position and normal; NULL: there is no target. */
     double *morph_positions, *morph_normals;
     const char *morph_name; /* of the target, lent */
-    double *colours;        /* 4 a position, red green blue alpha, 0 to 1; NULL where there are none */
+    double *colours;     /* 4 a position, red green blue alpha, 0 to 1, in sRGB; NULL where there are none */
+    bool coarse_colours; /* they were linear bytes: bytes of sRGB are as fine */
     model_list lists[MODEL_KINDS];
     model_run *runs;
     size_t run_count, run_capacity;
@@ -95,8 +98,8 @@ typedef struct mesh_model {
 /* Frees what a model holds; leaves an empty one. */
 void ffd_model_free(mesh_model *model);
 
-/* Room for values, all 0, which the caller fills in; a count of 0 makes none. Errors: FFD_E_LIMIT,
- * FFD_E_MEMORY. */
+/* Allocates values, all 0, for the caller to fill in; a count of 0 makes none. Errors:
+   FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_model_make_values(mesh_model *model, size_t positions, size_t texcoords, size_t normals,
                                  ffd_error *error);
 /* Makes all colours white where there are none yet. */
@@ -111,12 +114,12 @@ ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner 
                          ffd_error *error);
 /* Takes count * size bytes from the model's memory budget, if it has one. Errors: FFD_E_LIMIT. */
 ffd_status ffd_model_take(mesh_model *model, uint64_t count, uint64_t size, ffd_error *error);
-/* Whether so much more may be taken on the way into a file of each corner, with polygons cut into triangles,
-   and of each run. Errors: FFD_E_LIMIT. */
+/* Whether the budget allows a writer this much memory for each corner, with polygons cut into triangles, and
+   for each run. Errors: FFD_E_LIMIT. */
 ffd_status ffd_model_check_memory(const mesh_model *model, size_t corner_bytes, size_t run_bytes,
                                   ffd_error *error);
-/* Completes a model: colours on a scale of 255 are brought to that of 1; vertices alone become points; and
-   features describe the content. */
+/* Completes a model: colours that are whole numbers up to 255 are brought to the scale of 1; vertices alone
+   become points; and features describe the content. */
 ffd_status ffd_model_finish(mesh_model *model, ffd_error *error);
 
 /* Makes what the same document gave before and after it got results one model: the shape before, with a morph
@@ -149,7 +152,8 @@ bool ffd_model_texcoords_by_position(const mesh_model *model, uint32_t *numbers)
 /* The same for normals. */
 bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers);
 
-/* Whether all colours are multiples of 1/255, as nearly as a text of six digits says it. */
+/* Whether bytes hold all colours: they are multiples of 1/255, as nearly as a text of six digits says it, or
+   coarse. */
 bool ffd_model_colours_fit_bytes(const mesh_model *model);
 
 /* What a target that holds some features cannot hold of the model: "normals, materials"; "" for nothing. The

@@ -65,7 +65,7 @@ bool ffd_model_normals_by_position(const mesh_model *model, uint32_t *numbers)
 
 bool ffd_model_colours_fit_bytes(const mesh_model *model)
 {
-    for (size_t i = 0; model->colours && i < 4 * model->position_count; i++) {
+    for (size_t i = 0; model->colours && !model->coarse_colours && i < 4 * model->position_count; i++) {
         const double scaled = 255 * model->colours[i];
         if (!(scaled >= 0 && scaled <= 255 && fabs(scaled - floor(scaled + 0.5)) <= BYTE_TOLERANCE))
             return false;
@@ -73,14 +73,25 @@ bool ffd_model_colours_fit_bytes(const mesh_model *model)
     return true;
 }
 
-/* Some files have colours from 0 to 255, without a word about it. */
-static void scale_colours(mesh_model *model)
+/* Some files have colours from 0 to 255 without a word about it: all are whole, and not all are 0 or 1. */
+static bool are_bytes(const mesh_model *model)
 {
     bool large = false;
-    for (size_t i = 0; model->colours && i < model->position_count; i++)
-        for (size_t c = 0; c < 3; c++)
-            large = large || model->colours[4 * i + c] > 1;
-    for (size_t i = 0; large && i < model->position_count; i++)
+    for (size_t i = 0; model->colours && i < 4 * model->position_count; i++) {
+        const double value = model->colours[i];
+        if (i % 4 == 3 || !isfinite(value))
+            continue;
+        if (value < 0 || value > 255 || floor(value) < value)
+            return false;
+        large = large || value > 1;
+    }
+    return large;
+}
+
+static void scale_colours(mesh_model *model)
+{
+    const bool bytes = are_bytes(model);
+    for (size_t i = 0; bytes && i < model->position_count; i++)
         for (size_t c = 0; c < 4; c++)
             model->colours[4 * i + c] /= c < 3 || model->colours[4 * i + 3] > 1 ? 255 : 1;
 }
@@ -158,14 +169,16 @@ static uint32_t features_of_colours(const mesh_model *model)
     return MODEL_HAS_COLOURS;
 }
 
+/* Of finite coordinates. */
 static double largest_side(const mesh_model *model)
 {
     double largest = 0;
     for (size_t axis = 0; axis < 3; axis++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t i = 0; i < model->position_count; i++) {
-            low = fmin(low, model->positions[3 * i + axis]);
-            high = fmax(high, model->positions[3 * i + axis]);
+            const double value = model->positions[3 * i + axis];
+            low = isfinite(value) ? fmin(low, value) : low;
+            high = isfinite(value) ? fmax(high, value) : high;
         }
         largest = fmax(largest, high - low);
     }

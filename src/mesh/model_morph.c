@@ -16,16 +16,15 @@ static double *copy_vectors(const double *vectors, size_t count)
     return copy;
 }
 
-/* Both models have the same corners, but positions that met only afterwards can have one number in the
-   second, and a normal that several corners shared can have become several there: positions keep the numbers
-   of the first model, normals get those of the second. */
+/* Both models have the same corners and the same positions at them, but a normal that several corners shared
+   can have become several in the second: normals get the numbers of that one. */
 static void join_corners(mesh_model *before, const mesh_model *after, double *normals)
 {
     for (int k = 0; k < MODEL_KINDS; k++)
         for (size_t i = 0; i < before->lists[k].corner_count; i++) {
             model_corner *corner = &before->lists[k].corners[i];
             const model_corner *moved = &after->lists[k].corners[i];
-            copy_vector(after->positions, moved->position, before->morph_positions, corner->position);
+            copy_vector(after->positions, corner->position, before->morph_positions, corner->position);
             if (corner->normal != MODEL_NONE)
                 copy_vector(before->normals, corner->normal, normals, moved->normal);
             corner->normal = moved->normal;

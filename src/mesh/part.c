@@ -16,7 +16,7 @@ static void place_skinned(const mesh_document *document, size_t part, size_t fir
     double transforms[12 * BLOCK];
     for (size_t at = 0; at < count; at += BLOCK) {
         const size_t size = count - at < BLOCK ? count - at : BLOCK;
-        document->format->read_transforms(document, part, first + at, size, transforms);
+        document->format->read_transforms(document, part, first + at, size, transforms, NULL);
         ffd_points_transform(transforms, size, points + 3 * at);
     }
 }
@@ -29,6 +29,14 @@ void ffd_part_transform(const mesh_document *document, size_t part, size_t first
         place_skinned(document, part, first, count, points);
     for (size_t i = 0; i < count && !p->skinned && !p->identity; i++)
         ffd_point_transform(p->linear, p->offset, points + 3 * i);
+}
+
+bool ffd_mesh_shows_shapes(const mesh_document *document)
+{
+    for (size_t i = 0; i < document->part_count; i++)
+        if (document->parts[i].shows_shapes)
+            return true;
+    return false;
 }
 
 uint64_t ffd_mesh_vertex_count(const mesh_document *document)
@@ -52,4 +60,35 @@ ffd_status ffd_parts_number(const mesh_document *document, size_t **first, ffd_e
         number += part->repeats_positions ? 0 : part->vertex_count;
     }
     return FFD_OK;
+}
+
+ffd_status ffd_mesh_mark_used(mesh_document *document, ffd_error *error)
+{
+    if (document->used_is_marked || !document->format->mark_used)
+        return FFD_OK;
+    const ffd_status status = document->format->mark_used(document, error);
+    document->used_is_marked = status == FFD_OK;
+    return status;
+}
+
+ffd_status ffd_used_make(mesh_document *document, size_t count, uint8_t **used, ffd_error *error)
+{
+    const ffd_status status = ffd_budget_take(&document->budget, count, 1, error);
+    if (status)
+        return status;
+    *used = ffd_alloc_zero(count, 1);
+    return *used ? FFD_OK : ffd_fail_memory(error);
+}
+
+bool ffd_used_keep(mesh_document *document, size_t count, uint8_t **used)
+{
+    size_t marked = 0;
+    for (size_t i = 0; i < count; i++)
+        marked += (*used)[i];
+    if (marked > 0 && marked < count)
+        return true;
+    ffd_free(*used);
+    *used = NULL;
+    ffd_budget_return(&document->budget, count, 1);
+    return false;
 }

@@ -18,8 +18,8 @@ bool ffd_polygon_normal(const double *xyz, const uint32_t *corners, size_t count
                         double *extent);
 
 /* The interior angles of a polygon with the normal given, radians, 0 to 2 pi, into angles[count].
-   Neighbouring corners at one position count as one corner, whose angle they share equally. scratch: space
-   for count numbers. */
+   Neighbouring corners at one position count as one corner, whose angle they share equally. scratch:
+   memory for count numbers. */
 void ffd_polygon_angles(const double *xyz, const uint32_t *corners, size_t count, const double normal[3],
                         size_t *scratch, double *angles);
 

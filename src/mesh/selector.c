@@ -6,6 +6,11 @@
 /* In the order of selector_kind. */
 static const char *const kind_names[SELECTOR_KINDS] = {"node", "mesh", "material", "group", "object"};
 
+const char *ffd_selector_kind_name(selector_kind kind)
+{
+    return kind_names[kind];
+}
+
 ffd_status ffd_selector_parse(const char *text, mesh_selector *selector, ffd_error *error)
 {
     const char *colon = strchr(text, ':');

@@ -24,6 +24,9 @@ typedef struct mesh_selector {
     size_t size;
 } mesh_selector;
 
+/* "node", "mesh", ... */
+const char *ffd_selector_kind_name(selector_kind kind);
+
 /* Reads "KIND:NAME". Errors: FFD_E_ARGUMENT, with the nearest kind. */
 ffd_status ffd_selector_parse(const char *text, mesh_selector *selector, ffd_error *error);
 

@@ -52,8 +52,8 @@ void ffd_basis_derivatives_in(const knot_vector *knots, int span, double offset,
     derivatives(local, d - 1, d, offset, value, derivative);
 }
 
-/* Of knots, in lengths of a span: what is farther away makes no difference, and its products would not be
-   finite. */
+/* Of knots, in lengths of a span: what is farther away makes no difference, and its
+   products would not be finite. */
 #define FARTHEST 1e300
 
 void ffd_basis_scheme(const knot_vector *knots, int span, span_scheme *scheme)

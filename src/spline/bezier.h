@@ -9,8 +9,8 @@
    arrives at. */
 void ffd_bezier_extraction(const knot_vector *knots, int span, double matrix[MAX_ORDER * MAX_ORDER]);
 
-/* That of each non-empty span, order * order numbers one after the other; the caller's (ffd_free). NULL when
-   there is no memory. */
+/* Makes the extraction matrix of each non-empty span, order * order numbers one after the other; free with
+   ffd_free. NULL if memory runs out. */
 double *ffd_bezier_extractions(const knot_vector *knots);
 
 /* Gives row r of each of them the factor binomial(d, r): what they then make of control points is multiplied

@@ -17,10 +17,10 @@ typedef enum knot_kind {
     KNOTS_CLOSED_LIST /* the n+1 breakpoints of one period as given */
 } knot_kind;
 
-/* A closed direction is held as the equal open one: its first d control points are repeated after the last,
-   so there are functions = n + d basis functions and control point of function i is i mod n. Else functions =
-   n. All that takes knots speaks of basis functions and knots t_0 .. t_{functions+d}; the domain is [t_d,
-   t_functions]. */
+/* A closed direction is held as the equal open one: its first d control points are repeated after the
+   last, so there are functions = n + d basis functions and control point of function i is i mod n. Else
+   functions = n. All that takes knots speaks of basis functions and knots t_0 .. t_{functions+d}; the
+   domain is [t_d, t_functions]. */
 typedef struct knot_vector {
     knot_kind kind;
     int degree;
@@ -29,8 +29,8 @@ typedef struct knot_vector {
     double *t;        /* functions + degree + 1 knots */
     int *spans;       /* the non-empty spans of the domain, ascending: indices s with t_s < t_{s+1} */
     size_t span_count;
-    double *extractions; /* the weighted Bezier form of each non-empty span (bezier.h), (degree + 1)^2 numbers
-                            each */
+    double *extractions; /* the weighted Bezier form of each non-empty span (bezier.h),
+                            (degree + 1)^2 numbers each */
 } knot_vector;
 
 /* Whether the direction is periodic. */

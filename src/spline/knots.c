@@ -1,6 +1,7 @@
 #include "spline/knots.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
+#include "base/text/words.h"
 #include "spline/bezier.h"
 #include <limits.h>
 #include <math.h>
@@ -45,11 +46,12 @@ static ffd_status check_count(const knot_list *list, size_t points)
         return FFD_OK;
     if (list->closed)
         return ffd_fail(list->error, FFD_E_INVALID,
-                        "direction %c: %zu breakpoints, but %zu control points need %zu in one period",
-                        list->direction, list->count, points, needed);
+                        "direction %c: %zu %s, but %zu control points need %zu in one period",
+                        list->direction, list->count, ffd_plural(list->count, "breakpoint", "breakpoints"),
+                        points, needed);
     return ffd_fail(list->error, FFD_E_INVALID,
-                    "direction %c: %zu knots, but %zu control points of degree %d need %zu", list->direction,
-                    list->count, points, list->degree, needed);
+                    "direction %c: %zu %s, but %zu control points of degree %d need %zu", list->direction,
+                    list->count, ffd_plural(list->count, "knot", "knots"), points, list->degree, needed);
 }
 
 static ffd_status check_order(const knot_list *list)

@@ -3,7 +3,9 @@
 import json
 import os
 import shutil
+import sys
 import tempfile
+import time
 
 import lattices
 import meshes
@@ -40,6 +42,44 @@ def by_many(bench, jobs):
     return len(jobs) / programs.measure(programs.Command(command))[0]
 
 
+def by_table(bench, jobs):
+    """A row each, which gives values to the placeholders of one lattice."""
+    table, lattice = bench.path("rows.csv"), jobs[0][1]
+    with open(table, "w", encoding="ascii") as file:
+        file.write("in,out,X,Z\n")
+        file.writelines(f"{source},{target},{k / 1e5},{k / 2e5}\n" for k, (source, _, target) in enumerate(jobs))
+    command = [bench.ffd, "batch", "--csv", table, "-l", lattice, "--quiet", "--journal", bench.path("journal"),
+               *(["-j", str(bench.threads)] if bench.threads else [])]
+    return len(jobs) / programs.measure(programs.Command(command))[0]
+
+
+def by_creating(bench, jobs):
+    """Files with the bytes of the mesh, made by as many processes as the batch has workers."""
+    with open(jobs[0][0], "rb") as file:
+        content = file.read()
+    processes = bench.threads or os.cpu_count()
+    begin = time.perf_counter()
+    children = [start_creating([target for _, _, target in jobs[k::processes]], content) for k in range(processes)]
+    codes = [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children]
+    if any(codes):
+        sys.exit("could not make files")
+    return len(jobs) / (time.perf_counter() - begin)
+
+
+def start_creating(paths, content):
+    child = os.fork()
+    if child:
+        return child
+    code = 1
+    try:
+        for path in paths:
+            with open(path, "xb", buffering=0) as file:
+                file.write(content)
+        code = 0
+    finally:
+        os._exit(code)
+
+
 def by_commands(bench, jobs):
     return len(jobs) / sum(programs.measure(bench.deform(source, lattice, target=target))[0]
                            for source, lattice, target in jobs)
@@ -49,14 +89,18 @@ def rates(bench, out, ways):
     """What each way of doing its jobs reaches, in turns; the folder of outputs is empty before each.
 
     What was written stays until the benchmark ends: ext4 takes long to make files in the seconds after as many were
-    removed, for it does not give their inodes away again and looks for others.
+    removed, for it does not give their inodes away again and looks for others. Its bytes go: where too many wait for the
+    disk, whoever writes next waits too.
     """
     reached, kept = [[] for _ in ways], tempfile.mkdtemp(dir=bench.folder)
     for run in range(bench.runs):
         for number, ((way, jobs), values) in enumerate(zip(ways, reached)):
             os.mkdir(out)
             values.append(way(bench, jobs))
-            os.rename(out, os.path.join(kept, f"{run}-{number}"))
+            aside = os.path.join(kept, f"{run}-{number}")
+            os.rename(out, aside)
+            for name in os.listdir(aside):
+                os.truncate(os.path.join(aside, name), 0)
     return reached
 
 
@@ -90,14 +134,34 @@ def batch(bench):
 
 
 def sweep(bench):
-    """One mesh with many lattices of one rest volume: what sharing mesh and u,v,w brings."""
+    """One mesh with many lattices of one rest volume: what sharing mesh and u,v,w brings; and a table of placeholders on a
+    small mesh, beside how fast the machine makes as many files."""
+    large_sweep(bench)
+    rows(bench)
+
+
+def large_sweep(bench):
     side, count, out = 8 * bench.side // 25, few(bench), bench.path("outputs")
     source = bench.mesh("sweep.glb", meshes.write_glb, side)
-    bench.table.title(f"Sweep of {count} lattices over {side * side:,} vertices (GLB)")
+    bench.table.title(f"Sweep of {count} lattices of 4^3 over {side * side:,} vertices (GLB)")
     for name in bench.lattices:
+        size = 4 if name == "box" else lattices.SIZE
         jobs = [(source, lattices.write_kind(bench.path(f"sweep-{k}.json"), name,
-                                             [{"at": [1, 1, 1], "by": [0.001 * k, 0, 0]}]),
+                                             [{"at": [1, 1, 1], "by": [0.001 * k, 0, 0]}], size),
                  os.path.join(out, f"{k}.glb")) for k in range(count)]
         alone, together = rates(bench, out, [(by_commands, jobs), (by_batch, jobs)])
         row = bench.table.add(f"{name}: a command each", alone, "jobs/s")
-        bench.table.add(f"{name}: batch", together, "jobs/s", row)
+        bench.table.add(f"{name}: batch", together, "jobs/s", row, ">= 8" if name == "box" else "")
+
+
+def rows(bench):
+    count, out = 10 * bench.jobs, bench.path("outputs")
+    bench.table.title(f"Table of {count:,} rows on {SMALL ** 2:,} vertices")
+    for ending, write in (("obj", meshes.write_obj), ("glb", meshes.write_glb)):
+        source = bench.mesh("rows." + ending, write, SMALL)
+        lattice = lattices.write(bench.path("rows.json"), 4, lattices.RESTS["box"],
+                                 [lattices.TWIST, {"at": [1, 1, 1], "by": [{"$": "X"}, 0, {"$": "Z"}]}])
+        jobs = [(source, lattice, os.path.join(out, f"{k}.{ending}")) for k in range(count)]
+        made, done = rates(bench, out, [(by_creating, jobs), (by_table, jobs)])
+        row = bench.table.add(f"{ending}: files of that size made", made, "files/s")
+        bench.table.add(f"{ending}: batch", done, "jobs/s", row, ">= 2000 /s or 1")

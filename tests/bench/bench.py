@@ -28,11 +28,13 @@ SUBJECTS = {
     "start": jobs.start,
     "glb": jobs.glb,
     "sizes": jobs.sizes,
+    "blocks": jobs.blocks,
     "obj": jobs.obj,
     "peers": peers.peers,
     "attributes": jobs.attributes,
     "threads": jobs.threads,
     "inversion": jobs.inversion,
+    "tears": jobs.tears,
     "displacement": kernels.displacement,
     "embedding": kernels.embedding,
     "batch": batches.batch,
@@ -91,7 +93,7 @@ def parse():
     parser.add_argument("--threads", type=int, default=0, help="0: all cores")
     parser.add_argument("--only", nargs="+", choices=SUBJECTS, default=list(SUBJECTS), metavar="SUBJECT",
                         help=", ".join(SUBJECTS))
-    parser.add_argument("--large", type=float, metavar="GB", help="also an OBJ of so many gigabytes")
+    parser.add_argument("--large", type=float, metavar="GB", help="also an OBJ of this many gigabytes")
     parser.add_argument("--blender", metavar="PATH", help="compare Blender too")
     parser.add_argument("--folder", help="where the files are made (default: a temporary folder)")
     parser.add_argument("--csv", metavar="FILE", help="the table, with the values of all runs (of the kernels: least, median, greatest)")

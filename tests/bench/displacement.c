@@ -109,7 +109,8 @@ static void begin_cell(const sample *s, one_cell *one)
     for (size_t c = 0; c < 3 * KERNEL_BATCH; c++)
         one->uvw[c] =
             knots[c % 3].t[3] + s->uvw[c % (3 * s->count)] * (knots[c % 3].t[4] - knots[c % 3].t[3]);
-    if (!ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, use, one->numbers))
+    if (ffd_displacement_cell_points(s->lattice, ffd_extraction_kernel_scalar, number, use, one->numbers)
+            .kind != CELL_BENT)
         abort();
     ffd_displacement_cell_begin(s->lattice, number, use, one->numbers, &one->cell);
 }
@@ -135,7 +136,7 @@ static void run_kernel_once(sample *s, const one_cell *one, size_t count)
     kernels[s->isa](&one->cell, &points);
 }
 
-/* As many points as there are, a batch at a time, which all stand in the cache. */
+/* As many points as there are, a batch at a time; a batch fits the cache. */
 static void run_kernel(sample *s)
 {
     one_cell one;

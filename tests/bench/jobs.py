@@ -11,6 +11,7 @@ import programs
 from table import Row
 
 SIZES = (4, 8, 16, 32, 64)
+BLOCKS = (2, 5, 10)  # along each side
 
 
 def vertices(side):
@@ -18,13 +19,16 @@ def vertices(side):
 
 
 def start(bench):
-    """What a process costs that has next to nothing to do, beside a program that does nothing."""
+    """What a process costs that has next to nothing to do, beside a program that does nothing, started the same way. A
+    GLB loads a module and the C++ runtime."""
     source = bench.mesh("small.obj", meshes.write_points, 100)
+    small_glb = bench.mesh("small.glb", meshes.write_glb, 10)
     nothing = bench.built("nothing")
-    jobs = {"a C++ program that does nothing": (nothing and programs.Command([nothing]), ""),
-            "ffd --version": (programs.Command([bench.ffd, "--version"]), "< 5 ms"),
-            "100 vertices, box": (bench.deform(source, bench.lattices["box"]), "< 8 ms"),
-            "100 vertices, warped": (bench.deform(source, bench.lattices["warped"]), "< 8 ms")}
+    jobs = {"a C program that does nothing": (nothing and programs.Command([nothing]), ""),
+            "ffd --version": (programs.Command([bench.ffd, "--version"]), "<= 1.6" if nothing else ""),
+            "100 vertices, box": (bench.deform(source, bench.lattices["box"]), "<= 2.5" if nothing else ""),
+            "100 vertices, warped": (bench.deform(source, bench.lattices["warped"]), "< 8 ms"),
+            "100 vertices, box, GLB": (bench.deform(small_glb, bench.lattices["box"]), "< 8 ms")}
     jobs = {name: (command, bar) for name, (command, bar) in jobs.items() if command}
     bench.table.title("Start")
     samples = programs.in_turns([command for command, _ in jobs.values()], 6 * bench.runs + 1)
@@ -70,6 +74,25 @@ def sizes(bench):
         row = bench.table.add(f"{size}^3: whole process", sample.seconds, "s", process)
         cost = bench.table.add(f"{size}^3: a vertex", costs, "ns", vertex, "<= 1.5" if vertex else "")
         process, vertex = process or row, vertex or cost
+
+
+def blocks(bench):
+    """What the number of blocks costs (--blocks), 8 to 1,000 of 4^3 control points side by side, one thread: a vertex,
+    as above. The bar is how the logarithm grows."""
+    small = bench.mesh("small.obj", meshes.write_points, 100)
+    paths = [lattices.write_blocks(bench.path(f"block{side}"), side) for side in BLOCKS]
+    whole, starts = (programs.in_turns([bench.deform(source, first, "--blocks", *(word for path in more for word in ("-l", path)),
+                                                     threads=1) for first, *more in paths], bench.runs)
+                     for source in (bench.glb(), small))
+    bench.table.title("Blocks (GLB, boxes, one thread)")
+    least = None
+    for side, sample, begun in zip(BLOCKS, whole, starts):
+        bench.table.add(f"{side ** 3} blocks: 100 vertices", begun.seconds, "s")
+        beginning = statistics.median(begun.seconds)
+        costs = [1e9 * (seconds - beginning) / bench.side ** 2 for seconds in sample.seconds]
+        bar = f"<= {math.log(side) / math.log(BLOCKS[0]):.1f}" if least else ""
+        row = bench.table.add(f"{side ** 3} blocks: a vertex", costs, "ns", least, bar)
+        least = least or row
 
 
 def attributes(bench):
@@ -127,13 +150,29 @@ def inversion(bench):
                                            for seconds in longer], "M/s", bar=">= 1 M/s (2)")
 
 
+def tears(bench):
+    """What it costs to count torn edges: a lattice that leaves a twentieth of the vertices outside, beside one that holds
+    all."""
+    bench.table.title(f"Torn edges ({vertices(bench.side)})")
+    cut = lattices.write_cut(bench.path("cut.json"))
+    for kind, source in ((".glb", bench.glb()), (".obj", bench.obj()),
+                         (".ply, ascii", bench.mesh("ascii.ply", meshes.write_ply, bench.side)),
+                         (".ply, binary", bench.mesh("binary.ply", meshes.write_binary_ply, bench.side)),
+                         (".off", bench.mesh("in.off", meshes.write_off, bench.side))):
+        whole, partly = programs.in_turns([bench.deform(source, bench.lattices["box"]), bench.deform(source, cut)], bench.runs)
+        row = bench.table.add(f"{kind}: all inside", whole.seconds, "s")
+        bench.table.add(f"{kind}: 5 % outside", partly.seconds, "s", row, "<= 1.3")
+        row = bench.table.add(f"{kind}: all inside, peak memory", whole.megabytes, "MB")
+        bench.table.add(f"{kind}: 5 % outside, peak memory", partly.megabytes, "MB", row, "<= 1.1")
+
+
 def large(bench):
     """Time and memory of a file of many gigabytes, once."""
     bench.table.title(f"Large OBJ, {bench.large:g} GB, --normals keep")
     # The file, its result, and positions that are put aside (README.md, Limits).
     needed, free = 2.5 * bench.large, shutil.disk_usage(bench.folder).free / 1e9
     if free < needed:
-        bench.table.say(f"  too little room in {bench.folder}: {free:.1f} GB of {needed:.1f} GB (see --folder)")
+        bench.table.say(f"  too little disk space in {bench.folder}: {free:.1f} GB of {needed:.1f} GB (see --folder)")
         return
     source = bench.mesh("large.obj", meshes.write_large_obj, bench.side, bench.large * 1e9)
     sample, = programs.in_turns([bench.deform(source, bench.lattices["box"], "--normals", "keep")], 1)

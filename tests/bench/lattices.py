@@ -28,13 +28,31 @@ def write(path, size, rest, moves):
     return path
 
 
-def write_kind(path, kind, more=()):
-    """8 x 8 x 8, a box or warped, with more moves."""
-    push = {"at": [[2, 5], [2, 5], [4, 7]], "by": [0.3, 0.2, 0.5]}
-    return write(path, SIZE, RESTS[kind], [TWIST, push, *more])
+def write_kind(path, kind, more=(), size=SIZE):
+    """8 x 8 x 8, a box (which may have another size) or warped, with more moves."""
+    middle, last = [size // 4, size - size // 4 - 1], size - 1
+    push = {"at": [middle, middle, [size // 2, last]], "by": [0.3, 0.2, 0.5]}
+    return write(path, size, RESTS[kind], [TWIST, push, *more])
+
+
+def write_cut(path):
+    """The box without the last twentieth of the meshes along x."""
+    box = {"min": BOX["min"], "max": [9.5, *BOX["max"][1:]]}
+    return write(path, SIZE, {"box": box}, [TWIST])
 
 
 def write_box(path, size):
     last = size - 1
     push = {"at": [[1, last], [1, last], [last // 2, last]], "by": [0.3, 0.2, 0.5]}
     return write(path, size, RESTS["box"], [TWIST, push])
+
+
+def write_blocks(stem, side):
+    """side^3 boxes of 4 x 4 x 4 that share faces and fill BOX, as files that begin with stem."""
+    low, high = BOX["min"], BOX["max"]
+    paths = []
+    for number in range(side ** 3):
+        place = number % side, number // side % side, number // side ** 2
+        ends = [[a + (b - a) * (i + end) / side for a, b, i in zip(low, high, place)] for end in (0, 1)]
+        paths.append(write(f"{stem}-{number}.json", 4, {"box": {"min": ends[0], "max": ends[1]}}, [{"by": [0.3, 0.2, 0.5]}]))
+    return paths

@@ -1,4 +1,4 @@
-"""The meshes that are deformed: wavy squares of side x side vertices with normals, as GLB or OBJ."""
+"""The meshes that are deformed: wavy squares of side x side vertices with normals, as GLB, OBJ or PLY; without, as OFF."""
 
 import array
 import json
@@ -125,6 +125,51 @@ def write_large_obj(path, side, size):
     with open(path, "wb") as file:
         for _ in range(math.ceil(size / len(text))):
             file.write(text)
+
+
+PLY_HEAD = """ply
+format {} 1.0
+element vertex {}
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+element face {}
+property list uchar int vertex_indices
+end_header
+"""
+
+
+def write_ply(path, side):
+    positions, normals = surface(side)
+    indices = triangles(side)
+    with open(path, "w", encoding="ascii", buffering=1 << 22) as file:
+        file.write(PLY_HEAD.format("ascii", side * side, len(indices) // 3))
+        for k in range(0, len(positions), 3):
+            file.write("%.6f %.6f %.6f %.5f %.5f %.5f\n" % (*positions[k:k + 3], *normals[k:k + 3]))
+        file.writelines("3 %d %d %d\n" % tuple(indices[k:k + 3]) for k in range(0, len(indices), 3))
+
+
+def write_binary_ply(path, side):
+    positions, normals = surface(side)
+    indices = triangles(side)
+    with open(path, "wb", buffering=1 << 22) as file:
+        file.write(PLY_HEAD.format("binary_little_endian", side * side, len(indices) // 3).encode("ascii"))
+        for k in range(0, len(positions), 3):
+            file.write(struct.pack("<6f", *positions[k:k + 3], *normals[k:k + 3]))
+        for k in range(0, len(indices), 3):
+            file.write(struct.pack("<B3i", 3, *indices[k:k + 3]))
+
+
+def write_off(path, side):
+    positions, _ = surface(side)
+    indices = triangles(side)
+    with open(path, "w", encoding="ascii", buffering=1 << 22) as file:
+        file.write(f"OFF\n{side * side} {len(indices) // 3} 0\n")
+        file.writelines("%.6f %.6f %.6f\n" % tuple(positions[k:k + 3]) for k in range(0, len(positions), 3))
+        file.writelines("3 %d %d %d\n" % tuple(indices[k:k + 3]) for k in range(0, len(indices), 3))
 
 
 def write_points(path, count):

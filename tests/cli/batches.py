@@ -5,11 +5,11 @@ import os
 import re
 import subprocess
 
-from harness import CUBE, FFD, NO, OK, case, check, equal, lattice, main  # noqa: F401 (handed on)
+from harness import CUBE, FFD, NO, OK, SANITIZED, case, check, equal, lattice, main  # noqa: F401 (handed on)
 
 SUMMARY = re.compile(r"(\d+) jobs? in [\d.]+ s: (\d+) (done|to do), (\d+) up to date, (\d+) failed(.*)$")
-with open(FFD, "rb") as program:
-    SANITIZED = re.search(b"__[at]san_init", program.read()) is not None
+# What stands before a message of a job: its line, and the values that it sets.
+PLACE = re.compile(r"[\w./ -]+\.(?:jsonl|csv):\d+: (?:\w+=[^:]*: )?")
 PROGRESS = re.compile(r"\d+ jobs?, \d+ failed, [\d.]+/s(, .* left)?$")  # a line every ten seconds
 MOVE = [{"by": [0.5, 0.25, 0.125]}]
 
@@ -33,7 +33,10 @@ def start(run, jobs=()):
 
 def batch(run, *arguments, done=0, kept=0, failed=(), more=None, code=None, **options):
     """Runs ffd batch and checks the summary and the lines before it: one for each failure, matched by the patterns
-    in failed, in any order. more: what the summary must end with."""
+    in failed, in any order, with or without its place. more: what the summary must end with."""
+    def matches(pattern, line):
+        return re.search(pattern, line) or re.search(pattern, PLACE.sub("", line, count=1))
+
     def judge(said):
         check(said, "there is no summary")
         summary = SUMMARY.match(said[-1])
@@ -42,8 +45,10 @@ def batch(run, *arguments, done=0, kept=0, failed=(), more=None, code=None, **op
         equal(counts, [done + kept + len(failed), done, kept, len(failed)], f"jobs, done, up to date, failed of {said}")
         rest = [line for line in said[:-1] if not SUMMARY.match(line) and not PROGRESS.match(line)]
         # Patterns that match many lines come last.
-        for pattern in sorted(failed, key=lambda pattern: sum(bool(re.search(pattern, line)) for line in rest)):
-            found = [line for line in rest if re.search(pattern, line)]
+        if any(name.endswith((".jsonl", ".csv")) for name in arguments[:2]):
+            equal([line for line in rest if not PLACE.match(line)], [], "lines that do not name their job")
+        for pattern in sorted(failed, key=lambda pattern: sum(bool(matches(pattern, line)) for line in rest)):
+            found = [line for line in rest if matches(pattern, line)]
             check(found, pattern, "is in none of", rest)
             rest.remove(found[0])
         equal(rest, [], "lines that say something else")

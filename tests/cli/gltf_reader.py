@@ -143,7 +143,7 @@ def check_bounds(file, index):
 
 
 def check_rest(before, after):
-    """All that a deformation must leave alone is as it was; what it adds stands at the end."""
+    """All that a deformation must leave alone is as it was; what it adds is at the end."""
     old, new = before.asset, after.asset
     changeable = ("buffers", "bufferViews", "accessors", "meshes", "nodes", "extensionsUsed", "extensionsRequired")
     equal(without(new, *changeable), without(old, *changeable), "the top of the JSON")

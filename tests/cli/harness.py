@@ -8,6 +8,7 @@ Most runs are forked from a process that has the program loaded (driver.py, FFD_
 started for the first run of each command with each exit code in each test file, for ffd batch, whose workers are
 processes of the program, and where a run has options of its own: another environment, a limit, descriptors."""
 
+import glob
 import itertools
 import json
 import math
@@ -29,12 +30,23 @@ SECONDS = 120
 # What a glTF's output stores otherwise than its input is said at the end, a line a kind.
 ANNOUNCED = re.compile("deformed differently under other nodes$|(is|are) stored as floats|(is|are) written uncompressed")
 NOBODY = 65534
+LEFTOVER = re.compile(r"\.ffd-(tmp|old|set)$")
+
+
+def announce(pattern):
+    """From now on lines that the pattern matches do not count either: another file has their subject."""
+    global ANNOUNCED
+    ANNOUNCED = re.compile(f"{ANNOUNCED.pattern}|{pattern}")
+
 
 OK, NO, USAGE, IO, INVALID, EMBEDDING, UNSUPPORTED, LIMIT = range(8)
 
 # In the program, memory that was not written holds what nobody expects. Meson asks for that in every process of a
 # test; in this one it takes more time than all else.
 os.environ["MALLOC_PERTURB_"] = os.environ.get("FFD_PERTURB") or str(random.randrange(1, 256))
+
+with open(FFD, "rb") as _program:
+    SANITIZED = re.search(b"__[at]san_init", _program.read()) is not None
 
 _cases = []
 _driver = Driver(os.environ["FFD_DRIVER"]) if os.environ.get("FFD_DRIVER") else None
@@ -44,6 +56,12 @@ _seen = set()  # commands with exit codes
 def case(function):
     _cases.append(function)
     return function
+
+
+def repetitions(count):
+    """Of so many repetitions, those that are worth their time: a sanitizer takes up to twenty times as long, and the
+    same code with other numbers shows it nothing new."""
+    return (count + 9) // 10 if SANITIZED else count
 
 
 def check(condition, *shown):
@@ -176,7 +194,7 @@ class Run:
     def check_no_leftovers(self):
         for folder, _, names in os.walk(self.folder):
             for name in names:
-                check("ffd-tmp" not in name, f"{os.path.join(folder, name)} was left")
+                check(not LEFTOVER.search(name), f"{os.path.join(folder, name)} was left")
 
     def reports(self, arguments):
         """The files that are named as reports, each with what tells it from another of that name; "-" too."""
@@ -190,15 +208,16 @@ class Run:
             content = out if name == "-" else self.read(name) if file != before[name] else None
             if content and content.lstrip().startswith(b"{"):
                 from report_schema import faults  # not for the tests that write none
+                if name.endswith(".jsonl"):  # as a whole report: its entries are those of one
+                    content = b'{"format": "ffd-report", "version": 1, "jobs": [' + content.strip().replace(b"\n", b",") + b"]}"
                 equal(faults(content), [], f"ffd {' '.join(arguments)}: its report against the schema")
 
     def unprivileged(self):
         """Options with which ffd runs as a user that is not root, or None where that cannot be had. The folder
         is opened for all."""
-        program = self.path("ffd-for-all")
+        program = self.path("ffd-for-all/ffd")
         if not os.path.exists(program):
-            shutil.copy(FFD, program)
-            os.chmod(program, 0o755)
+            copy_program(self.path("ffd-for-all"))
             os.chmod(self.folder, 0o755)
         if os.geteuid() != 0:
             return {"program": program}
@@ -209,6 +228,21 @@ class Run:
         except (OSError, subprocess.SubprocessError):
             return None
         return options
+
+
+def modules():
+    """The files that the program loads when it needs them, where it was built."""
+    return sorted(glob.glob(os.path.join(os.path.dirname(os.path.dirname(FFD)), "ffd-*.so")))
+
+
+def copy_program(folder):
+    """Makes a folder with the program and, as they are installed beside a library, its modules; returns the program."""
+    os.makedirs(os.path.join(folder, "ffd-0"))
+    for path in [FFD, *modules()]:
+        target = os.path.join(folder, "" if path == FFD else "ffd-0", os.path.basename(path))
+        shutil.copy(path, target)
+        os.chmod(target, 0o755)
+    return os.path.join(folder, "ffd")
 
 
 def lattice(size=(4, 4, 4), low=(-2, -2, -2), high=(2, 2, 2), moves=(), **members):
@@ -265,6 +299,10 @@ def npy(data):
     if len(shape) == 2:
         values = [values[i:i + shape[1]] for i in range(0, count, shape[1])]
     return descr, shape, values
+
+
+# How an image begins, without which it is not copied.
+PNG = b"\x89PNG\r\n\x1a\n"
 
 
 def pad(data, filler):

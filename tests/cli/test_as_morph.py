@@ -2,6 +2,7 @@
 """ffd deform --as-morph: the base stays, and the deformation is a further morph target."""
 
 import json
+import re
 import struct
 
 from gltf_build import SHEAR, SHIFT, Scene, vectors
@@ -19,11 +20,22 @@ def plain(**members):
     return scene
 
 
-def morphed(run, scene, *options, box=SHEAR, name="bent", **expected):
+def run_morphed(run, scene, *options, box=SHEAR, name="bent", **expected):
     run.write("in.glb", scene.glb())
     run.write("l.json", box)
-    run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--as-morph", name, *options, **expected)
+    return run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--as-morph", name, *options, **expected)
+
+
+def morphed(run, scene, *options, **expected):
+    run_morphed(run, scene, *options, **expected)
     return run.read("out.glb")
+
+
+def stored(asset, data, number):
+    """An accessor with its bytes."""
+    accessor = asset["accessors"][number]
+    view = asset["bufferViews"][accessor["bufferView"]]
+    return accessor, data[view.get("byteOffset", 0):view.get("byteOffset", 0) + view["byteLength"]]
 
 
 def sheared(p):
@@ -68,13 +80,99 @@ def the_target_is_the_difference(run):
 
 @case
 def nothing_moves(run):
+    """A zero shape has its target too, in every mesh: shapes made by one pipeline have the same names."""
     scene = plain()
-    far = lattice(low=(50, 50, 50), high=(60, 60, 60), moves=[{"by": [1, 0, 0]}])
+    scene.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": 0}, "mode": 0}]})
+    scene.asset["nodes"].append({"mesh": 1, "name": "second"})
+    scene.asset["scenes"][0]["nodes"].append(1)
     run.write("in.glb", scene.glb())
-    run.write("l.json", far)
-    done = run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", "--as-morph", "x", lines=2)
-    equal(done.err[1], "in.glb: nothing moves: no morph target is added")
-    equal(run.read("out.glb"), run.read("in.glb"))
+    run.write("l.json", lattice(low=(50, 50, 50), high=(60, 60, 60), moves=[{"by": [1, 0, 0]}]))
+    run.write("still.json", lattice(low=(-9, -9, -9), high=(9, 9, 9)))
+    for name, lines in (("l.json", 2), ("still.json", 1)):
+        done = run.ffd("deform", "in.glb", "out.glb", "-l", name, "--as-morph", "x", "--force", lines=lines)
+        equal(done.err[-1], "in.glb: no vertex moves: all offsets of the morph target are 0")
+        asset, data = glb_split(run.read("out.glb"))
+        old, old_data = glb_split(run.read("in.glb"))
+        equal((asset["accessors"][:3], data), (old["accessors"], old_data), "the base")
+        for mesh in asset["meshes"]:
+            equal((mesh["weights"], mesh["extras"]), ([0], {"targetNames": ["x"]}))
+            for number in mesh["primitives"][0]["targets"][0].values():
+                zeros = asset["accessors"][number]
+                equal((zeros["count"], zeros["type"], "bufferView" in zeros), (2, "VEC3", False), "no bytes: all zeros")
+    run.ffd("deform", "in.glb", "part.glb", "-l", "still.json", "--as-morph", "x", "--only", "node:second", lines=1)
+    equal(["weights" in mesh for mesh in glb_split(run.read("part.glb"))[0]["meshes"]], [False, True], "what --only selects")
+
+
+@case
+def a_target_of_the_name_is_replaced(run):
+    """Its place, its weights and the animations of them stay, and so does every other target. What no longer moves gets
+    zeros: an old shape under the name would be wrong."""
+    scene = plain()
+    far = scene.add([[90.0, 0.0, 0.0]], bounds=True)
+    scene.asset["meshes"].append({"primitives": [{"attributes": {"POSITION": far}, "mode": 0}]})
+    scene.asset["nodes"].append({"mesh": 1})
+    scene.asset["scenes"][0]["nodes"].append(1)
+    for mesh, count in zip(scene.asset["meshes"], (2, 1)):
+        mesh["primitives"][0]["targets"] = [{"POSITION": scene.add([[float(t), 7.0, 0.0]] * count, bounds=True)} for t in range(3)]
+        mesh.update(weights=[0.25, 0.5, 0.75], extras={"targetNames": ["a", "bent", "c"]})
+    times = scene.add([[0.0], [1.0]], shape="SCALAR", min=[0], max=[1])
+    scene.asset["animations"] = [{
+        "channels": [{"sampler": 0, "target": {"node": 0, "path": "weights"}}],
+        "samplers": [{"input": times, "output": scene.add([[float(v)] for v in range(6)], shape="SCALAR")}]}]
+    told = [f"in.glb: mesh {m} has a morph target of that name already: it is replaced" for m in range(2)]
+    done = run_morphed(run, scene, lines=3)
+    equal([line for line in done.err if "already" in line], told)
+    asset, data = glb_split(run.read("out.glb"))
+    old, old_data = glb_split(run.read("in.glb"))
+    equal(asset["animations"], old["animations"])
+    equal(len(data), len(old_data) + 2 * 24, "offsets of normals and tangents are new, and nothing else")
+    replaced = [mesh["primitives"][0]["targets"][1]["POSITION"] for mesh in old["meshes"]]
+    for number in range(len(old["accessors"])):
+        if number not in replaced:
+            equal(stored(asset, data, number), stored(old, old_data, number), f"accessor {number}")
+    for m, mesh in enumerate(asset["meshes"]):
+        equal((mesh["weights"], mesh["extras"]), ([0.25, 0.5, 0.75], {"targetNames": ["a", "bent", "c"]}))
+        targets, were = mesh["primitives"][0]["targets"], old["meshes"][m]["primitives"][0]["targets"]
+        equal([targets[0], targets[2], len(targets)], [were[0], were[2], 3])
+    bent = asset["meshes"][0]["primitives"][0]["targets"][1]
+    near(gltf_vectors(asset, data, bent["POSITION"]), [sheared(p) for p in POINTS], 1e-6)
+    equal(list(bent), ["POSITION", "NORMAL", "TANGENT"])
+    zeros = asset["accessors"][asset["meshes"][1]["primitives"][0]["targets"][1]["POSITION"]]
+    equal((zeros["min"], zeros["max"], zeros["count"]), ([0, 0, 0], [0, 0, 0], 1))
+    equal(gltf_vectors(asset, data, asset["meshes"][1]["primitives"][0]["targets"][1]["POSITION"]), [[0, 0, 0]])
+    # The same once more changes nothing; other moves leave a file of the same size.
+    first = run.read("out.glb")
+    run.ffd("deform", "out.glb", "again.glb", "-l", "l.json", "--as-morph", "bent", "-q")
+    equal(run.read("again.glb"), first)
+    run.write("other.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [0, 0.5, 0]}]))
+    run.ffd("deform", "out.glb", "--in-place", "-l", "other.json", "--as-morph", "bent", "-q")
+    asset, data = glb_split(run.read("out.glb"))
+    equal((len(asset["accessors"]), len(data)), (len(glb_split(first)[0]["accessors"]), len(glb_split(first)[1])))
+    near(gltf_vectors(asset, data, asset["meshes"][0]["primitives"][0]["targets"][1]["POSITION"]), [[0, 0.5, 0]] * 2, 1e-7)
+
+
+@case
+def a_replaced_target_shares_its_offsets_with_nothing(run):
+    """Offsets that another target or a node that is not selected shows stay as they are."""
+    scene = plain()
+    shared = scene.add([[5.0, 5.0, 5.0]] * 2, bounds=True)
+    scene.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": shared} for _ in range(2)]
+    scene.asset["meshes"][0].update(extras={"targetNames": ["a", "bent"]}, weights=[0, 1])
+    asset, data = glb_split(morphed(run, scene, lines=1))
+    targets = asset["meshes"][0]["primitives"][0]["targets"]
+    equal((targets[0]["POSITION"], gltf_vectors(asset, data, shared)), (shared, [[5, 5, 5]] * 2))
+    near(gltf_vectors(asset, data, targets[1]["POSITION"]), [sheared(p) for p in POINTS], 1e-6)
+    # Two nodes show the mesh, and one is deformed: the other keeps its shape.
+    scene = plain()
+    own = scene.add([[5.0, 5.0, 5.0]] * 2, bounds=True)
+    scene.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": own}]
+    scene.asset["meshes"][0].update(extras={"targetNames": ["bent"]})
+    scene.asset["nodes"] = [{"mesh": 0, "name": "one"}, {"mesh": 0, "name": "two"}]
+    scene.asset["scenes"][0]["nodes"] = [0, 1]
+    asset, data = glb_split(morphed(run, scene, "--only", "node:two", lines=1))
+    found = [asset["meshes"][node["mesh"]]["primitives"][0]["targets"][0]["POSITION"] for node in asset["nodes"]]
+    equal((found[0], gltf_vectors(asset, data, own)), (own, [[5, 5, 5]] * 2))
+    near(gltf_vectors(asset, data, found[1]), [sheared(p) for p in POINTS], 1e-6)
 
 
 @case
@@ -103,11 +201,13 @@ def other_targets_and_their_names_stay(run):
     equal(found["extras"], {"targetNames": ["a", "target_1", "bent"]})
     found = mesh(scene_with(1, extras={"targetNames": ["a", "left over", "c"]}))
     equal(found["extras"], {"targetNames": ["a", "bent", "c"]})
-    found = mesh(scene_with(1, extras={}, weights=[]))
+    found = mesh(scene_with(1, extras={}, weights=[]), err=re.compile("default weights of mesh 0"))
     equal((found["weights"], found["extras"]), ([0], {"targetNames": ["target_0", "bent"]}))
     found = mesh(scene_with(0, extras=[1]), err="in.glb: mesh 0: its extras cannot hold the name of the morph target")
     equal(found["extras"], [1])
-    mesh(scene_with(1, extras={"targetNames": ["bent"]}), err="in.glb: mesh 0 already has a morph target of that name")
+    # A name beyond the targets is that of none.
+    found = mesh(scene_with(1, extras={"targetNames": ["a", "bent"]}))
+    equal(found["extras"], {"targetNames": ["a", "bent"]})
     found = json.loads(json.dumps(glb_split(morphed(run, plain(), name='b"\\\u00e4'))[0]))["meshes"][0]
     equal(found["extras"]["targetNames"], ['b"\\\u00e4'])
 
@@ -184,6 +284,25 @@ def animations_of_weights_go_on(run):
 
 
 @case
+def pointers_to_all_weights_go_on(run):
+    """KHR_animation_pointer: rows of all weights get one for the new target; a single weight does not."""
+    scene = plain()
+    scene.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": scene.add([[0.0] * 3] * 2, bounds=True)}
+                                                            for _ in range(2)]
+    times = scene.add([[0.0], [1.0]], shape="SCALAR", min=[0], max=[1])
+    rows = scene.add([[v] for v in (1.0, 2.0, 3.0, 4.0)], shape="SCALAR")
+    pointers = ["/meshes/0/weights", "/nodes/0/weights", "/meshes/0/weights/1"]
+    scene.asset["animations"] = [{
+        "channels": [{"sampler": i, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": p}}}}
+                     for i, p in enumerate(pointers)],
+        "samplers": [{"input": times, "output": rows}, {"input": times, "output": rows}, {"input": times, "output": times}]}]
+    asset, data = glb_split(morphed(run, scene))
+    animation = asset["animations"][0]
+    equal(animation["channels"], scene.asset["animations"][0]["channels"])
+    equal([floats(asset, data, s["output"]) for s in animation["samplers"]], [[1, 2, 0, 3, 4, 0]] * 2 + [[0, 1]])
+
+
+@case
 def what_cannot_have_one(run):
     run.write("cube.obj", CUBE)
     run.write("l.json", SHIFT)
@@ -199,7 +318,7 @@ def what_cannot_have_one(run):
 @case
 def conversions_have_one_too(run):
     """The base is the mesh as the input has it; base and target together are the deformed mesh."""
-    # Two corners share a normal and stand at other places, so that in the target it becomes two.
+    # Two corners at different positions share a normal, so that in the target it becomes two.
     obj = ("o one\nv 1 2 0\nv 2 -4 1\nv 0 1 1\nvn 0.6 0.8 0\nf 1//1 2//1 3//1\n"
            "o two\nv 90 0 0\nv 91 0 0\nv 90 1 0\nf 4 5 6\n")
     points = [[1, 2, 0], [2, -4, 1], [0, 1, 1]]
@@ -228,7 +347,7 @@ def conversions_have_one_too(run):
     bounds = asset["accessors"][target["POSITION"]]
     equal((bounds["min"], bounds["max"]), ([min(v[a] for v in offsets) for a in range(3)],
                                           [max(v[a] for v in offsets) for a in range(3)]))
-    # The file goes on as any other, from other formats too; where nothing moves there is no target.
+    # The file goes on as any other, from other formats too; where nothing moves every mesh has a target of zeros.
     run.ffd("deform", "out.glb", "more.glb", "-l", "l.json", "--as-morph", "more", lines=1)
     equal(glb_split(run.read("more.glb"))[0]["meshes"][0]["extras"], {"targetNames": ["bent", "more"]})
     for source in ("a.stl", "a.ply", "a.off"):
@@ -239,8 +358,14 @@ def conversions_have_one_too(run):
         target = asset["meshes"][0]["primitives"][0]["targets"][0]["POSITION"]
         near(gltf_vectors(asset, data, target)[:3], [sheared(p) for p in points], 1e-7)
     run.ffd("deform", "in.obj", "only.glb", "-l", "l.json", "--as-morph", "bent", "--only", "object:two", lines=2)
+    asset, data = glb_split(run.read("only.glb"))
+    for mesh in asset["meshes"]:
+        equal((mesh["weights"], mesh["extras"]), ([0], {"targetNames": ["bent"]}))
+        equal(gltf_vectors(asset, data, mesh["primitives"][0]["targets"][0]["POSITION"]), [[0, 0, 0]] * 3)
     run.ffd("deform", "in.obj", "still.glb", "-l", "still.json", lines=1)
-    equal(run.read("only.glb"), run.read("still.glb"))
+    whole, whole_data = glb_split(run.read("still.glb"))
+    equal([gltf_vectors(asset, data, m["primitives"][0]["attributes"]["POSITION"]) for m in asset["meshes"]],
+          [gltf_vectors(whole, whole_data, m["primitives"][0]["attributes"]["POSITION"]) for m in whole["meshes"]], "the base")
 
 
 @case

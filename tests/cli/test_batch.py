@@ -4,9 +4,10 @@
 
 import json
 import os
+import re
 
 from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, names, report, start, statuses
-from harness import CUBE, IO, NO, OK, USAGE
+from harness import CUBE, INVALID, IO, NO, OK, USAGE
 
 
 def expected(run, name="a.obj", *options, lattices=("l.json",)):
@@ -38,9 +39,34 @@ def names_are_relative_to_the_manifest(run):
                                   {"in": "../a.obj", "lattice": "../l.json", "out": "../d.obj"}]))
     batch(run, "deep/m", done=3)
     equal([run.read(n) for n in ("deep/out/b.obj", "deep/out/c.obj", "d.obj")], [expected(run)] * 3)
-    # Standard input stands in the folder that ffd runs in.
+    # Paths on standard input are relative to the folder that ffd runs in.
     batch(run, "-", done=1, stdin=lines_of([job(7)]).encode())
     equal(run.read("o7.obj"), expected(run))
+
+
+def no_jobs(run, name, *words):
+    """An end without failure that says that there was nothing to do."""
+    def judge(said):
+        equal(said[:-1], [f"{name}: has no jobs"])
+        check(said[-1].startswith("0 jobs in "), said)
+    run.ffd("batch", name, *words, err=judge)
+
+
+@case
+def a_text_without_jobs_is_said(run):
+    start(run, [job(0)])
+    run.write("blank.jsonl", "\r\n \n\t\r\r")
+    no_jobs(run, "blank.jsonl")
+    no_jobs(run, "blank.jsonl", "--dry-run", "--shard", "1/2")
+    run.ffd("batch", "blank.jsonl", "--quiet", err=[])
+    # A shard without a job of its own is none of these.
+    batch(run, "m.jsonl", "--shard", "1/2")
+    for zeros in (b"\0", b"\0" * 5000 + b"\n", b"\n\0\0\r\n" + lines_of([job(0)]).encode()):
+        run.write("zeros.jsonl", zeros)
+        run.ffd("batch", "zeros.jsonl", code=INVALID, err=re.compile(r"^zeros\.jsonl:[12]: NUL bytes, and no job before them$"))
+    # Behind a job they are lines that are not valid.
+    run.write("m.jsonl", lines_of([job(0)]).encode() + b"\0\0\n" + lines_of([job(1)]).encode())
+    batch(run, "m.jsonl", done=2, failed=["not valid JSON"])
 
 
 @case
@@ -52,7 +78,7 @@ def what_lines_may_look_like(run):
     batch(run, "m.jsonl", "--report", "r.json", done=4)
     equal([(e["line"], e["output"]) for e in report(run)], [(1, "o0.obj"), (4, "o1.obj"), (6, "o2.obj"), (7, "o3.obj")])
     run.write("empty", "")
-    batch(run, "empty", "--report", "r.json")
+    no_jobs(run, "empty", "--report", "r.json")
     equal(report(run), [])
     run.write("a\u00e4 \u4e2d.obj", CUBE)
     batch(run, "-", done=1, stdin=lines_of([job(9, **{"in": "a\u00e4 \u4e2d.obj"})]).encode())
@@ -71,16 +97,16 @@ BAD_LINES = [
     (b'{"in": "a.obj", "lattice": "l.json", "out": "x.obj"}\0', "not valid JSON"),
     ("null", ""), ("3", ""), ("[]", "a job is an object"), ("{}", '"in" is missing'),
     ({"in": "a.obj", "out": "x.obj"}, '"lattice" is missing'), ({"in": "a.obj", "lattice": "l.json"}, '"out" is missing'),
-    ({**job(), "in": 3}, '"in"'), ({**job(), "in": ["a.obj"]}, '"in"'), ({**job(), "in": ""}, '"in"'), ({**job(), "in": "-"}, '"in"'),
-    ({**job(), "out": None}, '"out"'), ({**job(), "out": "-"}, '"out"'), ({**job(), "lattice": []}, '"lattice"'),
-    ({**job(), "lattice": ["l.json", 4]}, '"lattice"'), ({**job(), "lattice": {}}, '"lattice"'),
-    ({**job(), "option": {}}, r'"option" \(nearest: "options"\)'), ({**job(), "latice": "l.json"}, r'"latice" \(nearest: "lattice"\)'),
-    ({**job(), "options": []}, '"options"'), ({**job(), "options": {"normal": "keep"}}, r"normal \(nearest: (--)?normals\)"),
-    ({**job(), "options": {"normals": "kep"}}, '"kep"'), ({**job(), "options": {"normals": None}}, "normals"),
-    ({**job(), "options": {"normals": {}}}, "normals"), ({**job(), "options": {"falloff": "x"}}, '"x"'),
-    ({**job(), "options": {"force": "yes"}}, "force"), ({**job(), "options": {"threads": 0}}, "threads"),
-    ({**job(), "options": {"report": "r.json"}}, '"report"'), ({**job(), "options": {"quiet": True}}, '"quiet"'),
-    ({**job(), "options": {"jobs": 2}}, "jobs"), ({**job(), "options": {"resume": True}}, "resume"),
+    ({**job(2000), "in": 3}, '"in"'), ({**job(2001), "in": ["a.obj"]}, '"in"'), ({**job(2002), "in": ""}, '"in"'), ({**job(2003), "in": "-"}, '"in"'),
+    ({**job(2004), "out": None}, '"out"'), ({**job(2005), "out": "-"}, '"out"'), ({**job(2006), "lattice": []}, '"lattice"'),
+    ({**job(2007), "lattice": ["l.json", 4]}, '"lattice"'), ({**job(2008), "lattice": {}}, '"lattice"'),
+    ({**job(2009), "option": {}}, r'"option" \(nearest: "options"\)'), ({**job(2010), "latice": "l.json"}, r'"latice" \(nearest: "lattice"\)'),
+    ({**job(2011), "options": []}, '"options"'), ({**job(2012), "options": {"normal": "keep"}}, r"normal \(nearest: (--)?normals\)"),
+    ({**job(2013), "options": {"normals": "kep"}}, '"kep"'), ({**job(2014), "options": {"normals": None}}, "normals"),
+    ({**job(2015), "options": {"normals": {}}}, "normals"), ({**job(2016), "options": {"falloff": "x"}}, '"x"'),
+    ({**job(2017), "options": {"force": "yes"}}, "force"), ({**job(2018), "options": {"threads": 0}}, "threads"),
+    ({**job(2019), "options": {"report": "r.json"}}, '"report"'), ({**job(2020), "options": {"quiet": True}}, '"quiet"'),
+    ({**job(2021), "options": {"jobs": 2}}, "jobs"), ({**job(2022), "options": {"resume": True}}, "resume"),
     ('{"in": "' + "a" * 3000000 + '"}', "more than"),
 ]
 
@@ -121,12 +147,12 @@ def a_bad_job_harms_no_other(run):
     run.write("broken.obj", "v 1 2\nf 1 2 3\n")
     run.write("broken.json", '{"format": "ffd-lattice"')
     run.write("half.json", lattice(high=(2, 2, 0), moves=MOVE))
-    bad = [(job(100, **{"in": "none.obj"}), 3, "none.obj"), (job(100, **{"in": "broken.obj"}), 4, "broken.obj:1"),
-           (job(100, lattice="none.json"), 3, "none.json"), (job(100, lattice="broken.json"), 4, "broken.json:1"),
-           (job(100, out="x.xyz"), (2, 4), ""), (job(100, out="no/x.obj"), 3, "no/x.obj"), (job(100, out="a.obj"), (2, 3), "a.obj"),
-           (job(100, **{"in": "folder.obj"}), 3, "folder.obj"), (job(100, lattice="half.json", options={"outside": "error"}), 5, "a.obj"),
-           (job(100, lattice="half.json", options={"fail-on": "outside"}), 1, "a.obj"),
-           (job(100, options={"only": "group:none"}), (2, 4), "")]
+    bad = [(job(100, **{"in": "none.obj"}), 3, "none.obj"), (job(101, **{"in": "broken.obj"}), 4, "broken.obj:1"),
+           (job(102, lattice="none.json"), 3, "none.json"), (job(103, lattice="broken.json"), 4, "broken.json:1"),
+           (job(104, out="x.xyz"), (2, 4), ""), (job(105, out="no/x.obj"), 3, "no/x.obj"), (job(106, out="a.obj"), (2, 3), "a.obj"),
+           (job(107, **{"in": "folder.obj"}), 3, "folder.obj"), (job(108, lattice="half.json", options={"outside": "error"}), 5, "a.obj"),
+           (job(109, lattice="half.json", options={"fail-on": "outside"}), 1, "a.obj"),
+           (job(110, options={"only": "group:none"}), (2, 4), "")]
     jobs = []
     for i, (line, _, _) in enumerate(bad):
         jobs += [line, job(i)]
@@ -141,7 +167,7 @@ def a_bad_job_harms_no_other(run):
         equal((entries[2 * i]["status"], entries[2 * i + 1]["status"]), ("failed", "ok"))
         check(entries[2 * i]["exit"] in (code if isinstance(code, tuple) else (code,)), line, entries[2 * i])
         check(entries[2 * i]["error"].startswith(told), line, entries[2 * i]["error"])
-    check(not run.exists("o100.obj"), "a failed job wrote")
+    equal([name for name in run.names() if len(name) == len("o100.obj") and name[0] == "o"], [], "what failed jobs wrote")
 
 
 @case
@@ -310,7 +336,7 @@ def a_dry_run_writes_nothing(run):
 def quiet(run):
     start(run, [job(0), job(1, **{"in": "none.obj"}), job(2)])
     run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
-    run.ffd("batch", "m.jsonl", "-q", code=NO, err=["none.obj: cannot be opened: No such file or directory"])
+    run.ffd("batch", "m.jsonl", "-q", code=NO, err=["m.jsonl:2: none.obj: cannot be opened: No such file or directory"])
     run.write("m.jsonl", lines_of([job(3)]))
     run.ffd("batch", "m.jsonl", "--quiet", err=[])
 
@@ -352,7 +378,7 @@ def reports_of_single_runs(run):
         run.ffd("deform", mesh, f"o{i}.obj", *arguments, "--force", "-q", "--report", "s.json", "--report-stable",
                 code=IO if i == 4 else OK, err=lambda said: None)
         entry = report(run)[i]
-        equal(entry.pop("line"), i + 1)
+        equal((entry.pop("line"), entry.pop("set")), (i + 1, {}))
         equal(entry, report(run, "s.json")[0], f"job {i}")
 
 
@@ -362,7 +388,7 @@ def unwritable_places(run):
     run.folder_of("closed")
     os.chmod(run.path("closed"), 0o555)
     user = run.unprivileged()
-    check(user, "no unprivileged user can be had")
+    check(user, "there is no unprivileged user to run as")
     os.chmod(run.folder, 0o777)
     os.environ["XDG_CACHE_HOME"] = run.path("cache")
     batch(run, "m.jsonl", done=1, failed=["^closed/x.obj: "], **user)

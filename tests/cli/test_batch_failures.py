@@ -29,7 +29,7 @@ def start_trapped(run):
     for i, (name, reason) in enumerate(TRAPS.items()):
         run.write(name + ".obj", CUBE)
         run.write(name + ".json", lattice())
-        jobs += [job(100, **{"in": name + ".obj"}), job(2 * i + 1), job(100, lattice=name + ".json"), job(2 * i + 2)]
+        jobs += [job(100 + i, **{"in": name + ".obj"}), job(2 * i + 1), job(200 + i, lattice=name + ".json"), job(2 * i + 2)]
         reasons[4 * i + 2] = rf"^{name}\.obj: .*{reason}"
         reasons[4 * i + 4] = rf"^a\.obj: .*{reason}" if name != "nomemory" else "out of memory"
     start(run, jobs)

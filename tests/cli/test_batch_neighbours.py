@@ -11,7 +11,7 @@ import subprocess
 import time
 
 from batches import batch, case, check, equal, job, lines_of, main, report, start, statuses
-from harness import CUBE, FFD, INVALID, NO, OK, SECONDS, gltf_json
+from harness import CUBE, FFD, INVALID, NO, OK, PNG, SANITIZED, SECONDS, gltf_json
 
 SLOW = CUBE * 60000  # some 0.3 s and more where a cube takes a thousandth of it
 POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
@@ -53,7 +53,7 @@ def wait_until(condition, what, seconds=15):
 @case
 def images_that_jobs_share(run):
     start(run)
-    images = {f"t{i}.png": random.Random(i).randbytes(200000) for i in range(4)}
+    images = {f"t{i}.png": PNG + random.Random(i).randbytes(200000) for i in range(4)}
     for name, content in images.items():
         run.write("gs/" + name, content)
     meshes = [f"m{i}.gltf" for i in range(8)]
@@ -138,7 +138,7 @@ def a_line_that_comes_in_halves(run):
 
 @case
 def signals_within_a_line(run):
-    """A batch that waits for the rest of a line can be ended. The half line is no job."""
+    """A batch that waits for the rest of a line can be ended. The half line is not a job."""
     start(run)
     for arguments, head, line in MANIFESTS:
         for number in (signal.SIGTERM, signal.SIGINT):
@@ -159,7 +159,7 @@ def signals_within_a_line(run):
 
 
 def instances(count):
-    """A .gltf of so many instances of a mesh of 1000 points."""
+    """A .gltf of `count` instances of a mesh of 1000 points."""
     source = random.Random(3)
     return gltf_json([[source.random() for _ in range(3)] for _ in range(1000)], [{"mesh": 0} for _ in range(count)], "inst.bin")
 
@@ -184,7 +184,8 @@ def what_is_shared_makes_no_job_too_large(run):
 
 @case
 def what_is_shared_makes_no_larger_job_too_large(run):
-    as_alone(run, 1300, ["x.obj"])
+    if not SANITIZED:  # the same code as above
+        as_alone(run, 1300, ["x.obj"])
 
 
 @case
@@ -195,17 +196,17 @@ def an_image_that_was_missing(run):
     anything = {"code": OK, "err": lambda said: None}
     run.ffd("batch", "m.jsonl", "--resume", **anything)
     check(not run.exists("out/t.png"), "an image from nowhere")
-    run.write("in/t.png", b"\x89PNG one")
+    run.write("in/t.png", PNG + b"one")
     for expected in ("ok", "skipped"):
         run.ffd("batch", "m.jsonl", "--resume", "--report", "r.json", **anything)
         equal(statuses(run), [expected])
-        equal(run.read("out/t.png"), b"\x89PNG one")
+        equal(run.read("out/t.png"), PNG + b"one")
     # A changed one is not up to date, and the copy of the old one is not replaced.
-    run.write("in/t.png", b"\x89PNG two")
+    run.write("in/t.png", PNG + b"two")
     batch(run, "m.jsonl", "--resume", failed=["^out/t.png: "])
     run.remove("out/t.png")
     batch(run, "m.jsonl", "--resume", done=1)
-    equal(run.read("out/t.png"), b"\x89PNG two")
+    equal(run.read("out/t.png"), PNG + b"two")
 
 
 def rules(run, name):
@@ -219,7 +220,7 @@ def images_in_a_depfile(run):
     write_gltf(run, "in/m.gltf", ["t.png", "u.png"])
     write_gltf(run, "in/n.gltf", ["u.png", "missing.png"])
     for name in "tu":
-        run.write(f"in/{name}.png", name * 100)
+        run.write(f"in/{name}.png", PNG + name.encode() * 100)
     jobs = [("in/m.gltf", "out/m.gltf", {}), ("in/n.gltf", "out/n.gltf", {}), ("in/m.gltf", "out/again.gltf", {}), ("in/m.gltf", "out/m.obj", {}),
             ("in/m.gltf", "out/r.gltf", {"resources": "reference"}), ("in/m.gltf", "out/m.glb", {})]
     run.folder_of("out")
@@ -240,7 +241,7 @@ def a_job_that_is_ended_while_it_writes(run):
     """It leaves nothing, or all where the time was up when all was there; no temporary file, no folder of its own."""
     start(run, [{"in": "in/m.gltf", "lattice": "l.json", "out": "out/m.gltf"}])
     write_gltf(run, "in/m.gltf", ["tex/t.png"])
-    run.write("in/tex/t.png", b"")
+    run.write("in/tex/t.png", PNG)
     os.truncate(run.path("in/tex/t.png"), 30 * 10 ** 6)
     ended_early = 0
     for timeout in ("0.002", "0.006", "0.008", "0.01", "0.012", "0.015", "0.02", "0.03", "0.05"):
@@ -258,7 +259,7 @@ def a_job_that_is_ended_while_it_writes(run):
 
 
 def judge_open_quote(run, lines):
-    """Whatever stands behind a quote that is never closed is of one bad row, and none of its lines is a job."""
+    """Whatever follows a quote that is never closed is one bad row, and none of its lines is a job."""
     start(run)
     run.write("t.csv", 'in,lattice,out\n"a.obj,l.json,o0.obj\n' + lines)
     for name in ("t.csv", "-"):

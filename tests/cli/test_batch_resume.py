@@ -5,7 +5,7 @@ import json
 import os
 
 from batches import MOVE, batch, case, check, equal, job, lattice, lines_of, main, report, start, statuses
-from harness import CUBE, gltf_json
+from harness import CUBE, PNG, gltf_json
 
 ALL = ["o0.obj", "o1.obj", "o2.obj"]
 
@@ -132,14 +132,14 @@ def a_copied_image(run):
     asset["images"] = [{"uri": "t.png"}]
     run.write("in/in.gltf", asset)
     run.write("in/in.bin", data)
-    run.write("in/t.png", b"\x89PNG one")
+    run.write("in/t.png", PNG + b"one")
     run.folder_of("out")
     run.write("m.jsonl", lines_of([{"in": "in/in.gltf", "lattice": "l.json", "out": "out/out.gltf"}]))
     batch(run, "m.jsonl", "--resume", done=1)
     batch(run, "m.jsonl", "--resume", kept=1)
     run.remove("out/t.png")
     batch(run, "m.jsonl", "--resume", done=1)
-    equal(run.read("out/t.png"), b"\x89PNG one")
+    equal(run.read("out/t.png"), PNG + b"one")
 
 
 @case
@@ -197,7 +197,7 @@ def failed_jobs_are_tried_again(run):
 
 @case
 def outputs_of_others(run):
-    """What --resume has no record of is no output of its own: it is made again, as the whole is."""
+    """An output that --resume has no record of is not its own: it is made again, as the whole is."""
     start(run, [job(0), job(1)])
     run.write("o0.obj", "of someone else")
     batch(run, "m.jsonl", "--resume", done=2)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Placeholders in the moves of a lattice: ffd deform --set, "set" in the lines of a manifest, ffd batch --csv."""
+"""Placeholders in the moves of a lattice: ffd deform --set, "set" in the lines of a manifest, ffd batch --csv; and what a
+dry run sees of them."""
 
 import json
 
@@ -42,6 +43,24 @@ def set_on_the_command_line(run):
         said = run.ffd("deform", "a.obj", "b.obj", "-l", "p.json", "--force", *arguments, code=code).err[0]
         check(told in said, arguments, "said", said)
     run.ffd("check", "a.obj", "-l", "p.json", "--set", "H=0.5")
+
+
+@case
+def a_table_without_rows(run):
+    """It is said; so is why its rows are not seen."""
+    begin(run)
+    words = ("--in", "a.obj", "-l", "p.json", "--out-dir", "o", "--dry-run")
+    run.write("t.csv", "H\n\n \n")
+    said = []
+    run.ffd("batch", "--csv", "t.csv", *words, err=said.extend)
+    equal(said[:-1], ["t.csv: has no jobs"])
+    for table, line, reason in (("H\r1\r2\r", 1, "the lines end with CR alone: a table needs LF or CR LF"),
+                                ("out,H\rx.obj,1\r", 1, "the lines end with CR alone: a table needs LF or CR LF"),
+                                ("H\n\0\0\n", 2, "NUL bytes, and no job before them")):
+        run.write("t.csv", table)
+        run.ffd("batch", "--csv", "t.csv", *words, code=INVALID, err=f"t.csv:{line}: {reason}")
+    run.write("t.csv", "\0" * 100)
+    run.ffd("batch", "--csv", "t.csv", *words, code=INVALID)
 
 
 @case
@@ -124,8 +143,8 @@ def a_table(run):
     raised(run, "sweep/c.obj", -0.25)
     equal([e["line"] for e in report(run)], [2, 3])
     # Any order of columns, names of columns with case and signs.
-    run.write("t.csv", "H,out,dx,in,lattice\n0.5,d.obj,0,a.obj,two.json\n-.25,e.obj,0.0,a.obj,two.json\n")
-    batch(run, "--csv", "t.csv", done=1, failed=['"-.25"'])
+    run.write("t.csv", "H,out,dx,in,lattice\n0.5,d.obj,0,a.obj,two.json\n-0.25x,e.obj,0.0,a.obj,two.json\n")
+    batch(run, "--csv", "t.csv", done=1, failed=['"-0.25x"'])
     raised(run, "d.obj", 0.5)
 
 
@@ -148,17 +167,17 @@ def quoted_cells(run):
 @case
 def bad_rows(run):
     begin(run)
-    rows = [(b"a.obj,p.json,x.obj", r"^t\.csv:2: .*3.*4"), (b"a.obj,p.json,x.obj,1,2", r"^t\.csv:3: .*5.*4"), (b"a.obj,p.json,good1.obj,1", None),
-            (b'a.obj,p.json,"x.obj"x,1', r"^t\.csv:5: "), (b'a.obj,p.json,x".obj,1', r"^t\.csv:6: "), (b",p.json,x.obj,1", r'^t\.csv:7: .*"in"'),
-            (b"a.obj,,x.obj,1", r'^t\.csv:8: .*"lattice"'), (b"a.obj,p.json,,1", r'^t\.csv:9: .*"out"'), (b"a.obj,p.json,x.obj,abc", "abc"),
-            (b"a.obj,p.json,x.obj,", r"p\.json:/moves/0/by/1"), (b"a.obj,p.json,x.obj,nan", "nan"), (b"none.obj,p.json,x.obj,1", r"^none\.obj: "),
-            (b"a.obj,p.json,good2.obj,0.5", None), (b"a\xff.obj,p.json,x.obj,1", r"UTF-8|a.*\.obj: "), (b'a.obj,p.json,"x.obj,1', r"^t\.csv:16: ")]
+    rows = [(b"a.obj,p.json,x1.obj", r"^t\.csv:2: .*3.*4"), (b"a.obj,p.json,x2.obj,1,2", r"^t\.csv:3: .*5.*4"), (b"a.obj,p.json,good1.obj,1", None),
+            (b'a.obj,p.json,"x3.obj"x,1', r"^t\.csv:5: "), (b'a.obj,p.json,x".obj,1', r"^t\.csv:6: "), (b",p.json,x4.obj,1", r'^t\.csv:7: .*"in"'),
+            (b"a.obj,,x5.obj,1", r'^t\.csv:8: .*"lattice"'), (b"a.obj,p.json,,1", r'^t\.csv:9: .*"out"'), (b"a.obj,p.json,x6.obj,abc", "abc"),
+            (b"a.obj,p.json,x7.obj,", r"p\.json:/moves/0/by/1"), (b"a.obj,p.json,x8.obj,nan", "nan"), (b"none.obj,p.json,x9.obj,1", r"^none\.obj: "),
+            (b"a.obj,p.json,good2.obj,0.5", None), (b"a\xff.obj,p.json,x10.obj,1", r"UTF-8|a.*\.obj: "), (b'a.obj,p.json,"x11.obj,1', r"^t\.csv:16: ")]
     run.write("t.csv", b"in,lattice,out,H\n" + b"\n".join(row for row, _ in rows) + b"\n")
     batch(run, "--csv", "t.csv", "--report", "r.json", done=2, failed=[told for _, told in rows if told])
     equal([(e["line"], e["status"]) for e in report(run)], [(i, "failed" if told else "ok") for i, (_, told) in enumerate(rows, 2)])
     raised(run, "good1.obj", 1)
     raised(run, "good2.obj", 0.5)
-    check(not run.exists("x.obj"), "a bad row wrote")
+    check(not any(name.startswith("x") for name in run.names()), "a bad row wrote")
 
 
 @case
@@ -170,8 +189,6 @@ def bad_tables(run):
         said = run.ffd("batch", "--csv", "t.csv", code=INVALID).err[0]
         check(said.startswith("t.csv:1: "), repr(header), "said", said)
     run.ffd("batch", "--csv", "none.csv", code=IO)
-    run.write("t.csv", "in,lattice,out,H\n")
-    batch(run, "--csv", "t.csv")
     check(not run.exists("x.obj"), "a bad table wrote")
     # A column that no lattice has a placeholder for.
     run.write("t.csv", "in,lattice,out,H,K\na.obj,p.json,x.obj,1,2\n")
@@ -193,10 +210,13 @@ def options_stand_in_for_columns(run):
     batch(run, "--csv", "t.csv", "-l", "p.json", "--out-dir", "out", done=2)
     raised(run, "out/x.obj", 0.5)
     raised(run, "out/y.obj", 0.125)
-    run.write("t.csv", "in,H\nx.obj,0.5\nx.obj,0.125\n")
-    run.ffd("batch", "--csv", "t.csv", "-l", "p.json", "--out-dir", "out2", code=(NO, USAGE), err=lambda said: None)
-    if run.exists("out2/x.obj"):
-        raised(run, "out2/x.obj", 0.5)  # the second one must not have replaced it
+    # A mesh that serves several rows, under whatever names, is written with their numbers.
+    run.write("t.csv", "in,H\nx.obj,0.5\n\ny.obj,0.25\n./x.obj,0.125\n")
+    batch(run, "--csv", "t.csv", "-l", "p.json", "--out-dir", "out2", "--report", "r.json", done=3)
+    equal(run.names("out2"), ["x-1.obj", "x-3.obj", "y.obj"])
+    for name, height in (("x-1", 0.5), ("x-3", 0.125), ("y", 0.25)):
+        raised(run, f"out2/{name}.obj", height)
+    equal([(e["line"], e["set"]) for e in report(run)], [(2, {"H": 0.5}), (4, {"H": 0.25}), (5, {"H": 0.125})])
 
 
 @case
@@ -212,6 +232,184 @@ def tables_and_the_options_of_batches(run):
     run.write("t.csv", run.text("t.csv").replace("o7.obj,0.4375", "o7.obj,0.75"))
     batch(run, "--csv", "t.csv", "--resume", "--normals", "keep", done=1, kept=19)
     raised(run, "o7.obj", 0.75)
+
+
+ODD_NUMBERS = {".5": 0.5, "+.5": 0.5, "-.25": -0.25, "5.": 5, "+2": 2, "05": 5, "-00.5e+1": -5, " +1 ": 1, "+1e-1": 0.1}
+NO_NUMBERS = (".", "+", "-", "+-1", "1e", "1e+", "0x1", "1,5", "1 5", "++1", ".e1", "+1e400", "+inf", "--5")
+
+
+@case
+def numbers_as_people_write_them(run):
+    begin(run)
+    cells = [*ODD_NUMBERS, *NO_NUMBERS]
+    run.write("t.csv", "in,lattice,out,H\n" + "".join(f'a.obj,p.json,o{i}.obj,"{cell}"\n' for i, cell in enumerate(cells)))
+    odd, bad = len(ODD_NUMBERS), len(NO_NUMBERS)
+    flaw = f't.csv: line 2: ".5" is no number in JSON, and is read as 0.5 (the first of {odd} such)'
+
+    def judge(said):
+        check(said[-2] == flaw, "not said:", flaw, "but", said)
+        equal(len(said), bad + 2, said)
+        check(all("must be a number" in line or "is not in the range" in line for line in said[:bad]), said)
+
+    run.ffd("batch", "--csv", "t.csv", "--report", "r.json", code=NO, err=judge)
+    for i, value in enumerate(ODD_NUMBERS.values()):
+        raised(run, f"o{i}.obj", value)
+    equal([e["set"] for e in report(run)], [{"H": value} for value in ODD_NUMBERS.values()] + [{"H": cell} for cell in NO_NUMBERS])
+    # What --strict refuses is just that.
+    run.write("t.csv", "in,lattice,out,H\na.obj,p.json,x.obj,.5\na.obj,p.json,y.obj,0.5\n")
+    batch(run, "--csv", "t.csv", "--strict", done=1, failed=[r'^t\.csv:2: ".5" is no number in JSON'])
+    run.ffd("batch", "--csv", "t.csv", "-q", "--force", err=[])
+
+
+@case
+def semicolons(run):
+    begin(run)
+    said = "t.csv: line 1: the columns are separated by semicolons: numbers may have a decimal comma"
+    values = {"0,5": 0.5, "-1,25": -1.25, ",5": 0.5, "+2": 2, "3": 3, "0.75": 0.75, '"1,5"': 1.5, "1,5e1": 15}
+    run.write("t.csv", b"\xef\xbb\xbf" + ("out;H\r\n" + "".join(f'"o{i}.obj";{cell}\r\n' for i, cell in enumerate(values))).encode())
+    arguments = ["--csv", "t.csv", "--in", "a.obj", "-l", "p.json"]
+    done = run.ffd("batch", *arguments, err=lambda lines: equal(len(lines), 3, lines))
+    equal(done.err[:2], [said, 't.csv: line 5: "+2" is no number in JSON, and is read as 2'])
+    for i, value in enumerate(values.values()):
+        raised(run, f"o{i}.obj", value)
+    run.ffd("batch", *arguments, "--strict", code=INVALID, err=said.replace(" line 1:", "1:"))
+    # With commas a semicolon is nothing but that, and so is one within quotes.
+    run.write("t.csv", 'out,H\n"o;1.obj",0.5\n"o,1;2.obj","0.25"\n')
+    batch(run, *arguments, done=2)
+    raised(run, "o;1.obj", 0.5)
+    raised(run, "o,1;2.obj", 0.25)
+    run.write("t.csv", 'out,"H;x"\no9.obj,0.5\n')
+    batch(run, *arguments, failed=[r'^t\.csv:2: H;x=0\.5: p\.json'])
+    # A vector within a cell keeps its commas.
+    run.write("v.json", lattice(moves=[{"by": {"$": "V"}}]))
+    run.write("t.csv", "out;V\nv.obj;[0, 0.5, 0]\n")
+    run.ffd("batch", "--csv", "t.csv", "--in", "a.obj", "-l", "v.json", err=lambda lines: equal(lines[0], said))
+    raised(run, "v.obj", 0.5)
+
+
+@case
+def columns_are_left_out(run):
+    begin(run)
+    run.write("t.csv", "in,note,H,out,who\na.obj,first,0.5,b.obj,me\na.obj,second,0.25,c.obj,you\n")
+    table = ["--csv", "t.csv", "-l", "p.json"]
+    told = r'^p\.json: no lattice has the placeholders \{"\$": "note"\}, \{"\$": "who"\} .*--csv-ignore'
+    batch(run, *table, failed=[told] * 2)
+    batch(run, *table, "--dry-run", failed=[told] * 2, out="")
+    batch(run, *table, "--csv-ignore", "note", failed=[r'placeholder \{"\$": "who"\}'] * 2)
+    batch(run, *table, "--csv-ignore", "who,note", "--report", "r.json", done=2)
+    raised(run, "b.obj", 0.5)
+    equal([e["set"] for e in report(run)], [{"H": 0.5}, {"H": 0.25}])
+    for names in ("nobody", "note,nobody", "not", "note,who,h"):
+        run.ffd("batch", *table, "--csv-ignore", names, code=INVALID,
+                err=f't.csv:1: the table has no column "{names.split(",")[-1]}" (--csv-ignore)')
+    run.write("m.jsonl", lines_of([job(0)]))
+    run.ffd("batch", "m.jsonl", "--csv-ignore", "note", code=USAGE)
+    # The columns of files too.
+    run.folder_of("out")
+    run.write("b2.obj", CUBE)
+    batch(run, *table, "--csv-ignore", "note,who,out,in", "--in", "b2.obj", "--out-dir", "out", done=2)
+    equal(run.names("out"), ["b2-1.obj", "b2-2.obj"])
+
+
+@case
+def outputs_without_a_column(run):
+    begin(run)
+    run.folder_of("out")
+    one = ["--csv", "t.csv", "--in", "a.obj", "-l", "p.json", "--out-dir", "out"]
+
+    def made(*arguments, **options):
+        batch(run, *one, "--force", *arguments, **options)
+        names = run.names("out")
+        for name in names:
+            run.remove("out/" + name)
+        return names
+
+    run.write("t.csv", "H\n0.5\n")
+    equal(made(done=1), ["a.obj"])
+    run.write("t.csv", "H\n0.5\n\n0.25\n" + "0.125\n" * 9)
+    equal(made(done=11), sorted(f"a-{i}.obj" for i in range(1, 12)))
+    # Each shard gives the names of the whole, and a malformed row has its number too.
+    equal(made("--shard", "1/4", done=3), ["a-10.obj", "a-2.obj", "a-6.obj"])
+    run.write("t.csv", 'H\n0.5\n"0.25"x\n0.125\n')
+    equal(made(failed=["not a valid CSV row"], done=2), ["a-1.obj", "a-3.obj"])
+    # With a column an empty cell is the input's name, which serves once.
+    run.write("t.csv", "out,H\n,0.5\nb.obj,0.25\n,0.125\n")
+    equal(made(done=2, failed=[r'^t\.csv:4: "out/a\.obj" is written by the job of line 2 too$']), ["a.obj", "b.obj"])
+    # Other meshes of one name are not one mesh.
+    run.write("other/a.obj", CUBE)
+    run.write("t.csv", "in,H\na.obj,0.5\nother/a.obj,0.25\n")
+    equal(made(done=1, failed=[r'^t\.csv:3: "out/a\.obj" is written by the job of line 2 too$']), ["a.obj"])
+    # Standard input cannot be looked through beforehand.
+    batch(run, "--csv", "-", *one[2:], done=1, stdin=b"H\n0.5\n")
+    equal(run.names("out"), ["a-1.obj"])
+    run.write("x.y.obj", CUBE)
+    run.write("t.csv", "in,H\nx.y.obj,0.5\nx.y.obj,1\n")
+    equal(made(done=2), ["a-1.obj", "x.y-1.obj", "x.y-2.obj"])
+
+
+@case
+def all_missing_values_at_once(run):
+    begin(run, [{"by": [{"$": "A"}, {"$": "B"}, {"$": "A"}]}, {"by": [{"$": "C"}, 0, 0]}])
+    run.write("k.json", lattice(moves=[{"by": [{"$": "D"}, {"$": "B"}, 0]}]))
+    deform = ["deform", "a.obj", "x.obj", "-l", "p.json"]
+    run.ffd(*deform, code=INVALID, err='p.json:/moves/0/by/0: the placeholders "A", "B", "C" have no values (--set NAME=VALUE for each)')
+    run.ffd(*deform, "--set", "A=1", code=INVALID, err='p.json:/moves/0/by/1: the placeholders "B", "C" have no values (--set NAME=VALUE for each)')
+    run.ffd(*deform, "--set", "A=1", "--set", "B=1", code=INVALID, err='p.json:/moves/1/by/0: the placeholder "C" has no value (--set C=VALUE)')
+    # Of all lattices, whichever lacks one first.
+    told = 'p.json:/moves/0/by/0: the placeholders "A", "B", "C", "D" have no values (--set NAME=VALUE for each)'
+    run.ffd(*deform, "-l", "k.json", code=INVALID, err=told)
+    run.ffd(*deform, "-l", "k.json", "--set", "A=1", "--set", "B=1", "--set", "C=1", code=INVALID,
+            err='k.json:/moves/0/by/0: the placeholder "D" has no value (--set D=VALUE)')
+    run.ffd("check", "a.obj", "-l", "p.json", "-l", "k.json", code=INVALID, err=told)
+    # What a lattice has against it else is told as before.
+    run.write("k.json", "{")
+    run.ffd(*deform, "-l", "k.json", code=INVALID, err='p.json:/moves/0/by/0: the placeholders "A", "B", "C" have no values (--set NAME=VALUE for each)')
+    run.ffd(*deform[:3], "-l", "k.json", "-l", "p.json", code=INVALID, err=lambda said: check(said[0].startswith("k.json:1: "), said))
+    many = [{"by": [{"$": f"N{i:06}"}, 0, 0]} for i in range(2000)]
+    run.write("p.json", lattice(moves=many))
+    said = run.ffd(*deform, code=INVALID).err[0]
+    check('"N000000", ' in said and " and 19" in said and " more have no values" in said and len(said) < 600, said)
+
+
+@case
+def a_dry_run_sees_what_would_be_refused(run):
+    """Of every job its lattices with their values; of the first all but the writing."""
+    begin(run)
+    rows = ["a.obj,p.json,x1.obj,0.5", "a.obj,p.json,x2.obj,", "a.obj,p.json,x3.obj,abc", "none.obj,p.json,x4.obj,1", "a.obj,none.json,x5.obj,1",
+            "a.obj,p.json,no/x6.obj,1"]
+    run.write("t.csv", "in,lattice,out,H\n" + "\n".join(rows) + "\n")
+    failed = [rf"^t\.csv:{i}: " for i in range(3, 8)]
+    batch(run, "--csv", "t.csv", "--dry-run", done=1, failed=failed, out="to do: a.obj -> x1.obj\n")
+    batch(run, "--csv", "t.csv", done=1, failed=failed)
+    run.write("half.json", lattice(high=(2, 2, 0), moves=HEIGHT))
+    run.write("m.obj", CUBE)
+    for options, told in (({"outside": "error"}, "outside"), ({"fail-on": "outside"}, "outside"), ({"only": "group:none"}, "none"),
+                          ({"as-morph": "m"}, "morph")):
+        run.write("m.jsonl", lines_of([job(7, lattice="half.json", set={"H": 1}, options=options)]))
+        batch(run, "m.jsonl", "--dry-run", failed=[told], out="")
+        batch(run, "m.jsonl", failed=[told])
+        check(not run.exists("o7.obj"), options)
+    # The first that is not up to date.
+    run.write("m.jsonl", lines_of([job(0), job(1, lattice="half.json", set={"H": 1}, options={"outside": "error"})]))
+    batch(run, "m.jsonl", "--resume", done=1, failed=["outside"])
+    batch(run, "m.jsonl", "--resume", "--dry-run", kept=1, failed=["outside"], out="up to date: a.obj -> o0.obj\n")
+    before = run.names()
+    run.write("m.jsonl", lines_of([job(2), {"in": "m.obj", "lattice": "l.json", "options": {"in-place": True}}]))
+    batch(run, "m.jsonl", "--dry-run", done=2, out="to do: a.obj -> o2.obj\nto do: m.obj -> m.obj\n")
+    equal((run.names(), run.text("m.obj")), (before, CUBE))
+
+
+@case
+def the_format_of_all_inputs(run):
+    begin(run)
+    run.write("a.mesh", CUBE)
+    run.write("m.jsonl", lines_of([job(0, **{"in": "a.mesh"}), job(1, **{"in": "a.mesh"}, options={"input-format": "ply"})]))
+    batch(run, "m.jsonl", failed=[r"^a\.mesh: ", r"^a\.mesh"])
+    batch(run, "m.jsonl", "--input-format", "obj", done=1, failed=[r"^a\.mesh"])
+    run.ffd("deform", "a.obj", "s.obj", "-l", "l.json")
+    equal(run.read("o0.obj"), run.read("s.obj"))
+    batch(run, "m.jsonl", "--input-format", "obj", "--resume", kept=1, failed=[r"^a\.mesh"])
+    run.ffd("batch", "m.jsonl", "--input-format", "nonsense", code=USAGE)
 
 
 main()

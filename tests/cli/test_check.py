@@ -4,7 +4,7 @@ import json
 import math
 import struct
 
-from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, IO, UNSUPPORTED, case, check, equal, glb,
+from harness import (CUBE, CUBE_CORNERS, CUBE_FACES, EMBEDDING, INVALID, NO, IO, UNSUPPORTED, case, check, equal, glb,
                      gltf_json, lattice, main, near)
 
 SHIFT = [{"by": [1, 0, 0]}]
@@ -50,7 +50,7 @@ class Volume:
                       for i in range(size[0]) for j in range(size[1]) for k in range(size[2])}
 
     def file(self, side=1.0, at=(0, 0, 0)):
-        """The lattice over the box of this side, whose low corner stands at `at`."""
+        """The lattice over the box of this side, whose low corner is at `at`."""
         points = [[at[a] + side * (self.grid[a][n[a]] + self.moved[n][a]) for a in range(3)]
                   for n in sorted(self.moved, key=lambda n: n[::-1])]
         return {"format": "ffd-lattice", "version": 1, "size": list(self.size), "degree": list(self.degree),
@@ -116,26 +116,26 @@ def text_of_a_clean_one(run):
     work = start(run, moves=SHIFT)
     lines = run.ffd("check", *work).text.splitlines()
     equal(lines[:3], ["a.obj", "  vertices       8: 8 inside", "  moved          8, by 1 at most"])
-    check(lines[3].startswith("  folds          none, proven in all 1 cells; det J is at least "), lines[3])
-    equal(lines[4:6], ["  flipped faces  0 of 6", "  det F          1 to 1 at the vertices"])
-    check(lines[6].startswith("  edges          12, ") and lines[6].endswith(" on average"), lines[6])
-    equal(len(lines), 7)
+    check(lines[3].startswith("  folds          none, proven in the 1 cell inside the lattice; det J is at least "), lines[3])
+    equal(lines[4:7], ["  flipped faces  0 of 6", "  torn edges     0", "  det F          1 to 1 at the vertices"])
+    check(lines[7].startswith("  edges          12, ") and lines[7].endswith(" on average"), lines[7])
+    equal(len(lines), 8)
     equal(run.names(), ["a.obj", "l.json"])
 
 
 @case
 def text_of_a_folded_one(run):
-    run.write("a.obj", obj(CORNERS, CUBE_FACES) + "v 9 9 9\nv nan 0 0\n")
+    run.write("a.obj", obj(CORNERS, CUBE_FACES) + "v 9 9 9\nv nan 0 0\np 9 10\n")
     # x' = u + 2u(1-u): det F = 3 - 4u.
     run.write("l.json", Volume((3, 2, 2), (2, 1, 1), lambda i, j, k: [float(i == 1), 0, 0]).file())
     done = run.ffd("check", "a.obj", "-l", "l.json", lines=1)
     check(done.err[0].startswith("a.obj: 2 of 10 vertices are not inside: 1 outside"), done.err)
     lines = done.text.splitlines()
     equal(lines[1], "  vertices       10: 8 inside, 1 outside, 1 invalid")
-    equal(lines[3], "  folds          some: 1 of 1 cells; det J is at least -1 of its mean at rest")
+    equal(lines[3], "  folds          some: 1 of 1 cell; det J is at least -1 of its mean at rest")
     check("deformed, det J is -1 (l.json)" in lines[4], lines[4])
     # The face at u = 1.
-    equal(lines[5:7], ["  flipped faces  1 of 6", "  det F          -1 to 3 at the vertices"])
+    equal(lines[5:8], ["  flipped faces  1 of 6", "  torn edges     0", "  det F          -1 to 3 at the vertices"])
 
 
 @case
@@ -158,8 +158,8 @@ def members_of_the_report(run):
     work = start(run, high=(2, 2, 0), moves=SHIFT)
     job = checked(run, *work, lines=1)
     equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
-                      "invalid", "moved", "residual", "iterations", "folds", "flipped_faces", "det", "edges", "bounds",
-                      "displacement", "seconds"])
+                      "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "det", "edges", "bounds",
+                      "displacement", "behind", "seconds"])
     equal(list(job["folds"]), ["verdict", "cells", "min_det", "folded_cells", "unknown_cells", "witness"])
     equal(list(job["edges"]), ["count", "deviation"])
     equal(list(job["edges"]["deviation"]), ["max", "mean"])
@@ -294,7 +294,7 @@ def flipped_faces_are_those_in_the_fold(run):
 def several_lattices(run):
     """Cells are summed, the worst verdict counts, the witness is of the first lattice that has one; det F is that of
     the whole, and of vertices that some lattice holds."""
-    run.write("a.obj", obj([[2 * x, y, z] for x, y, z in CORNERS] + [[9, 9, 9]], CUBE_FACES))
+    run.write("a.obj", obj([[2 * x, y, z] for x, y, z in CORNERS] + [[9, 9, 9]], CUBE_FACES) + "p 9\n")
     run.write("scale.json", lattice((4, 2, 2), (-1, -1, -1), (0.5, 2, 2), [{"scale": {"factor": [1, 2, 3],
                                                                                     "about": [0, 0, 0]}}]))
     run.write("fold.json", Volume((3, 2, 2), (2, 1, 1), lambda i, j, k: [0.75 * (i == 1), 0, 0]).file(1, (1.5, 0, 0)))
@@ -306,22 +306,23 @@ def several_lattices(run):
     job = checked(run, "a.obj", "-l", "scale.json", lines=1)
     equal([job["inside"], job["outside"], job["folds"]["verdict"]], [4, 5, "none"])
     near([job["det"]["min"], job["det"]["max"]], [6, 6], 1e-12)
-    # Each corner is inside one of the two, and outside the other.
+    # Each corner is inside one of the two, and outside the other: none of them counts as outside.
     job = checked(run, "a.obj", "-l", "scale.json", "-l", "fold.json", lines=1)
-    equal([job["inside"], job["outside"]], [0, 9])
+    equal([job["inside"], job["outside"]], [8, 1])
     near([job["det"]["max"]], [6], 1e-12)
 
 
 @case
 def vertices_that_are_not_finite(run):
-    """check counts what deform refuses; their faces and edges are left out of the figures."""
+    """check counts what deform keeps; their faces and edges are left out of the figures."""
     work = start(run, moves=SHIFT)
-    run.write("a.obj", CUBE + "v nan 0 0\nv 0 inf 0\nf 1 2 9\n")
+    run.write("a.obj", CUBE + "v nan 0 0\nv 0 inf 0\nf 1 2 9\np 10\n")
     job = checked(run, *work, lines=1)
     equal([job["status"], job["vertices"], job["inside"], job["invalid"], job["moved"]], ["ok", 10, 8, 2, 8])
-    equal([job["flipped_faces"], job["edges"]["count"], job["det"]], [0, 12, {"min": 1, "max": 1}])
+    equal([job["flipped_faces"], job["edges"]["count"], job["det"]], [0, 12, {"min": 1, "max": 1, "outside": None}])
     equal(job["bounds"]["before"], {"min": [-1, -1, -1], "max": [1, 1, 1]})
-    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", code=INVALID)
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", lines=1)
+    equal(run.text("b.obj").splitlines()[-4:-1], ["v nan 0 0", "v 0 inf 0", "f 1 2 9"])
     run.write("l.json", {**lattice(), "rest": {"box": "mesh"}, "moves": SHIFT})
     equal(checked(run, *work, lines=1)["inside"], 8)
 
@@ -329,14 +330,15 @@ def vertices_that_are_not_finite(run):
 @case
 def meshes_without_faces_or_vertices(run):
     work = start(run, moves=SHIFT)
-    for mesh, vertices in (("v 0 0 0\nv 1 1 1\n", 2), ("v 0 0 0\nv 1 1 1\nl 1 2\np 1\n", 2), ("", 0)):
+    for mesh, vertices in (("v 0 0 0\nv 1 1 1\n", 2), ("v 0 0 0\nv 1 1 1\nl 1 2\np 1\n", 2), ("o\n", 0)):
         run.write("a.obj", mesh)
-        job = checked(run, *work)
+        said = {"lines": int(vertices == 0)}
+        job = checked(run, *work, **said)
         equal([job["vertices"], job["flipped_faces"], job["edges"]],
               [vertices, 0, {"count": 0, "deviation": {"max": 0, "mean": 0}}])
-        equal(job["det"], {"min": 1, "max": 1} if vertices else None)
+        equal(job["det"], {"min": 1, "max": 1, "outside": None} if vertices else None)
         equal(job["bounds"]["before"]["min"], [0, 0, 0] if vertices else None)
-        check(f"  vertices       {vertices}" in run.ffd("check", *work).text, "the text")
+        check(f"  vertices       {vertices}" in run.ffd("check", *work, **said).text, "the text")
 
 
 @case
@@ -347,13 +349,13 @@ def failures(run):
     run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
     run.write("bad.obj", "v 0 0\n")
     run.write("bad.json", "{}")
-    run.write("strips.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-              "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n0\n")
+    run.write("whole.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty int z\n"
+              "end_header\n0 0 0\n")
     run.ffd("check", "missing.obj", "-l", "l.json", code=IO)
     run.ffd("check", "a.obj", "-l", "missing.json", code=IO)
     run.ffd("check", "bad.obj", "-l", "l.json", code=INVALID)
     run.ffd("check", "a.obj", "-l", "bad.json", code=INVALID)
-    run.ffd("check", "strips.ply", "-l", "l.json", code=UNSUPPORTED)
+    run.ffd("check", "whole.ply", "-l", "l.json", code=UNSUPPORTED)
     run.ffd("check", "a.glb", "-l", "far.json", code=INVALID)
     run.ffd("check", "a.obj", "-l", "l.json", "--report", "none/r.json", code=IO)
     run.write("l.json", lattice(high=(2, 2, 0), moves=SHIFT))
@@ -366,13 +368,19 @@ def failures(run):
 
 @case
 def faces_that_are_not_valid(run):
-    """deform has no use for indices, but does not pass them on."""
+    """They are among no figures, which is said; a gate of faces does not pass then, and --strict refuses them."""
     asset, data = with_triangles(CUBE_CORNERS, [[0, 1, 99]])
     run.write("a.glb", glb(asset, data))
     run.write("l.json", lattice(moves=SHIFT))
+    why = "there is an index 99, but the count of vertices is 8: what the primitive draws is not known"
     for command in (["deform", "a.glb", "b.glb"], ["check", "a.glb"]):
-        run.ffd(*command, "-l", "l.json", code=INVALID,
-                err="a.glb:/meshes/0/primitives/0: there is an index 99, but there are only 8 vertices")
+        run.ffd(*command, "-l", "l.json", "--strict", code=INVALID, err="a.glb:/meshes/0/primitives/0: " + why)
+        for gate in ("tear", "flipped", "flipped=5", "edges=1", "folds,tear=1"):
+            run.ffd(*command, "-l", "l.json", "--fail-on", gate, code=NO, err=(
+                "a.glb: --fail-on tear, flipped and edges cannot be judged: the faces of 1 primitive are not known"))
+        check(not run.exists("b.glb"), "refused")
+    for command in (["deform", "a.glb", "b.glb"], ["check", "a.glb"]):
+        run.ffd(*command, "-l", "l.json", "--fail-on", "folds,multiple", err="a.glb: /meshes/0/primitives/0: " + why)
 
 
 @case

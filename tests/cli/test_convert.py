@@ -6,8 +6,10 @@ import json
 import math
 import struct
 
-from harness import (INVALID, IO, USAGE, case, check, equal, glb, glb_split, gltf_json, lattice, main,
+from gltf_build import Scene
+from harness import (INVALID, IO, PNG, USAGE, case, check, equal, glb, glb_split, gltf_json, lattice, main,
                      near)
+from said import anything, told
 
 FORMATS = ("obj", "ply", "off", "stl", "glb", "gltf")
 FLOATS = ("stl", "glb", "gltf")
@@ -365,7 +367,7 @@ def triangle_asset(nodes, **members):
 
 @case
 def scenes_are_placed(run):
-    """Positions stand where the nodes put them; under a mirror faces still look the way their normals do."""
+    """Positions are where the nodes put them; under a mirror faces still look the way their normals do."""
     run.write("still.json", STILL)
     turned = [0.7071067811865476, 0, 0, 0.7071067811865476]
     run.write("a.glb", glb(*triangle_asset([
@@ -381,7 +383,7 @@ def scenes_are_placed(run):
         for _, _, normal in face:
             near(normal, normal_of([corner[0] for corner in face]), 1e-7)
     equal([line for line in run.text("b.obj").splitlines() if line.startswith("o")], ["o shifted", "o node 1", "o low_"])
-    # In its own space a mesh stands once, and that is said.
+    # In its own space a mesh appears once, and that is said.
     run.ffd("deform", "a.glb", "c.obj", "-l", "still.json", "--space", "mesh",
             err="a.glb: OBJ cannot hold: the node hierarchy, the transforms of nodes (--space mesh)")
     equal(places(read_faces(run, "c.obj")), [[(0, 0, 0), (1, 0, 0), (0, 1, 0)]])
@@ -458,11 +460,28 @@ def lines_points_and_clouds(run):
         run.ffd("deform", f"cloud.{target}", "back.obj", "-l", "still.json", "--force")
         equal([line for line in run.text("back.obj").splitlines() if line.startswith("v")], cloud.splitlines(), target)
     run.ffd("deform", "cloud.obj", "cloud.stl", "-l", "still.json", err="cloud.obj: STL cannot hold: points")
-    run.write("empty.obj", "")
+    run.write("empty.obj", "o\n")
     for target in FORMATS[1:]:
-        run.ffd("deform", "empty.obj", f"empty.{target}", "-l", "still.json")
-        run.ffd("deform", f"empty.{target}", "nothing.obj", "-l", "still.json", "--force")
-        equal(run.text("nothing.obj"), "", target)
+        run.ffd("deform", "empty.obj", f"empty.{target}", "-l", "still.json", err="empty.obj: there are no vertices to deform")
+        run.ffd("deform", f"empty.{target}", "nothing.obj", "-l", "still.json", "--force",
+                err=f"empty.{target}: there are no vertices to deform")
+        equal(run.text("nothing.obj"), "o default\n", target)
+        run.ffd("info", "nothing.obj")
+
+
+def to_linear(c):
+    """sRGB's curve, IEC 61966-2-1."""
+    return c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+
+
+def to_srgb(c):
+    return 12.92 * c if c <= 0.0031308 else 1.055 * c ** (1 / 2.4) - 0.055
+
+
+def colours_of(asset, data):
+    """The stored numbers of the first primitive's colours, and their accessor."""
+    number = asset["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]
+    return read_accessor(asset, data, number), asset["accessors"][number]
 
 
 @case
@@ -478,7 +497,7 @@ def colours_go_along(run):
     run.ffd("deform", "a.obj", "a.glb", "-l", "still.json")
     asset, data = glb_split(run.read("a.glb"))
     equal(read_accessor(asset, data, asset["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"]),
-          [(*colour, 255) for colour in bytes_])
+          [(*(round(65535 * to_linear(c / 255)) for c in colour), 65535) for colour in bytes_])
     for name in ("a.ply", "a.off", "a.glb"):
         run.ffd("deform", name, "b.obj", "-l", "still.json", "--force")
         found = [[float(x) for x in line.split()[4:]] for line in run.text("b.obj").splitlines() if line.startswith("v ")]
@@ -490,6 +509,9 @@ def colours_go_along(run):
         run.ffd("deform", "fine.obj", f"fine.{target}", "-l", "still.json")
         run.ffd("deform", f"fine.{target}", "b.obj", "-l", "still.json", "--force")
         near([float(run.text("b.obj").split()[4])], [0.123], 1e-8, target)
+    run.write("fine.obj", "v 0 0 0 0.123 0 1 0.3\nv 1 0 0 0 0 0 1\nv 0 1 0 0 0 1 0\nf 1 2 3\n")
+    run.ffd("deform", "fine.obj", "fine.glb", "-l", "still.json", "--force")
+    near(colours_of(*glb_split(run.read("fine.glb")))[0], [(to_linear(0.123), 0, 1, 0.3), (0, 0, 0, 1), (0, 0, 1, 0)], 2e-8)
     # With alpha, and with w instead.
     run.write("alpha.obj", "v 0 0 0 1 0 0.2 0.4\nv 1 0 0 0 0 0 1\nv 0 1 0 0 0 1 0\nf 1 2 3\n")
     run.ffd("deform", "alpha.obj", "alpha.ply", "-l", "still.json")
@@ -507,6 +529,88 @@ def colours_go_along(run):
 
 
 @case
+def one_colour_above_1_leaves_the_others(run):
+    """Only whole numbers are bytes; the factor 255 would make the mesh black."""
+    run.write("still.json", STILL)
+    rest = "v 1 0 0 0.5 0.5 1.0001\nv 0 1 0 0 0.25 0\nf 1 2 3\n"
+    run.write("a.obj", "v 0 0 0 2 0 1.5\n" + rest)
+    for target, name in (("ply", "PLY"), ("off", "OFF"), ("glb", "glTF")):
+        run.ffd("deform", "a.obj", f"a.{target}", "-l", "still.json", err=f"a.obj: above 1, and 1 in {name}: 2 colours")
+        run.ffd("deform", f"a.{target}", "b.obj", "-l", "still.json", "--force")
+        found = [float(x) for line in run.text("b.obj").splitlines() if line.startswith("v ") for x in line.split()[4:]]
+        near(found, [1, 0, 1, 0.5, 0.5, 1, 0, 0.25, 0], 1e-7, target)
+    # More than a byte holds, and less than 0, are no bytes either.
+    for other in ("256 0 0", "51 -1 0"):
+        run.write("a.obj", f"v 0 0 0 {other}\nv 1 0 0 0 0 0\nv 0 1 0 0 1 0\nf 1 2 3\n")
+        run.ffd("deform", "a.obj", "a.ply", "-l", "still.json", "--force", err="a.obj: above 1, and 1 in PLY: 1 colour")
+
+
+def cloud_of_colours(rows, component, normalized=True):
+    """A GLB of points with these colours."""
+    scene = Scene()
+    attributes = {"POSITION": scene.add([[i % 16 / 2, i // 16 / 2, 0] for i in range(len(rows))], bounds=True),
+                  "COLOR_0": scene.add(rows, component, "VEC4", normalized=normalized)}
+    scene.asset.update(scenes=[{"nodes": [0]}], scene=0, nodes=[{"mesh": 0}],
+                       meshes=[{"primitives": [{"mode": 0, "attributes": attributes}]}])
+    return scene.glb()
+
+
+COLOUR_BYTES = [(b, 255 - b, b ^ 85, b * 7 % 256) for b in range(256)]
+
+
+@case
+def every_byte_of_a_colour_comes_back(run):
+    """sRGB of 8 bits is linear in glTF, finer than 8 bits, and the same bytes again; alpha is linear everywhere."""
+    run.write("still.json", STILL)
+    vertices = "".join(f"{i % 16 / 2} {i // 16 / 2} 0 {r} {g} {b} {a}\n" for i, (r, g, b, a) in enumerate(COLOUR_BYTES))
+    run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 256\nproperty float x\nproperty float y\nproperty float z\n"
+                       "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\nend_header\n"
+                       + vertices)
+
+    def bytes_of(name):
+        return [(v["red"], v["green"], v["blue"], v["alpha"]) for v in ply_elements(run.read(name))["vertex"]]
+
+    run.ffd("deform", "a.ply", "a.glb", "-l", "still.json")
+    found, accessor = colours_of(*glb_split(run.read("a.glb")))
+    equal([accessor["componentType"], accessor["type"], accessor["normalized"]], [5123, "VEC4", True])
+    equal(found, [(*(round(65535 * to_linear(c / 255)) for c in row[:3]), 257 * row[3]) for row in COLOUR_BYTES])
+    some_line(run, "a.glb", "b.ply")
+    equal(bytes_of("b.ply"), COLOUR_BYTES)
+    some_line(run, "a.glb", "b.obj")
+    equal([[float(x) for x in line.split()[4:]] for line in run.text("b.obj").splitlines() if line[0] == "v"],
+          [[c / 255 for c in row[:3]] for row in COLOUR_BYTES])
+    # Floats of another program.
+    rows = [(*(as_float(to_linear(c / 255)) for c in row[:3]), as_float(row[3] / 255)) for row in COLOUR_BYTES]
+    run.write("f.glb", cloud_of_colours(rows, 5126, normalized=False))
+    some_line(run, "f.glb", "c.ply")
+    equal(bytes_of("c.ply"), COLOUR_BYTES)
+
+
+@case
+def linear_colours_become_those_for_display(run):
+    run.write("still.json", STILL)
+    # Linear bytes become bytes, for programs that read no others, where the target has such.
+    run.write("a.glb", cloud_of_colours(COLOUR_BYTES, 5121))
+    some_line(run, "a.glb", "a.ply")
+    equal([(v["red"], v["green"], v["blue"], v["alpha"]) for v in ply_elements(run.read("a.ply"))["vertex"]],
+          [(*(round(255 * to_srgb(c / 255)) for c in row[:3]), row[3]) for row in COLOUR_BYTES])
+    some_line(run, "a.glb", "a.obj")
+    near([[float(x) for x in line.split()[4:]] for line in run.text("a.obj").splitlines() if line[0] == "v"],
+         [[to_srgb(c / 255) for c in row[:3]] for row in COLOUR_BYTES], 0.01 / 255)
+    # Floats, and those beyond 0 to 1, which viewers clamp.
+    rows = [(0.5, 0.001, 0.25, 0.5), (2.0, -1.0, 1.0, 2.0), (0.75, 0.003, 0.004, 1.0)]
+    run.write("f.glb", cloud_of_colours(rows, 5126, normalized=False))
+    clamped = [[to_srgb(min(max(as_float(c), 0), 1)) for c in row[:3]] for row in rows]
+    some_line(run, "f.glb", "f.obj")
+    near([[float(x) for x in line.split()[4:]] for line in run.text("f.obj").splitlines() if line[0] == "v"],
+         clamped, 1e-15)
+    for target in ("ply", "off"):
+        some_line(run, "f.glb", f"f.{target}")
+    near([(v["red"], v["green"], v["blue"]) for v in ply_elements(run.read("f.ply"))["vertex"]], clamped, 1e-7)
+    near([[float(x) for x in line.split()[3:6]] for line in run.text("f.off").splitlines()[2:5]], clamped, 1e-15)
+
+
+@case
 def colours_of_shorts(run):
     run.write("still.json", STILL)
     run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
@@ -516,6 +620,20 @@ def colours_of_shorts(run):
     run.ffd("deform", "a.ply", "a.obj", "-l", "still.json")
     found = [[float(x) for x in line.split()[4:]] for line in run.text("a.obj").splitlines() if line.startswith("v ")]
     equal(found, [[1, 0, 1 / 65535], [32768 / 65535, 0, 0], [0, 0, 0]])
+
+
+@case
+def texture_coordinates_of_ply_are_floats(run):
+    """Others are passed over by MeshLab: those of vertices, and those of corners."""
+    run.write("still.json", STILL)
+    for second, wanted in (("1/1 3/3 4/4", "property float s\nproperty float t\n"),
+                           ("1/5 3/3 4/4", "property list uchar float texcoord\n")):
+        run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.1 0\nvt 1 0.3\nvt 1 1\nvt 0 1\nvt 0.5 0.7\n"
+                           f"f 1/1 2/2 3/3\nf {second}\n")
+        run.ffd("deform", "a.obj", "a.ply", "-l", "still.json", "--force")
+        check(wanted.encode() in run.read("a.ply").split(b"end_header")[0], second)
+        equal([[t for _, t, _ in face] for face in read_faces(run, "a.ply")],
+              [[tuple(as_float(x) for x in t) for _, t, _ in face] for face in read_obj(run.read("a.obj"))], second)
 
 
 @case
@@ -531,7 +649,7 @@ def faces_of_many_corners(run):
         run.ffd("deform", "a.obj", "a.ply", "-l", "still.json", "--force")
         rows = ply_elements(run.read("a.ply"))["face"]
         equal([len(row["vertex_indices"]) for row in rows], [corners, 3], corners)
-        equal(rows[0]["texcoord"], [x for point in ring for x in point], corners)
+        equal(rows[0]["texcoord"], [as_float(x) for point in ring for x in point], corners)
 
 
 @case
@@ -548,6 +666,29 @@ def equal_corners_share_a_vertex(run):
     convert(run, "a.obj", "a.stl")
     run.ffd("deform", "a.stl", "b.obj", "-l", "still.json")
     equal(run.text("b.obj"), "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n")
+
+
+@case
+def stl_corners_that_meet(run):
+    """Corners at one position of the STL are one vertex, whatever the lattice: also where it brings others there."""
+    run.write("still.json", STILL)
+    run.write("flat.json", lattice(low=(-1, -1, -1), high=(3, 3, 3), moves=[{"scale": {"factor": [1, 1, 0]}}]))
+    corners = [(x, y, z) for z in (0.0, 2.0) for x, y in ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))] + [(0.0, 0.0, -0.0)]
+    facets = [(0, 1, 2), (3, 4, 5), (6, 1, 4), (0, 4, 3)]
+    run.write("a.stl", b"binary".ljust(80) + struct.pack("<I", len(facets)) +
+              b"".join(struct.pack("<12fH", 0, 0, 0, *(x for c in facet for x in corners[c]), 0) for facet in facets))
+    for lattice_file in ("still.json", "flat.json"):
+        for target in ("obj", "ply", "off", "glb", "gltf"):
+            run.ffd("deform", "a.stl", f"b.{target}", "-l", lattice_file, "--force", "-q")
+            vertices = run.ffd("info", f"b.{target}", "--json").json["vertices"]
+            equal([vertices, len(read_faces(run, f"b.{target}"))], [6, 4], f"{target}, {lattice_file}")
+        run.ffd("deform", "a.stl", "b.obj", "-l", lattice_file, "--force", "-q")
+        equal(run.text("b.obj").split("f", 1)[1], " 1 2 3\nf 4 5 6\nf 1 2 5\nf 1 5 4\n", lattice_file)
+    near([p[2] for face in read_faces(run, "b.obj") for p, _, _ in face], [1.0] * 12, 1e-12, "all is flat")
+    run.ffd("deform", "a.stl", "morph.glb", "-l", "flat.json", "--as-morph", "flat", "-q")
+    asset, data = glb_split(run.read("morph.glb"))
+    primitive, = asset["meshes"][0]["primitives"]
+    near([x[2] for x in read_accessor(asset, data, primitive["targets"][0]["POSITION"])], [1, 1, 1, -1, -1, -1], 1e-6)
 
 
 @case
@@ -610,18 +751,129 @@ def numbers_that_do_not_fit(run):
 
 
 @case
+def numbers_that_are_not_finite(run):
+    """Readers of PLY take them; STL and glTF have no vertex that nothing uses."""
+    run.write("still.json", STILL)
+    for word, value in (("nan", math.nan), ("inf", math.inf), ("-inf", -math.inf)):
+        for used in (True, False):
+            run.write("a.obj", f"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 {word} 0\nf 1 2 3\n" + ("f 1 2 4\n" if used else ""))
+            for target, name in (("obj", "OBJ"), ("off", "OFF"), ("stl", "STL"), ("glb", "glTF"), ("gltf", "glTF")):
+                run.ffd("deform", "a.obj", "a.ply", "-l", "still.json", "-q", "--force")
+                refused = used or target in ("obj", "off")
+                run.ffd("deform", "a.ply", f"b.{target}", "-l", "still.json", "-q", "--force", code=INVALID if refused else 0,
+                        err=f"b.{target}: y of vertex 3 (counted from 0) is not finite ({word}): readers of {name} take no such number"
+                        if refused else None)
+                equal(run.exists(f"b.{target}"), not refused, f"{word} {used} {target}")
+                run.remove(f"b.{target}")
+            run.write("a.obj", f"v 0 0 0\nv 1 0 0\nv 0 1 0\nv {word} 0 0\nf 1 2 3\nl 1 4\np 4\n")
+            run.ffd("deform", "a.obj", "b.stl", "-l", "still.json", "-q")
+            run.remove("b.stl")
+            data = run.read("a.ply").split(b"end_header\n", 1)[1]
+            found = struct.unpack("<3d", data[72:96])[1]
+            check(found == value or (found != found and value != value), f"{word}: {found}")
+
+
+@case
+def attributes_that_are_not_finite(run):
+    """Without them the shape is still what it is. Readers of PLY take them."""
+    run.write("still.json", STILL)
+    run.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n" + "".join(f"property float {n}\n" for n in "x y z nx ny nz s t".split())
+              + "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+              "0 0 0 nan 0 1 nan 0.5\n1 0 0 0 inf 1 0 0\n0 1 0 0 0 1 0 -inf\n3 0 1 2\n")
+    for target, name in (("obj", "OBJ"), ("off", "OFF"), ("glb", "glTF")):
+        told(run.ffd("deform", "a.ply", f"b.{target}", "-l", "still.json", err=anything), "not finite", name, "2 normals", "2 texture")
+        check(not any(word in run.read(f"b.{target}") for word in (b"nan", b"inf")), target)
+    equal([line for line in run.text("b.obj").splitlines() if line.startswith("vn") or line.startswith("vt")],
+          ["vt 0 0", "vt 0 0", "vt 0 0", "vn 0 0 0", "vn 0 0 0", "vn 0 0 1"])
+
+
+@case
+def a_scene_that_shows_nothing(run):
+    made = Scene(nodes=[{"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": False}}}], scene=0, scenes=[{"nodes": [0]}],
+                 extensionsUsed=["KHR_node_visibility"])
+    made.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": made.add([[0, 0, 0], [1, 0, 0], [0, 1, 0]], bounds=True)}}]}]
+    run.write("a.glb", made.glb())
+    run.write("still.json", STILL)
+    for target in ("obj", "ply", "stl"):
+        told(run.ffd("deform", "a.glb", f"b.{target}", "-l", "still.json", err=anything), "scene is empty", "no vertices")
+
+
+@case
 def places_that_floats_lose(run):
-    """What stands far from the origin, as in a map's coordinates, is another shape in floats."""
+    """A shape far from the origin, as in a map's coordinates, is another shape in floats."""
     far = "v 4500000.25 -9000000 100\nv {} -9000000 100\nv 4500000.25 -8999999 100.5\nf 1 2 3\n"
     run.write("still.json", lattice(low=(0, -1e7, 0), high=(1e7, 0, 1e3), moves=[]))
     run.write("far.obj", far.format("4500001.3"))
-    for target, name in (("glb", "glTF"), ("stl", "STL")):
-        run.ffd("deform", "far.obj", f"far.{target}", "-l", "still.json",
-                err=f"far.obj: {name} cannot hold: the precision of coordinates that far from the origin")
-    for target in ("ply", "off"):
+    run.ffd("deform", "far.obj", "far.stl", "-l", "still.json",
+            err="far.obj: STL cannot hold: the precision of coordinates that far from the origin")
+    for target in ("ply", "off", "glb", "gltf"):
         run.ffd("deform", "far.obj", f"far.{target}", "-l", "still.json")
     run.write("exact.obj", far.format("4500001.5").replace("0.25", "0.5"))
-    run.ffd("deform", "exact.obj", "exact.glb", "-l", "still.json")
+    run.ffd("deform", "exact.obj", "exact.stl", "-l", "still.json")
+
+
+def translation_of(asset):
+    found = {tuple(node.get("translation", ())) for node in asset["nodes"]}
+    equal(len(found), 1, "all nodes stand at one place")
+    return list(found.pop())
+
+
+@case
+def far_shapes_keep_their_details_in_gltf(run):
+    """From where floats have steps above 1e-6 of the diagonal on, the nodes have a translation: on each axis the
+    multiple next to the middle of the power of two next above the diagonal."""
+    run.write("still.json", lattice(low=(0, 0, 0), high=(1e7, 1e7, 1e7), moves=[]))
+    run.write("top.json", lattice(low=(0, 0, 0), high=(1e7, 1e7, 1e7), moves=[{"by": [0.125, 0, 1e-3]}]))
+    quad = [(0.125, 0.01, 0), (0.375, 0.01, 0), (0.375, 0.26, 0), (0.125, 0.26, 0)]
+    tile = [(500000 + x, 4649776 + y, 120 + z) for x, y, z in quad]
+
+    def write(name, places, faces="f 1//1 2//1 3//1\ng two\nf 1//1 3//1 4//1\n"):
+        run.write(name, "".join("v %.17g %.17g %.17g\n" % p for p in places) + "vn 0 0 1\n" + faces)
+
+    write("tile.obj", tile)
+    run.ffd("deform", "tile.obj", "tile.glb", "-l", "still.json")
+    asset, data = glb_split(run.read("tile.glb"))
+    equal([len(asset["meshes"]), translation_of(asset)], [2, [500000.5, 4649776, 120]])
+    shift = translation_of(asset)
+    found = [[a + b for a, b in zip(p, shift)] for face in places(read_faces(run, "tile.glb")) for p in face]
+    near(found, [tile[i] for i in (0, 1, 2, 0, 2, 3)], 2.0 ** -25 * 0.51, "half a step of what is left")
+    for mesh in asset["meshes"]:
+        accessor = asset["accessors"][mesh["primitives"][0]["attributes"]["POSITION"]]
+        near([accessor["min"][:2], accessor["max"][:2]], [[-0.375, 0.01], [-0.125, 0.26]], 1e-7)
+    # It is told to those who ask, and read back as what it was.
+    run.ffd("deform", "tile.obj", "tile.gltf", "-l", "still.json", "-v", err=lambda lines: any(
+        x.endswith("too far from the origin for floats: the nodes have a translation, (500000.5, 4649776, 120)") for x in lines))
+    for source in ("tile.glb", "tile.gltf"):
+        run.ffd("deform", source, "back.obj", "-l", "still.json", "--force")
+        near([p for face in places(read_faces(run, "back.obj")) for p in face], [tile[i] for i in (0, 1, 2, 0, 2, 3)],
+             1e-7)
+    # Its neighbour has the same.
+    write("next.obj", [(x + 0.25, y, z) for x, y, z in tile])
+    run.ffd("deform", "next.obj", "next.glb", "-l", "still.json")
+    equal(translation_of(glb_split(run.read("next.glb"))[0]), shift)
+    # Normals and morph targets have nothing to do with it.
+    run.ffd("deform", "tile.obj", "morph.glb", "-l", "top.json", "--as-morph", "up")
+    asset, data = glb_split(run.read("morph.glb"))
+    equal(translation_of(asset), shift)
+    for mesh in asset["meshes"]:
+        primitive, = mesh["primitives"]
+        equal(read_accessor(asset, data, primitive["attributes"]["NORMAL"]), [(0, 0, 1)] * 3)
+        near(read_accessor(asset, data, primitive["targets"][0]["POSITION"]), [(0.125, 0, 1e-3)] * 3, 1e-9)
+
+
+@case
+def near_shapes_stay_at_the_origin_in_gltf(run):
+    run.write("still.json", lattice(low=(-9e4, -9e4, -9e4), high=(9e4, 9e4, 9e4), moves=[]))
+    for places_, wanted in (
+            ([(7, 0, 0), (8, 0, 0), (7, 1, 0)], []),  # steps of 2^-20 at 8, of 2^-21 below, and a diagonal of 1.4
+            ([(31, 0, 0), (30.5, 0, 0), (31, 0.5, 0)], [31, 0, 0]),
+            ([(0, 0, -31), (0, -0.5, -31), (0.5, 0, -31)], [0, 0, -31]),
+            ([(3, 3, 3)] * 3, []),  # without a size there is nothing to lose
+            ([(50000, 0, 0), (0, 50000, 0), (0, 0, -50000)], [])):
+        # The last vertex is in no face: it is not written, and does not count.
+        run.write("a.obj", "".join("v %r %r %r\n" % p for p in places_) + "v 9e4 0 0\nf 1 2 3\n")
+        run.ffd("deform", "a.obj", "a.glb", "-l", "still.json", "--force", "-q")
+        equal(translation_of(glb_split(run.read("a.glb"))[0]), wanted, places_)
 
 
 @case
@@ -649,10 +901,10 @@ def containers_of_gltf(run):
     asset["extras"] = {"large": 12345678901234567890}
     run.write("a.gltf", asset)
     run.write("a.bin", data)
-    run.write("pictures/a.png", b"a picture")
+    run.write("pictures/a.png", PNG + b"a picture")
     run.folder_of("out")
     run.ffd("deform", "a.gltf", "out/b.glb", "-l", "still.json")
-    equal(run.read("out/pictures/a.png"), b"a picture")
+    equal(run.read("out/pictures/a.png"), PNG + b"a picture")
     found, chunk = glb_split(run.read("out/b.glb"))
     expected = json.loads(json.dumps(asset))
     del expected["buffers"][0]["uri"]
@@ -660,7 +912,7 @@ def containers_of_gltf(run):
     # A file may go on behind its buffer.
     run.write("a.bin", data + b"more" * 50000)
     run.ffd("deform", "a.gltf", "out/more.glb", "-l", "still.json")
-    equal(run.read("out/more.glb"), run.read("out/b.glb"), "without what stands behind the buffer")
+    equal(run.read("out/more.glb"), run.read("out/b.glb"), "without what follows the buffer")
     run.write("a.bin", data)
     run.ffd("deform", "out/b.glb", "out/c.gltf", "-l", "still.json")
     expected["buffers"][0]["uri"] = "c.bin"

@@ -4,7 +4,7 @@ import json
 import math
 import os
 
-from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, USAGE, case, check, equal, glb,
+from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, NO, OK, PNG, USAGE, case, check, equal, glb,
                      glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near, obj_vertices)
 
 MOVE = [{"by": [1, 0, 0]}]
@@ -42,7 +42,10 @@ def only_numbers_of_moved_vertices_change(run):
             "g a b\nusemtl m\ns 1\nf 1/1/1 2/1/1 1/1/1\nl 1 2\nunknown stuff\n")
     start(run, [{"by": [0.25, 0, 0]}])
     run.write("t.obj", text.replace("\n", "\r\n"))
-    run.ffd("deform", "t.obj", "u.obj", "-l", "l.json", err="t.obj: 1 of 2 vertices are not inside: 1 outside (left where they are)")
+    run.ffd("deform", "t.obj", "u.obj", "-l", "l.json",
+            err=["t.obj: 1 of 2 vertices is not inside: 1 outside (left where it is)",
+                 "t.obj: 1 vertex of a stays; the largest step to a neighbour is 0.25 (see --outside extend, --falloff, a larger "
+                 "lattice)"])
     equal(run.text("u.obj"), text.replace("-1.50 1e0 +.5", "-1.25 1e0 +.5").replace("\n", "\r\n"))
 
 
@@ -69,7 +72,9 @@ def vertices_outside(run):
     start(run, high=(2, 2, 0))
     run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json",
-            err="a.obj: 4 of 8 vertices are not inside: 4 outside (left where they are)")
+            err=["a.obj: 4 of 8 vertices are not inside: 4 outside (left where they are)",
+                 "a.obj: 4 vertices stay; the largest step to a neighbour is 1 (see --outside extend, --falloff, a larger "
+                 "lattice)"])
     expected = [[p[0] + (p[2] < 0), p[1], p[2]] for p in CUBE_CORNERS]
     near(obj_vertices(run.text("b.obj")), expected, 1e-15)
     run.ffd("deform", "a.obj", "c.obj", "-l", "l.json", "--outside", "keep", "-q", err=[])
@@ -109,7 +114,7 @@ def zero_normals(run):
     run.ffd("deform", "n.obj", "t.obj", "-l", "l.json", err=[])
     check("vn 0.0 -0 0\n" in run.text("t.obj"), run.text("t.obj"))
     run.write("n.obj", run.text("n.obj").replace("f 1//1", "f 1//2"))
-    run.ffd("deform", "n.obj", "u.obj", "-l", "l.json", err="n.obj: 1 normals are kept: the deformation collapses them")
+    run.ffd("deform", "n.obj", "u.obj", "-l", "l.json", err="n.obj: 1 normal is kept: the deformation collapses it")
 
 
 @case
@@ -166,11 +171,11 @@ def gltf_resources(run):
     asset["images"] = [{"uri": "maps/one.png"}]
     run.write("in/a.gltf", asset)
     run.write("in/a.bin", data)
-    run.write("in/maps/one.png", b"picture")
+    run.write("in/maps/one.png", PNG + b"picture")
     for folder in ("copy", "refer", "taken"):
         run.folder_of(folder)
     run.ffd("deform", "in/a.gltf", "copy/b.gltf", "-l", "l.json")
-    equal(run.read("copy/maps/one.png"), b"picture")
+    equal(run.read("copy/maps/one.png"), PNG + b"picture")
     equal(json.loads(run.read("copy/b.gltf"))["images"], asset["images"])
     run.ffd("deform", "in/a.gltf", "refer/b.gltf", "-l", "l.json", "--resources", "reference")
     uri = json.loads(run.read("refer/b.gltf"))["images"][0]["uri"]
@@ -276,13 +281,13 @@ def in_place_gltf(run):
 def report(run):
     start(run, high=(2, 2, 0))
     run.write("l.json", lattice(high=(2, 2, 0), moves=MOVE))
-    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "r.json", lines=1)
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "r.json", lines=2)
     report = json.loads(run.read("r.json"))
     equal([report["format"], report["version"], len(report["jobs"])], ["ffd-report", 1, 1])
     job = report["jobs"][0]
     equal(list(job), ["input", "output", "status", "exit", "error", "vertices", "inside", "outside", "multiple", "singular",
-                      "invalid", "moved", "residual", "iterations", "folds", "flipped_faces", "det", "edges",
-                      "bounds", "displacement", "seconds"])
+                      "invalid", "unused", "hidden", "morph_targets", "moved", "shared_faces", "residual", "iterations", "folds", "flipped_faces", "tear", "det", "edges",
+                      "bounds", "displacement", "behind", "seconds"])
     equal([job[key] for key in ("input", "output", "status", "exit", "error")], ["a.obj", "b.obj", "ok", 0, None])
     equal([job[key] for key in ("vertices", "inside", "outside", "multiple", "singular", "invalid", "moved")],
           [8, 4, 4, 0, 0, 0, 4])

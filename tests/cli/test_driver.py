@@ -8,7 +8,7 @@ import subprocess
 from driver import Driver
 from harness import CUBE, CUBE_CORNERS, FFD, SECONDS, case, check, equal, glb, gltf_json, lattice, main
 
-MESH = CUBE + "v 9 9 9\n"
+MESH = CUBE + "v 9 9 9\np 9\n"
 # Command lines and their exit codes. Each runs in a folder of its own.
 LINES = [
     (["--version"], 0), (["help"], 0), (["deform", "--help"], 0), ([], 2), (["deforn"], 2), (["--versio"], 2),

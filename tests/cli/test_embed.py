@@ -19,9 +19,9 @@ def uvw(p, low=-2, high=2):
 @case
 def both_arrays(run):
     start(run)
-    run.write("a.obj", CUBE + "v 3 0 0\nv 0.5 0.25 2\n")
+    run.write("a.obj", CUBE + "v 3 0 0\nv 0.5 0.25 2\np 9 10\n")
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy",
-            err="a.obj: 1 of 10 vertices are not inside: 1 outside (no u,v,w)")
+            err="a.obj: 1 of 10 vertices is not inside: 1 outside (no u,v,w)")
     descr, shape, rows = npy(run.read("e.npy"))
     equal([descr, shape], ["<f8", (10, 3)])
     near(rows[:8], [uvw(p) for p in CUBE_CORNERS], 1e-15)
@@ -47,7 +47,7 @@ def embedding(run, mesh="a.obj", lattice_file="l.json", *more):
 @case
 def the_trailer(run):
     start(run)
-    for mesh in (CUBE, CUBE + "v 3 0 0\nv nan 0 0\nv 0.5 0.25 2\n", ""):
+    for mesh in (CUBE, CUBE + "v 3 0 0\nv nan 0 0\nv 0.5 0.25 2\n", "o\n"):
         run.write("a.obj", mesh)
         run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", "-q", "--force")
         data = run.read("e.npy")
@@ -85,11 +85,18 @@ def hashes_of_what_u_v_w_depends_on(run):
 
 @case
 def hashes_of_placed_positions(run):
-    """glTF: where the nodes show the mesh; the same positions of an OBJ are the same positions."""
+    """glTF: where the nodes show the mesh; the same positions in another file are the same positions, if its numbers
+    round alike."""
     start(run, low=(-20, -20, -20), high=(20, 20, 20))
     run.write("a.glb", glb(*gltf_json(CUBE_CORNERS)))
-    same = embedding(run)["positions"]
-    equal(embedding(run, "a.glb")["positions"], same)
+    same = embedding(run, "a.glb")["positions"]
+    exact = embedding(run)["positions"]
+    check(exact != same, "floats stand for other numbers than text does")
+    for kind, expected in (("float", same), ("double", exact)):
+        run.write("a.ply", f"ply\nformat ascii 1.0\nelement vertex {len(CUBE_CORNERS)}\n"
+                  + "".join(f"property {kind} {axis}\n" for axis in "xyz") + "end_header\n"
+                  + "".join("%r %r %r\n" % tuple(p) for p in CUBE_CORNERS))
+        equal(embedding(run, "a.ply")["positions"], expected, kind)
     run.write("moved.glb", glb(*gltf_json(CUBE_CORNERS, nodes=[{"mesh": 0, "translation": [10, 0, 0]}])))
     check(embedding(run, "moved.glb")["positions"] != same, "another place")
     equal(embedding(run, "moved.glb", "l.json", "--space", "mesh")["positions"], same)
@@ -124,15 +131,22 @@ def statuses(run):
     run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", lines=1)
     equal(npy(run.read("s.npy"))[2], [0, 1, 4, 4])
     check(all(math.isnan(x) for row in npy(run.read("e.npy"))[2][1:] for x in row), "NaN where there is none")
-    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", code=INVALID,
-            err="a.obj: vertex 2 (counted from 0) has a coordinate that is not finite")
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", lines=1)
+    equal(run.read("b.obj"), run.read("a.obj"))
+
+
+@case
+def a_value_that_no_placeholder_takes(run):
+    start(run)
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--set", "Q=1", code=INVALID,
+            err='l.json: no lattice has the placeholder {"$": "Q"} (--set)')
 
 
 @case
 def an_empty_mesh(run):
     start(run)
-    run.write("a.obj", "# nothing\n")
-    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy")
+    run.write("a.obj", "o nothing\n")
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", err="a.obj: there are no vertices")
     equal(npy(run.read("e.npy")), ("<f8", (0, 3), []))
     equal(npy(run.read("s.npy")), ("|u1", (0,), []))
 

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """ffd deform --embedding: u,v,w of an earlier `ffd embed` give the same bytes as a search, and only those that
 were made for this mesh and this rest lattice are taken."""
+import random
+import re
 import struct
 
 from harness import CUBE, CUBE_CORNERS, INVALID, IO, USAGE, case, check, equal, glb, gltf_json, lattice, main, npy
@@ -37,14 +39,14 @@ def deform_both_ways(run, mesh, lattice_file, *more):
 
 @case
 def the_same_bytes_as_a_search(run):
-    for mesh in (CUBE, MANY, "# nothing\n"):
+    for mesh in (CUBE, MANY, "o nothing\n"):
         start(run, mesh)
         for moves in (UP, TWIST, []):
             run.write("m.json", bent(moves=moves))
             for threads in ("1", "3"):
-                searched, reused = deform_both_ways(run, "a.obj", "m.json", "-j", threads)
+                searched, reused = deform_both_ways(run, "a.obj", "m.json", "-j", threads, "-q")
                 equal(reused, searched)
-            equal(reused != run.read("a.obj"), bool(moves) and mesh != "# nothing\n", "it is deformed")
+            equal(reused != run.read("a.obj"), bool(moves) and mesh != "o nothing\n", "it is deformed")
 
 
 @case
@@ -79,7 +81,7 @@ def of_positions_that_stand_twice(run):
 
 @case
 def statuses_are_kept(run):
-    start(run, CUBE + "v 30 0 0\nv 0.5 0.25 2\n")
+    start(run, CUBE + "v 30 0 0\nv 0.5 0.25 2\np 9 10\n")
     for more in ((), ("--report", "r.json", "--report-stable")):
         searched, reused = deform_both_ways(run, "a.obj", "l.json", *more)
         equal(reused, searched)
@@ -101,14 +103,14 @@ def stale_ones_are_refused(run):
     run.write("nudged.obj", CUBE.replace("v 1 ", "v 1.0000000000000002 "))
     run.write("more.obj", CUBE + "v 0 0 0\n")
     for mesh in ("swapped.obj", "nudged.obj"):
-        refused(run, "was made for another mesh: its positions differ", mesh)
+        refused(run, "was made for another mesh: its positions, or their number type, differ", mesh)
     refused(run, "was made for another mesh: it is of 8 vertices, not 9", "more.obj")
     moved = [list(p) for p in BENT]
     moved[13][0] += 1e-12
     for other in (lattice(size=(3, 3, 3), rest={"points": moved}, moves=UP), bent(degree=[1, 2, 2], moves=UP),
                   bent(weights=[2] + 26 * [1], moves=UP), lattice(moves=UP)):
         run.write("o.json", other)
-        refused(run, "was made for another rest lattice", lattice_file="o.json")
+        refused(run, "was made for another rest lattice, or with another --snap", lattice_file="o.json")
 
 
 @case
@@ -127,6 +129,60 @@ def what_is_no_embedding_is_refused(run):
         refused(run, why)
     run.ffd("deform", "a.obj", "o.obj", "-l", "l.json", "--embedding", "none.npy", code=IO)
     run.ffd("deform", "a.obj", "o.obj", "-l", "l.json", "--embedding", ".", code=IO)
+
+
+def graft(run, moved, lattice_file, *more):
+    """Writes as e.npy the u,v,w of another mesh with the hashes of a.obj's embedding."""
+    run.write("other.obj", moved)
+    for name in ("a", "other"):
+        run.ffd("embed", name + ".obj", "-l", lattice_file, "-o", name + ".npy", "-q", "--force", *more)
+    right, other = run.read("a.npy"), run.read("other.npy")
+    run.write("e.npy", other[:-72] + right[-72:-40] + other[-40:])
+
+
+@case
+def what_misses_a_vertex_is_refused(run):
+    """By more than roundings, however little; of several the first one is named."""
+    why = r"^e\.npy: u,v,w of vertex {} \(counted from 0\) lead to a place .* away from it: they are not what ffd embed wrote$"
+    weights = [10.0 ** (i % 4) for i in range(27)]
+    for members in ({}, {"weights": weights}, {"rest": {"box": {"min": [-2, -2, -2], "max": [2, 2, 2]}}}):
+        start(run)
+        run.write("l.json", lattice(size=(3, 3, 3), moves=UP, **{"rest": {"points": BENT}, **members}))
+        for step in ("1e-9", "0.5"):
+            graft(run, CUBE.replace("v 1 ", f"v {1 - float(step)!r} "), "l.json")
+            run.ffd("deform", "a.obj", "o.obj", "-l", "l.json", "--embedding", "e.npy", code=INVALID, err=re.compile(why.format(1)))
+            check(not run.exists("o.obj"), "nothing is written")
+    # What is outside of one part and inside of the other is not looked for again: it keeps its status, and is counted (and torn off).
+    graft(run, CUBE.replace("v 1 ", "v 30 "), "l.json")
+    run.ffd("deform", "a.obj", "o.obj", "-l", "l.json", "--embedding", "e.npy", lines=2)
+
+
+@case
+def what_is_on_the_border_is_taken(run):
+    """What float32 or --snap brings to the border is as near to it as they allow, and no other place of it is."""
+    numbers = random.Random(34)
+    points = [[0.1 * numbers.random() for _ in range(3)] for _ in range(300)]
+    for p in points:
+        p[numbers.randrange(3)] = numbers.choice((0, 0.1))
+    run.write("f.ply", "ply\nformat ascii 1.0\nelement vertex 300\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+              + "".join("%r %r %r\n" % tuple(p) for p in points))
+    run.write("l.json", lattice(low=(0, 0, 0), high=(0.1, 0.1, 0.1), moves=TWIST))
+    run.ffd("embed", "f.ply", "-l", "l.json", "-o", "e.npy")
+    searched, reused = deform_both_ways(run, "f.ply", "l.json")
+    equal(reused, searched)
+    away = CUBE + "".join("v %r %r %r\n" % tuple(2 + 0.009 * numbers.random() if a == i % 3 else 2 - 4 * numbers.random()
+                                                 for a in range(3)) for i in range(200))
+    start(run, away)
+    run.write("l.json", lattice(size=(3, 3, 3), rest={"points": BENT}, moves=TWIST))
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "e.npy", "--snap", "0.3", "-q", "--force")
+    searched, reused = deform_both_ways(run, "a.obj", "l.json", "--snap", "0.3")
+    equal(reused, searched)
+    run.write("l.json", lattice(moves=UP))
+    start_of = CUBE + "v 2.25 0 0\n"
+    run.write("a.obj", start_of)
+    graft(run, start_of.replace("2.25 0", "2.25 0.5"), "l.json", "--snap", "0.3")
+    run.ffd("deform", "a.obj", "o.obj", "-l", "l.json", "--embedding", "e.npy", "--snap", "0.3", code=INVALID,
+            err=re.compile("vertex 8 .* lead to a place 0.559 away"))
 
 
 @case

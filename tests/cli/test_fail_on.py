@@ -12,7 +12,7 @@ GATES = ("folds", "outside", "multiple", "singular")
 
 
 def along_x(xs, degree, deformed=None, **members):
-    """A lattice whose control points stand at xs along x, and at 0 and 1 along y and z."""
+    """A lattice whose control points are at xs along x, and at 0 and 1 along y and z."""
     def points(row):
         return [[x, y, z] for z in (0, 1) for y in (0, 1) for x in row]
 
@@ -31,15 +31,15 @@ def vertices(*points):
 # A volume along x that turns round at x = 2 (an edge, on which nothing is singular), and one that turns round at
 # x = 2/3 smoothly: there J has no inverse.
 EDGE, SMOOTH = along_x([0, 2, 1], 1, moves=SHIFT), along_x([0, 1, 0.5], 2, moves=SHIFT)
-# x(u) = u^3 - u^2 + u/3 has the derivative (3u-1)^2/3, whose only zero is no binary fraction: no fold, and no proof.
+# x(u) = u^3 - u^2 + u/3 has the derivative (3u-1)^2/3, whose only zero is not a binary fraction: no fold, and no proof.
 TOUCHING = along_x([0, 1 / 3, 2 / 3, 1], 3, deformed=[0, 1 / 9, -1 / 9, 1 / 3])
 VIOLATIONS = {
     "folds": (CUBE, lattice(moves=MIRROR),
-              r"the deformed volume folds in 1 of 1 cells, as at u,v,w = \S+ \S+ \S+ of bad.json, x,y,z = \S+ \S+ \S+"),
+              r"the deformed volume folds in 1 of 1 cell, as at u,v,w = \S+ \S+ \S+ of bad.json, x,y,z = \S+ \S+ \S+"),
     "outside": (CUBE, lattice(high=(2, 2, 0), moves=SHIFT), "4 of 8 vertices are outside the lattice"),
     "multiple": (vertices([0.5, 0.5, 0.5], [1.5, 0.5, 0.5], [1.25, 0.5, 0.25]), EDGE, "2 of 3 vertices have several u,v,w"),
     "singular": (vertices([0.25, 0.5, 0.5], [2 / 3, 0.5, 0.5], [0.3, 0.5, 0.25]), SMOOTH,
-                 "1 of 3 vertices are where the lattice has no inverse"),
+                 "1 of 3 vertices is where the lattice has no inverse"),
 }
 CLEAN = lattice(moves=SHIFT)
 
@@ -70,6 +70,11 @@ def each_gate_violated(run):
             refused(run, command, gate, says=rf"{says} \(--fail-on {gate}\)")
 
 
+def warnings(command, violated):
+    """Lines about statuses; and deform speaks of what it tears."""
+    return int(violated != "folds") + int(violated == "outside" and command[0] == "deform")
+
+
 @case
 def each_gate_kept(run):
     """A gate asks for its own figure only: those that others would object to pass."""
@@ -79,11 +84,10 @@ def each_gate_kept(run):
             if gate == other or (gate == "folds" and other in ("multiple", "singular")):
                 continue
             start(run, mesh, bad)
-            # Beside a place without inverse there are points with two u,v,w.
-            warned = int(other != "folds")
             for command in commands():
                 run.ffd(*command, "-l", "bad.json", "--fail-on", gate, "--quiet", "--force")
-                run.ffd(*command, "-l", "bad.json", "--fail-on", gate, "--force", lines=warned)
+                run.ffd(*command, "-l", "bad.json", "--fail-on", gate, "--force",
+                        lines=warnings(command, other))
             check(run.exists("b.obj"), gate)
 
 
@@ -108,7 +112,7 @@ def without_gates_nothing_is_refused(run):
 def several_gates_are_one_line(run):
     mesh = VIOLATIONS["multiple"][0] + vertices([9, 9, 9])
     start(run, mesh, VIOLATIONS["multiple"][1])
-    says = (r"the deformed volume folds in 1 of 2 cells, .* \(--fail-on folds\); 1 of 4 vertices are outside the lattice "
+    says = (r"the deformed volume folds in 1 of 2 cells, .* \(--fail-on folds\); 1 of 4 vertices is outside the lattice "
             r"\(--fail-on outside\); 2 of 4 vertices have several u,v,w \(--fail-on multiple\)")
     for command in commands():
         refused(run, command, ",".join(GATES), says=says)
@@ -119,12 +123,12 @@ def several_gates_are_one_line(run):
 def a_proof_that_ends_in_unknown(run):
     start(run, vertices([0.25, 0.5, 0.5]), TOUCHING)
     for command in commands():
-        refused(run, command, "folds", says=r"the deformed volume is not proven to be free of folds in 1 of 1 cells "
+        refused(run, command, "folds", says=r"the deformed volume is not proven to be free of folds in 1 of 1 cell "
                 r"\(least det J \S+\) \(--fail-on folds\)")
     folds = run.ffd("check", "a.obj", "-l", "bad.json", "--report", "-").json["jobs"][0]["folds"]
     equal([folds["verdict"], folds["unknown_cells"], folds["folded_cells"], folds["witness"]], ["unknown", 1, 0, None])
     check(-1e-9 < folds["min_det"] <= 0, folds)
-    check("unknown: 1 of 1 cells" in run.ffd("check", "a.obj", "-l", "bad.json").text, "the text")
+    check("unknown: 1 of 1 cell" in run.ffd("check", "a.obj", "-l", "bad.json").text, "the text")
     done = run.ffd("deform", "a.obj", "b.obj", "-l", "bad.json", "--report", "r.json", lines=1)
     check("not proven" in done.err[0], done.err)
 
@@ -135,7 +139,7 @@ def a_fold_is_told_with_a_report_only(run):
     start(run, *VIOLATIONS["folds"][:2])
     run.ffd("deform", "a.obj", "b.obj", "-l", "bad.json")
     done = run.ffd("deform", "a.obj", "c.obj", "-l", "bad.json", "--report", "r.json", lines=1)
-    check(done.err[0].startswith("a.obj: the deformed volume folds in 1 of 1 cells"), done.err)
+    check(done.err[0].startswith("a.obj: the deformed volume folds in 1 of 1 cell"), done.err)
     run.ffd("deform", "a.obj", "d.obj", "-l", "bad.json", "--report", "r.json", "-q")
     equal(run.read("b.obj"), run.read("c.obj"))
 
@@ -203,8 +207,6 @@ def stronger_failures_come_first(run):
     for command in commands():
         run.ffd(*command, "-l", "bad.json", "--fail-on", "outside", "--outside", "error", code=EMBEDDING)
         run.ffd(*command, "-l", "missing.json", "--fail-on", "outside", code=IO)
-    run.write("a.obj", CUBE + "v nan 0 0\n")
-    run.ffd("deform", "a.obj", "b.obj", "-l", "bad.json", "--fail-on", "outside", code=INVALID)
     equal(run.names(), ["a.obj", "bad.json", "good.json"])
 
 
@@ -226,9 +228,9 @@ def any_lattice_of_several(run):
     for command in commands():
         done = run.ffd(*command, "-l", "wide.json", "-l", "bad.json", "--fail-on", "multiple,folds", code=NO, lines=1)
         check("folds in 1 of 3 cells" in done.err[0] and " of bad.json, " in done.err[0], done.err)
-        check("1 of 2 vertices have several u,v,w (--fail-on multiple)" in done.err[0], done.err)
+        check("1 of 2 vertices has several u,v,w (--fail-on multiple)" in done.err[0], done.err)
         # The second vertex is singular in one lattice, and has two u,v,w in the other.
-        for gate, says in (("multiple", "1 of 2 vertices have several"), ("singular", "1 of 2 vertices are where")):
+        for gate, says in (("multiple", "1 of 2 vertices has several"), ("singular", "1 of 2 vertices is where")):
             done = run.ffd(*command, "-l", "smooth.json", "-l", "bad.json", "--fail-on", gate, code=NO, lines=1)
             check(says in done.err[0], done.err)
 

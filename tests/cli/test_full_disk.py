@@ -9,7 +9,7 @@ import os
 import subprocess
 import sys
 
-from harness import CUBE, IO, SECONDS, case, check, equal, lattice, main
+from harness import CUBE, IO, PNG, SECONDS, case, check, equal, lattice, main
 
 NAMESPACES = (["unshare", "-m"], ["unshare", "-rm"])
 SPACE = "No space left on device"
@@ -67,7 +67,7 @@ def disks(run):
 
 
 def fill(folder, room=0):
-    """Fills a file system but for so many bytes, as far as its blocks allow. Returns the file that does it."""
+    """Fills a file system except for this many bytes, as far as its blocks allow. Returns the file that does it."""
     filler = os.path.join(folder, "filler")
     with open(filler, "wb", buffering=0) as file:
         with contextlib.suppress(OSError):
@@ -137,7 +137,7 @@ def full_device(run):
 
 @case
 def full(run):
-    """Not a byte is left; then room for a part of the output; then enough."""
+    """Not a byte is left; then space for a part of the output; then enough."""
     start(run)
     for folder in disks(run):
         for files, arguments in commands():
@@ -183,8 +183,8 @@ def full_for_what_comes_after_the_mesh(run):
         filler = fill(folder)
         for n, (option, name) in enumerate((("--report", "r.json"), ("--report", "new.json"), ("--depfile", "d"), ("--depfile", "new"))):
             check_refused(run, ["deform", "cube.obj", f"b{n}.obj", "-l", "l.json", "--force", option, f"disk/{name}"], SPACE)
-        # The mesh and its report: both are told of. A mesh without room, where a report still has some: it says so.
-        run.ffd("deform", "a.obj", "disk/b.obj", "-l", "l.json", "--report", "disk/r.json", code=IO, lines=2)
+        # Without space for the report nothing is begun. If there is some, but not for the mesh, the report says so.
+        run.ffd("deform", "a.obj", "disk/b.obj", "-l", "l.json", "--report", "disk/r.json", code=IO)
         os.unlink(filler)
         filler = fill(folder, 20000)
         run.ffd("deform", "a.obj", "disk/b.obj", "-l", "l.json", "--report", "disk/r.json", code=IO)
@@ -194,13 +194,51 @@ def full_for_what_comes_after_the_mesh(run):
 
 
 @case
+def mounted_files(run):
+    """No file takes the place of a mount: OUT, report and depfile are refused before any work."""
+    start(run)
+    for name, content in (("b.obj", "old"), ("r.json", '{"format": "ffd-report"}'), ("d", "b.obj: a.obj\n")):
+        run.write(name, content)
+        command("mount", "--bind", run.path(name), run.path(name))
+    try:
+        before = run.names()
+        for arguments, name in ((["b.obj", "--force"], "b.obj"), (["c.obj", "--report", "r.json"], "r.json"),
+                                (["c.obj", "--depfile", "d"], "d")):
+            run.ffd("deform", "cube.obj", *arguments, "-l", "l.json", code=IO,
+                    err=f"{name}: cannot be replaced: it is mounted here, or immutable")
+        equal(run.names(), before)
+        equal(run.text("b.obj"), "old")
+    finally:
+        for name in ("b.obj", "r.json", "d"):
+            command("umount", run.path(name))
+
+
+@case
+def full_for_the_rest_of_a_report(run):
+    """What does not fit whole is not there: the report is whole JSON of the jobs before."""
+    start(run)
+    run.write("m.jsonl", "".join(f'{{"in": "cube.obj", "lattice": "l.json", "out": "o{i}.obj"}}\n' for i in range(60)))
+    for folder in disks(run):
+        for name in ("r.json", "r.jsonl"):
+            filler = fill(folder, 20000)
+            done = run.ffd("batch", "m.jsonl", "--force", "-j", "2", "--journal", "j", "--report", f"disk/{name}", code=IO)
+            check(SPACE in done.err[0], done.err)
+            text = run.text(f"disk/{name}")
+            jobs = json.loads(text)["jobs"] if name == "r.json" else [json.loads(line) for line in text.splitlines()]
+            check(0 < len(jobs) < 60 and all(job["status"] == "ok" for job in jobs), name, len(jobs))
+            os.unlink(filler)
+            run.remove(f"disk/{name}")
+        run.remove("j")
+
+
+@case
 def full_for_an_image(run):
     start(run)
     asset = json.loads(run.read("a.gltf"))
     asset["images"] = [{"uri": "pictures/p.png"}]
     run.write("m/a.gltf", asset)
     run.write("m/" + asset["buffers"][0]["uri"], run.read(asset["buffers"][0]["uri"]))
-    run.write("m/pictures/p.png", b"p" * 50000)
+    run.write("m/pictures/p.png", PNG + b"p" * 49992)
     for folder in disks(run):
         filler = fill(folder, 20000)
         check_refused(run, ["deform", "m/a.gltf", "disk/b.gltf", "-l", "l.json"], SPACE)
@@ -227,7 +265,7 @@ def no_room_for_a_name(run):
 
 @case
 def equal_outputs_on_a_full_disk(run):
-    """To compare, the output is written first: where it has no room the old one stays too."""
+    """To compare, the output is written first: if there is no space for it the old one stays too."""
     start(run)
     for folder in disks(run):
         run.ffd("deform", "a.obj", "disk/b.obj", "-l", "l.json")

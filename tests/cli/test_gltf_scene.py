@@ -2,11 +2,15 @@
 """What a glTF scene shows is what is deformed: skins, morph targets, instances, and which scene it is."""
 
 import json
+import random
 import re
 import struct
 
 from gltf_build import SHEAR, SHIFT, Scene, vectors
-from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy)
+from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, announce, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy)
+
+announce("joints? stays? where")
+
 
 def column_major(linear, offset):
     return [linear[r][c] for c in range(3) for r in (0, 1, 2)][:3] + [0.0] + \
@@ -88,15 +92,15 @@ def weights_are_divided_by_their_sum(run):
     # x' of the scene by 1: the matrix is 2/3 of the turn and 1/3 of the other.
     linear = [[third, -2 * third], [2 * third, third]]
     det = linear[0][0] ** 2 + linear[1][0] ** 2
-    near(vectors(deformed(run, scene, SHIFT), 0),
+    near(vectors(deformed(run, scene, SHIFT, lines=1), 0),
          [[1 + linear[1][1] / det, -linear[1][0] / det, 0], [2, -1, 0]], 1e-6)
 
 
 @case
 def a_vertex_without_an_inverse_stays_and_is_counted(run):
-    # Half a turn one way and half the other: nothing is left of x and y. And no weight at all.
+    # Half a turn one way and half the other: nothing is left of x and y.
     nodes = [{"mesh": 0, "skin": 0}, {"rotation": [0, 0, 1, 0]}, {}]
-    scene = skinned([[0, 1, 0, 0]] * 3, [[0.5, 0.5, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0]], nodes=nodes,
+    scene = skinned([[0, 1, 0, 0]] * 3, [[0.5, 0.5, 0, 0], [0.5, 0.5, 0, 0], [1, 0, 0, 0]], nodes=nodes,
                     normals=[[1, 0, 0]] * 3)
     run.write("in.glb", scene.glb())
     done = run.ffd("deform", "in.glb", "out.glb", "-l", run.write("l.json", SHEAR | {"moves": [
@@ -214,7 +218,7 @@ def broken_skins_are_refused(run):
     scene.asset["accessors"][1]["type"] = "VEC3"
     refused(scene, "JOINTS_0 is not a VEC4")
     scene = skinned([[0, 0, 0, 0]], weights, bind=[[1.0] + [0.0] * 14 + [1.0]])
-    refused(scene, "has 1 matrices for 2 joints")
+    refused(scene, "has 1 matrix for 2 joints")
     scene.asset["skins"][0]["inverseBindMatrices"] = 77
     refused(scene, "there is no accessor 77")
     scene.asset["skins"][0]["inverseBindMatrices"] = 0
@@ -223,7 +227,6 @@ def broken_skins_are_refused(run):
         rows = [[1.0 if i % 5 == 0 else 0.0 for i in range(16)] for _ in range(2)]
         rows[1][0 if bad != bad else 15] = bad
         refused(skinned([[0, 0, 0, 0]], weights, bind=rows), message)
-    refused(skinned([[0, 0, 0, 0]], [[float("nan"), 0, 0, 0]]), "vertex 0 .* not finite")
     scene = skinned([[0, 0, 0, 0]], weights)
     scene.asset["nodes"][1] = {"scale": [1e300, 1, 1], "children": [2]}
     scene.asset["nodes"][2]["scale"] = [1e300, 1, 1]
@@ -417,7 +420,7 @@ def inside_and_outside(run):
     run.write("in.glb", scene.glb())
     run.write("l.json", SHIFT)
     done = run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", lines=2)
-    check(done.err[1] == "in.glb: morph targets move 1 vertices outside the lattice (left where they are)", done.err)
+    check(done.err[1] == "in.glb: morph targets move 1 vertex outside the lattice (left where it is)", done.err)
     near(vectors(run.read("out.glb"), 1), [[19, 0, 0], [-18, 0, 0]], 1e-6)
     run.ffd("deform", "in.glb", "out.glb", "--force", "-l", "l.json", "--outside", "extend", lines=2)
     near(vectors(run.read("out.glb"), 1), [[20, 0, 0], [-19, 0, 0]], 1e-6)
@@ -442,7 +445,11 @@ def broken_targets_are_refused(run):
     scene = morphed([{}, {"POSITION": [[1.0, 1.0, 1.0], [float("inf"), 0.0, 0.0]]}])
     for bound in ("min", "max"):
         del scene.asset["accessors"][1][bound]
-    refused(scene, "a morph target moves vertex 1 .counted from 0. to a coordinate that is not finite")
+    run.write("in.glb", scene.glb())
+    run.ffd("deform", "in.glb", "kept.glb", "-l", "l.json",
+            err=re.compile("morph targets move 1 vertex to coordinates that are not finite"))
+    equal(run.read("kept.glb")[-24:], run.read("in.glb")[-24:], "the offsets")
+    run.ffd("deform", "in.glb", "kept.glb", "-l", "l.json", "--fail-on", "invalid", "--force", code=NO, lines=1)
     scene = morphed([{"TANGENT": 2}], NORMAL=[[0.0, 0.0, 1.0]] * 2, TANGENT=[[1.0, 0.0, 0.0, 1.0]] * 2)
     refused(scene, "/meshes/0/primitives/0/targets/0/TANGENT: its accessor is not a VEC3")
     huge = 3e38
@@ -508,10 +515,10 @@ def instances_out_of_reach_are_left_alone(run):
     scene = instanced([[11.0, 0.0, 0.0], [-13.0, 0.0, 0.0]])
     run.write("in.glb", scene.glb())
     run.write("l.json", SHIFT)
-    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", err=[LEFT])
+    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", err=["in.glb: there are no vertices to deform", LEFT])
     equal(run.read("out.glb"), run.read("in.glb"))
     run.ffd("deform", "in.glb", "out.obj", "-l", "l.json", code=UNSUPPORTED,
-            err="in.glb:/nodes/0: instances of EXT_mesh_gpu_instancing cannot be converted")
+            err=["in.glb: there are no vertices to deform", "in.glb:/nodes/0: instances of EXT_mesh_gpu_instancing cannot be converted"])
     # The same mesh under nodes without instances: a copy of it.
     for nodes in ([{"mesh": 0}, {"mesh": 0, "translation": [100, 0, 0]}],):
         scene = instanced([[11.0, 0.0, 0.0]], nodes)
@@ -552,9 +559,9 @@ def instances_and_selection(run):
 def instances_in_mesh_space_and_broken_ones(run):
     scene = instanced([[0.0, 0.0, 0.0]])
     near(vectors(deformed(run, scene, SHIFT, "--space", "mesh"), 0), [[1, 0, 0], [3, 1, 0]], 1e-6)
-    for attributes, message in (({"TRANSLATION": 9}, "is not the number of one of the 2 accessors"),
+    for attributes, message in (({"TRANSLATION": 9}, "is not the number of an accessor, of which there are 2"),
                                 ({"ROTATION": 1}, "accessor 1 is not a VEC4"),
-                                ({"TRANSLATION": 0, "SCALE": 1}, "accessor 1 has 1 elements, another attribute has 2"),
+                                ({"TRANSLATION": 0, "SCALE": 1}, "accessor 1 has 1 element, another attribute has 2"),
                                 ({"SCALE": "1"}, "is not the number")):
         scene.asset["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = attributes
         run.write("in.glb", scene.glb())
@@ -596,8 +603,128 @@ def the_scene_that_is_shown(run):
     near(places(scene, lines=2), [0, 1, 2, 1], 1e-6)
     # Nothing is shown: nothing changes.
     scene = three_meshes(scenes=[{}])
-    places(scene, lines=1)
+    places(scene, lines=2)
     equal(run.read("out.glb"), run.read("in.glb"))
+
+
+# Symmetric about x = 0; in binary64 the two halves round differently.
+BENT_ALIKE = lattice(size=(5, 4, 5), low=(-1.1, -1.1, -1.1), high=(1.1, 1.1, 1.1),
+                     moves=[{"taper": {"axis": "y", "factor": 0.5}}, {"bend": {"axis": "y", "toward": [0, 0, 1], "degrees": 35}}])
+
+
+def half(nodes, roots, **members):
+    """Points of which some are on x = 0, and a target that moves them."""
+    scene = Scene(nodes=nodes, scenes=[{"nodes": roots}])
+    numbers = random.Random(11)
+    points = [[numbers.choice([0, numbers.random()]), numbers.uniform(-1, 1), numbers.uniform(-1, 1)] for _ in range(500)]
+    primitive = {"attributes": {"POSITION": scene.add(points, bounds=True)}, "mode": 0,
+                 "targets": [{"POSITION": scene.add([[p[0] / 50, p[1] / 50, 0] for p in points], bounds=True)}]}
+    scene.asset["meshes"] = [{"primitives": [primitive], **members}]
+    return scene
+
+
+PLAIN, MIRRORED = {"mesh": 0}, {"mesh": 0, "scale": [-1, 1, 1]}
+
+
+@case
+def a_mirrored_half_keeps_its_mesh(run):
+    """And the first node of the scene gives the bits, which it has alone too."""
+    alone = {}
+    for name, node in (("right", PLAIN), ("left", MIRRORED)):
+        alone[name] = [vectors(deformed(run, half([node], [0]), BENT_ALIKE), i) for i in (0, 1)]
+    check(alone["right"] != alone["left"], "the halves round alike: nothing is tried")
+    for nodes, roots, first in (([PLAIN, MIRRORED], [0, 1], "right"), ([MIRRORED, PLAIN], [0, 1], "left"),
+                                ([PLAIN, MIRRORED], [1, 0], "left"), ([{"children": [2, 1]}, PLAIN, MIRRORED], [0], "left")):
+        out = deformed(run, half(nodes, roots), BENT_ALIKE)
+        asset = glb_split(out)[0]
+        equal([len(asset["meshes"]), asset["nodes"]], [1, nodes], first)
+        equal([vectors(out, i) for i in (0, 1)], alone[first], f"{nodes}: the bits of the {first} half")
+
+
+@case
+def what_differs_by_more_gets_a_copy_as_before(run):
+    """Of two mirrored pairs the second stands elsewhere: it shares one copy."""
+    shift = {"translation": [0, 0.05, 0]}
+    out = deformed(run, half([PLAIN, PLAIN | shift, MIRRORED | shift, MIRRORED], [3, 2, 1, 0]), BENT_ALIKE)
+    asset = glb_split(out)[0]
+    equal([len(asset["meshes"]), [node["mesh"] for node in asset["nodes"]]], [2, [0, 1, 1, 0]])
+    alone = deformed(run, half([MIRRORED | shift], [0]), BENT_ALIKE)
+    equal(vectors(out, asset["meshes"][1]["primitives"][0]["attributes"]["POSITION"]), vectors(alone, 0))
+
+
+@case
+def one_ulp_is_shared_and_two_are_not(run):
+    """The second node stands a little higher, where the shear moves more."""
+    def scene(heights):
+        made = Scene(nodes=[{"mesh": 0, "translation": [0, y, 0]} for y in heights],
+                     scenes=[{"nodes": list(range(len(heights)))}])
+        made.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": made.add([[1, 1, 0]], bounds=True)}, "mode": 0}]}]
+        return made
+
+    ulp = 2.0 ** -23  # of 1.05
+    first = vectors(deformed(run, scene([0]), SHEAR), 0)
+    for ulps, meshes in ((1, 1), (2, 2)):
+        height = ulps * ulp / 0.05
+        equal(vectors(deformed(run, scene([height]), SHEAR), 0)[0][0] - first[0][0], ulps * ulp, "the nodes' own results")
+        out = deformed(run, scene([0, height]), SHEAR)
+        equal([len(glb_split(out)[0]["meshes"]), vectors(out, 0)], [meshes, first], f"{ulps} ulp apart")
+
+
+@case
+def each_coordinate_counts_by_its_own_ulp(run):
+    """A mesh far along x, whose ulp is 1/16 there; that of z is next to nothing."""
+    def scene(points, order):
+        made = Scene(nodes=[{"mesh": 0}, {"mesh": 0, "translation": [0, 0, 10]}], scenes=[{"nodes": order}])
+        made.asset["meshes"] = [{"primitives": [{"attributes": {"POSITION": made.add(points, bounds=True)}, "mode": 0}]}]
+        return made
+
+    def places(out):
+        asset = glb_split(out)[0]
+        return [vectors(out, asset["meshes"][node["mesh"]]["primitives"][0]["attributes"]["POSITION"])
+                for node in asset["nodes"]]
+
+    lifted = lattice(low=(999999, -10, 9), high=(1000002, 10, 11), moves=[{"by": [0, 0, 0.05]}])
+    far = [[1000000.0, 0.0, 0.0], [1000001.0, 0.0, 0.0], [1000000.0, 1.0, 0.0]]
+    float_005 = struct.unpack("<f", struct.pack("<f", 0.05))[0]
+    sheared = lattice(low=(0, -10, -1), high=(2000, 10, 11), size=(2, 2, 2),
+                      moves=[{"at": ["all", "all", 1], "by": [0, 2e-5, 0]}])
+    near_zero = [[1000.0, 0.001, 0.0], [1001.0, 0.0, 0.0], [1000.0, 1.0, 0.0]]
+    step = 2.0 ** -23  # an ulp of 1
+    lifted_a_step = lattice(low=(0, 0, 10), high=(2, 2, 12), moves=[{"by": [0, 0, step]}])
+    for order in ([0, 1], [1, 0]):
+        found = places(deformed(run, scene([[1.0, 1.0, 1.0]], order), lifted_a_step, lines=1))
+        equal(found, [[[1, 1, 1]], [[1, 1, 1 + step]]], f"{order}: what is outside keeps its bits")
+        kept, moved = places(deformed(run, scene(far, order), lifted, lines=1))
+        equal([kept, moved], [far, [[x, y, float_005] for x, y, _ in far]], f"{order}: one stays, one moves")
+        low, high = places(deformed(run, scene(near_zero, order), sheared))
+        near([low[0][1] - 0.001, high[0][1] - 0.001], [2e-5 / 12, 2e-5 * 11 / 12], 1e-9, f"{order}: both move")
+
+
+@case
+def a_mirrored_half_in_a_large_lattice_keeps_its_mesh(run):
+    """Both halves under a node that is far away and turned; a lattice fifty times their size."""
+    parent = {"children": [1, 2], "translation": [300, -20, 70], "rotation": [0, 0, 0.6, 0.8]}
+    bent = lattice(size=(5, 4, 5), low=(200, -70, 20), high=(400, 30, 120),
+                   moves=[{"at": [2, "all", "all"], "by": [0.5, 1, 3]}, {"twist": {"axis": "z", "degrees": 5}}])
+    alike = lattice(size=(5, 4, 5), low=(-55, -55, -55), high=(55, 55, 55), moves=[{"taper": {"axis": "y", "factor": 0.5}}])
+    out = deformed(run, half([PLAIN, MIRRORED], [0, 1]), alike)
+    equal(len(glb_split(out)[0]["meshes"]), 1, "symmetric about x = 0")
+    out = deformed(run, half([parent, PLAIN, MIRRORED], [0]), bent)
+    equal(len(glb_split(out)[0]["meshes"]), 2, "not symmetric")
+    moved = lattice(low=(200, -70, 20), high=(400, 30, 120), moves=[{"by": [0.1, 0.2, 0.3]}])
+    out = deformed(run, half([parent, PLAIN, PLAIN | {"translation": [1, 1, 1]}], [0]), moved)
+    equal(len(glb_split(out)[0]["meshes"]), 1, "moved alike at two places")
+
+
+@case
+def a_half_that_is_not_selected_keeps_its_bits(run):
+    run.write("l.json", lattice(low=(-2, -2, -2), high=(2, 2, 2), moves=[{"by": [1e-8, 0, 0]}]))
+    scene = half([PLAIN | {"name": "a"}, PLAIN | {"name": "b"}], [0, 1])
+    run.write("in.glb", scene.glb())
+    run.ffd("deform", "in.glb", "out.glb", "-l", "l.json", "--only", "node:a", "--force")
+    asset = glb_split(run.read("out.glb"))[0]
+    kept = asset["meshes"][asset["nodes"][1]["mesh"]]["primitives"][0]["attributes"]["POSITION"]
+    equal(vectors(run.read("out.glb"), kept), vectors(run.read("in.glb"), 0))
 
 
 main()

@@ -10,8 +10,9 @@ import struct
 
 from gltf_reader import (DEFORMED, FLOAT, SCALES, TYPES, Gltf, attribute_sets, check_bounds, check_rest,
                          deformed_accessors)
-from harness import LIMIT, MODELS, OK, UNSUPPORTED, case, check, equal, glb, lattice, main, near, pad
+from harness import LIMIT, MODELS, OK, UNSUPPORTED, announce, case, check, equal, glb, lattice, main, near, pad
 
+announce("(joint|pivot|camera|light|socket)s? stays? where")
 POINTS = [(-1.0, -1.0, -0.5), (1.0, -1.0, 0.25), (-1.0, 1.0, 0.5), (1.0, 1.0, 0.0), (0.0, 0.5, 1.0), (0.0, 0.0, 0.0)]
 SHIFT = (0.25, -0.5, 0.125)
 ALL = lattice(moves=[{"by": list(SHIFT)}])
@@ -393,7 +394,7 @@ def neighbours_stay_neighbours(run):
 
 @case
 def copies_of_integers_are_aligned(run):
-    """Where a copy is needed, its elements stand at multiples of 4 bytes, even if the old ones did not."""
+    """Where a copy is needed, its elements start at multiples of 4 bytes, even if the old ones did not."""
     for (component, normalized), aligned in itertools.product(INTEGERS, (False, True)):
         points = integers(component, 0.5)
         flags = {"normalized": True} if normalized else {}
@@ -632,6 +633,29 @@ def buffers_of_many_pieces(run):
                 run.ffd("deform", name, "out-" + name, "-l", "l.json", "--force", "--threads", threads)
                 found = Gltf(run.path("out-" + name)).buffers[0]
                 equal(bytes(found[:len(expected)]) == expected, True, f"{count} {tail} {container} {threads}")
+
+
+@case
+def streams_of_many_pieces(run):
+    """A buffer of streams one behind the other is written from where they are, whatever pieces they end in."""
+    run.write("l.json", lattice(low=(0, 0, 0), high=(9, 9, 9), moves=[{"by": list(SHIFT)}]))
+    for count in (40000, 1 << 16, 70001):
+        points = [(i % 64 / 8 + 1, i // 64 % 64 / 8 + 1, i % 5 / 4 + 1) for i in range(count)]
+        before, after = (b"".join(struct.pack("<3f", *point) for point in shape)
+                         for shape in (points, [tuple(p + s for p, s in zip(point, SHIFT)) for point in points]))
+        rest = bytes(i * i % 251 for i in range(12 * count))
+        for container in CONTAINERS:
+            maker = Maker()
+            streams = [maker.view(data) for data in (before, rest, before, rest)]
+            low, high = ([f(p[a] for p in points) for a in range(3)] for f in (min, max))
+            for first in (0, 2):
+                maker.mesh({"POSITION": maker.accessor(count, bufferView=streams[first], min=low, max=high)})
+            maker.asset["nodes"], maker.asset["scenes"] = [{"mesh": 0}, {"mesh": 1}], [{"nodes": [0, 1]}]
+            name = maker.write(run, "streams", container)
+            for threads in ("1", "3"):
+                run.ffd("deform", name, "out-" + name, "-l", "l.json", "--force", "--threads", threads)
+                found = Gltf(run.path("out-" + name)).buffers[0]
+                equal(bytes(found[:48 * count]) == after + rest + after + rest, True, f"{count} {container} {threads}")
 
 
 main()

@@ -26,6 +26,7 @@ def the_defaults(run):
     equal(content.get("knots", ["clamped"] * 3), ["clamped"] * 3)
     near([box(content)["min"], box(content)["max"]], [[-1.1] * 3, [1.1] * 3], 1e-15)
     equal(box(content).get("spacing", "greville"), "greville")
+    equal(content["moves"], [], "a place for moves")
 
 
 @case

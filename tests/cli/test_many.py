@@ -49,7 +49,8 @@ def checks(run):
         many = run.ffd("check", *meshes, *lattice_words(grids), **ANY)
         alone = [run.ffd("check", mesh, *lattice_words(grids), **ANY) for mesh in meshes]
         equal(many.text, "".join(one.text for one in alone))
-        equal(many.err, [line for one in alone for line in one.err])
+        equal([line for line in many.err if "--shared-box" not in line], [line for one in alone for line in one.err])
+        equal(len([line for line in many.err if "--shared-box" in line]), int(grids == ["round.json"]), "a box for each mesh")
 
 
 def copies(run, count):

@@ -276,7 +276,7 @@ def facets_of_stl_are_renewed_anyway(run):
 
 @case
 def faces_that_cannot_be_read(run):
-    """An index out of range is refused, whatever becomes of normals."""
+    """With an index out of range normals follow the deformation, for want of faces; --strict refuses it."""
     asset, data = gltf_json([[0, 0, 0], [1, 0, 0], [0, 1, 0]], normals=[[0, 0, 1]] * 3)
     asset["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 3})
     asset["accessors"].append({"bufferView": 2, "componentType": 5121, "count": 3, "type": "SCALAR"})
@@ -285,8 +285,11 @@ def faces_that_cannot_be_read(run):
     run.write("a.glb", glb(asset, data + bytes([0, 1, 7])))
     run.write("l.json", lattice(moves=TWIST))
     for normals in ("transform", "recompute", "keep"):
-        run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--normals", normals, code=INVALID)
+        run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--normals", normals, "--strict", code=INVALID)
         check(not run.exists("b.glb"), "refused")
+        run.ffd("deform", "a.glb", normals + ".glb", "-l", "l.json", "--normals", normals, "-q")
+    equal(run.read("recompute.glb"), run.read("transform.glb"))
+    check(run.read("keep.glb") != run.read("transform.glb"), "kept")
 
 
 def ply(points, faces, normals):

@@ -86,7 +86,7 @@ def folders_and_missing_folders(run):
 def read_only_folder(run):
     start(run)
     user = run.unprivileged()
-    check(user, "no unprivileged user can be had")
+    check(user, "there is no unprivileged user to run as")
     run.folder_of("locked")
     run.write("locked/old.obj", "old")
     os.chmod(run.path("locked"), 0o555)
@@ -114,7 +114,7 @@ def read_only_folder(run):
 def unreadable_files(run):
     start(run)
     user = run.unprivileged()
-    check(user, "no unprivileged user can be had")
+    check(user, "there is no unprivileged user to run as")
     os.chmod(run.path("a.obj"), 0)
     deform(run, "-", "--output-format", "obj", code=IO, err="a.obj: cannot be opened: Permission denied", **user)
     os.chmod(run.path("a.obj"), 0o644)
@@ -192,11 +192,19 @@ def links(run):
 
 @case
 def a_link_to_nothing(run):
-    """Either is right: the link's target appears, or it is refused; but nothing else."""
-    expected = start(run)
-    os.symlink("nowhere.obj", run.path("link.obj"))
-    deform(run, "link.obj")
-    equal(run.read("link.obj"), expected)
+    """As output, report and depfile: it is refused before any work, and nothing appears at its end."""
+    start(run)
+    for name in ("link.obj", "link.json"):
+        os.symlink("nowhere", run.path(name))
+    before = run.names()
+    told = "link.obj: is a link that leads to no file"
+    for more in ([], ["--force"]):
+        deform(run, "link.obj", *more, code=IO, err=told)
+        deform(run, "b.obj", "--report", "link.obj", *more, code=IO, err=told)
+        deform(run, "b.obj", "--depfile", "link.obj", *more, code=IO, err=told)
+    run.ffd("embed", "a.obj", "-l", "l.json", "-o", "link.obj", code=IO, err=told)
+    run.ffd("lattice", "new", "a.obj", "-o", "link.json", code=IO, err="link.json: is a link that leads to no file")
+    equal(run.names(), before)
 
 
 @case
@@ -220,7 +228,7 @@ def devices(run):
 
 @case
 def full_disk(run):
-    """A limit on the size of files stands for a disk that is full: the write fails in the middle."""
+    """A limit on the size of files imitates a full disk: the write fails in the middle."""
     run.write("big.obj", CUBE + "v 0.123456789 0 0\n" * 20000)
     run.write("l.json", lattice(moves=[{"by": [1e-7, 0, 0]}]))
     run.write("b.obj", "old")
@@ -292,7 +300,7 @@ def ignored_signals_stay_ignored(run):
     expected = start(run)
     child = subprocess.Popen([FFD, "deform", "-", "b.obj", "--input-format", "obj", "-l", "l.json", "--report", "r.json"], cwd=run.folder,
                              stdin=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
-    while not run.exists(".r.json.ffd-tmp"):
+    while not run.exists("r.json"):
         time.sleep(0.01)
     child.send_signal(signal.SIGHUP)
     child.communicate(run.read("a.obj"), timeout=SECONDS)

@@ -5,6 +5,7 @@ import math
 
 from harness import (CUBE, EMBEDDING, case, check, equal, glb, glb_positions, glb_split, gltf_json, gltf_vectors, lattice, main, near,
                      obj_vertices)
+from said import anything
 from vectors import cross, unit
 
 SHIFT = [{"by": [0, 0.5, -8]}]
@@ -154,13 +155,13 @@ def the_second_lattice_round_the_mesh(run):
 @case
 def what_is_said(run):
     run.write("l.json", lattice(moves=SHIFT))
-    run.write("a.obj", CUBE + "v 3 0 0\nv 5 0 0\nv 0 -2.5 0\n")
+    run.write("a.obj", CUBE + "v 3 0 0\nv 5 0 0\nv 0 -2.5 0\np 9 10 11\n")
     start = "a.obj: 3 of 11 vertices are not inside: 3 outside "
     for options, told in (((), "(left where they are)"),
                           (("extend",), "(moved with the nearest boundary point)"),
                           (("extend", "--falloff", "9"), "(moved with the nearest boundary point)"),
                           (("extend", "--falloff", "2"),
-                           "(2 moved with the nearest boundary point, 1 left where they are beyond the falloff)"),
+                           "(2 moved with the nearest boundary point, 1 left where it is beyond the falloff)"),
                           (("extend", "--falloff", "0.25"), "(left where they are beyond the falloff)")):
         choice = ("--outside", *options) if options else ()
         run.ffd("deform", "a.obj", "b.obj", "--force", "-l", "l.json", *choice, err=start + told)
@@ -172,18 +173,34 @@ def what_is_said(run):
 
 
 @case
+def what_is_said_where_the_border_does_not_move(run):
+    """A vertex is counted as moved where the nearest point of the border moves. Two have theirs on the face x = 2."""
+    run.write("a.obj", CUBE + "v 3 0 0\nv 5 0 0\nv 0 -2.5 0\np 9 10 11\n")
+    start = "a.obj: 3 of 11 vertices are not inside: 3 outside "
+    for at, options, told in ((1, (), "(left where they are, as the nearest boundary point is)"),
+                              (-1, (), "(2 moved with the nearest boundary point, 1 left where it is, as the nearest boundary point is)"),
+                              (-1, ("--falloff", "2"), "(1 moved with the nearest boundary point, 1 left where it is, as the nearest"
+                               " boundary point is, 1 left where it is beyond the falloff)")):
+        run.write("l.json", lattice(moves=[{"at": [at, [1, 2], [1, 2]], "by": [0, 0, 1]}]))
+        done = run.ffd("deform", "a.obj", "b.obj", "--force", "-l", "l.json", "--outside", "extend", "-v", *options, err=anything)
+        check(start + told in done.err, done.err)
+        moved = sum(p != q for p, q in zip(obj_vertices(run.text("a.obj")), obj_vertices(run.text("b.obj"))))
+        check(any(f"{moved} of 11 vertices moved" in line for line in done.err), moved, done.err)
+
+
+@case
 def a_volume_that_is_less_than_its_control_points(run):
     """src/maths.md 4.4: open knots over given points cover only the middle."""
     points = [[x, y, 2 * z] for z in range(-2, 3) for y in range(-2, 3) for x in range(-2, 3)]
-    run.write("a.obj", CUBE + "v 1.5 0 0\n")
-    start = "a.obj: 1 of 9 vertices are not inside: 1 outside (left where they are)"
+    run.write("a.obj", CUBE + "v 1.5 0 0\np 9\n")
+    start = "a.obj: 1 of 9 vertices is not inside: 1 outside (left where it is)"
     covers = ("; l.json covers only x -1 to 1, y -1 to 1, z -2 to 2, less than its control points reach: "
               '"clamped" knots or a rest "box" cover all')
     for knots in (["uniform"] * 3, ["open"] * 3, [[0, 1, 2, 3, 4, 5, 6, 7, 8]] * 3):
         run.write("l.json", lattice(size=(5, 5, 5), knots=knots, rest={"points": points}))
         run.ffd("deform", "a.obj", "b.obj", "--force", "-l", "l.json", err=start + covers)
         run.ffd("embed", "a.obj", "-o", "e.npy", "--force", "-l", "l.json",
-                err=start.replace("left where they are", "no u,v,w") + covers)
+                err=start.replace("left where it is", "no u,v,w") + covers)
     run.write("l.json", lattice(size=(5, 5, 5), low=(-1, -1, -1), high=(1, 1, 1), knots=["open"] * 3))
     run.ffd("deform", "a.obj", "b.obj", "--force", "-l", "l.json", err=start)
     run.write("l.json", lattice(size=(5, 5, 5), rest={"points": [[x / 2, y / 2, z / 2] for x, y, z in points]}))
@@ -193,7 +210,7 @@ def a_volume_that_is_less_than_its_control_points(run):
 @case
 def counts_in_the_report(run):
     run.write("l.json", lattice(moves=SHIFT))
-    run.write("a.obj", CUBE + "v 3 0 0\nv 5 0 0\n")
+    run.write("a.obj", CUBE + "v 3 0 0\nv 5 0 0\np 9 10\n")
     for options, count in (((), 8), (("--outside", "extend"), 10), (("--outside", "extend", "--falloff", "2"), 9)):
         done = run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--force", "-q", "--report", "-", *options)
         job = done.json["jobs"][0]

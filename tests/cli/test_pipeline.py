@@ -6,7 +6,7 @@ import shlex
 import subprocess
 import time
 
-from harness import (CUBE, CUBE_CORNERS, FFD, IO, NO, SECONDS, USAGE, case, check, equal, glb, gltf_json, lattice, main)
+from harness import (CUBE, CUBE_CORNERS, FFD, IO, NO, PNG, SECONDS, USAGE, case, check, equal, glb, gltf_json, lattice, main)
 
 UP = lattice(moves=[{"by": [0, 0, 0.5]}])
 # What both tools can read: blanks, what either gives a meaning, backslashes.
@@ -51,7 +51,7 @@ def gltf(run, name, buffers=2, image=None):
             asset["scenes"][0]["nodes"].append(b)
     if image:
         asset["images"] = [{"uri": image}, {"uri": "missing.png"}]
-        run.write(os.path.join(folder, image), b"a picture")
+        run.write(os.path.join(folder, image), PNG + b"a picture")
     run.write(name, asset)
 
 
@@ -123,7 +123,7 @@ def several_meshes_have_a_rule_each(run):
 @case
 def a_failure_leaves_the_old_depfile(run):
     run.write("a.obj", CUBE)
-    run.write("far.obj", CUBE + "v 9 9 9\n")
+    run.write("far.obj", CUBE + "v 9 9 9\np 9\n")
     run.write("l.json", UP)
     run.write("bad.json", "{")
     run.write("d", "b.obj: old.obj\n")
@@ -328,7 +328,7 @@ def what_stays_stays_as_it_is(run):
     equal(times(run, "out/a.obj"), before)
     equal(run.ffd("deform", "a.obj", "-", "--output-format", "obj", "-l", "l.json", "--if-changed").out, run.read("b.obj"))
     # A run that fails changes nothing either.
-    run.write("far.obj", CUBE + "v 9 9 9\n")
+    run.write("far.obj", CUBE + "v 9 9 9\np 9\n")
     before = times(run, "b.obj")
     run.ffd("deform", "far.obj", "b.obj", "-l", "l.json", "--if-changed", "--outside", "error", code=5)
     equal(times(run, "b.obj"), before)

@@ -3,7 +3,7 @@
 import json
 import subprocess
 
-from harness import CUBE, INVALID, IO, NO, OK, UNSUPPORTED, case, equal, lattice, main
+from harness import CUBE, INVALID, IO, NO, OK, UNSUPPORTED, case, check, equal, lattice, main
 from report_schema import faults
 
 ENTRY = {"input": "a.obj", "output": None, "status": "ok", "exit": 0, "error": None}
@@ -22,7 +22,7 @@ def inputs(text):
 
 
 def numbered(run, *counts):
-    """Files r0.json, r1.json, ... with so many entries each, named N.I."""
+    """Files r0.json, r1.json, ... with this many entries each, named N.I."""
     names = [f"r{number}.json" for number in range(len(counts))]
     for number, count in enumerate(counts):
         run.write(names[number], report(*(entry(input=f"{number}.{i}") for i in range(count))))
@@ -79,9 +79,21 @@ def the_order_is_that_of_the_arguments(run):
     a, b, c = numbered(run, 2, 0, 3)
     equal(inputs(run.ffd("report", "merge", a, b, c).out), ["0.0", "0.1", "2.0", "2.1", "2.2"])
     equal(inputs(run.ffd("report", "merge", c, a, a).out), ["2.0", "2.1", "2.2", "0.0", "0.1", "0.0", "0.1"])
-    equal(inputs(run.ffd("report", "merge", "--interleave", c, b, a).out), ["2.0", "0.0", "2.1", "0.1", "2.2"])
+    equal(inputs(run.ffd("report", "merge", "--interleave", c, a, a).out), ["2.0", "0.0", "0.0", "2.1", "0.1", "0.1", "2.2"])
     equal(run.ffd("report", "merge", b).out, run.ffd("report", "merge", b, b).out, "no jobs")
     equal(json.loads(run.ffd("report", "merge", b).out), report())
+
+
+@case
+def the_report_of_a_shard_that_was_cut_off_is_not_interleaved(run):
+    """A run that was killed leaves a whole report of what had ended, which would put all entries in a wrong order."""
+    names = numbered(run, 3, 2, 0, 3)
+    for chosen, short in (((0, 2), 2), ((1, 0), 1), ((0, 1, 3), 1), ((2, 0), 2)):
+        run.ffd("report", "merge", "--interleave", *(names[i] for i in chosen), "-o", "all.json", code=INVALID,
+                err=f"{names[short]}: has too few entries for a shard of one run with the others: its run was cut off, or had "
+                    "other jobs (without --interleave they can be joined)")
+        check(not run.exists("all.json"))
+    equal(len(inputs(run.ffd("report", "merge", names[2], names[0]).out)), 3)
 
 
 @case
@@ -123,7 +135,7 @@ BROKEN = [
     ('{"jobs": {}}', "all.json:1: not a report: \"jobs\" must be an array, found '{'"),
     ('{"jobs": [', 'all.json:1: not a report: an entry of "jobs" is expected, found the end'),
     ('{"jobs": [3]}', "all.json:1: not a report: an entry of \"jobs\" is expected, found '3'"),
-    ('{"jobs": [\n{"input": "\\', 'all.json:2: not a report: this entry of "jobs" has no end'),
+    ('{"jobs": [\n{"input": "\\', 'all.json:2: not a report: this entry has no end'),
     ('{"jobs": [\n{"a": [1}]\n}]}', "all.json:2: not valid JSON: ',' or ']' is expected, found '}' (column 9)"),
     ('{"jobs": [%s %s]}', "all.json:1: not a report: ',' or ']' is expected after an entry, found '{'"),
     ('{"jobs": [%s,]}', "all.json:1: not a report: an entry is expected after ',', found ']'"),

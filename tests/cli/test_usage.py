@@ -6,16 +6,16 @@ from harness import CUBE, LIMIT, USAGE, case, check, equal, lattice, main
 
 COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new", "report merge"]
 OPTIONS = {
-    "deform": {"--lattice", "--set", "--out-dir", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
-               "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory",
+    "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
+               "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
                "--output-format"},
-    "check": {"--lattice", "--set", "--outside", "--falloff", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
-              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory"},
-    "embed": {"--lattice", "--output", "--status", "--space", "--threads", "--force", "--input-format", "--memory"},
-    "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory"},
-    "info": {"--json", "--input-format", "--memory"},
-    "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes",
-                    "--force", "--input-format", "--memory"},
+    "check": {"--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
+              "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension"},
+    "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
+    "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
+    "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
+    "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",
+                    "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "report merge": {"--output", "--interleave", "--force"},
 }
 COMMON = {"--quiet", "--verbose", "--help"}
@@ -125,7 +125,7 @@ def values(run):
                           ("--memory", "1" * 5000), ("--input-format", "fbx"), ("--output-format", ""),
                           ("--threads", "0"), ("--threads", "-1"), ("--threads", "two"), ("--threads", "2x"),
                           ("--falloff", "0"), ("--falloff", "-1"), ("--falloff", "inf"), ("--falloff", "nan"),
-                          ("--falloff", "1m"), ("--falloff", ""), ("--embedding", ""), ("--fail-on", ""),
+                          ("--falloff", "1m"), ("--falloff", ""), ("--snap", "-1"), ("--snap", "r"), ("--snap", "1" * 5000 + "x"), ("--embedding", ""), ("--fail-on", ""),
                           ("--fail-on", "fold"), ("--fail-on", "folds,"), ("--fail-on", "folds,,outside"),
                           ("--fail-on", "folds outside"), ("--fail-on", "OUTSIDE"), ("--fail-on", "x" * 5000),
                           ("--threads", "1.5"), ("--threads", " 2"), ("--threads", "+2"), ("--threads", ""),
@@ -139,7 +139,7 @@ def values(run):
     refused(run, *work, "-jx", says='"x"')
     for option in ("--force", "--in-place", "--report-stable", "--quiet", "--verbose", "--help"):
         refused(run, *work, f"{option}=yes", says=option)
-    for option in ("--lattice", "-l", "--threads", "-j", "--outside", "--report", "--out-dir", "--falloff", "--embedding",
+    for option in ("--lattice", "-l", "--threads", "-j", "--outside", "--report", "--out-dir", "--falloff", "--snap", "--embedding",
                    "--fail-on"):
         refused(run, *work, option, says=option)
 
@@ -231,7 +231,7 @@ def words_of_the_others(run):
     refused(run, "info", "a.obj", "a.obj", says="FILE")
     refused(run, "lattice", "new", "-o", "n.json", says="MESH")
     refused(run, "lattice", "new", "a.obj", says="-o")
-    refused(run, "lattice", "new", "a.obj", "a.obj", "-o", "n.json", says="MESH")
+    refused(run, "lattice", "new", "-", "-", "-o", "n.json", says="standard input")
     refused(run, "report", "merge", says="REPORT")
     refused(run, "report", "merge", "-o", "r.json", says="REPORT")
     refused(run, "report", "merge", "-", "a.json", "-", says="once")

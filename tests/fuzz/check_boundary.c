@@ -1,3 +1,4 @@
+/* check_boundary.c - no point of the border that was tried is nearer, and answers repeat to the bit. */
 #include "check_boundary.h"
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary.h"
@@ -117,6 +118,25 @@ static void check_again(const boundary *border, const double p[3], const boundar
     }
 }
 
+/* A cube that holds the nearest point meets the border, one within the ball as far as that does not. */
+static void check_cubes(const boundary *border, const probe *of, const double p[3],
+                        const boundary_point *nearest)
+{
+    const double d = nearest->distance;
+    const double large[3] = {1.001 * d, 1.001 * d, 1.001 * d};
+    const double small[3] = {0.577 * d, 0.577 * d, 0.577 * d};
+    boundary_verdict verdict;
+    ffd_error error;
+    if (nearest->cut_short || !(d > 1e-9 * of->lattice->diagonal && d < 1e9 * of->lattice->diagonal))
+        return;
+    PROMISE(ffd_boundary_meets(border, p, large, &verdict, &error) == FFD_OK, "%s", error.message);
+    PROMISE(verdict != BOUNDARY_MISSES, "a cube round %.17g, %.17g, %.17g, %.17g from the border, misses it",
+            p[0], p[1], p[2], d);
+    PROMISE(ffd_boundary_meets(border, p, small, &verdict, &error) == FFD_OK, "%s", error.message);
+    PROMISE(verdict != BOUNDARY_MEETS, "a cube round %.17g, %.17g, %.17g, %.17g from the border, meets it",
+            p[0], p[1], p[2], d);
+}
+
 void check_boundary(const probe *of, const probe_point *points, size_t count)
 {
     boundary *border = NULL;
@@ -136,7 +156,10 @@ void check_boundary(const probe *of, const probe_point *points, size_t count)
     ffd_boundary_destroy(&border);
     PROMISE(!border && ffd_boundary_create(of->lattice, &border, &error) == FFD_OK, "no second boundary");
     /* Every third point, for speed; which ones, the number of points decides. */
-    for (size_t i = count; i > 2; i -= 3)
+    for (size_t i = count; i > 2; i -= 3) {
         check_again(border, points[i - 1].p, &nearest[i - 1]);
+        if (nearest[i - 1].found)
+            check_cubes(border, of, points[i - 1].p, &nearest[i - 1]);
+    }
     ffd_boundary_destroy(&border);
 }

@@ -1,3 +1,4 @@
+/* check_embedding.c - u,v,w lead back to their point; displacements lie among those of the control points. */
 #include "check_embedding.h"
 #include "base/vector/vec.h"
 #include "promise.h"
@@ -12,13 +13,15 @@ static bool is_placed(const ffd_location *location)
     return vec_is_finite(location->uvw);
 }
 
-/* 16 eps (max|P_a| + |p_a|) times the weight ratio, for either origin that the library takes: the middle of
-   the control points or a corner of the box. */
+/* 16 eps (max|P_a| + |p_a|), sizes as in the file, times the weight ratio; and those of the origins that the
+   library takes: the middle of the control points or a corner of the box. */
 static void tolerance_of(const probe *of, bool is_affine, const double p[3], double tolerance[3])
 {
     for (int a = 0; a < 3; a++) {
         const double extent = is_affine ? 3 * of->extent[a] : of->extent[a];
-        tolerance[a] = 16 * DBL_EPSILON * (extent + fabs(p[a] - of->centre[a])) * of->weight_ratio;
+        tolerance[a] = 16 * DBL_EPSILON *
+                       fmax(extent + fabs(p[a] - of->centre[a]), of->magnitude[a] + fabs(p[a])) *
+                       of->weight_ratio;
         /* The box of the file, not its rounded control points, is the map then. */
         if (is_affine)
             tolerance[a] += 4 * DBL_EPSILON * of->magnitude[a];
@@ -70,7 +73,9 @@ static void check_location(const probe *of, bool is_affine, const double p[3], c
     PROMISE(location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID, "status %d with u,v,w",
             location->status);
     check_domain(of, location->uvw);
-    check_residual(of, is_affine, p, location);
+    /* Where the search stood still is no root. */
+    if (!location->unresolved)
+        check_residual(of, is_affine, p, location);
 }
 
 /* Whether p, which was rounded, is the point at its u,v,w as the tolerance sees it. */

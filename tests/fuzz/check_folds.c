@@ -1,8 +1,7 @@
+/* check_folds.c - no sample contradicts "no folds", and det J < 0 at the witness of a fold. */
 #include "check_folds.h"
-#include "base/vector/vec.h"
 #include "promise.h"
 #include <ffd/fold.h>
-#include <float.h>
 #include <math.h>
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* fuzz_glb.c - the fuzz target of GLB files. */
 #include "fuzz_mesh.h"
 #include "fuzz_target.h"
 

@@ -1,3 +1,4 @@
+/* fuzz_gltf.c - the fuzz target of glTF as JSON text. */
 #include "fuzz_mesh.h"
 #include "fuzz_target.h"
 

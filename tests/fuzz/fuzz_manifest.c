@@ -5,6 +5,8 @@
 #include "fuzz_target.h"
 #include "mutate_text.h"
 #include "promise.h"
+#include "json/json_parse.h"
+#include <stdlib.h>
 #include <string.h>
 
 static size_t count_words(const byte_buffer *words)
@@ -43,25 +45,50 @@ static void check_line(const char *text, size_t size)
     ffd_job_free(&job);
 }
 
-/* A row's cells, written again within quotes, are the same row. */
-static void check_row(const char *text, size_t size)
+/* A cell that is read as a number is that number for the C library too, and JSON. */
+static void check_number(const char *cell, bool decimal_comma)
 {
+    byte_buffer json = {0}, plain = {0};
+    json_span tree = {0};
+    if (ffd_csv_number(cell, decimal_comma, &json)) {
+        const json_input input = {.text = json.data, .size = json.size, .name = "number"};
+        PROMISE(ffd_json_parse(&input, &tree, NULL) == FFD_OK && tree.values[0].kind == JSON_NUMBER,
+                "%s becomes what is no JSON", cell);
+        for (const char *c = cell; *c; c++)
+            ffd_buffer_append(&plain, decimal_comma && *c == ',' ? "." : c, 1);
+        ffd_buffer_append(&plain, "", 1);
+        ffd_buffer_append(&json, "", 1);
+        PROMISE(strtod(json.data, NULL) == strtod(plain.data, NULL), "%s becomes %s", cell, json.data);
+    }
+    ffd_json_span_free(&tree);
+    ffd_buffer_free(&json);
+    ffd_buffer_free(&plain);
+}
+
+/* A row's cells, written again within quotes, are the same row. */
+static void check_row(char separator, const char *text, size_t size)
+{
+    const char separators[] = {separator, 0};
     csv_row row = {0}, again = {0};
     byte_buffer quoted = {0};
-    if (memchr(text, 0, size) || !ffd_csv_split(text, size, &row)) {
+    if (memchr(text, 0, size) || !ffd_csv_split(separator, text, size, &row)) {
         ffd_csv_free(&row);
         return;
     }
-    PROMISE(!ffd_csv_is_open(&(csv_scan){0}, text, size), "a whole row is said to go on");
+    PROMISE(!ffd_csv_is_open(&(csv_scan){0}, separators, text, size), "a whole row is said to go on");
     const char *cell = NULL;
     for (size_t i = 0; i < row.count; i++) {
         cell = ffd_csv_next(&row, cell);
-        ffd_buffer_text(&quoted, i ? ",\"" : "\"");
+        check_number(cell, separator == ';');
+        ffd_buffer_text(&quoted, i ? separators : "");
+        ffd_buffer_text(&quoted, "\"");
         for (const char *c = cell; *c; c++)
             ffd_buffer_append(&quoted, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
         ffd_buffer_text(&quoted, "\"");
     }
-    PROMISE(ffd_csv_split(quoted.data, quoted.size, &again), "a row that was written is refused");
+    PROMISE(ffd_csv_split(separator, quoted.data, quoted.size, &again), "a row that was written is refused");
+    PROMISE(row.count < 2 || ffd_csv_separator(quoted.data, quoted.size) == separator,
+            "a row that was written has another separator");
     PROMISE(again.count == row.count && again.text.size == row.text.size &&
                 memcmp(again.text.data, row.text.data, row.text.size) == 0,
             "a row that was written is another");
@@ -73,7 +100,8 @@ static void check_row(const char *text, size_t size)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const char *text = (const char *)data, *const end = text + size;
-    check_row(text, size);
+    check_row(',', text, size);
+    check_row(';', text, size);
     while (text < end) {
         const char *line = memchr(text, '\n', (size_t)(end - text));
         line = line ? line : end;
@@ -88,6 +116,6 @@ size_t fuzz_mutate(uint8_t *data, size_t size, size_t capacity, uint64_t seed)
     mutant m = {.data = data, .size = size, .capacity = capacity, .text = size, .random = {seed}};
     if (size == 0)
         return 0;
-    mutant_change_piece(&m, "{}[]\",:\\ 01-e.nt=\n\r\xff");
+    mutant_change_piece(&m, "{}[]\",;:\\ 01-+e.nt=\n\r\xff");
     return m.size;
 }

@@ -1,11 +1,11 @@
+/* fuzz_mesh.c - each call on a mesh succeeds or reports an error, and what was saved opens again. */
 #include "fuzz_mesh.h"
-#include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/formats.h"
 #include "io/gltf/document/gltf_document.h"
 #include "job/chain/chain_load.h"
 #include "job/deform_job.h"
-#include "job/info_mesh.h"
+#include "job/info_parts.h"
 #include "job/info_text.h"
 #include "job/input/source.h"
 #include "job/pass/chain_fit.h"
@@ -96,8 +96,11 @@ static void check_description(const mesh_document *document)
     ffd_json_begin(&json, &out);
     ffd_json_object(&json, NULL, false);
     const ffd_status status = document->format->describe(document, &json, &error);
+    PROMISE(status == FFD_OK, "cannot be described: %s", error.message);
+    const ffd_status parts = ffd_info_parts(document, &json, &error);
+    PROMISE(parts == FFD_OK || parts == FFD_E_INVALID, "the parts cannot be told: %s", error.message);
     ffd_json_end(&json, '}');
-    PROMISE(status == FFD_OK && !out.failed, "cannot be described: %s", error.message);
+    PROMISE(!out.failed, "memory ran out");
     char *text;
     PROMISE(ffd_info_render(out.data, out.size, &text, &error) == FFD_OK, "cannot be told: %s",
             error.message);
@@ -130,7 +133,7 @@ static bool is_gltf(ffd_format format)
     return format == FFD_FORMAT_GLTF || format == FFD_FORMAT_GLB;
 }
 
-/* An STL's corners are joined where they stand at one place: those that did still do, and others may now. */
+/* Corners of an STL at one position are joined: those that were still are, and others may be now. */
 static bool are_same_corners(ffd_format format, const mesh_faces *before, const mesh_faces *after)
 {
     const size_t count = before->start[before->face_count];

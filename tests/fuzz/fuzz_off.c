@@ -1,3 +1,4 @@
+/* fuzz_off.c - the fuzz target of OFF files. */
 #include "fuzz_mesh.h"
 #include "fuzz_target.h"
 

@@ -1,3 +1,4 @@
+/* fuzz_ply.c - the fuzz target of PLY files. */
 #include "fuzz_mesh.h"
 #include "fuzz_target.h"
 

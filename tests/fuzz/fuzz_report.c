@@ -1,6 +1,5 @@
 /* fuzz_report.c - a report that is to be merged: it is taken if and only if another reader of JSON reads it
    too and it says what a report must; its entries are those that the other one finds. */
-#include "base/fail.h"
 #include "fuzz_target.h"
 #include "job/report/report_reader.h"
 #include "json_oracle.h"
@@ -44,6 +43,18 @@ static void check_entries(report_reader *reader, const json_oracle *root)
     PROMISE(!root || count == oracle_count_jobs(root), "%zu entries of %zu", count, oracle_count_jobs(root));
 }
 
+/* The same text as JSON Lines. */
+static void check_lines(const char *text, size_t size)
+{
+    report_reader reader;
+    ffd_error error = {0};
+    const ffd_status status = ffd_report_reader_open(&reader, "input", true, text, size, &error);
+    if (status)
+        PROMISE(error.message[0] && !strpbrk(error.message, "\r\n"), "it says '%s'", error.message);
+    else
+        check_entries(&reader, NULL);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const char *const text = size > 0 ? (const char *)data : "";
@@ -51,7 +62,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     report_reader reader;
     ffd_error error = {0};
     bool too_large;
-    const ffd_status status = ffd_report_reader_open(&reader, "input", text, size, &error);
+    const ffd_status status = ffd_report_reader_open(&reader, "input", false, text, size, &error);
     json_oracle *const root = oracle_read(text + mark, size - mark, &too_large);
     if (status) {
         PROMISE(status == FFD_E_INVALID || status == FFD_E_LIMIT || status == FFD_E_UNSUPPORTED, "status %d",
@@ -64,6 +75,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         check_entries(&reader, root);
     }
     oracle_free(root);
+    check_lines(text, size);
     return 0;
 }
 

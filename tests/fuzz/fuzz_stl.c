@@ -1,3 +1,4 @@
+/* fuzz_stl.c - the fuzz target of STL files. */
 #include "fuzz_mesh.h"
 #include "fuzz_target.h"
 

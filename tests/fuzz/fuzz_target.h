@@ -9,8 +9,7 @@
 /* libFuzzer's names. Returns 0; a broken promise aborts. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* Changes data of size bytes, of which there is room for capacity, by what seed says; returns its new size.
- */
+/* Changes data of size bytes, in a buffer of capacity bytes, as seed says. Returns its new size. */
 size_t fuzz_mutate(uint8_t *data, size_t size, size_t capacity, uint64_t seed);
 
 #endif

@@ -1,3 +1,4 @@
+/* json_oracle.cpp - reads reports by nlohmann's parser. */
 #include "json_oracle.h"
 #include <nlohmann/json.hpp>
 #include <set>

@@ -142,6 +142,22 @@ def instanced():
     return b.mesh({"attributes": {"POSITION": b.positions()}})
 
 
+def surroundings():
+    """What is in the scene beside meshes: levels of detail, a camera, a light, shapes, a joint, an animation; and splats."""
+    b = Builder()
+    used = ["MSFT_lod", "KHR_lights_punctual", "KHR_physics_rigid_bodies", "KHR_gaussian_splatting", "KHR_animation_pointer"]
+    b.asset |= {"extensionsUsed": used, "cameras": [{}], "skins": [{"joints": [3]}],
+                "extensions": {"VRMC_springBone": {"colliders": [{"node": 5}]}}, "scenes": [{"nodes": [0, 3]}]}
+    b.asset["nodes"] = [{"mesh": 0, "name": "near", "children": [4], "extensions": {"MSFT_lod": {"ids": [1, 2]}}},
+                        {"mesh": 0, "translation": [0.5, 0, 0], "children": [5]}, {"mesh": 0, "scale": [0.5, 1, 1]},
+                        {"camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                        {"extensions": {"KHR_physics_rigid_bodies": {"collider": {"geometry": {"shape": 0}}}}}, {"name": "hand\n"}]
+    b.asset["animations"] = [{"samplers": [], "channels": [
+        {"sampler": 0, "target": {"node": 0, "path": "rotation"}},
+        {"sampler": 0, "target": {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/4/scale"}}}}]}]
+    return b.mesh({"attributes": {"POSITION": b.positions()}, "mode": 0, "extensions": {"KHR_gaussian_splatting": {}}})
+
+
 def strange():
     """What is carried through: extras, unknown extensions, long integers, names, images."""
     b = plain()
@@ -151,7 +167,28 @@ def strange():
     return b
 
 
-ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, nodes, instanced, strange]
+def flawed():
+    """What is not valid but has a plain meaning: strides and places of any number of bytes, primitives whose faces are not
+    known, nodes that are named twice, a matrix with a rounding, a buffer with less than it states."""
+    b = Builder()
+    view = b.view(b"\0" + b"".join(struct.pack("<3fxx", *p) for p in CORNERS), byteStride=14)
+    b.asset["accessors"].append({"bufferView": view, "byteOffset": 1, "componentType": 5126, "count": 8, "type": "VEC3"})
+    indices = b.indices()
+    b.asset["bufferViews"][-1]["byteStride"] = 0
+    values = {"bufferView": b.view(struct.pack("<x6f", 0, 0, 1, 1, 1, 0)), "byteOffset": 1}
+    b.asset["accessors"].append({"componentType": 5126, "count": 8, "type": "VEC3", "sparse": {
+        "count": 2, "indices": {"bufferView": b.view(struct.pack("<xHH", 1, 6)), "byteOffset": 1, "componentType": 5123},
+        "values": values}})
+    wrong = b.accessor([(i,) for i in (0, 1, 8)], "SCALAR", 5123)
+    b.asset["nodes"] = [{"children": [1, 1]}, {"mesh": 0, "matrix": [float(i % 5 == 0) for i in range(15)] + [1.000001]}]
+    b.asset["scenes"] = [{"nodes": [1, 0, 0]}]
+    return b.mesh({"attributes": {"POSITION": 0}, "indices": indices}, {"attributes": {"POSITION": 0}, "indices": wrong},
+                  {"attributes": {"POSITION": 2}, "mode": -1}, {"attributes": {"POSITION": 0}, "indices": 0},
+                  {"attributes": {"POSITION": 0}, "indices": 99})
+
+
+ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, nodes, instanced, surroundings,
+          strange, flawed]
 
 
 def glb_of(asset, data):
@@ -170,9 +207,13 @@ def data_uri(data):
 
 CUBE = "".join("v %g %g %g\n" % p for p in CORNERS)
 OBJ = {
+    "libraries": "mtllib a b.mtl c.mtl \\\n d.mtl\nmtllib e.mat\r\n# mtllib f.mtl\\\nmtllib g\rv 0 0 0\nusemtl h\n",
+    "maps": "newmtl a\nmap_Kd -s 1 1 1 -o 0 0 0 two words.png\nbump -bm 1 b.png\nrefl -type cube_top c.png\r\n"
+            "map_Ks\td.png\rmap_d -imfchan m e.png",
     "plain": CUBE + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\n",
     "normals": "vn 0 0 1\n" + CUBE + "vn 1 0 0\nvt 0 1\nf 1/1/1 2/1/1 4/1/2\nf 1//1 3//2 4//2\nf 2 3/1 4\n",
     "negative": CUBE + "vn 0 0 1\nvn 0 1 0\nf -1//-1 -2//-1 -3//-2\nv 0 0 0\nf -1 -2 -3\nl 1 -1\np -1\n",
+    "loose": CUBE.replace("\n", " \\ \n", 1) + "f 1 2 \\\t\r\n3 # \\ \nusemtl a\\ \nf 2 3 4\x1a\r\n",
     "words": "mtllib m.mtl\no a\ng b c\ns 1\nusemtl d\n" + CUBE + "s off\nf 1 2 3\ng e\nusemtl f\nf 4 5 6 7\n#x\n",
     "colours": "v 0 0 0 1 0.5 0\nv 1 0 0 1\nv 1e0 .5 -0.0 0 0 1\nf 1 2 3\n",
     "ends": "\ufeffv 0 0 0\r\nv 1 0 0\rv 0 \\\n 1 0\n\n\tv 1 1 \\\r\n1\nf 1 \\\n2 3\r\nf 2 3 4",
@@ -199,6 +240,15 @@ def ply_files():
             body = b"".join(struct.pack(order + "6" + code + "B", *p, 0, 0, 1, 255) for p in CORNERS)
             body += b"".join(struct.pack(order + "B4i", 4, *f) for f in faces) + struct.pack(order + "Hddb", 2, 0.5, 1e9, -7)
         yield name, header + body
+    yield "face-normals", b"ply\nformat ascii 1.0\nelement face 2\nproperty float nz\nproperty list uchar int vertex_indices\n" \
+                          b"property float ny\nproperty double nx\nelement vertex 4\nproperty float x\nproperty float y\n" \
+                          b"property float z\nend_header\n1 3 0 1 2 0 0\n-1 4 0 1 2 3 0 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+    yield "strips", b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n" \
+                    b"element tristrips 2\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 1\n" \
+                    b"4 0 1 3 2\n9 3 2 1 -1 0 0 1 2 3\n"
+    yield "marks", b"\xef\xbb\xbfply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" \
+                   b"property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" \
+                   b"0 0 0\n1 0 0\n0 1 0\n3 0 1 2\x1a"
     yield "plain", b"ply\r\nformat ascii 1.0\r\nelement vertex 1\r\nproperty double x\r\nproperty float y\r\n" \
                    b"property short z\r\nelement face 0\r\nproperty list uchar uint vertex_index\r\nend_header\r\n1 2 3\r\n"
 
@@ -207,6 +257,7 @@ OFF = {
     "plain": "OFF\n8 3 0\n" + "".join("%g %g %g\n" % p for p in CORNERS) + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n",
     "colours": "COFF # c\n\n3 1 3\n0 0 0 1 0 0 1\n1 0 0 0 255 0 255\n# x\n0 1 0 0.5 0.5 0.5 1\n3 0 1 2 0.1 0.2 0.3\n",
     "normals": "NOFF\r\n3 1 0\r\n0 0 0 0 0 1\r\n1 0 0 0 0 1\r\n0 1 0 0 1 0\r\n3 0 1 2 255 0 0\r\n",
+    "mark": "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\x1a\n",
     "headless": "3 1 0 0 0 0 1 0 0 0 1 0 3 0 1 2",
 }
 
@@ -225,6 +276,9 @@ def crafted():
         yield "gltf", name, json.dumps(asset.finished("m.bin"), indent=1).encode() + b"\0" + asset.data
         if make is plain:
             yield "gltf", "data", json.dumps(asset.finished(data_uri(asset.data))).encode()
+            odd = json.dumps(asset.finished(data_uri(asset.data).replace(";base64,", "; BASE64 ,").replace("A", " A")))
+            yield "gltf", "data-odd", odd.replace('"byteLength": %d' % len(asset.data), '"byteLength": 100000').encode()
+            yield "gltf", "backslash", json.dumps(asset.finished(".\\m.bin")).encode() + b"\0" + asset.data
             yield "glb", "none", glb_of({"asset": {"version": "2.0"}}, b"")
     for name, text in OBJ.items():
         yield "obj", name, text.encode()
@@ -233,6 +287,7 @@ def crafted():
     for name, text in OFF.items():
         yield "off", name, text.encode()
     yield "stl", "text", STL_TEXT.encode()
+    yield "stl", "loose", STL_TEXT.replace("\n", "\ncolor 0.5 0 1\n", 1).replace("endsolid", "end solid").encode() + b"\x1a"
     yield "stl", "bytes", STL_BYTES
 
 

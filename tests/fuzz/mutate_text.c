@@ -1,3 +1,4 @@
+/* mutate_text.c - changes numbers and bytes of a text. */
 #include "mutate_text.h"
 #include <math.h>
 #include <stdbool.h>

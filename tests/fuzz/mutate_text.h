@@ -16,7 +16,7 @@ typedef struct mutant {
 /* Below count, which is not 0. */
 size_t mutant_pick(mutant *m, size_t count);
 
-/* Puts other bytes in the place of length ones; no change where there is no room. */
+/* Replaces length bytes by others; changes nothing if the capacity does not suffice. */
 void mutant_replace(mutant *m, size_t at, size_t length, const void *with, size_t with_length);
 
 double mutant_changed_number(mutant *m, double value);

@@ -1,3 +1,4 @@
+/* precise.c - the recursion of Cox and de Boor and its derivative in long double. */
 #include "precise.h"
 #include <float.h>
 #include <math.h>

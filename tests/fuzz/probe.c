@@ -1,5 +1,5 @@
+/* probe.c - measures a lattice, and chooses the points that it is tried with. */
 #include "probe.h"
-#include "base/vector/vec.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

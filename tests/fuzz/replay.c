@@ -4,6 +4,7 @@
        replay FOLDER...
    FFD_SEED and FFD_CASES (mutations of a file) make other and longer runs; FFD_DUMP=FILE keeps the input that
    is being run there. */
+#include "../support/repetitions.h"
 #include "fuzz_target.h"
 #include <dirent.h>
 #include <errno.h>
@@ -12,8 +13,9 @@
 #include <string.h>
 
 #define MOST_BYTES ((size_t)1 << 16)
-#define MUTATIONS 12
-/* Mutations of mutations: so many in a row from one file, then from the file again. */
+/* With the address sanitizer the fuzz targets themselves run thousands more. */
+#define MUTATIONS (FFD_SANITIZED ? 3 : 12)
+/* Mutations of mutations: this many in a row from one file, then from the file again. */
 #define MUTATIONS_DEEP 4
 
 static uint64_t setting(const char *name, uint64_t otherwise)

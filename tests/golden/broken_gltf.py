@@ -21,7 +21,7 @@ LATTICE = {"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "rest": {"b
 
 
 def places(answer):
-    """The errors of an answer; those of the container without the byte where they stand."""
+    """The errors of an answer; those of the container without the byte at which they are."""
     return {(code, "" if place.startswith("@") else place) for code, place in answer["errors"]}
 
 
@@ -34,6 +34,8 @@ def judge(code, before, after):
         return f"the file has not this code, but {' '.join(before['codes'])}"
     if after is None:
         return ""
+    if code == "VALUE_MULTIPLE_OF":
+        return ""  # the validator reads elements with such a stride from other bytes
     new = places(after) - places(before)
     return f"new errors: {sorted(new)}" if new else ""
 

@@ -17,7 +17,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 DATA = os.path.join(os.path.dirname(os.path.dirname(HERE)), "data")
 MEMORY = os.path.join(HERE, "golden.json")
 
-# Lattices that stand round any mesh are used on all; the others on the mesh that they were made for.
+# Lattices that fit around any mesh are used on all; the others on the mesh that they were made for.
 FITTING = [["twist"], ["taper"], ["bulge"], ["bend"], ["wave"], ["local"], ["taper", "bend"]]
 MADE_FOR = {"column.obj": [["bend-cylinder"]]}
 # One more run each for these.

@@ -79,7 +79,7 @@ def run_alone(ffd, folder, job):
 
 
 def compare_folders(folder):
-    """Also the buffers and images that stand beside outputs."""
+    """Also the buffers and images that are beside outputs."""
     names = {}
     for side in ("batch", "alone"):
         top = os.path.join(folder, side)

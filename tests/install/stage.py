@@ -11,6 +11,9 @@ for other in ("rules", "readme"):
 from test_readme import block, blocks
 from tree import ROOT, files, finish, read, skip
 
+# From the folder of libraries.
+MODULES = [f"ffd-0/ffd-{name}.so" for name in ("draco", "meshopt", "openmesh", "tinygltf")]
+
 
 def need(*tools):
     """Skips the test where a program is not there."""

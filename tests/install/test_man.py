@@ -32,7 +32,7 @@ def squeezed(text):
 
 
 def pieces(text):
-    """What of a command's help must stand in the page."""
+    """What of a command's help must be in the page."""
     usage, rest = text.split("\nOptions:\n")
     options, examples = rest.split("\nExamples:\n")
     for line in usage.splitlines():

@@ -24,6 +24,7 @@ import stage
 
 PACKAGES = ["ffd", "libffd0", "libffd-dev"]
 MESH, LATTICE = "models/spot.obj", "lattices/twist.json"
+NEEDS_MODULES = "models/character.glb"
 
 # What is done in the clean root.
 CHECK = """set -eu
@@ -32,6 +33,7 @@ apt-get install --yes --no-install-recommends ./ffd_*.deb ./libffd0_*.deb
 ldconfig -p | grep -q 'libffd\\.so\\.0'
 ffd --version >version
 ffd deform spot.obj out.obj -l twist.json --report report.json
+ffd info character.glb >info
 apt-get purge --yes ffd libffd0
 find / -xdev -path /check -prune -o -path /proc -prune -o -path /var/lib -prune -o -path /var/log -prune -o \\
     -name '*ffd*' -print >left
@@ -155,7 +157,8 @@ def run_in_clean_root(folder, packages):
     os.mkdir(given)
     os.mkdir(result)
     data = os.path.join(stage.ROOT, "data")
-    for path in (packages["ffd"], packages["libffd0"], os.path.join(data, MESH), os.path.join(data, LATTICE)):
+    for path in (packages["ffd"], packages["libffd0"], os.path.join(data, MESH), os.path.join(data, LATTICE),
+                 os.path.join(data, NEEDS_MODULES)):
         shutil.copy(path, given)
     with open(os.path.join(given, "check.sh"), "w", encoding="ascii") as file:
         file.write(CHECK)

@@ -27,12 +27,35 @@ def m(name, kind, tests, *texts):
 # base
 
 m("output-not-renamed", "rename left out", "file, cli_output",
-  "(stays ? unlink(file->temporary) : rename(file->temporary, file->target)) != 0",
-  "(stays ? unlink(file->temporary) : 0) != 0")
+  "if (count == 1 && ffd_place(files->temporary, files->target, files->replace) != 0)",
+  "if (count == 1 && ffd_place(files->temporary, files->temporary, true) != 0)")
+m("appearing-output-replaced", "race", "file, cli_siege", ".replace = file->force}", ".replace = true}")
+m("head-set-aside-last", "order", "file_set, cli_file_sets", "for (size_t i = record->count; i-- > 0;) {",
+  "for (size_t i = 0; i < record->count; i++) {")
+m("set-not-undone", "clean-up left out", "file_set, cli_file_sets", "if (settle(record, false, NULL)) tell_of_record(record, error);",
+  "if (!record) tell_of_record(record, error);",
+  "if (settle(record, NULL)) tell_of_record(record, error);", "if (!record) tell_of_record(record, error);")
+m("placed-set-judged-by-a-look", "race", "cli_file_sets", "if (!status) return settle(record, true, error);",
+  "if (!status)\n        return settle(record, has_head(record), error);")
+m("killed-set-not-restored", "recovery left out", "file_set, cli_file_sets",
+  "if (!status && record.fd >= 0) status = settle(&record, has_head(&record), error);",
+  "if (!status && record.fd >= 1000000)\n        status = settle(&record, has_head(&record), error);",
+  "if (!status && record.fd >= 0) status = settle(&record, error);",
+  "if (!status && record.fd >= 1000000)\n        status = settle(&record, error);")
+m("pipe-as-module", "check left out", "cli_modules", "!S_ISREG(file.st_mode) || file.st_mode & S_IWOTH",
+  "file.st_mode & S_IWOTH")
+m("copies-not-compared", "check left out", "cli_batch_outputs",
+  "if (is_copy && !is_same_copy(outputs->copied[number].source, source))", "if (is_copy && outputs->copied[number].line == 0)")
+m("record-of-others-trusted", "owner check left out", "cli_file_sets", "if (info.st_mode & 022 || info.st_nlink != 1 ||",
+  "if (info.st_mode & 010000000 ||")
+m("cut-input-not-noted", "error left out", "mapping, cli_cut_inputs", "atomic_store(&mapping->is_cut, true);",
+  "atomic_store(&mapping->is_cut, false);")
+m("shorter-input-not-seen", "error left out", "mapping", "(uintmax_t)info.st_size < atomic_load(&mapping->size)",
+  "(uintmax_t)info.st_size > atomic_load(&mapping->size)")
 m("close-not-checked", "close check left out", "file, cli_full_disk, cli_output",
   "(twin < 0 || close(twin) != 0)", "(twin < 0 || (close(twin) != 0 && twin < 0))")
 m("output-not-locked", "lock left out", "file, cli_output, cli_batch_signals",
-  "flock(fd, LOCK_EX | LOCK_NB) != 0", "flock(fd, LOCK_UN) != 0")
+  "if (flock(fd, LOCK_EX | LOCK_NB) != 0)", "if (flock(fd, LOCK_UN) != 0)")
 m("block-overrun", "bound", "file, cli_output",
   "size > BLOCK - output->filled ? flush(output, error)", "size > BLOCK ? flush(output, error)")
 m("mode-not-kept", "file mode", "file, cli_output", "old->st_mode & 0777", "old->st_mode & 0666")
@@ -64,14 +87,30 @@ m("control-characters-shown", "message", "base, cli_errors",
   "if (*c < 0x20 || *c == 0x7f) *c = '?'; } static void fill",
   "if (*c < 0x20 && *c == 0x7f) *c = '?'; } static void fill")
 m("long-names-alike", "limit", "cli_aliases",
-  'length + sizeof "." NAME_SUFFIX - 1 <= LONGEST_NAME', 'length + sizeof "." NAME_SUFFIX - 1 <= 2 * LONGEST_NAME')
+  "1 + length + strlen(ending) <= LONGEST_NAME", "1 + length + strlen(ending) <= 2 * LONGEST_NAME")
 m("hash-of-doubles", "stride", "embedding_file, base", "store_double(bytes + 8 * i, values[done + i]);",
   "store_double(bytes + 8 * i, values[i]);")
 m("ties-of-decimals", "rounding", "number",
   "const uint64_t nearest = whole + (part + (whole & 1) > unit / 2);",
   "const uint64_t nearest = whole + (part > unit / 2);")
-m("too-large-a-number", "bound", "number", "return exponent + point - leading > 0;",
-  "return exponent + point - leading > 400;")
+m("tie-of-a-quotient", "rounding", "charconv, number", "number += low > half || (low == half && (number & 1));",
+  "number += low > half || low == half;")
+m("rest-of-a-quotient", "rounding", "charconv", "round_to(quotient | (quotient * power != scaled),", "round_to(quotient,")
+m("digits-cut-off", "rounding", "charconv, number", "return !text->is_cut || (round_whole(", "return true || (round_whole(")
+m("halfway-between-floats", "rounding", "charconv, number", "if (!end || is_halfway(parsed))",
+  "if (!end || (is_halfway(parsed) && end == first))")
+m("neighbour-of-a-power", "rounding", "charconv", "if (is_power_of_two && step_up(digits)",
+  "if (is_power_of_two && count < 0 && step_up(digits)")
+m("digits-of-tiny-numbers", "rounding", "charconv, number", "return whole + (part + (whole & 1) > unit / 2);",
+  "return whole + (part > unit);")
+m("module-of-another-version", "check left out", "cli_modules",
+  "strcmp(found->version, wanted->version) == 0 &&", "")
+m("module-of-another-name", "check left out", "cli_modules", "strcmp(found->file, wanted->file) == 0 &&", "")
+m("module-without-memory", "error code", "cli_modules", "if (!has_room(MODULE_BYTES)) return ffd_fail_memory(error);", "")
+m("modules-of-the-working-folder", "path", "cli_modules", "snprintf(file, LONGEST_PATH, \"%.*s\", (int)length, path);",
+  "snprintf(file, LONGEST_PATH, \"%s\", \"./x\");")
+m("module-of-another-user", "check left out", "cli_modules", "return has_link && has_file;", "return has_link || file.st_size >= 0;")
+m("meshopt-without-its-module", "check left out", "cli_modules", "if (status == FFD_OK) status = ffd_meshopt_ready(&problem);", "")
 m("sine-of-45", "rounding", "trig", "if (size == 45)", "if (size == 46)")
 m("utf8-surrogates", "check left out", "base, json_span", "(first == 0xed && c[1] > 0x9f)",
   "(first == 0xed && c[1] > 0xbf)",
@@ -96,16 +135,25 @@ m("preset-knots", "off by one", "knots", "t[i] = (double)(i - d) / (n - d);", "t
 m("rational-derivative", "sign", "evaluate, oracle evaluate", "(sum.by_v[r] - value[r] * sum.by_v[3]) / weight",
   "(sum.by_v[r] + value[r] * sum.by_v[3]) / weight")
 m("seam-tolerance", "tolerance", "shapes, embedding_file, locator",
+  "faces_meet(lattice, FFD_VOLUME_REST, direction, 16, false)", "faces_meet(lattice, FFD_VOLUME_REST, direction, 0, false)",
+  "tolerance[a] = 16 * DBL_EPSILON * most;", "tolerance[a] = 0 * most;",
   "tolerance[a] = 16 * DBL_EPSILON * extent;", "tolerance[a] = 0 * extent;")
 m("rotation", "sign", "moves, oracle moves", "+ ready->sine * f[c];", "- ready->sine * f[c];")
 m("within-slack", "tolerance", "moves, oracle moves", "x[c] >= move->within_min[c] - work->slack[c]",
   "x[c] >= move->within_min[c]")
+m("difference-of-by", "sum", "cli_translation", "*difference += move->weight * move->vector[c];",
+  "*difference = *p - rest;")
 m("bend-of-small-angles", "rounding", "moves, oracle moves",
   "cosine > 0.5 ? 2 * half_sine * half_sine : 1 - cosine", "cosine > 2 ? 2 * half_sine * half_sine : 1 - cosine")
 m("weight-of-zero", "limit", "lattice_file, cli_errors", "!status && !((*weights)[i] > 0)",
   "!status && !((*weights)[i] >= 0)")
-m("cylinder-margin", "factor", "shapes, cli_lattice_new", "radius * (1 + 2 * desc->margin)",
+m("cylinder-margin", "factor", "shapes, cli_lattice_new",
+  "fmax(radius * (1 + 2 * desc->margin[0])", "fmax(radius * (1 + desc->margin[0])", "radius * (1 + 2 * desc->margin)",
   "radius * (1 + desc->margin)")
+m("margins-of-a-cylinder", "left out", "shapes", "desc->margin[1] != desc->margin[2]", "desc->margin[0] != desc->margin[1]")
+m("hint-of-another-word", "operand", "cli_lattice_comments", '{"offset", "by"}', '{"offset", "to"}')
+m("misplaced-key", "left out", "cli_lattice_comments", "ffd_status status = refuse_misplaced(box);",
+  "ffd_status status = box.file ? FFD_OK : refuse_misplaced(box);")
 m("lattice-member", "member name", "lattice_file, shapes, cli_lattice_new", '"height", spec->height',
   '"radius", spec->height')
 
@@ -126,6 +174,8 @@ m("tangent", "sign", "deform, attribute_batch",
   "const double along = vec_dot(carried, normal); for (int a = 0; a < 3; a++) carried[a] += along * normal[a];")
 m("cells-of-gradients", "check left out", "displacement, pass", "kept->lattice == lattice && kept->use == use",
   "kept->lattice == lattice")
+m("alike-on-a-face", "bound", "cli_translation", "while (absent < degree && t[-absent] == t[0])",
+  "while (absent + 1 < degree && t[-absent] == t[0])")
 m("kept-cell-of-another", "check left out", "displacement, deform", "if (kept->keys[slot] != cell->key + 1)",
   "if (kept->keys[slot] == 0)")
 m("fade-slope", "sign", "extension", "*slope = -30 * (s * s) * (rest * rest) / falloff;",
@@ -139,8 +189,9 @@ m("separable-stride", "stride", "locator", "a == 1 ? lattice->size[0] : lattice-
   "a == 1 ? lattice->size[0] : lattice->size[1] * lattice->size[1];")
 m("separable-tolerance", "tolerance", "locator, oracle embedding", "p[a] < fmin(first, last) - tolerance[a]",
   "p[a] < fmin(first, last) + tolerance[a]")
-m("roots-across-seam", "seam", "locator, oracle embedding", "apart = side_of(locator, d) - apart;",
-  "apart = side_of(locator, d);")
+m("roots-across-seam", "seam", "locator, oracle embedding",
+  "side_of(locator, direction) - apart : apart;", "side_of(locator, direction) : apart;",
+  "apart = side_of(locator, d) - apart;", "apart = side_of(locator, d);")
 m("tree-child", "bit", "box_tree, locator", "((unsigned)meets[1] & 2) << i", "((unsigned)meets[1] & 1) << i")
 m("foot-side", "sign", "boundary, extension", "foot->residual[c] = -at.sample.residual[c];",
   "foot->residual[c] = at.sample.residual[c];")
@@ -164,6 +215,13 @@ m("mixed-derivative", "operation", "boundary, extension",
   "(sum[BY_ST][c] - s * wt - t * ws - value * sum[BY_ST][3]) / w;",
   "(sum[BY_ST][c] - s * wt - t * ws + value * sum[BY_ST][3]) / w;")
 m("origin-added", "sign", "locator", "p[a] = xyz[a] - locator->origin[a];", "p[a] = xyz[a] + locator->origin[a];")
+m("plane-in-the-cell", "bound", "border_cells", "return least > reach || most < -reach;",
+  "return least > 0.5 * reach || most < -0.5 * reach;")
+m("plane-behind-the-cell", "bound", "border_cells", "return least > reach || most < -reach;",
+  "return least > 1.01 * reach || most < -1.01 * reach;")
+m("patch-not-halved", "step left out", "border_cells", "if (view != PATCH_UNKNOWN) return FFD_OK;",
+  "if (view != PATCH_UNKNOWN || patch->order[0] > 0)\n        return FFD_OK;")
+m("cell-not-scaled", "wrong space", "border_cells", "cell.half[a] = each[a] / query.unit;", "cell.half[a] = each[a];")
 
 # fold
 
@@ -198,6 +256,22 @@ m("polygon-seen-from-below", "sign", "polygon_cut, cli_convert", "(axis + (norma
 m("reflex-angle", "operation", "normals, cli_normals", "ffd_arc_tangent(0, -1) * 2 - angle : angle;",
   "ffd_arc_tangent(0, -1) - angle : angle;")
 
+m("copy-through-a-link", "check left out", "cli_hostile_inputs, cli_materials", "if (is_through_link(c->from, resource->path))",
+  "if (!c->from && is_through_link(c->from, resource->path))")
+m("copy-of-a-hidden-file", "check left out", "cli_hostile_inputs, cli_materials", "if (ffd_image_is_hidden(resource->path))",
+  "if (!source && ffd_image_is_hidden(resource->path))")
+m("copy-by-its-name", "check left out", "cli_hostile_inputs, cli_materials",
+  "return resource->kind->has_content(bytes->data, bytes->size) ? NULL", "return bytes->size ? NULL")
+m("copy-by-its-content", "check left out", "cli_hostile_inputs, cli_materials",
+  "if (!resource->kind->has_name(resource->path))", "if (!resource->kind->has_name(resource->path) && !source)")
+m("copy-over-another", "check left out", "gltf_save, cli_materials",
+  "const ffd_status status = ffd_file_compare(target, bytes, &same, error); if (status || same)",
+  "const ffd_status status = ffd_file_compare(target, bytes, &same, error);\n    if (status || !same)")
+m("copy-out-of-the-folder", "check left out", "gltf_save, cli_materials", "*left = NULL; if (ffd_path_leads_out(resource->path)) {",
+  "*left = NULL;\n    if (ffd_path_leads_out(resource->path) && !c->mesh) {")
+m("output-over-a-copy", "check left out", "gltf_save", "strcmp(resource->path, ffd_path_name(target)) == 0",
+  "strcmp(resource->path, target) == 0")
+
 # io
 
 m("splice-copied", "off by one", "obj, ply, off, stl",
@@ -224,16 +298,40 @@ m("added-line-end", "off by one", "obj_normals, obj, cli_obj",
   "place[-2] == '\\r' ? 2 : 1)", "place[-2] == '\\r' ? 1 : 1)")
 m("index-counts-back", "sign", "obj, obj_users", "index->value = -index->value;", "index->value = index->value - 1;")
 m("backslash-at-the-end", "bound", "obj, cli_obj",
-  "return scan->last - at == 1 || ffd_obj_class(at + 1) == OBJ_LINE_END;",
-  "return scan->last - at == 2 || ffd_obj_class(at + 1) == OBJ_LINE_END;")
+  "return next == scan->last || ffd_obj_class(next) == OBJ_LINE_END;",
+  "return next + 1 == scan->last || ffd_obj_class(next) == OBJ_LINE_END;")
 m("greatest-element", "off by one", "obj_users, obj", "*greatest = *greatest > element ? *greatest : element + 1;",
   "*greatest = *greatest > element ? *greatest : element;")
 m("block-cut-in-a-line", "bound", "obj_blocks", "if (!may_continue(first, end)) return at; at--;",
   "if (!may_continue(first, end) || at < last)\n            return at;\n        at--;")
 m("digits-of-a-number", "bound", "obj, number, bytes", "count < 1 || count > 16)", "count < 1 || count > 17)")
 
+m("one-library-of-two-words", "check left out", "cli_materials", "if (is_file(path, text, size)) return ffd_obj_add_name",
+  "if (size > NAME_MAX_SIZE && is_file(path, text, size))\n        return ffd_obj_add_name")
+m("library-of-a-continued-line", "check left out", "obj_resources", "return !is_continued(first, at);",
+  "return !is_continued(first, at) || at > first;")
+m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, letter, last)) {",
+  "if (begins_statement(first, letter, end)) {")
+m("words-of-an-option", "wrong constant", "obj_resources, cli_materials", '{"-mm", 2, false}', '{"-mm", 1, false}')
+m("map-beside-the-mesh", "condition", "cli_materials", "if (!is_there(c, path)) status = find_path(",
+  "if (is_there(c, path))\n        status = find_path(")
+m("library-of-any-text", "check left out", "obj_resources, cli_materials", 'return ffd_text_is_any_case(word, "newmtl");',
+  "return word.first < word.last;")
+m("library-of-zeros", "check left out", "obj_resources, cli_materials", "if (memchr(bytes, 0, size)) return false;",
+  "if (memchr(bytes, 0, text / 2))\n        return false;")
+m("output-over-a-library", "check left out", "cli_materials", "!is_stay || ffd_mtl_has_name(options->path) ||",
+  "!is_stay ||")
+m("library-that-is-reached", "message", "cli_materials", "if (ffd_path_leads_out(resource->path) && is_reached(c, resource->path))",
+  "if (ffd_path_leads_out(resource->path) && !c->from)")
+m("libraries-of-an-input", "condition", "cli_materials, cli_batch_neighbours",
+  "return ffd_format_table(format) == ffd_format_table(from_format) &&", "return ffd_format_table(format) != ffd_format_table(from_format) &&")
+m("many-maps", "limit", "cli_materials", "if (names->count > OBJ_RESOURCES_MAX)", "if (names->count > OBJ_RESOURCES_MAX + 1)")
+m("statements-alike", "condition", "cli_materials, obj_resources", "if (!status && found->statements.count > before)",
+  "if (!status && found->statements.count == before)")
+
 # io/gltf
 
+m("data-uri-is-a-file", "condition", "buffer_count", "count += is_uri && !is_data(&string);", "count += is_uri;")
 m("base64-padding", "bound", "gltf, gltf_save, gltf_storage, cli_gltf_storage, cli_convert",
   "left > 1 ? digits[bits >> 6 & 63] : '=';", "left > 2 ? digits[bits >> 6 & 63] : '=';")
 m("chunk-size", "bound", "gltf, cli_broken_gltf", "if (chunk->size > end - chunk->begin)", "if (chunk->size > end)")
@@ -244,13 +342,39 @@ m("accessor-bounds", "kernel", "gltf_storage, gltf_save, cli_gltf_storage, valid
   "const float value = xyz[3 * first + k]; least[k] = value > least[k] ? value : least[k];")
 m("inverse-bind-transposed", "stride", "cli_gltf_scene, gltf_models, scene", "matrix[3 * r + c] = read[4 * c + r];",
   "matrix[3 * r + c] = read[4 * r + c];")
+m("texture-turned", "sign", "cli_convert_texcoords", ".to_v = {-sine * scale[0], cosine",
+  ".to_v = {sine * scale[0], cosine")
+m("set-of-a-texture", "operation", "cli_convert_texcoords", "a != texcoords->accessor))", "a > texcoords->accessor))")
 m("last-row", "tolerance", "gltf, cli_gltf_scene, cli_broken_gltf, broken_gltf", "#define LAST_ROW_TOLERANCE 1e-5",
   "#define LAST_ROW_TOLERANCE 1e5")
+m("first-joint", "order", "cli_skin_weights", "const size_t first_joint = terms[0].joint;",
+  "const size_t first_joint = terms[count - 1].joint;")
+m("half-an-ulp", "tolerance", "cli_gltf_scene", "if (!(fabs((double)x[c] - (double)y[c]) <= most))",
+  "if (!(fabs((double)x[c] - (double)y[c]) < most / 2))")
+m("what-stays-shares-an-ulp", "condition left out", "cli_gltf_scene",
+  "rounding[c] + (stays ? 0 : file_rounding(allowed, x, y, c));", "rounding[c] + (stays ? 1 : 1) * file_rounding(allowed, x, y, c);")
+m("ulp-of-the-largest", "wrong coordinate", "cli_gltf_scene", "ulp_of(allowed->along ?", "ulp_of(true || allowed->along ?")
+m("double-rounding-left-out", "tolerance", "cli_gltf_scene", "rounding[c] *= ROUNDINGS * DBL_EPSILON;",
+  "rounding[c] *= 0 * ROUNDINGS * DBL_EPSILON;")
+m("first-of-the-scene", "order", "cli_gltf_scene", "for (size_t i = node->child_count; i-- > 0;)",
+  "for (size_t i = 0; i < node->child_count; i++)")
 m("buffer-too-short", "bound", "gltf, cli_broken_gltf, cli_broken_files",
   "buffer->kind != BUFFER_EMPTY && buffer->size < buffer->length",
   "buffer->kind != BUFFER_EMPTY && buffer->size + 4 < buffer->length")
 m("absolute-uri", "check left out", "gltf, cli_broken_gltf", "if (uri[0] == '/' || uri[0] == '\\\\')",
   "if (uri[0] == '\\\\')")
+m("detail-below-its-node", "parent", "cli_stays_behind", "parents[detail] = parents[n];", "parents[detail] = n;")
+m("detail-already-shown", "check left out", "cli_stays_behind",
+  "if (!d->in_scene[detail])", "if (!d->in_scene[detail] || parents[detail] == GLTF_NONE)")
+m("detail-below-a-detail", "check left out", "cli_stays_behind", "c < node->child_count && d->stands_in[n]",
+  "c < node->child_count && d->stands_in[n] && n == 0")
+m("details-without-scenes", "check left out", "cli_stays_behind", "if (parents[n] == GLTF_NONE && !d->stands_in[n])",
+  "if (parents[n] == GLTF_NONE)")
+m("details-of-a-selection", "call left out", "cli_stays_behind", "mark_details(s, n, &waiting);", "")
+m("joints-of-a-selection", "operation", "cli_stays_behind", "skin >= 0 && j < d->skins[skin].joint_count",
+  "skin > 0 && j < d->skins[skin].joint_count")
+m("joints-that-are-animated", "check left out", "cli_stays_behind", "if (kinds == 0 && s->nodes[n] & IS_ANIMATED)",
+  "if (s->nodes[n] & IS_ANIMATED)")
 m("instances-out-of-reach", "bound", "cli_gltf_scene, gltf, scene",
   "if (least > reach->max[r] || largest < reach->min[r])",
   "if (least > reach->max[r] && largest < reach->min[r])")
@@ -276,8 +400,13 @@ m("meshopt-triangles", "check left out", "meshopt, gltf_packed", "view->mode == 
 m("glb-newer-version", "error code", "gltf, cli_broken_gltf",
   "if (version != GLB_VERSION) return ffd_fail_file(error, FFD_E_UNSUPPORTED,",
   "if (version != GLB_VERSION)\n        return ffd_fail_file(error, FFD_E_INVALID,")
-m("primitive-mode", "limit", "cli_broken_gltf, gltf", "return known && number <= 6 ? FFD_OK",
-  "return known && number <= 7 ? FFD_OK")
+m("primitive-mode", "limit", "gltf, cli_broken_gltf", "number <= MODE_FAN && floor(number) == number",
+  "number <= MODE_UNKNOWN && floor(number) == number")
+m("base64-in-capitals", "check left out", "gltf, cli_liberal", "exact ? DATA_BASE64 : DATA_BASE64_ODD",
+  "exact ? DATA_BASE64 : DATA_PLAIN")
+m("base64-not-marked", "check left out", "gltf, cli_liberal", "if (coding == DATA_PLAIN)", "if (!coding && !size)")
+m("allowed-by-another-job", "left out", "cli_liberal", "rules = ffd_hash_blocks(blocks, 2);",
+  "rules = ffd_hash_blocks(blocks, 1);")
 m("files-of-buffers", "operation", "hash_cache, cli_batch_resume, cli_pipeline",
   "if (d->buffers[i].kind != BUFFER_FILE) continue; char *path = ffd_path_beside(d->path, d->buffers[i].path);",
   "if (d->buffers[i].kind != BUFFER_FILE || i == 0)\n            continue;\n"
@@ -285,19 +414,35 @@ m("files-of-buffers", "operation", "hash_cache, cli_batch_resume, cli_pipeline",
 m("extension-is-there", "operation", "gltf, gltf_packed, cli_gltf_scene",
   "return ffd_gltf_extension(d, value, extension) != JSON_NONE;",
   "return ffd_gltf_extension(d, value, extension) == JSON_NONE;")
-m("texcoords-go-down", "operation", "cli_convert", "texcoords[2 * i + 1] = 1 - texcoords[2 * i + 1];",
-  "texcoords[2 * i + 1] = 0 + texcoords[2 * i + 1];")
+m("texcoords-go-down", "sign", "cli_convert, cli_convert_texcoords",
+  "values[2 * i + 1] = 1 - (to_v[0] * u + to_v[1] * v + to_v[2]);",
+  "values[2 * i + 1] = to_v[0] * u + to_v[1] * v + to_v[2];")
 m("interleaved-bytes", "bound", "gltf_save, overlap", "distance < x->size || distance + y->size > x->stride;",
   "distance < x->size || distance + y->size >= x->stride;")
 m("skins-use-accessors", "member name", "gltf_save, cli_gltf_scene",
   'mark_number(d, ffd_json_span_member(&d->tree, s, "inverseBindMatrices"), used);',
   'mark_number(d, ffd_json_span_member(&d->tree, s, "inverseBindMatrix"), used);')
+m("stretch-beyond-its-piece", "bound", "cli_gltf_storage, gltf_models",
+  "const size_t length = there < size - done ? there : size - done;", "const size_t length = there;")
+m("stretch-of-another-place", "off by one", "cli_gltf_storage, gltf_models",
+  "ffd_gltf_content_at(w->saver, w->buffer, offset + done, &bytes);", "ffd_gltf_content_at(w->saver, w->buffer, offset, &bytes);")
+
+m("channel-not-repeated", "table", "cli_gltf_follow, cli_faults", '"/animations/*/channels/+/target/', '"/animations/*/channels/*/target/')
+m("shape-of-a-manifold", "table", "cli_gltf_follow, cli_faults", "{GLTF_INDEX_SHAPE, MANIFOLD", "{GLTF_INDEX_ACCESSOR, MANIFOLD")
+m("trigger-of-a-body", "table", "cli_gltf_follow", 'BODIES "trigger/geometry/mesh"', 'BODIES "trigger/mesh"')
+m("normals-of-silhouettes", "table", "cli_gltf_follow", 'EDGES "silhouetteNormals"', 'EDGES "normals"')
+m("indices-left-twice", "figure", "cli_gltf_follow", "if (value == last) continue;", "if (value == last + 1)\n            continue;")
+m("lower-half-of-an-octahedron", "term left out", "meshopt", "const double outside = z < 0 ? -z : 0;",
+  "const double outside = z < 0 ? 0 : 0;")
+m("largest-of-a-quaternion", "index", "meshopt", "to[(largest + 1 + a) % 4] = to_integer(", "to[(largest + 3 - a) % 4] = to_integer(")
+m("double-precision", "error code", "gltf", '!is_used(c->tree, "KHR_accessor_float64")', '!is_used(c->tree, "KHR_accessor_float32")')
 
 # io/ply
 
 m("ply-big-endian", "endian", "ply", "(8 * (encoding == PLY_BIG_ENDIAN ? size - 1 - i : i))",
   "(8 * (encoding == PLY_BIG_ENDIAN ? i : size - 1 - i))")
-m("ply-sign-of-integers", "bound", "ply, cli_ply", "is_signed && bits >= range / 2", "is_signed && bits > range / 2")
+m("ply-sign-of-integers", "bound", "ply, cli_ply", "is_signed && bits >> (8 * (word.last - word.first) - 1);",
+  "is_signed && bits > (uint64_t)1 << (8 * (word.last - word.first) - 1);")
 m("ply-rows-do-not-fit", "limit", "ply, cli_ply, replay ply", "e->count > left / e->least",
   "e->count > left / 1")
 m("ply-colour-of-shorts", "factor", "ply, model, cli_convert", "type == PLY_USHORT ? 65535 : 1",
@@ -332,6 +477,9 @@ m("stl-too-short", "bound", "stl, cli_off_stl, cli_broken_files",
   "if (stated_size(&d->input) > d->input.size)",
   "if (stated_size(&d->input) > d->input.size + 49)")
 
+m("stl-corners-meet", "operation", "cli_convert", "ffd_stl_read_positions(&e->document->file.base, 0, 3 * facet, 3, positions);",
+  "memcpy(positions, e->document->file.new_positions + 9 * facet, sizeof positions);")
+
 # io/openmesh
 
 m("edges-of-two-faces", "operation", "topology, cli_info", "(faces[edge] == 2 && upward[edge] == 1)",
@@ -351,8 +499,16 @@ m("stl-triangles", "count", "cli_convert, cli_off_stl", "ffd_sink_u32(&sink, (ui
   "ffd_sink_u32(&sink, (uint32_t)faces->count);")
 m("written-edges", "off by one", "cli_convert", "plan->edges = lines->corner_count - lines->count;",
   "plan->edges = lines->corner_count;")
+m("colours-of-255", "check left out", "cli_convert", "value > 255 || floor(value) < value)", "value > 255)")
+m("colours-above-1", "check left out", "cli_convert", "limit_colours(&model, target, log);", "")
+m("zeros-are-blank", "check left out", "cli_batch, cli_batch_table", "line->data[i] == 0 || !strchr(", "!strchr(")
+m("lone-returns-not-seen", "check left out", "cli_batch_table", "if (has_lone_return(name))", "if (!name)")
 m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0}",
   "{12, 12, 12, glb_colour_size(w), 12, 12, 0, 0}")
+m("alpha-is-linear", "check left out", "cli_convert", "c < 3 ? ffd_srgb_to_linear(colour[c]) : colour[c];",
+  "ffd_srgb_to_linear(colour[c]);")
+m("unit-of-far-nodes", "off by one", "cli_convert, cli_faults",
+  "floor((least[a] / 2 + largest[a] / 2) / unit + 0.5)", "floor((least[a] / 2 + largest[a] / 2) / unit)")
 m("glb-mode", "constant", "cli_convert", "modes[MODEL_KINDS] = {4, 1, 0};", "modes[MODEL_KINDS] = {4, 3, 0};")
 m("glb-vertices-joined", "operation", "cli_convert",
   "if (x->texcoord != y->texcoord) return x->texcoord < y->texcoord ? -1 : 1;",
@@ -361,6 +517,12 @@ m("obj-name-joins-lines", "format", "cli_convert", "(*c == '\\\\' && !c[1]);", "
 
 # job
 
+m("behind-out-of-reach", "check left out", "cli_stays_behind", "if (run->outcomes[i].moved)", "if (run->outcomes[i].located)")
+m("behind-a-name-cut", "operation", "cli_stays_behind", "((unsigned char)name[length] & 0xc0) == 0x80",
+  "((unsigned char)name[length] & 0xc0) == 0xc0")
+m("behind-a-morph", "check left out", "cli_stays_behind", "job->totals.moved == 0 || job->desc->as_morph",
+  "job->totals.moved == 0")
+m("splats-moved", "figure", "cli_stays_behind, job", "totals->splats_moved += moved;", "totals->splats_moved = moved;")
 m("report-rms", "figure", "cli_deform",
   'ffd_json_number(json, "rms", result->residual_rms);', 'ffd_json_number(json, "rms", result->residual_max);')
 m("report-member", "member name", "cli_report_schema", '"displacement", true); ffd_json_number(json, "max"',
@@ -378,6 +540,33 @@ m("embedding-of-another-lattice", "check left out", "embedding_file, cli_embeddi
 m("status-array", "format", "cli_embed", 'ffd_npy_begin(output, "|u1"', 'ffd_npy_begin(output, "|i1"')
 m("kept-mesh-of-another-space", "check left out", "share|job_cache, job_source, cli_batch_shared",
   "a->format != b->format || a->space != b->space", "a->format != b->format")
+m("box-without-targets", "left out", "cli_morph_weights", ".bounds_shapes = true", ".bounds_shapes = false")
+m("shown-of-a-mixture", "condition", "cli_morph_weights", "shown == 1 && part->shapes[last].weight == 1 ? last : SHOWN",
+  "shown == 1 ? last : SHOWN", "return shown > 1 || !whole;", "return shown > 1 && !whole;")
+m("bounds-of-the-base", "left out", "cli_morph_weights", ".bounds_shown = true,", ".bounds_shown = false,")
+m("bounds-of-what-stays", "operand", "cli_morph_weights", "deformed ? work->tile->position + 3 * i : s->base + 3 * i",
+  "deformed ? s->base + 3 * i : work->tile->position + 3 * i")
+m("shown-outside-of-a-target", "condition", "cli_morph_weights", "work->totals->shown_outside += work->is_shown;",
+  "work->totals->shown_outside += work->shape == SHOWN;")
+m("report-of-targets", "figure", "cli_morph_weights", '"shown_outside", result->shown_outside',
+  '"shown_outside", result->targets_outside')
+m("not-finite-unshown", "left out", "cli_boxes", "(other & OTHER_STATUS) == FFD_POINT_INVALID ||",
+  "(other & OTHER_STATUS) == OTHER_STATUS ||")
+m("not-finite-in-ply", "left out", "cli_convert", ".takes_not_finite = true,", ".takes_not_finite = false,")
+m("not-finite-unused", "condition", "cli_convert", "if (unfit != SIZE_MAX && !(target->holds & MODEL_HAS_LOOSE))",
+  "if (unfit != SIZE_MAX && !target->holds)")
+m("empty-scene", "condition", "cli_convert", "if (model->position_count == 0 && model->features & MODEL_HAS_HIDDEN)",
+  "if (model->position_count == 1 && model->features & MODEL_HAS_HIDDEN)")
+m("splats-translated", "condition", "cli_stays_behind", "job->totals.splats_moved > 0 && !only_translates(&job->chain)",
+  "job->totals.splats_moved > 0 || !only_translates(&job->chain)")
+m("splats-fading", "left out", "cli_stays_behind", "return !(chain->outside.extend && chain->outside.falloff > 0);",
+  "return true;")
+m("depfile-repeats", "left out", "cli_boxes", "if (status || (once && known.count == before))",
+  "if (status || (once && known.count < before))")
+m("info-box-without-margin", "operand", "cli_info_parts", "bounds.max, lattice->spec->margin, box->min",
+  "bounds.max, lattice->spec->box_min, box->min")
+m("info-box-not-fitted", "left out", "cli_info_parts", "return status || !fits ? status : ffd_lattice_fit",
+  "return status || fits ? status : ffd_lattice_fit")
 m("residual-mean", "figure", "cli_deform", "totals->residual_square_sum / (double)totals->located)",
   "totals->residual_square_sum / (double)totals->vertices)")
 m("shown-normal-transposed", "stride", "cli_normals, normals",
@@ -389,24 +578,89 @@ m("edge-twice", "operation", "quality", "keys[count++] = a < b ? a << 32 | b : b
   "keys[count++] = a << 32 | b;")
 m("edge-deviation", "tolerance", "quality, cli_check", "#define OVERSHOOT (1 + 1.0 / 64)",
   "#define OVERSHOOT (4 + 1.0 / 64)")
+m("report-out-of-order", "operation", "cli_batch_report, cli_batch",
+  "report->is_mixed = report->is_mixed || number < report->place_count;", "report->is_mixed = false;")
 m("merged-exit-code", "bound", "cli_report_merge", "code >= 0 && code <= 7", "code >= 0 && code <= 8")
 m("gate-exit", "error code", "cli_fail_on", "return line.length ? ffd_fail_file(error, FFD_E_GATE,",
   "return line.length ? ffd_fail_file(error, FFD_E_INVALID,")
 m("shapes-outside", "error code", "cli_outside, cli_gltf_scene, cli_errors",
-  "if (desc->outside == FFD_OUTSIDE_ERROR && totals->shapes_outside) return ffd_fail_file(error, FFD_E_EMBEDDING,",
-  "if (desc->outside == FFD_OUTSIDE_ERROR && totals->shapes_outside)\n"
+  "if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside)) "
+  "return ffd_fail_file(error, FFD_E_EMBEDDING,",
+  "if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside))\n"
   "        return ffd_fail_file(error, FFD_E_INVALID,")
-m("range-of-offsets", "sign", "cli_as_morph, cli_convert", "less ? values[i] - less[i] : values[i];",
+m("range-of-offsets", "sign", "cli_as_morph, cli_convert", "morph ? model->morph_positions[i] - model->positions[i]",
+  "morph ? model->morph_positions[i] + model->positions[i]", "less ? values[i] - less[i] : values[i];",
   "less ? values[i] + less[i] : values[i];")
+m("changed-corners", "bound", "changed_faces", "if (filler->corner < filler->corners && vertex < filler->faces->vertex_count)",
+  "if (filler->corner < filler->corners || vertex < filler->faces->vertex_count)")
+m("changed-normals", "check left out", "changed_faces", "if (found == count || corner.vertex != faces->corners[found])", "if (found == count)")
+
 m("info-member", "member name", "info, cli_info", '"boundary_edges", topology->boundary_edges',
   '"boundary_edge", topology->boundary_edges')
+
+m("inside-by-an-embedding", "check left out", "cli_hostile_inputs", "(location->status != FFD_INSIDE && location->status != FFD_MULTIPLE) ||",
+  "(location->status != FFD_MULTIPLE) ||")
+m("multiple-by-an-embedding", "check left out", "cli_hostile_inputs", "(location->status != FFD_INSIDE && location->status != FFD_MULTIPLE) ||",
+  "(location->status != FFD_INSIDE) ||")
+m("missed-by-a-tile", "operation", "cli_hostile_inputs", "if (tile->first_missed < all->first_missed)",
+  "if (tile->first_missed > all->first_missed)")
+m("missed-is-no-failure", "check left out", "cli_hostile_inputs", "if (totals->first_missed != UINT64_MAX)",
+  "if (totals->first_missed == 0)")
+m("embedding-without-rounding", "term left out", "cli_snap, cli_embedding, cli_hostile_inputs",
+  "return ffd_locator_accepts(link->locator, x, location, half, link->snap);",
+  "return ffd_locator_accepts(link->locator, x, location, half, 0 * link->snap);")
+m("lattice-takes-no-memory", "limit", "cli_hostile_inputs", "if (ffd_budget_take(budget, bytes, 1, NULL) == FFD_OK)",
+  "if (ffd_budget_take(budget, bytes, 0, NULL) == FFD_OK)")
+m("lattices-of-a-job", "limit", "cli_hostile_inputs", "#define MOST_LATTICES 1024", "#define MOST_LATTICES 1025")
+m("memory-of-a-new-lattice", "check left out", "cli_hostile_inputs",
+  "return ffd_lattice_memory_take(&budget, &spec, 0, error);", "return budget.most ? FFD_OK : ffd_lattice_memory_take(&budget, &spec, 0, error);")
+m("beside-a-dry-run", "check left out", "cli_materials", "return status ? status : rehearse(job, &options, error);",
+  "return status ? status : rehearse(job, &options, error) ? FFD_OK : FFD_OK;")
+m("flaws-of-a-box", "message", "cli_boxes", "ffd_flaws_warn(&document->flaws, ffd_source_name(source), log);", "(void)log;")
+m("flaws-of-a-known-box", "message", "cli_boxes", "for (size_t i = 0; i < box->warnings.count; i++) ffd_log_line(",
+  "for (size_t i = 1; i < box->warnings.count; i++)\n        ffd_log_line(")
+m("figures-of-a-dry-run", "figure", "cli_batch_report", ".planned = task->dry && !answer->rehearsed && !result->status,",
+  ".planned = false && answer && task->dry,")
+# job: torn edges, lattices side by side
+
+m("later-borders-not-looked-at", "left out", "cli_tears", "more |= !walk->by_ends;", "more |= walk->over;")
+m("sides-go-as-their-ends", "left out", "cli_tears", "if (!outer || holds[WITHIN] || holds[BEYOND])",
+  "if (!outer && holds[WITHIN] && !holds[WITHIN])")
+m("borders-at-one-place-twice", "left out", "cli_tears", "if (takes_way[WITHIN] == inner && takes_way[BEYOND] == outer)",
+  "if (takes_way[WITHIN] == outer && takes_way[BEYOND] == inner)")
+m("blocks-at-two-places", "left out", "cli_blocks", "bool found = distance(at[0], at[1]) <= off;",
+  "bool found = distance(at[0], at[1]) >= 0;")
+m("slope-of-the-rounding", "left out", "cli_blocks", "limit += change_of(gradient, off);", "limit += change_of(gradient, 0);")
+m("place-without-rounding", "term left out", "cli_blocks", "(snap + ffd_link_rounding(link)) * vec_length(row)",
+  "snap * vec_length(row)")
+m("cells-are-small", "wrong constant", "cli_blocks", "NEAR_CELLS * cell / link->lattice->diagonal",
+  "1e-3 * cell / link->lattice->diagonal")
+m("neighbour-on-the-same-side", "left out", "cli_blocks", "if (!goes_on(own, next, half, snap))", "if (!goes_on(own, next, half, snap) && half[0] < 0)")
+m("snapped-as-held", "left out", "cli_blocks", "return work->snaps ? work->chain->links[block].snap : 0;",
+  "return work->chain->links[block].snap;")
+m("middle-not-shared", "left out", "cli_blocks", "bool found = holds_one(search, a, middle, 1) && !search->status",
+  "bool found = a > b && holds_one(search, a, middle, 1) && !search->status")
+m("places-not-looked-for", "left out", "cli_blocks", "found = reaches_into(search, turn ? b : a, turn ? a : b);",
+  "found = a > b && reaches_into(search, turn ? b : a, turn ? a : b);")
+m("extended-as-moved", "left out", "cli_outside", "totals->extended_moved += (other & OTHER_MOVED) != 0;",
+  "totals->extended_moved++;")
+m("fading-as-moved", "wrong constant", "cli_blocks", "> MOVED * link->lattice->diagonal;", ">= 0 * link->lattice->diagonal;")
+m("unused-as-staying", "left out", "cli_tears", "job->kept[first + v] &= ffd_part_shows(part, v);",
+  "job->kept[first + v] &= !part->hidden;")
+m("across-not-turned", "left out", "cli_tears", "walk->across[a] += turned[a];", "walk->across[a] += 0 * turned[a];")
 
 # batch
 
 m("journal-full", "limit", "journal",
   "if (journal->used > journal->slots / 2", "if (journal->used > journal->slots * 2")
-m("journal-not-renamed", "rename left out", "journal, cli_batch_resume",
-  "fflush(file) == 0 && rename(name, journal->path) == 0", "fflush(file) == 0")
+m("journal-not-renamed", "rename left out", "update, journal, cli_batch_resume",
+  "const bool placed = ffd_place(successor->temporary, successor->target, true) == 0;",
+  "const bool placed = ffd_place(successor->temporary, successor->temporary, true) == 0;")
+m("journal-figures-not-checked", "check left out", "journal, cli_batch_report",
+  "return ffd_hash_equal(&hash, &slot->figures);", "return slot->size > 0 || ffd_hash_equal(&hash, &slot->figures);")
+m("recent-files-forgotten", "condition", "file_table, cli_batch_outputs",
+  "if (!place && table->slots)", "if (!place && !table->slots && table->used)")
+m("decimal-comma-in-any-table", "condition", "cli_batch_table", "(decimal_comma && *point == ',')", "*point == ','")
 m("journal-torn-record", "check left out", "journal, cli_batch_resume",
   "(is_whole(slot) && ffd_hash_equal(&slot->target, target))", "ffd_hash_equal(&slot->target, target)")
 m("shard", "off by one", "job_source, cli_batch", "source->count++ % source->desc.shards == source->desc.shard",
@@ -414,14 +668,30 @@ m("shard", "off by one", "job_source, cli_batch", "source->count++ % source->des
 m("csv-quote", "operation", "cli_batch_table", "text[i] == '\"' && i + 1 < size && text[i + 1] == '\"'",
   "text[i] == '\"' && i + 1 < size && text[i + 1] == ','")
 m("changed-mesh-is-known", "check left out", "hash_cache, cli_batch_resume",
-  "ffd_file_stamp(source->path, &stamp) && ffd_stamp_equal(&stamp, &cache->stamp)",
-  "ffd_file_stamp(source->path, &stamp)")
+  "mesh->format == format && ffd_stamp_equal(&mesh->stamp, &stamp))", "mesh->format == format)")
 m("resume-without-outputs", "check left out", "cli_batch_resume",
   "&& ffd_hash_equal(&answer->record.outputs, &task->record.outputs);", ";")
 m("resume-does-not-replace", "operation", "cli_batch_resume", "desc->force = desc->force || task->resume;",
   "desc->force = desc->force || task->dry;")
 m("stop-is-no-failure", "exit code", "cli_batch_failures, cli_batch_signals, cli_batch",
   "*failed = run.counts.failed > 0 || run.dropped;", "*failed = run.counts.failed > 0;")
+m("one-worker-a-mesh", "policy", "cli_batch_sweep", "if (!first && !tasks[i]->is_large) first = tasks[i];",
+  "if (!first && tasks[i]->is_large)\n            first = NULL;")
+m("large-mesh-shared", "limit", "cli_batch_sweep", "if (!first && !tasks[i]->is_large)", "if (!first)")
+m("meshes-in-turn", "policy", "cli_batch_sweep",
+  "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]))", "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]) || count)")
+m("changed-mesh-not-told", "message", "cli_batch_sweep", "if (known & TOLD || known == state)",
+  "if ((known | TOLD) & TOLD || known == state)")
+m("changed-mesh-told-again", "message", "cli_batch_sweep",
+  "ffd_files_put(&states->first, &task->mesh, known | TOLD, error);", "ffd_files_put(&states->first, &task->mesh, known, error);")
+m("mesh-that-changes-in-a-job", "check left out", "job_cache",
+  "if (!ffd_stamps_hold(share->files.paths, share->stamps, share->files.count)) state->bytes[0]",
+  "if (share->files.count > 1000000)\n        state->bytes[0]")
+m("locations-looked-for-again", "cache left out", "cli_batch_sweep", "*filled = true;", "*filled = false;")
+m("images-not-in-the-record", "check left out", "cli_batch_sweep",
+  "!job->document->converted && ffd_source_is_alone(job->document);", "!job->document->converted;")
+m("hash-of-one-of-two-files", "condition", "file, cli_batch_resume",
+  "output->hash && output->count == 1 && output->files[0].temporary;", "output->hash && output->count >= 1 && output->files[0].temporary;")
 m("timeout-named-stop", "message", "cli_batch_failures, cli_batch", "worker->timed_out = !worker->stopped;",
   "worker->timed_out = worker->stopped;")
 
@@ -444,3 +714,13 @@ m("page-letter", "operation", "install man", "if (option->letter) printf(\"Fl %c
 m("completion-of-folders", "operation", "install completion", '"_filedir -d" : ":"', '"_filedir" : ":"')
 m("completion-quote", "format", "install completion", "if (*text == '\\'') fputs(\"'\\\\'\", stdout);",
   "if (*text == '\\\"') fputs(\"'\\\\'\", stdout);")
+
+# what a stored number stands for
+
+m("half-of-the-rounding", "wrong constant", "rounding, cli_snap", "half_epsilon = 0x1p-24", "half_epsilon = 0x1p-25")
+m("rounding-not-carried", "wrong space", "cli_snap", "ffd_rounding_transform(transform->linear, half);", "(void)transform;")
+m("offset-without-rounding", "term left out", "cli_snap",
+  "half[a] += weight * of_offset[a];", "half[a] += 0 * weight * of_offset[a];")
+m("snap-shared-by-jobs", "cache key", "cli_snap", "ffd_hash_doubles(&link->snap, 1)", "ffd_hash_doubles(&link->snap, 0)")
+m("box-not-widened", "rounding", "cli_snap", "AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))",
+  "0 * AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))")

@@ -1,5 +1,6 @@
 /* sample.c - see sample.h. */
 #include "sample.h"
+#include "../support/another_case.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -484,26 +485,10 @@ uint64_t trial_seed(void)
     return seed ? strtoull(seed, NULL, 10) : 1;
 }
 
-/* A positive number of the environment, else 0. */
-static double setting(const char *name)
-{
-    const char *value = getenv(name);
-    const double number = value ? strtod(value, NULL) : 0;
-    return number > 0 ? number : 0;
-}
-
 bool trial_next(trial *t, long most)
 {
-    const double now = (double)clock() / CLOCKS_PER_SEC, cases = setting("FFD_CASES"),
-                 seconds = setting("FFD_SECONDS");
-    if (t->cases == 0)
-        t->began = now;
-    if (cases > 0)
-        return (double)t->cases < cases;
     const long least = most < TRIAL_LEAST ? most : most / 4 < TRIAL_LEAST ? TRIAL_LEAST : most / 4;
-    if (t->cases < least)
-        return true;
-    return seconds > 0 ? now - t->began < seconds : t->cases < most && now - t->began < 1;
+    return another_case(t->cases, &t->began, least, most, 1);
 }
 
 ffd_lattice *trial_parse(trial *t, const sample *s)

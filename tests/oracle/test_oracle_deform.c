@@ -11,18 +11,33 @@
 
 #include <cmocka.h>
 
+/* A move by a vector, which adds to the displacement as it is: the moved points cannot tell it to the last
+   digit. It may come after a scaling. */
+typedef struct shift_move {
+    bool here, scaled;
+    int first[3], last[3];
+    double by[3];
+} shift_move;
+
+static const double scale_factor[3] = {1.5, 0.75, 2.25}, scale_about[3] = {0.5, 0.25, -1};
+
 typedef struct edited {
     trial *t;
     sample *s;
     ffd_lattice *lattice;
     oracle_volume rest, deformed;
     bool weights_moved;
+    shift_move shift;
 } edited;
 
-static bool open_edited(edited *x, trial *t, sample *s)
+static bool open_edited(edited *x, trial *t, sample *s, const shift_move *shift)
 {
     sample_write(s);
-    *x = (edited){.t = t, .s = s, .lattice = trial_parse(t, s), .weights_moved = s->deformed_weights != NULL};
+    *x = (edited){.t = t,
+                  .s = s,
+                  .lattice = trial_parse(t, s),
+                  .weights_moved = s->deformed_weights != NULL,
+                  .shift = *shift};
     if (!x->lattice)
         return false;
     x->rest = sample_volume(s, x->lattice, FFD_VOLUME_REST);
@@ -35,6 +50,42 @@ static void close_edited(edited *x)
     oracle_free(&x->rest);
     oracle_free(&x->deformed);
     ffd_lattice_destroy(&x->lattice);
+}
+
+/* Where a control point is along each axis. */
+static void indices_of(const sample *s, size_t point, int i[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const size_t n = (size_t)s->axis[a].n;
+        i[a] = (int)(point % n);
+        point /= n;
+    }
+}
+
+static bool is_shifted(const edited *x, size_t point)
+{
+    int i[3];
+    indices_of(x->s, point, i);
+    for (int a = 0; a < 3; a++)
+        if (i[a] < x->shift.first[a] || i[a] > x->shift.last[a])
+            return false;
+    return true;
+}
+
+/* Coordinate a of a control point's displacement. */
+static long double difference_of(const edited *x, size_t point, size_t a)
+{
+    const long double rest = x->rest.points[3 * point + a];
+    const double from = (double)rest;
+    if (!x->shift.here)
+        return x->deformed.points[3 * point + a] - rest;
+    const double scaled = x->shift.scaled ? scale_about[a] + scale_factor[a] * (from - scale_about[a]) : from;
+    return (scaled - from) + (is_shifted(x, point) ? x->shift.by[a] : 0);
+}
+
+static bool is_weight_moved(const edited *x, size_t point)
+{
+    return x->rest.weights && x->rest.weights[point] != x->deformed.weights[point];
 }
 
 /* What the displacement and its derivative must be, and what their errors are relative to. */
@@ -52,7 +103,7 @@ static void displacement(const edited *x, const long double uvw[3], expectation 
     if (!x->weights_moved) {
         oracle_volume difference = oracle_make(x->s->axis, x->rest.weights != NULL);
         for (size_t i = 0; i < 3 * oracle_count(&difference); i++)
-            difference.points[i] = x->deformed.points[i] - x->rest.points[i];
+            difference.points[i] = difference_of(x, i / 3, i % 3);
         for (size_t i = 0; difference.weights && i < oracle_count(&difference); i++)
             difference.weights[i] = x->rest.weights[i];
         oracle_evaluate(&difference, uvw, e->delta, slope);
@@ -116,7 +167,9 @@ static void check_gradient(const edited *x, const double uvw[3], const double gr
                     "at %.17g %.17g %.17g: gradient[%d] = %.17g, expected %.20Lg, off by %.2Lg of its scale",
                     uvw[0], uvw[1], uvw[2], i, gradient[i], e->gradient[i],
                     fabsl(gradient[i] - e->gradient[i]) / e->gradient_size[i]);
-    /* F J_P = J_Q, which knows nothing of the differences; the rounding is that of the sums here. */
+    /* F J_P = J_Q, which knows nothing of the differences; the rounding is that of the sums here, and of Q
+       where a vector was added to it. */
+    const long double slack = x->shift.here ? DBL_EPSILON : 100 * LDBL_EPSILON;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) {
             long double product = e->rest[3 * r + c], allowed = 0;
@@ -128,7 +181,7 @@ static void check_gradient(const edited *x, const double uvw[3], const double gr
                 allowed += 1e-13L * e->gradient_size[3 * r + k] * fabsl(e->rest[3 * k + c]);
             }
             const long double off = fabsl(product - e->deformed[3 * r + c]);
-            trial_check(x->t, x->s, off <= allowed + 100 * LDBL_EPSILON * rounding,
+            trial_check(x->t, x->s, off <= allowed + slack * rounding,
                         "at %.17g %.17g %.17g: (F J_P)[%d][%d] = %.20Lg, J_Q has %.20Lg", uvw[0], uvw[1],
                         uvw[2], r, c, product, e->deformed[3 * r + c]);
         }
@@ -242,30 +295,82 @@ static support support_of(const oracle_axis *axis, int i, long double u, long do
     return SUPPORT_AWAY;
 }
 
-/* The nearest that uvw is to a moved control point's support. */
-static support nearest_support(const edited *x, const long double uvw[3])
+/* Of a place: where it is relative to the supports of each axis' functions. */
+typedef struct supports {
+    support side[3][ORACLE_MAX_POINTS];
+} supports;
+
+static void find_supports(const sample *s, const long double uvw[3], supports *found)
 {
-    long double n[3][ORACLE_MAX_POINTS];
-    support nearest = SUPPORT_AWAY;
-    size_t at = 0;
+    for (int a = 0; a < 3; a++) {
+        long double n[ORACLE_MAX_POINTS];
+        oracle_factors(&s->axis[a], uvw[a], n, NULL);
+        for (int i = 0; i < s->axis[a].n; i++)
+            found->side[a][i] = support_of(&s->axis[a], i, uvw[a], n[i]);
+    }
+}
+
+/* Where the place is relative to the support of a control point. */
+static support support_of_point(const edited *x, const supports *place, size_t point)
+{
+    support here = SUPPORT_WITHIN;
     int i[3];
+    indices_of(x->s, point, i);
     for (int a = 0; a < 3; a++)
-        oracle_factors(&x->s->axis[a], uvw[a], n[a], NULL);
-    for (i[2] = 0; i[2] < x->s->axis[2].n; i[2]++)
-        for (i[1] = 0; i[1] < x->s->axis[1].n; i[1]++)
-            for (i[0] = 0; i[0] < x->s->axis[0].n; i[0]++, at++) {
-                bool moved = x->rest.weights && x->rest.weights[at] != x->deformed.weights[at];
-                support here = SUPPORT_WITHIN;
-                for (size_t a = 0; a < 3; a++)
-                    moved = moved || x->rest.points[3 * at + a] != x->deformed.points[3 * at + a];
-                for (int a = 0; moved && a < 3; a++) {
-                    const support side = support_of(&x->s->axis[a], i[a], uvw[a], n[a][i[a]]);
-                    here = side < here ? side : here;
-                }
-                if (moved && here > nearest)
-                    nearest = here;
-            }
+        here = place->side[a][i[a]] < here ? place->side[a][i[a]] : here;
+    return here;
+}
+
+/* The nearest that the place is to a moved control point's support. */
+static support nearest_support(const edited *x, const supports *place)
+{
+    support nearest = SUPPORT_AWAY;
+    for (size_t at = 0; at < oracle_count(&x->rest); at++) {
+        bool moved = is_weight_moved(x, at);
+        for (size_t a = 0; a < 3; a++)
+            moved = moved || difference_of(x, at, a) != 0;
+        const support here = moved ? support_of_point(x, place, at) : SUPPORT_AWAY;
+        nearest = here > nearest ? here : nearest;
+    }
     return nearest;
+}
+
+/* Whether all control points with a share in the place have one displacement and their weights at rest. */
+static bool act_alike(const edited *x, const supports *place, double common[3])
+{
+    bool any = false;
+    for (size_t at = 0; at < oracle_count(&x->rest); at++) {
+        if (support_of_point(x, place, at) != SUPPORT_WITHIN)
+            continue;
+        if (is_weight_moved(x, at))
+            return false;
+        for (size_t a = 0; a < 3; a++) {
+            const double difference = (double)difference_of(x, at, a);
+            if (any && difference != common[a])
+                return false;
+            common[a] = difference;
+        }
+        any = true;
+    }
+    return any;
+}
+
+static void check_alike(const edited *x, const double uvw[3], const supports *place, const double delta[3])
+{
+    double common[3] = {0, 0, 0};
+    if (!act_alike(x, place, common))
+        return;
+    trial_check(x->t, x->s, delta[0] == common[0] && delta[1] == common[1] && delta[2] == common[2],
+                "at %.17g %.17g %.17g: %.17g %.17g %.17g, but all that acts moves by %.17g %.17g %.17g",
+                uvw[0], uvw[1], uvw[2], delta[0], delta[1], delta[2], common[0], common[1], common[2]);
+}
+
+static bool any_not_zero(const double *numbers, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (numbers[i] != 0)
+            return true;
+    return false;
 }
 
 static void check_displacement(const edited *x, random_source *random)
@@ -283,7 +388,9 @@ static void check_displacement(const edited *x, random_source *random)
     const int moved_alone = ffd_displacement(x->lattice, uvw, alone, NULL);
     trial_check(x->t, x->s, moved == moved_alone && memcmp(delta, alone, sizeof delta) == 0,
                 "delta differs with and without the gradient");
-    const support near = nearest_support(x, at);
+    supports place;
+    find_supports(x->s, at, &place);
+    const support near = nearest_support(x, &place);
     if (near == SUPPORT_AWAY) {
         trial_check(x->t, x->s, moved == 0, "at %.17g %.17g %.17g: returned %d outside every support", uvw[0],
                     uvw[1], uvw[2], moved);
@@ -301,9 +408,10 @@ static void check_displacement(const edited *x, random_source *random)
                     "at %.17g %.17g %.17g: delta[%d] = %.17g, expected %.20Lg, off by %.2Lg of its size",
                     uvw[0], uvw[1], uvw[2], r, delta[r], e.delta[r],
                     fabsl(delta[r] - e.delta[r]) / e.delta_size[r]);
+    check_alike(x, uvw, &place, delta);
     if (e.regular)
         check_gradient(x, uvw, gradient, &e);
-    if (near == SUPPORT_WITHIN)
+    if (near == SUPPORT_WITHIN && any_not_zero(gradient, 9)) /* else directions stay, by their bits */
         check_directions(x->t, x->s, gradient, random);
 }
 
@@ -325,8 +433,42 @@ static void random_rest(sample *s, random_source *random)
         sample_weights(s, random, 2);
 }
 
+static void add_by(sample *s, const shift_move *shift)
+{
+    text_add(&s->moves, "{\"at\":[");
+    for (int a = 0; a < 3; a++)
+        text_add(&s->moves, "%s[%d,%d]", a ? "," : "", shift->first[a], shift->last[a]);
+    text_add(&s->moves, "],\"by\":[%.17g,%.17g,%.17g]}", shift->by[0], shift->by[1], shift->by[2]);
+}
+
+/* Scales all points, and moves a layer. */
+static shift_move scale_and_shift(sample *s)
+{
+    shift_move made = {.here = true, .scaled = true, .by = {0.5, 0.25, -0.75}};
+    made.first[0] = made.last[0] = s->axis[0].n - 1;
+    made.last[1] = s->axis[1].n - 1;
+    text_add(&s->moves, "{\"scale\":{\"factor\":[%g,%g,%g],\"about\":[%g,%g,%g]}},", scale_factor[0],
+             scale_factor[1], scale_factor[2], scale_about[0], scale_about[1], scale_about[2]);
+    add_by(s, &made);
+    return made;
+}
+
+/* Moves a block of points, the whole lattice at times. */
+static shift_move shift_some(sample *s, random_source *random, double z)
+{
+    shift_move made = {.here = true, .by = {random_range(random, -1, 1), random_range(random, -1, 1), z}};
+    const int form = random_int(random, 0, 3);
+    for (int a = 0; a < 3; a++) {
+        const int last = s->axis[a].n - 1;
+        made.first[a] = form == 0 ? 0 : random_int(random, 0, last);
+        made.last[a] = form == 0 ? last : form == 1 ? random_int(random, made.first[a], last) : made.first[a];
+    }
+    add_by(s, &made);
+    return made;
+}
+
 /* New deformed points, a moved weight, or a move of a few points: some or all of them. */
-static void random_edit(sample *s, random_source *random)
+static shift_move random_edit(sample *s, random_source *random)
 {
     const size_t count = sample_count(s);
     const int kind = random_int(random, 0, 3);
@@ -336,20 +478,16 @@ static void random_edit(sample *s, random_source *random)
             for (size_t i = 0; i < 3 * count; i++)
                 s->deformed_points[i] = s->points[i] * random_range(random, 0.5, 1.5);
         } else
-            text_add(&s->moves,
-                     "{\"scale\":{\"factor\":[1.5,0.75,2.25],\"about\":[0.5,0.25,-1]}},{\"at\":[-1,\"all\","
-                     "0],\"by\":[0.5,0.25,-0.75]}");
+            return scale_and_shift(s);
     } else if (kind == 1) {
         s->deformed_weights = sample_array(count);
         for (size_t i = 0; i < count; i++)
             s->deformed_weights[i] =
                 s->weights[i] * (random_chance(random, 0.5) ? 1 : random_range(random, 0.5, 2));
     } else {
-        text_add(&s->moves, "{\"at\":[%d,%d,%d],\"by\":[%.17g,%.17g,%.17g]}",
-                 random_int(random, 0, s->axis[0].n - 1), random_int(random, 0, s->axis[1].n - 1),
-                 random_int(random, 0, s->axis[2].n - 1), random_range(random, -1, 1),
-                 random_range(random, -1, 1), kind == 2 ? 0.0 : 0.25);
+        return shift_some(s, random, kind == 2 ? 0.0 : 0.25);
     }
+    return (shift_move){.here = false};
 }
 
 static void displacements(void **state)
@@ -362,8 +500,8 @@ static void displacements(void **state)
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};
         random_rest(&s, &random);
-        random_edit(&s, &random);
-        if (open_edited(&x, &t, &s)) {
+        const shift_move shift = random_edit(&s, &random);
+        if (open_edited(&x, &t, &s, &shift)) {
             for (int i = 0; i < 12; i++)
                 check_displacement(&x, &random);
             close_edited(&x);
@@ -384,7 +522,7 @@ static void nothing_moved(void **state)
         sample_init(&s, trial_seed() + (uint64_t)k);
         random_source random = {s.seed};
         random_rest(&s, &random);
-        if (open_edited(&x, &t, &s)) {
+        if (open_edited(&x, &t, &s, &(shift_move){.here = false})) {
             for (int i = 0; i < 4; i++)
                 check_displacement(&x, &random);
             close_edited(&x);

@@ -103,17 +103,17 @@ static void seen_from_origin(const subject *x, int i, long double p[3])
         p[a] = x->xyz[3 * i + a] - x->origin[a];
 }
 
-/* src/maths.md 6.6 with the lattice's origin anywhere among its control points: in their middle gives the
-   least tolerance, at the farther end of their bounds the largest. */
+/* src/maths.md 6.6: the largest is that of sizes as in the file; sizes from the middle of the control points
+   give the least, at which a root is surely met. */
 static void tolerances(const subject *x, const long double p[3], const long double uvw[3],
                        long double least[3], long double largest[3])
 {
     const long double ratio = weight_ratio(&x->volume, uvw);
     for (int a = 0; a < 3; a++) {
         const long double extent = x->hi[a] - x->lo[a], middle = (x->lo[a] + x->hi[a]) / 2;
-        const long double away = fmaxl(fabsl(p[a] - x->lo[a]), fabsl(p[a] - x->hi[a]));
+        const long double most = fmaxl(fabsl(x->origin[a] + x->lo[a]), fabsl(x->origin[a] + x->hi[a]));
         least[a] = 16 * DBL_EPSILON * ratio * (extent / 2 + fabsl(p[a] - middle));
-        largest[a] = 16 * DBL_EPSILON * ratio * (extent + away);
+        largest[a] = 16 * DBL_EPSILON * ratio * (most + fabsl(p[a] + x->origin[a]));
     }
 }
 
@@ -143,8 +143,9 @@ static void check_root(const subject *x, int i, const long double root[3])
     oracle_evaluate(&x->volume, uvw, point, jacobian);
     for (int a = 0; a < 3; a++) {
         const long double residual = fabsl(point[a] - q[a]);
-        for (int b = 0; x->far_knots && b < 3; b++)
-            tol[a] += fabsl(jacobian[3 * a + b] * uvw[b]) * DBL_EPSILON / 2;
+        for (int b = 0; b < 3; b++) /* what u is rounded by, from the start of its cell and in the file */
+            tol[a] += fabsl(jacobian[3 * a + b]) * DBL_EPSILON *
+                      (oracle_last(&x->s->axis[b]) - oracle_first(&x->s->axis[b]) + fabsl(uvw[b]) / 2);
         length2 += residual * residual;
         tol2 += tol[a] * tol[a];
         trial_check(x->t, x->s, residual <= tol[a],
@@ -185,13 +186,13 @@ static void check_nothing_found(const subject *x, int i, int status)
 }
 
 /* The point has the one root next to uvw, but may have left the domain when it was rounded to double: then it
-   is inside where the nearest point of the domain is within the least tolerance, outside where it is beyond
-   the largest, and either between. */
+   is inside where the nearest point of the domain is within the least tolerance. Where it is not the point
+   may be outside, or inside with a root that meets the largest tolerance. */
 static void check_known(const subject *x, int i)
 {
     const double *p = x->xyz + 3 * i;
     long double root[3], q[3], point[3], least[3], tol[3];
-    bool surely_inside = true, maybe_inside = true;
+    bool surely_inside = true;
     memcpy(root, x->uvw + 3 * i, sizeof root);
     seen_from_origin(x, i, q);
     oracle_descend(&x->volume, q, root);
@@ -200,14 +201,13 @@ static void check_known(const subject *x, int i)
     for (int a = 0; a < 3; a++) {
         const long double residual = fabsl(point[a] - q[a]);
         surely_inside = surely_inside && residual <= 0.75L * least[a]; /* 4 of 16 eps: C's own rounding */
-        maybe_inside = maybe_inside && residual <= tol[a];
     }
     if (x->found[i].status == FFD_OUTSIDE && !surely_inside) {
         check_nothing_found(x, i, FFD_OUTSIDE);
         return;
     }
     trial_check(
-        x->t, x->s, x->found[i].status == FFD_INSIDE && maybe_inside,
+        x->t, x->s, x->found[i].status == FFD_INSIDE,
         "point %.17g %.17g %.17g (root %.17Lg %.17Lg %.17Lg, residual there %.3Lg %.3Lg %.3Lg, tolerance at "
         "least %.3Lg %.3Lg %.3Lg) is %s",
         p[0], p[1], p[2], root[0], root[1], root[2], point[0] - q[0], point[1] - q[1], point[2] - q[2],

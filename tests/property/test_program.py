@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Properties of the program on random meshes and on the sample meshes: what must hold whatever the input.
 
-    test_program.py FFD DRIVER    the seed is printed; FFD_SEED repeats a run; FFD_MODELS names the sample models
+    test_program.py FFD DRIVER    the seed is printed; FFD_SEED repeats a run; FFD_SECONDS or FFD_CASES makes a longer one,
+                                  on more random meshes; FFD_MODELS names the sample models
 
 The first run of each property is a process of the program; the others are forked from one that has it loaded."""
 import json
@@ -12,11 +13,14 @@ import struct
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
 from driver import Driver  # noqa: E402
 
 SECONDS = 120
+# So long new meshes are made, where FFD_SECONDS does not say.
+ON_MESHES = 1
 EPS = sys.float_info.epsilon
 # Sample models that are not valid: a node with two parents; faces with the indices 0, 100 and -100.
 BROKEN = {"unassigned-skeleton.gltf", "cube_att.gltf", "synthetic_partial_attrib_0_obj.obj"}
@@ -49,7 +53,7 @@ class Work:
 
     def write_obj(self, name, points):
         with open(self.path(name), "w", encoding="ascii", newline="\n") as file:
-            file.write("# points and faces\n")
+            file.write("o points\n")
             for p in points:
                 file.write("v " + " ".join(repr(x) for x in p) + "\n")
             for i in range(1, len(points) - 1, 3):
@@ -190,6 +194,8 @@ def degenerate(work):
     lattice = work.lattice("mesh.json", rest={"box": "mesh", "margin": 0.1}, moves=[{"by": [1, 2, 3]}])
     for points in ([], [[0.25, 0.5, 0.75]], [[x, 0, 0] for x in range(5)], [[x, x * x, 0] for x in range(5)]):
         mesh = work.write_obj("small.obj", [[float(x) for x in p] for p in points])
+        with open(mesh, "a", encoding="ascii") as file:  # a vertex that nothing uses widens no box
+            file.write("".join(f"p {i + 1}\n" for i in range(len(points))))
         out = vertices(work.deform("small-out.obj", [lattice], mesh))
         assert close(out, [[p[0] + 1, p[1] + 2, p[2] + 3] for p in points], 1e-12), (points, out)
 
@@ -226,20 +232,21 @@ def main():
     models = os.environ.get("FFD_MODELS")
     seed = int(os.environ.get("FFD_SEED") or struct.unpack("<I", os.urandom(4))[0])
     print(f"FFD_SEED={seed}")
-    count = 0
+    draw = random.Random(seed)
+    seconds, cases = float(os.environ.get("FFD_SECONDS") or ON_MESHES), int(os.environ.get("FFD_CASES") or 0)
+    began, meshes = time.monotonic(), 0
     with tempfile.TemporaryDirectory() as folder:
-        work = Work(ffd, driver, folder, random.Random(seed))
-        for check in (identity, translation, affine, locality, order, threads, composition, equal_points, degenerate):
-            work.is_first = True
-            check(work)
-            print(f"{check.__name__}: holds")
-            count += 1
+        while meshes < max(cases, 1) or (not cases and time.monotonic() - began < seconds):
+            work = Work(ffd, driver, folder, draw)
+            for check in (identity, translation, affine, locality, order, threads, composition, equal_points, degenerate):
+                work.is_first = meshes == 0
+                check(work)
+            meshes += 1
+        print(f"all properties hold on {meshes} random meshes")
         if models:
             samples(work, models)
             print("samples: holds")
-            count += 1
     assert driver.close() == 0
-    print(f"{count} properties hold")
 
 
 if __name__ == "__main__":

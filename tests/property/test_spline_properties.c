@@ -1,3 +1,5 @@
+/* Splines with random knots, degrees and points: the laws of basis functions, of Bezier form, of volumes. */
+#include "../support/another_case.h"
 #include "../support/bspline_reference.h"
 #include "../support/draw.h"
 #include "../support/lattice_by_hand.h"
@@ -18,13 +20,28 @@
 #define MAX_POINTS 24
 #define MAX_LIST (MAX_POINTS + MAX_ORDER)
 #define PARAMETERS 12
-#define ROUNDS 60
 
 static const knot_kind all_kinds[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM,
                                       KNOTS_CLOSED,  KNOTS_LIST, KNOTS_CLOSED_LIST};
 #define KIND_COUNT (sizeof all_kinds / sizeof *all_kinds)
 
 static uint64_t seed;
+
+typedef struct rounds {
+    long made;
+    double began;
+} rounds;
+
+/* Whether a property is tried once more: the least number of times, and then for a tenth of a second. */
+static bool next_round(rounds *r, long least, const char *property)
+{
+    if (!another_case(r->made, &r->began, least, 1000000, 0.1)) {
+        print_message("%s: %ld rounds\n", property, r->made);
+        return false;
+    }
+    r->made++;
+    return true;
+}
 
 /* Non-decreasing knots of any range, repeated first, inside and last; what this makes need not be valid. */
 static void draw_list(draw *random, int degree, size_t count, double *list)
@@ -84,7 +101,7 @@ static double draw_parameter(draw *random, const knot_vector *knots)
 static void for_all_knots(void (*check)(draw *random, const knot_vector *knots))
 {
     draw random = {seed};
-    for (int round = 0; round < ROUNDS; round++)
+    for (rounds made = {0}; next_round(&made, 60, "knots of every kind and degree");)
         for (size_t kind = 0; kind < KIND_COUNT; kind++)
             for (int degree = 1; degree <= MAX_DEGREE; degree++) {
                 knot_vector knots = draw_knots(&random, all_kinds[kind], degree);
@@ -362,7 +379,7 @@ static void volume_is_the_sum_over_control_points(void **state)
 {
     (void)state;
     draw random = {seed + 1};
-    for (int round = 0; round < 60; round++) {
+    for (rounds made = {0}; next_round(&made, 30, __func__);) {
         ffd_lattice *lattice = draw_lattice(&random);
         for (int n = 0; n < 4; n++) {
             double uvw[3];
@@ -406,7 +423,7 @@ static void closed_is_open_with_points_appended(void **state)
 {
     (void)state;
     draw random = {seed + 2};
-    for (int round = 0; round < 60; round++) {
+    for (rounds made = {0}; next_round(&made, 30, __func__);) {
         knot_vector knots[3];
         for (int a = 0; a < 3; a++)
             knots[a] = draw_knots(&random, draw_int(&random, 0, 1) ? KNOTS_CLOSED : KNOTS_CLOSED_LIST,
@@ -441,7 +458,7 @@ static void an_affine_map_of_points_maps_the_volume(void **state)
 {
     (void)state;
     draw random = {seed + 3};
-    for (int round = 0; round < 60; round++) {
+    for (rounds made = {0}; next_round(&made, 30, __func__);) {
         ffd_lattice *lattice = draw_lattice(&random);
         double m[9], offset[3];
         for (int i = 0; i < 9; i++)
@@ -476,7 +493,7 @@ static void a_control_point_acts_only_on_its_spans(void **state)
     (void)state;
     draw random = {seed + 4};
     int changed = 0, kept = 0;
-    for (int round = 0; round < 200; round++) {
+    for (rounds made = {0}; next_round(&made, 200, __func__);) {
         ffd_lattice *lattice = draw_lattice(&random);
         double uvw[3], before[3], after[3];
         bool inside = true;

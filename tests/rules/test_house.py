@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What lets a newcomer find the way in src: folders of at most 20 sources, an opening comment that says what a file
-is, a comment above every function that an internal header declares."""
+"""What lets a newcomer find the way: an opening comment that says what a file is; in src also folders of at most 20
+sources, a comment above every function that an internal header declares, and which sources define these functions."""
 
 import collections
 import os
@@ -12,6 +12,9 @@ MOST_SOURCES = 20
 COMMENT = re.compile(r"/\*.*?\*/", re.S)
 # A declaration at the start of a line, up to its semicolon: "void ffd_free(void *block);".
 PROTOTYPE = re.compile(r"^(?!typedef\b|static\b|extern\b|return\b)[a-z][\w \*]*?\b(\w+)\([^;{}]*\)[^;{}]*;", re.M)
+# A definition: the same with a body.
+DEFINITION = re.compile(
+    r'^(?!typedef\b|static\b|return\b)(?:extern "C" )?[a-z][\w \*]*?\b(\w+)\([^;{}]*\)\s*\{', re.M)
 
 
 def opening(path, headers):
@@ -24,8 +27,44 @@ def opening(path, headers):
             yield f"{path}: begins without '{wanted}...': a line that says what it is"
 
 
+# How the sources under tests open: a sentence at least.
+OPENINGS = {
+    (".c", ".cpp", ".h"): re.compile(r"/\* \w[^\n]{15}"),
+    (".py",): re.compile(r'(?:#![^\n]*\n)?"""[\w`-][^\n]{15}'),
+    (".sh",): re.compile(r"#![^\n]*\n# \w[^\n]{15}"),
+    (".mjs",): re.compile(r"// \w[^\n]{15}"),
+}
+
+
+def test_opening(path):
+    """What is wrong with the opening comment of a source under tests."""
+    for endings, pattern in OPENINGS.items():
+        if path.endswith(endings) and not pattern.match(tree.read(path)):
+            yield f"{path}: begins without a comment that says what it checks"
+
+
+def definers(path, defined):
+    """Sources that define functions of a header and are neither named like it nor in its opening comment."""
+    text = tree.read(path)
+    first = COMMENT.match(text)
+    for match in PROTOTYPE.finditer(COMMENT.sub("", text)):
+        for source in defined.get(match.group(1), ()):
+            name = os.path.basename(source)
+            if os.path.splitext(source)[0] != os.path.splitext(path)[0] and name not in (first or [""])[0]:
+                yield f"{path}: declares {match.group(1)}, but its opening comment does not name {name}"
+
+
+def definitions(paths):
+    """The sources that define each external function."""
+    found = collections.defaultdict(set)
+    for path in paths:
+        for match in DEFINITION.finditer(COMMENT.sub("", tree.read(path))):
+            found[match.group(1)].add(path)
+    return found
+
+
 def prototypes(path):
-    """Functions without a comment: nothing but an empty line, a directive or other code stands above them."""
+    """Functions without a comment: only an empty line, a directive or other code is above them."""
     text = tree.read(path)
     # Comments are blanked, but for their ends, so that no declaration is found inside of one.
     plain = COMMENT.sub(lambda match: re.sub(r"[^\n]", " ", match.group(0)[:-2]) + "*/", text)
@@ -36,18 +75,25 @@ def prototypes(path):
 
 
 def main():
-    paths = [path for path in tree.files() if path.startswith("src/") and path.endswith((".c", ".cpp", ".h"))]
+    files = tree.files()
+    paths = [path for path in files if path.startswith("src/") and path.endswith((".c", ".cpp", ".h"))]
+    tests = [path for path in files if path.startswith("tests/") and path.endswith(sum(OPENINGS, ()))]
     headers = {path for path in paths if path.endswith(".h")}
     findings = []
     sources = collections.Counter(os.path.dirname(path) for path in paths if not path.endswith(".h"))
     for folder, count in sorted(sources.items()):
         if count > MOST_SOURCES:
             findings.append(f"{folder}: {count} sources, more than {MOST_SOURCES}")
+    defined = definitions(path for path in paths if path not in headers)
     for path in paths:
         findings += opening(path, headers)
         if path in headers:
-            findings += prototypes(path)
-    tree.finish(len(paths), "files", findings)
+            findings += [*prototypes(path), *sorted(set(definers(path, defined)))]
+    for path in tests:
+        findings += test_opening(path)
+    if not tests:
+        findings.append("tests: no sources found")
+    tree.finish(len(paths) + len(tests), "files", findings)
 
 
 main()

@@ -1,6 +1,8 @@
+/* draco_sample.cpp - compresses sample meshes by the Draco library. */
 #include "draco_sample.h"
 #include <cstdlib>
 #include <cstring>
+#include <draco/compression/attributes/normal_compression_utils.h>
 #include <draco/compression/expert_encode.h>
 #include <draco/mesh/mesh.h>
 
@@ -92,4 +94,11 @@ extern "C" unsigned char *make_draco(const sample_mesh *from, const sample_optio
     draco::ExpertEncoder encoder(mesh);
     set_options(encoder, mesh, *options);
     return encoder.EncodeToBuffer(&buffer).ok() ? copy(buffer, size) : nullptr;
+}
+
+extern "C" void unfold_as_draco(int bits, const int32_t place[2], float normal[3])
+{
+    draco::OctahedronToolBox box;
+    box.SetQuantizationBits(bits);
+    box.QuantizedOctahedralCoordsToUnitVector(place[0], place[1], normal);
 }

@@ -33,6 +33,9 @@ typedef struct sample_options {
 /* Compresses a mesh; NULL where the library fails. Free the bytes with free(). */
 unsigned char *make_draco(const sample_mesh *mesh, const sample_options *options, size_t *size);
 
+/* Writes the unit vector at a place of the unfolded octahedron, by the library's header. */
+void unfold_as_draco(int bits, const int32_t place[2], float normal[3]);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,3 +1,4 @@
+/* failing_new.cpp - replaces the global operator new by one that can fail. */
 #include "failing_new.h"
 #include <atomic>
 #include <cstdlib>

@@ -37,7 +37,7 @@ static inline ffd_status open_file(const char *path, ffd_space space, mesh_docum
     return status;
 }
 
-/* How a test moves x,y,z of a vertex that stands at `place` in the scene. */
+/* How a test moves x,y,z of a vertex that is at `place` in the scene. */
 typedef void (*mover)(const double place[3], double xyz[3]);
 
 static inline void stay(const double place[3], double xyz[3])
@@ -52,7 +52,7 @@ static inline void add_one(const double place[3], double xyz[3])
     xyz[0] += 1;
 }
 
-/* Only what stands beyond x = 10 moves. */
+/* Only what is beyond x = 10 moves. */
 static inline void move_far(const double place[3], double xyz[3])
 {
     if (place[0] >= 10)

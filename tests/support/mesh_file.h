@@ -85,7 +85,7 @@ static inline void assert_saved(mesh_document *document, const void *bytes, size
     ffd_file_unload(&saved);
 }
 
-/* Appends all positions, as "1,2,3 4,5,6"; behind each `row` of them stands a bar. */
+/* Appends all positions, as "1,2,3 4,5,6"; after each `row` of them there is a bar. */
 static inline void append_positions(const mesh_document *document, size_t row, byte_buffer *text)
 {
     for (size_t i = 0; i < document->parts->vertex_count; i++) {

@@ -68,7 +68,8 @@ static inline char *plain_line(const char **rest, const char *end)
     return line;
 }
 
-/* Whether the line goes on in the next; cuts the comment and the backslash off. names: # is no comment. */
+/* Whether the line goes on in the next; cuts the comment and the backslash off. names: #
+   does not begin a comment. */
 static inline bool plain_strip(char *line, bool names)
 {
     char *comment = names ? NULL : strchr(line, '#');
@@ -115,7 +116,7 @@ static inline void plain_read_vector(double xyz[3])
     }
 }
 
-/* words: the statement on one line, without comment; text: as it stands in the file. Takes both. */
+/* words: the statement on one line, without comment; text: as it is in the file. Takes both. */
 static inline void plain_add_statement(plain_obj *file, char *words, char *text)
 {
     plain_statement statement = {.text = text, .first_corner = file->corner_count};

@@ -24,10 +24,22 @@ static inline bool is_under_valgrind(void)
     return loaded && strstr(loaded, "vgpreload");
 }
 
+static inline bool is_memory_checked(void)
+{
+    return is_under_valgrind() || FFD_SANITIZED;
+}
+
 /* Of so many repetitions, those that are worth their time. */
 static inline int repetitions(int count)
 {
-    return is_under_valgrind() || FFD_SANITIZED ? (count + 19) / 20 : count;
+    return is_memory_checked() ? (count + 19) / 20 : count;
+}
+
+/* The step through an enumeration: 1, so many under valgrind, which takes longest, and half as many with a
+   sanitizer. */
+static inline int stride(int under_valgrind)
+{
+    return is_under_valgrind() ? under_valgrind : FFD_SANITIZED ? (under_valgrind + 1) / 2 : 1;
 }
 
 #endif

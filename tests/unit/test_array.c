@@ -32,7 +32,7 @@ static const array_kernel *next_kernel(ffd_isa *isa)
     return NULL;
 }
 
-/* To the bit, but that what is no number may be any such. */
+/* Equal to the bit, except that a NaN may be any NaN. */
 static bool is_same(double a, double b)
 {
     return isnan(a) ? isnan(b) : memcmp(&a, &b, sizeof a) == 0;

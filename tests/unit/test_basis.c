@@ -1,3 +1,4 @@
+/* Basis functions: known values and slopes, exact ends, the recursion, extraction of the Bezier form. */
 #include "../support/bspline_reference.h"
 #include "spline/basis.h"
 #include "spline/bezier.h"
@@ -68,7 +69,7 @@ static void the_uniform_cubic_has_its_known_values(void **state)
     ffd_knots_free(&knots);
 }
 
-/* Degree 1 is no special case: slopes +1/width and -1/width, the right-hand ones at an inner knot, the
+/* Degree 1 is not a special case: slopes +1/width and -1/width, the right-hand ones at an inner knot, the
    left-hand ones at the end of the domain. */
 static void slopes_at_degree_one_are_one_sided_at_knots(void **state)
 {

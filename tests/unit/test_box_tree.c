@@ -13,7 +13,7 @@ enum { MOST = 300 };
 
 typedef struct seen {
     uint32_t items[MOST];
-    size_t count, stop; /* after so many, if any */
+    size_t count, stop; /* after this many, if any */
 } seen;
 
 static bool bounds_meet(const bounds *box, const bounds *query, const double slack[3])
@@ -90,6 +90,59 @@ static void no_box_that_meets_is_missed(void **state)
     assert_true(met > 500); /* 956 to 1204 in 400 seeds */
     if (visited - met > (all - met) / 10)
         fail_msg("%zu of %zu boxes are visited, where %zu meet", visited, all, met);
+}
+
+/* Looks for the box that is nearest to p, as the tree offers them. */
+typedef struct nearest {
+    const bounds *boxes;
+    const double *p;
+    double reach;
+    size_t visited;
+} nearest;
+
+static double distance(const bounds *box, const double p[3])
+{
+    double square = 0;
+    for (int a = 0; a < 3; a++) {
+        const double beyond = fmax(fmax(box->lo[a] - p[a], p[a] - box->hi[a]), 0);
+        square += beyond * beyond;
+    }
+    return sqrt(square);
+}
+
+static bool take_nearer(void *context, uint32_t item)
+{
+    nearest *const n = context;
+    n->visited++;
+    n->reach = fmin(n->reach, distance(&n->boxes[item], n->p));
+    return true;
+}
+
+static void the_nearest_box_is_found_and_few_others_are_visited(void **state)
+{
+    (void)state;
+    draw d = {draw_seed()};
+    size_t visited = 0, all = 0;
+    for (int round = 0; round < 2000; round++) {
+        static bounds boxes[MOST];
+        const size_t count = 1 + draw_number(&d) % (MOST - 1);
+        const double p[3] = {draw_between(&d, -3, 3), draw_between(&d, -3, 3), draw_between(&d, -3, 3)};
+        const double limit = draw_number(&d) % 4 ? HUGE_VAL : draw_between(&d, 0, 2);
+        double expected = limit;
+        box_tree tree;
+        draw_boxes(&d, boxes, count);
+        for (size_t i = 0; i < count; i++)
+            expected = fmin(expected, distance(&boxes[i], p));
+        assert_true(ffd_box_tree_build(boxes, count, &tree));
+        nearest n = {.boxes = boxes, .p = p, .reach = limit};
+        assert_true(ffd_box_tree_visit_near(&tree, p, &n.reach, take_nearer, &n));
+        assert_true(n.reach >= expected && n.reach <= expected);
+        visited += n.visited;
+        all += count;
+        ffd_box_tree_free(&tree);
+    }
+    if (visited > all / 2)
+        fail_msg("%zu of %zu boxes are visited", visited, all);
 }
 
 /* The order is that of the tree: the same in every walk, whatever is asked for. */
@@ -172,6 +225,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_box_that_meets_is_missed),
+        cmocka_unit_test(the_nearest_box_is_found_and_few_others_are_visited),
         cmocka_unit_test(boxes_come_in_the_order_of_the_tree),
         cmocka_unit_test(each_box_is_in_the_tree_once),
         cmocka_unit_test(a_visit_stops_when_told),

@@ -169,7 +169,7 @@ static void a_collapsed_direction_keeps_its_bits(void **state)
     assert_int_equal(collapsed, 1);
     assert_int_equal(ffd_deform_tangent(gradient, upright, NULL, result, NULL), 1);
     assert_memory_equal(result, upright, sizeof result);
-    /* Where nothing moves the bits stay, also of what is no unit vector. */
+    /* Where nothing moves the bits stay, even of vectors that are not unit vectors. */
     const double odd[3] = {3, -0.0, 1e-300};
     assert_int_equal(ffd_deform_normal(zero, odd, result, &collapsed), 0);
     assert_memory_equal(result, odd, sizeof result);

@@ -10,6 +10,7 @@
 #include "../support/draw.h"
 #include "../support/sheet.h"
 #include "io/gltf/decode/draco.h"
+#include "io/gltf/decode/draco_floats.h"
 #include "io/gltf/model/gltf_model.h"
 #include <math.h>
 #include <stdlib.h>
@@ -89,6 +90,7 @@ static void sequential_data_comes_back_as_it_was(void **state)
     read_attribute(mesh, SAMPLE_TEXCOORD, GLTF_FLOAT, 2, 8, texcoords);
     read_attribute(mesh, SAMPLE_JOINTS, GLTF_U16, 4, 8, joints);
     assert_memory_equal(positions, g.positions, sizeof positions);
+    assert_true(ffd_draco_step(mesh, SAMPLE_POSITION) == 0);
     assert_memory_equal(texcoords, g.texcoords, sizeof texcoords);
     assert_memory_equal(joints, g.joints, sizeof joints);
     memset(spread, 0xee, sizeof spread);
@@ -107,7 +109,7 @@ static void sequential_data_comes_back_as_it_was(void **state)
     ffd_draco_free(mesh);
 }
 
-/* The original point that stands where a decoded one does. */
+/* The original point at the position of a decoded one. */
 static uint32_t find_point(const grid *g, const float position[3])
 {
     for (uint32_t i = 0; i < POINTS; i++) {
@@ -137,8 +139,15 @@ static void edgebreaker_data_comes_back_within_its_bits(void **state)
     read_attribute(mesh, SAMPLE_NORMAL, GLTF_FLOAT, 3, 12, normals);
     read_attribute(mesh, SAMPLE_TEXCOORD, GLTF_FLOAT, 2, 8, texcoords);
     read_attribute(mesh, SAMPLE_JOINTS, GLTF_U16, 4, 8, joints);
+    /* The greatest side is 1; what was is within half a step of what is. */
+    const double step = ffd_draco_step(mesh, SAMPLE_POSITION);
+    assert_true(step >= 1 / 4095.0 && step < 1 / 4095.0 + 1e-6);
+    assert_true(ffd_draco_step(mesh, SAMPLE_JOINTS) == 0 && ffd_draco_step(mesh, 1000) == 0);
     for (size_t i = 0; i < POINTS; i++) {
         points[i] = find_point(&g, positions + 3 * i);
+        for (size_t c = 0; c < 3; c++)
+            assert_true(fabs((double)positions[3 * i + c] - (double)g.positions[3 * points[i] + c]) <=
+                        step / 2);
         assert_memory_equal(joints + 4 * i, g.joints + 4 * points[i], 8);
         for (size_t c = 0; c < 3; c++)
             assert_true(fabsf(normals[3 * i + c] - g.normals[3 * points[i] + c]) < 0.01f);
@@ -154,6 +163,46 @@ static void edgebreaker_data_comes_back_within_its_bits(void **state)
                         points[corners[3 * t + 2]] == g.triangles[3 * i + (turn + 2) % 3];
     assert_int_equal(area, TRIANGLES); /* each triangle once, none turned over */
     ffd_draco_free(mesh);
+}
+
+/* One rounding after the product and one after the sum: fused, they would be one, and the last bit another.
+ */
+static void floats_are_rounded_after_each_operation(void **state)
+{
+    (void)state;
+    static const float least[3] = {-0.3f, 1.7f, 1e-3f};
+    const draco_quantization quantization = {3, least, 2.9f, 11};
+    const float step = 2.9f / 2047;
+    size_t fused = 0;
+    for (int32_t q = 0; q < 2048; q++) {
+        const int32_t integers[3] = {q, 2047 - q, q};
+        float floats[3];
+        ffd_draco_dequantize(&quantization, integers, 1, floats);
+        for (size_t c = 0; c < 3; c++) {
+            volatile const float product = (float)integers[c] * step;
+            volatile const float sum = product + least[c];
+            const float as_one = fmaf((float)integers[c], step, least[c]);
+            assert_memory_equal(&floats[c], (const void *)&sum, sizeof sum);
+            fused += memcmp(&floats[c], &as_one, sizeof as_one) != 0;
+        }
+    }
+    assert_true(fused > 100);
+}
+
+/* The vectors of the library's own header, which this program compiles without fused operations. */
+static void normals_are_unfolded_as_the_library_does(void **state)
+{
+    (void)state;
+    for (int bits = 2; bits <= 30; bits += 7)
+        for (uint64_t i = 0; i < 1000; i++) {
+            const int32_t most = (int32_t)((1u << bits) - 2);
+            const int32_t place[2] = {(int32_t)(i * 7919 % ((uint64_t)most + 1)),
+                                      (int32_t)(i * i * 104729 % ((uint64_t)most + 1))};
+            float found[3], expected[3];
+            ffd_draco_unfold_normals(bits, place, 1, found);
+            unfold_as_draco(bits, place, expected);
+            assert_memory_equal(found, expected, sizeof found);
+        }
 }
 
 static void what_does_not_fit_the_accessor_is_refused(void **state)
@@ -208,11 +257,11 @@ static void what_the_file_says_otherwise_is_refused(void **state)
         unsigned char *bytes = make_draco(&g.mesh, &options, &size);
         assert_non_null(bytes);
         check_refusal(bytes, size, &fewer, FFD_E_INVALID,
-                      "the Draco data has 81 points, its accessors have 80 elements");
+                      "the Draco data's count of points is 81, that of its accessors 80");
         check_refusal(bytes, size, &more, FFD_E_INVALID,
-                      "the Draco data has 81 points, its accessors have 82 elements");
+                      "the Draco data's count of points is 81, that of its accessors 82");
         check_refusal(bytes, size, &other, FFD_E_INVALID,
-                      "the Draco data has 128 triangles, its indices have 387 elements");
+                      "the Draco data's count of triangles is 128, that of its indices 387");
         free(bytes);
     }
 }
@@ -286,8 +335,8 @@ static ffd_status try_number(unsigned char *bytes, size_t size, size_t at, uint3
     return status;
 }
 
-/* Somewhere stands the number of orientations that texture coordinates are predicted with: as many as there
-   are corners are taken, one more is not. */
+/* Somewhere in the data is the number of orientations that texture coordinates are predicted with: as many as
+   there are corners are accepted, one more is not. */
 static void orientations_are_limited(void **state)
 {
     (void)state;
@@ -358,6 +407,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(sequential_data_comes_back_as_it_was),
         cmocka_unit_test(edgebreaker_data_comes_back_within_its_bits),
+        cmocka_unit_test(floats_are_rounded_after_each_operation),
+        cmocka_unit_test(normals_are_unfolded_as_the_library_does),
         cmocka_unit_test(what_does_not_fit_the_accessor_is_refused),
         cmocka_unit_test(what_the_file_says_otherwise_is_refused),
         cmocka_unit_test(other_data_is_refused),

@@ -1,3 +1,4 @@
+/* Evaluation of lattices: exact maps, arcs and corners, what is marked as moved, what is refused. */
 #include "../support/lattice_by_hand.h"
 #include <ffd/deform.h>
 #include <float.h>

@@ -149,7 +149,7 @@ static size_t resident_bytes(void)
     return kilobytes * 1024;
 }
 
-/* What is gone through is given back in large pieces, and is there when it is read. */
+/* Pages that were read are released in large pieces, and are read in again when they are needed. */
 static void releasing_in_pieces_bounds_memory(void **state)
 {
     enum { SIZE = 20000000, STEP = 700001, PIECE = 1 << 23 };
@@ -181,14 +181,21 @@ static void no_file_outside_the_folder_is_loaded(void **state)
     put_text("secret.bin", "secret");
     put_text("model/a.bin", "inside");
     assert_int_equal(symlink("../secret.bin", in_folder("model/link.bin")), 0);
-    assert_int_equal(ffd_file_load_within(in_folder("model"), "a.bin", "m.gltf", &input, &error), FFD_OK);
-    assert_int_equal(input.size, 6);
-    ffd_file_unload(&input);
+    size_t most = 10; /* the second time it is too large to be read */
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(ffd_file_load_within(in_folder("model"), "a.bin", "m.gltf", &most, &input, &error),
+                         FFD_OK);
+        assert_int_equal(input.size, 6);
+        assert_memory_equal(input.data, "inside", 6);
+        assert_int_equal(input.mapped, i == 1);
+        assert_int_equal(most, 4);
+        ffd_file_unload(&input);
+    }
     static const char *const refused[] = {"../secret.bin", "link.bin", "/etc/passwd", ".",
                                           "none.bin",      "../model"};
     for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-        assert_int_equal(ffd_file_load_within(in_folder("model"), refused[i], "m.gltf", &input, &error),
-                         FFD_E_IO);
+        assert_int_equal(
+            ffd_file_load_within(in_folder("model"), refused[i], "m.gltf", &most, &input, &error), FFD_E_IO);
         assert_string_equal(error.file, "m.gltf");
     }
     (void)state;
@@ -244,6 +251,38 @@ static void pieces_of_any_size_are_written_whole(void **state)
     (void)state;
 }
 
+/* In pieces of some and of many bytes, some of which are held back. */
+static void an_output_is_hashed_as_it_is_written(void **state)
+{
+    enum { SIZE = 300000 };
+    unsigned char *bytes = malloc(SIZE);
+    hash128 hash, expected;
+    assert_non_null(bytes);
+    for (size_t i = 0; i < SIZE; i++)
+        bytes[i] = (unsigned char)(i * i >> 5);
+    expected = ffd_hash(bytes, SIZE);
+    for (size_t piece = 1000; piece <= 100000; piece *= 10) {
+        file_output *output;
+        assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
+        assert_false(ffd_output_hash_value(output, &hash));
+        ffd_output_hash(output);
+        assert_false(ffd_output_hash_value(output, &hash)); /* there is no file yet */
+        assert_int_equal(ffd_output_begin(output, in_folder("hashed"), true, NULL), FFD_OK);
+        for (size_t at = 0; at < SIZE; at += piece)
+            assert_int_equal(ffd_output_write(output, bytes + at, piece, NULL), FFD_OK);
+        assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
+        assert_true(ffd_output_hash_value(output, &hash));
+        assert_true(ffd_hash_equal(&hash, &expected));
+        /* Of two files the hash of one does not say what was written. */
+        assert_int_equal(ffd_output_begin(output, in_folder("beside"), true, NULL), FFD_OK);
+        assert_false(ffd_output_hash_value(output, &hash));
+        ffd_output_destroy(&output);
+    }
+    remove(in_folder("hashed"));
+    free(bytes);
+    (void)state;
+}
+
 /* The number that the next file to be opened gets: a greater one than before tells of one that stays open. */
 static int next_descriptor(void)
 {
@@ -281,6 +320,58 @@ static void targets_that_cannot_be_written_are_refused(void **state)
     assert_int_equal(ffd_output_check(in_folder("no/folder.txt"), true, &error), FFD_E_IO);
     assert_int_equal(ffd_output_check("-", false, &error), FFD_OK);
     check_content("there.txt", "there");
+    (void)state;
+}
+
+/* Whether the refusal says this, of what is named and before any work. */
+static void check_refused(const char *path, const char *message)
+{
+    file_output *output;
+    ffd_error error;
+    assert_int_equal(ffd_output_check(path, true, &error), FFD_E_IO);
+    assert_string_equal(error.message, message);
+    assert_int_equal(ffd_output_create(&output, &error), FFD_OK);
+    assert_int_equal(ffd_output_begin(output, path, true, &error), FFD_E_IO);
+    assert_string_equal(error.message, message);
+    ffd_output_destroy(&output);
+}
+
+/* None of them is opened, or waited for. */
+static void pipes_and_links_to_nothing_are_refused(void **state)
+{
+    assert_int_equal(mkfifo(in_folder("pipe"), 0600), 0);
+    assert_int_equal(symlink("nowhere", in_folder("dangling")), 0);
+    check_refused(in_folder("pipe"), "is a pipe, not a file (- writes to standard output)");
+    check_refused(in_folder("dangling"), "is a link that leads to no file");
+    assert_false(ffd_file_exists(in_folder("nowhere")));
+    (void)state;
+}
+
+static void an_output_that_appears_is_not_replaced(void **state)
+{
+    static const char *const links[] = {NULL, "appeared.other"};
+    for (int forced = 0; forced < 2; forced++)
+        for (int i = 0; i < 2; i++) {
+            ffd_error error;
+            file_output *output = begin("appeared.txt", forced);
+            assert_int_equal(ffd_output_write(output, "ours", 4, NULL), FFD_OK);
+            if (links[i])
+                assert_int_equal(symlink(links[i], in_folder("appeared.txt")), 0);
+            else
+                put_text("appeared.txt", "somebody's");
+            const ffd_status status = ffd_output_commit(output, &error);
+            ffd_output_destroy(&output);
+            assert_int_equal(status, forced ? FFD_OK : FFD_E_EXISTS);
+            if (forced)
+                check_content("appeared.txt", "ours");
+            else
+                assert_string_equal(error.message, "exists already (--force overwrites it)");
+            if (!forced && !links[i])
+                check_content("appeared.txt", "somebody's");
+            assert_false(ffd_file_exists(in_folder("appeared.other")));
+            assert_false(ffd_file_exists(in_folder(".appeared.txt.ffd-tmp")));
+            assert_int_equal(unlink(in_folder("appeared.txt")), 0);
+        }
     (void)state;
 }
 
@@ -414,7 +505,6 @@ static void files_of_a_set_are_all_committed(void **state)
                          FFD_OK);
     assert_int_equal(ffd_output_begin(output, in_folder("set.gltf"), true, NULL), FFD_OK);
     assert_int_equal(ffd_output_write(output, "new", 3, NULL), FFD_OK);
-    ffd_output_remove_first(output);
     assert_int_equal(ffd_output_commit(output, NULL), FFD_OK);
     ffd_output_destroy(&output);
     file_input input;
@@ -538,8 +628,11 @@ int main(void)
         cmocka_unit_test(no_file_outside_the_folder_is_loaded),
         cmocka_unit_test(a_file_appears_only_when_committed),
         cmocka_unit_test(pieces_of_any_size_are_written_whole),
+        cmocka_unit_test(an_output_is_hashed_as_it_is_written),
         cmocka_unit_test(a_dropped_output_leaves_the_old_file),
         cmocka_unit_test(targets_that_cannot_be_written_are_refused),
+        cmocka_unit_test(pipes_and_links_to_nothing_are_refused),
+        cmocka_unit_test(an_output_that_appears_is_not_replaced),
         cmocka_unit_test(a_leftover_is_taken_over_but_not_a_locked_one),
         cmocka_unit_test(permissions_and_links_are_kept),
         cmocka_unit_test(a_leftover_gets_the_mode_of_its_target),

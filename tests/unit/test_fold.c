@@ -335,8 +335,8 @@ static void the_identity_and_its_mirror_have_no_folds(void **state)
 {
     (void)state;
     const knot_kind kind[] = {KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_UNIFORM};
-    const int apart = is_under_valgrind() ? 4 : 1; /* degrees */
-    for (int degree = 1; degree <= 9; degree += apart)
+    const int most = is_under_valgrind() ? 4 : 9;
+    for (int degree = 1; degree <= most; degree += stride(3))
         for (int k = 0; k < 3; k++)
             for (int side = 0; side < 2; side++) {
                 const size_t least = (size_t)degree + 1;
@@ -456,7 +456,8 @@ static void verdicts_with_weights_agree_with_samples(void **state)
     draw d = {5};
     const int degree[][3] = {{1, 1, 1}, {2, 3, 1}, {3, 3, 3}, {4, 2, 5}};
     int none = 0, some = 0;
-    for (int i = 0; i < 40; i++) {
+    const int count = is_under_valgrind() ? 12 : 40;
+    for (int i = 0; i < count; i++) {
         const int *deg = degree[i % 4];
         const kinds shape = {{KNOTS_CLAMPED, KNOTS_OPEN, KNOTS_CLAMPED},
                              {deg[0], deg[1], deg[2]},
@@ -483,7 +484,7 @@ static void verdicts_with_weights_agree_with_samples(void **state)
         assert_int_not_equal(folds.verdict, FFD_FOLDS_UNKNOWN);
         ffd_lattice_destroy(&lattice);
     }
-    assert_true(none >= 10 && some >= 3);
+    assert_true(none >= count / 4 && some >= count / 12);
 }
 
 /* Weights that are all equal change nothing. */
@@ -530,7 +531,7 @@ static void one_folded_cell_of_a_thousand_is_found(void **state)
             assert_int_equal(folds.cells, 1000);
             assert_int_equal(folds.folded_cells, 1);
             assert_int_equal(folds.unknown_cells, 0);
-            /* Control point 6 stands at 0.5; the least is 2/3 of a spacing on. 7, 4: cells 6, 3. */
+            /* Control point 6 is at 0.5; the least is 2/3 of a spacing on. 7, 4: cells 6, 3. */
             static const double lo[3] = {0.5, 0.6, 0.3};
             for (int a = 0; a < 3; a++)
                 assert_true(folds.witness_uvw[a] >= lo[a] - 1e-15 &&
@@ -545,7 +546,7 @@ static void a_hair_before_folding_is_no_fold(void **state)
 {
     (void)state;
     for (int mirrored = 0; mirrored < 2; mirrored++)
-        for (int i = 0; i < 5; i += is_under_valgrind() ? 4 : 1) {
+        for (int i = 0; i < 5; i += stride(5)) {
             static const double before[] = {0.3, 1e-3, 1e-6, 1e-9, 1e-11};
             ffd_lattice *lattice = one_point_moved(8.0 / 3 * (1 - before[i]), mirrored);
             const ffd_folds folds = assert_verdict(lattice, mirrored ? -1 : 1, FFD_FOLDS_NONE);
@@ -729,6 +730,8 @@ static void a_collapsed_axis_is_no_fold(void **state)
             for (int far = 0; far < 2; far++) {
                 if (k >= 3 && (i == 4 || i == 5)) /* no single ring is the axis there */
                     continue;
+                if (is_under_valgrind() && (i + k + (size_t)far) % 5)
+                    continue;
                 ffd_lattice *lattice = parsed(cylinder_text, shapes[k], far ? 1e6 : 1.0, 2, moves[i]);
                 const ffd_folds folds = assert_verdict(lattice, 1, FFD_FOLDS_NONE);
                 assert_true(folds.min_det >= 0 && folds.min_det < 1e-6);
@@ -812,7 +815,7 @@ static void a_ball_folds_only_when_its_pole_is_pushed_in(void **state)
         }
 }
 
-/* A quarter of a solid cylinder, exact by weights: its axis is no line of equal homogeneous points. */
+/* A quarter of a solid cylinder, exact by weights: its axis is not a line of equal homogeneous points. */
 static void a_rational_quarter_folds_only_when_its_axis_tears(void **state)
 {
     (void)state;
@@ -842,7 +845,7 @@ static void a_rational_quarter_folds_only_when_its_axis_tears(void **state)
     }
 }
 
-/* The rest volume is 0 across an inner plane too: that is no border. */
+/* The rest volume is 0 across an inner plane too: that is not a border. */
 static void a_volume_that_is_zero_inside_is_never_called_free(void **state)
 {
     (void)state;

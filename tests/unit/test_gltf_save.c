@@ -123,10 +123,6 @@ static void odd_data_uris_become_plain(void **state)
     check_conversion(URI("DATA:;base64," TRIANGLE), FFD_SPACE_MESH, add_one, URI("DATA:;base64," MOVED), "");
     check_conversion(URI("data:application\\/gltf-buffer;base64," TRIANGLE), FFD_SPACE_MESH, add_one,
                      URI("data:application\\/gltf-buffer;base64," MOVED), "");
-    check_conversion(
-        URI("data:,%00%00%00%00%00%00%00%00%00%00%00%00%00%00%80%3f%00%00%00%00%00%00%00%00%00%00%00%00"
-            "%00%00%80%3f%00%00%00%00"),
-        FFD_SPACE_MESH, add_one, URI(DATA_URI MOVED), "");
     check_conversion(URI("data\\u003a;base64\\u002c" TRIANGLE), FFD_SPACE_MESH, add_one, URI(DATA_URI MOVED),
                      "");
 #undef URI
@@ -535,6 +531,8 @@ static void a_glb_holds_all_buffers(void **state)
     check_container("many.glb", expected, "first\0\0\0", 8);
 }
 
+#define PICTURE "\x89PNG\r\n\x1a\n..."
+
 static void images_are_copied_or_referred_to(void **state)
 {
     (void)state;
@@ -544,13 +542,13 @@ static void images_are_copied_or_referred_to(void **state)
     const char *const text = IMAGES("tex/a%20b.png", "./tex/a b.png", "data:,x");
     assert_int_equal(mkdir(in_folder("tex"), 0777), 0);
     assert_int_equal(mkdir(in_folder("out"), 0777), 0);
-    put_text("tex/a b.png", "picture");
+    put_text("tex/a b.png", PICTURE);
     put_text("images.gltf", text);
     assert_int_equal(convert("images.gltf", "out/i.gltf", FFD_SPACE_SCENE, stay, false, FFD_RESOURCES_COPY,
                              &lines, &error),
                      FFD_OK);
     check_text("out/i.gltf", text);
-    check_text("out/tex/a b.png", "picture");
+    check_text("out/tex/a b.png", PICTURE);
     assert_string_equal(lines.text, "");
     /* Once more: the copy is there already. */
     assert_int_equal(

@@ -31,22 +31,23 @@ static void a_file_is_read_again_when_it_is_another(void **state)
     ffd_cache_free(&cache);
 }
 
-static void put_asset(const char *buffer)
+/* A mesh that is read from a buffer. */
+static void put_asset(const char *name, const char *buffer)
 {
     char text[300];
     snprintf(text, sizeof text,
              "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"%s\",\"byteLength\":4}]}", buffer);
     put_text(buffer, "data");
-    replace("a.gltf", text);
+    replace(name, text);
 }
 
-static void check_files(hash_cache *cache, const char *buffer)
+static void check_files(hash_cache *cache, const char *name, const char *buffer)
 {
     path_list files = {0};
-    const ffd_source source = {.path = in_folder("a.gltf")};
+    const ffd_source source = {.path = in_folder(name)};
     assert_int_equal(ffd_cache_list(cache, &source, &files, NULL), FFD_OK);
     assert_int_equal(files.count, 2);
-    assert_string_equal(files.paths[0], in_folder("a.gltf"));
+    assert_string_equal(files.paths[0], in_folder(name));
     assert_string_equal(files.paths[1], in_folder(buffer));
     ffd_paths_free(&files);
 }
@@ -55,11 +56,26 @@ static void the_files_of_a_mesh_are_those_of_now(void **state)
 {
     (void)state;
     hash_cache cache = {0};
-    put_asset("one.bin");
-    check_files(&cache, "one.bin");
-    check_files(&cache, "one.bin");
-    put_asset("two.bin");
-    check_files(&cache, "two.bin");
+    put_asset("a.gltf", "one.bin");
+    check_files(&cache, "a.gltf", "one.bin");
+    check_files(&cache, "a.gltf", "one.bin");
+    put_asset("a.gltf", "two.bin");
+    check_files(&cache, "a.gltf", "two.bin");
+    ffd_cache_free(&cache);
+}
+
+/* As the jobs' meshes and those of a lattice's box come: by turns. */
+static void meshes_by_turns_are_read_once(void **state)
+{
+    (void)state;
+    hash_cache cache = {0};
+    put_asset("a.gltf", "a.bin");
+    put_asset("b.gltf", "b.bin");
+    for (int turn = 0; turn < 3; turn++) {
+        check_files(&cache, "a.gltf", "a.bin");
+        check_files(&cache, "b.gltf", "b.bin");
+    }
+    assert_int_equal(cache.next_mesh, 2);
     ffd_cache_free(&cache);
 }
 
@@ -68,6 +84,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_is_read_again_when_it_is_another),
         cmocka_unit_test(the_files_of_a_mesh_are_those_of_now),
+        cmocka_unit_test(meshes_by_turns_are_read_once),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -18,13 +18,22 @@
 #include <string.h>
 #include <unistd.h>
 
+static ffd_info_desc describe(const char *path, bool json)
+{
+    ffd_info_desc desc;
+    ffd_info_desc_init(&desc);
+    desc.file.path = path;
+    desc.json = json;
+    return desc;
+}
+
 /* The JSON of a file in the folder; the caller's. */
 static json_facts *info_of(const char *name)
 {
-    const ffd_source source = {.path = in_folder(name)};
+    const ffd_info_desc desc = describe(in_folder(name), true);
     char *text = NULL;
     ffd_error error = {0};
-    if (ffd_info_run(&source, true, &text, &error) != FFD_OK)
+    if (ffd_info_run(&desc, &text, &error) != FFD_OK)
         fail_msg("%s: %s", error.pointer, error.message);
     json_facts *const json = facts_read(text, strlen(text));
     assert_string_equal(text + strlen(text) - 2, "}\n");
@@ -37,10 +46,10 @@ static json_facts *info_of(const char *name)
 
 static char *text_of(const char *name)
 {
-    const ffd_source source = {.path = in_folder(name)};
+    const ffd_info_desc desc = describe(in_folder(name), false);
     char *text = NULL;
     ffd_error error = {0};
-    if (ffd_info_run(&source, false, &text, &error) != FFD_OK)
+    if (ffd_info_run(&desc, &text, &error) != FFD_OK)
         fail_msg("%s: %s", error.pointer, error.message);
     return text;
 }
@@ -48,8 +57,10 @@ static char *text_of(const char *name)
 static ffd_status failure_of(ffd_source source, ffd_error *error)
 {
     char *text = (char *)"untouched";
+    ffd_info_desc desc = describe(NULL, true);
+    desc.file = source;
     memset(error, 0, sizeof *error);
-    const ffd_status status = ffd_info_run(&source, true, &text, error);
+    const ffd_status status = ffd_info_run(&desc, &text, error);
     assert_null(text);
     return status;
 }
@@ -321,10 +332,10 @@ static void names_that_are_not_utf8_are_shown_as_utf8(void **state)
 {
     (void)state;
     put_text("caf\xe9.obj", "v 0 0 0\n");
-    const ffd_source source = {.path = in_folder("caf\xe9.obj")};
     for (int json = 0; json < 2; json++) {
+        const ffd_info_desc desc = describe(in_folder("caf\xe9.obj"), json);
         char *text = NULL;
-        assert_int_equal(ffd_info_run(&source, json, &text, NULL), FFD_OK);
+        assert_int_equal(ffd_info_run(&desc, &text, NULL), FFD_OK);
         assert_non_null(strstr(text, "/caf\xef\xbf\xbd.obj"));
         ffd_text_free(text);
     }
@@ -370,7 +381,7 @@ static void a_box_lattice_is_described(void **state)
     assert_word(json, "rest", "box");
     assert_true(facts_is(json, "rational", JSON_FALSE));
     assert_vector(json, "rest_bounds.min", 0, -1,
-                  0); /* open: the outer layers stand one spacing beyond the box */
+                  0); /* open: the outer layers are one spacing beyond the box */
     assert_vector(json, "rest_bounds.max", 3, 3, 6);
     assert_vector(json, "deformed_bounds.min", -3, -1, -4);
     assert_number(json, "diagonal", sqrt(61));
@@ -451,18 +462,32 @@ static void a_lattice_without_volume_is_described(void **state)
     facts_free(json);
 }
 
+/* Makes a lattice with a margin of 0.5 round one mesh. */
+static ffd_status new_lattice(const char *mesh, const char *output, bool force, ffd_error *error)
+{
+    const ffd_source source = {.path = mesh};
+    ffd_lattice_desc lattice;
+    ffd_lattice_new_desc desc;
+    ffd_lattice_desc_init(&lattice);
+    lattice.margin[0] = lattice.margin[1] = lattice.margin[2] = 0.5;
+    ffd_lattice_new_desc_init(&desc);
+    desc.meshes = &source;
+    desc.mesh_count = 1;
+    desc.lattice = &lattice;
+    desc.output = output;
+    desc.force = force;
+    return ffd_lattice_new_run(&desc, error);
+}
+
 static void a_new_lattice_fits_its_mesh_and_margin(void **state)
 {
     (void)state;
-    char mesh[128];
+    char mesh[128], output[128];
+    ffd_error error = {0};
     put_text("cube.obj", cube);
     snprintf(mesh, sizeof mesh, "%s", in_folder("cube.obj"));
-    const ffd_source source = {.path = mesh};
-    ffd_lattice_desc desc;
-    ffd_error error = {0};
-    ffd_lattice_desc_init(&desc);
-    desc.margin = 0.5;
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), false, &error), FFD_OK);
+    snprintf(output, sizeof output, "%s", in_folder("new.json"));
+    assert_int_equal(new_lattice(mesh, output, false, &error), FFD_OK);
     json_facts *json = info_of("new.json");
     assert_word(json, "rest", "box");
     assert_vector(json, "size", 4, 4, 4);
@@ -472,13 +497,12 @@ static void a_new_lattice_fits_its_mesh_and_margin(void **state)
     assert_word(json, "inversion", "affine");
     facts_free(json);
 
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), false, &error), FFD_E_EXISTS);
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("new.json"), true, &error), FFD_OK);
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, mesh, true, &error), FFD_E_ARGUMENT);
+    assert_int_equal(new_lattice(mesh, output, false, &error), FFD_E_EXISTS);
+    assert_int_equal(new_lattice(mesh, output, true, &error), FFD_OK);
+    assert_int_equal(new_lattice(mesh, mesh, true, &error), FFD_E_ARGUMENT);
     put_text("empty.obj", "# nothing\n");
     snprintf(mesh, sizeof mesh, "%s", in_folder("empty.obj"));
-    assert_int_equal(ffd_lattice_new_run(&source, &desc, in_folder("none.json"), false, &error),
-                     FFD_E_INVALID);
+    assert_int_equal(new_lattice(mesh, in_folder("none.json"), false, &error), FFD_E_INVALID);
     assert_string_equal(error.file, mesh);
     assert_int_equal(access(in_folder("none.json"), F_OK), -1);
 }
@@ -487,13 +511,13 @@ static void each_failed_allocation_is_reported(void **state)
 {
     (void)state;
     put_text("cube.obj", cube);
-    const ffd_source source = {.path = in_folder("cube.obj")};
+    const ffd_info_desc desc = describe(in_folder("cube.obj"), false);
     long failures = 0;
     for (;; failures++) {
         char *text = NULL;
         ffd_error error = {0};
         ffd_alloc_fail_after(failures);
-        const ffd_status status = ffd_info_run(&source, false, &text, &error);
+        const ffd_status status = ffd_info_run(&desc, &text, &error);
         ffd_alloc_fail_after(-1);
         ffd_text_free(text);
         if (status == FFD_OK)

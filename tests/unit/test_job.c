@@ -124,7 +124,7 @@ static void costly_figures_are_there_when_asked_for(void **state)
 
     desc.fail_on = FFD_GATE_FOLDS | FFD_GATE_OUTSIDE;
     assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_E_GATE);
-    assert_string_equal(result.error.message, "1 of 4 vertices are outside the lattice (--fail-on outside)");
+    assert_string_equal(result.error.message, "1 of 4 vertices is outside the lattice (--fail-on outside)");
     assert_int_equal(result.counts[FFD_OUTSIDE], 1);
     assert_true(result.has_folds && result.has_flipped && result.has_edges);
     (void)state;
@@ -167,6 +167,60 @@ static ffd_status run_with_depfile(const ffd_deform_desc *desc, ffd_job_result *
     assert_int_equal(access(in_folder("d"), F_OK), status ? -1 : 0);
     assert_int_not_equal(access(in_folder(".d.ffd-tmp"), F_OK), 0);
     return status;
+}
+
+/* Splats under a node with two sockets, a level of detail, and a camera that is far away. */
+static void put_scene(void)
+{
+    put_text(
+        "a.gltf",
+        "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 3, 4]}], \"nodes\": [{\"mesh\": 0, "
+        "\"name\": "
+        "\"rose\", \"extensions\": {\"MSFT_lod\": {\"ids\": [1]}}}, {\"mesh\": 0, \"translation\": [9, 0, "
+        "0]}, {}, "
+        "{\"name\": \"hand\", \"translation\": [0.5, 0.5, 0]}, {\"children\": [5], \"translation\": [3, 0, "
+        "0]}, "
+        "{\"camera\": 0, \"translation\": [6, 0, 0]}], \"cameras\": [{}], \"animations\": [{\"channels\": "
+        "[{\"target\": {\"node\": 0, \"path\": \"rotation\"}}]}], \"meshes\": [{\"primitives\": [{\"mode\": "
+        "0, "
+        "\"attributes\": {\"POSITION\": 0}, \"extensions\": {\"KHR_gaussian_splatting\": {}}}]}], "
+        "\"accessors\": "
+        "[{\"bufferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\", \"min\": [0, 0, 0], "
+        "\"max\": [1, 1, 0]}], \"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}], \"buffers\": "
+        "[{\"byteLength\": 36, \"uri\": \"data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
+}
+
+static void what_stays_behind_is_in_the_result(void **state)
+{
+    char input[64];
+    ffd_job_result result;
+    ffd_deform_desc desc = describe();
+    strcpy(input, in_folder("a.gltf"));
+    put_scene();
+    desc.input.path = input;
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
+    const uint64_t counts[FFD_BEHIND_KIND_COUNT] = {
+        [FFD_BEHIND_SOCKET] = 1, [FFD_BEHIND_PIVOT] = 1, [FFD_BEHIND_SPLAT] = 3};
+    for (int k = 0; k < FFD_BEHIND_KIND_COUNT; k++)
+        assert_int_equal(result.behind[k].count, counts[k]);
+    assert_string_equal(result.behind[FFD_BEHIND_SOCKET].names[0], "hand");
+    assert_string_equal(result.behind[FFD_BEHIND_SOCKET].names[1], "");
+    assert_string_equal(result.behind[FFD_BEHIND_SPLAT].names[0], "rose");
+    assert_int_equal(result.vertices, 6);
+    assert_int_equal(result.counts[FFD_OUTSIDE], 3);
+
+    unlink(output);
+    fail_everywhere(ffd_check_run, &desc);
+    static const char *const only[] = {"node:rose"};
+    desc.only = only;
+    desc.only_count = 1;
+    fail_everywhere(ffd_check_run, &desc);
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.behind[FFD_BEHIND_SOCKET].count, 0);
+    assert_int_equal(result.behind[FFD_BEHIND_PIVOT].count, 1);
+    unlink(input);
+    (void)state;
 }
 
 static void a_depfile_names_output_and_inputs(void **state)
@@ -238,6 +292,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_descriptions_are_refused),
         cmocka_unit_test(costly_figures_are_there_when_asked_for),
+        cmocka_unit_test(what_stays_behind_is_in_the_result),
         cmocka_unit_test(a_depfile_names_output_and_inputs),
         cmocka_unit_test(each_failed_allocation_is_reported),
         cmocka_unit_test(only_what_a_selector_names_is_counted),

@@ -19,19 +19,41 @@ static job_record record_of(unsigned number)
     return record;
 }
 
-static const char *target_of(unsigned number)
+static const hash128 *target_of(unsigned number)
 {
-    static char name[64];
-    snprintf(name, sizeof name, "somewhere/o%u.obj", number);
-    return name;
+    static hash128 target;
+    target = ffd_hash(&number, sizeof number);
+    return &target;
+}
+
+/* Of different lengths, some empty. */
+static size_t figures_of(unsigned value, char text[100])
+{
+    const size_t size = value % 97;
+    memset(text, 'a' + (int)(value % 26), size);
+    return size;
+}
+
+static bool put_record(job_journal *journal, unsigned number, unsigned value)
+{
+    char text[100];
+    const job_record record = record_of(value);
+    const size_t size = figures_of(value, text);
+    return ffd_journal_put(journal, target_of(number), &record, text, size);
 }
 
 static bool holds(job_journal *journal, unsigned number, unsigned value)
 {
+    char text[100];
     job_record found;
+    byte_buffer figures = {0};
     const job_record expected = record_of(value);
-    return ffd_journal_find(journal, target_of(number), &found) &&
-           memcmp(&found, &expected, sizeof found) == 0;
+    const size_t size = figures_of(value, text);
+    const bool is_held = ffd_journal_find(journal, target_of(number), &found, &figures) &&
+                         memcmp(&found, &expected, sizeof found) == 0 && figures.size == size &&
+                         memcmp(figures.data, text, size) == 0;
+    ffd_buffer_free(&figures);
+    return is_held;
 }
 
 static job_journal *opened(const char *path)
@@ -43,25 +65,21 @@ static job_journal *opened(const char *path)
     return journal;
 }
 
-/* More than the first table has room for, some of them twice. */
+/* More than the first table holds, some of them twice. */
 static void records_are_found_after_reopening(void **state)
 {
     const unsigned count = 5000;
     job_journal *journal = opened(in_folder("made/too/journal"));
     job_record record;
-    assert_false(ffd_journal_find(journal, target_of(0), &record));
-    for (unsigned i = 0; i < count; i++) {
-        record = record_of(i);
-        assert_true(ffd_journal_put(journal, target_of(i), &record));
-    }
-    for (unsigned i = 0; i < count; i += 3) {
-        record = record_of(i + count);
-        assert_true(ffd_journal_put(journal, target_of(i), &record));
-    }
+    assert_false(ffd_journal_find(journal, target_of(0), &record, NULL));
+    for (unsigned i = 0; i < count; i++)
+        assert_true(put_record(journal, i, i));
+    for (unsigned i = 0; i < count; i += 3)
+        assert_true(put_record(journal, i, i + count));
     for (int again = 0; again < 2; again++) {
         for (unsigned i = 0; i < count; i++)
             assert_true(holds(journal, i, i % 3 ? i : i + count));
-        assert_false(ffd_journal_find(journal, target_of(count), &record));
+        assert_false(ffd_journal_find(journal, target_of(count), &record, NULL));
         ffd_journal_close(&journal);
         journal = opened(in_folder("made/too/journal"));
     }
@@ -77,10 +95,8 @@ static void a_damaged_journal_never_gives_a_wrong_record(void **state)
     print_message("seed %u\n", seed);
     srand(seed);
     job_journal *journal = opened(in_folder("damaged"));
-    for (unsigned i = 0; i < count; i++) {
-        const job_record record = record_of(i);
-        assert_true(ffd_journal_put(journal, target_of(i), &record));
-    }
+    for (unsigned i = 0; i < count; i++)
+        assert_true(put_record(journal, i, i));
     ffd_journal_close(&journal);
     FILE *file = fopen(in_folder("damaged"), "rb");
     assert_non_null(file);
@@ -97,14 +113,91 @@ static void a_damaged_journal_never_gives_a_wrong_record(void **state)
         journal = opened(in_folder("damaged"));
         for (unsigned i = 0; i < count; i++) {
             job_record found;
+            byte_buffer figures = {0};
             const job_record expected = record_of(i);
-            if (ffd_journal_find(journal, target_of(i), &found))
+            if (ffd_journal_find(journal, target_of(i), &found, NULL))
                 assert_memory_equal(&found, &expected, sizeof found);
-            assert_true(ffd_journal_put(journal, target_of(i), &expected));
+            if (ffd_journal_find(journal, target_of(i), &found, &figures))
+                assert_true(holds(journal, i, i));
+            ffd_buffer_free(&figures);
+            assert_true(put_record(journal, i, i));
             assert_true(holds(journal, i, i));
         }
         ffd_journal_close(&journal);
     }
+    (void)state;
+}
+
+/* It grows under a temporary name of its own: what stands beside it, or where a link beside it leads, is not
+   touched. */
+static void growing_touches_no_other_file(void **state)
+{
+    put_text("grows.new", "precious");
+    put_text("victim", "precious");
+    assert_int_equal(symlink("victim", in_folder("kept.new")), 0);
+    for (int k = 0; k < 2; k++) {
+        job_journal *journal = opened(in_folder(k ? "kept" : "grows"));
+        for (unsigned i = 0; i < 1500; i++)
+            assert_true(put_record(journal, i, i));
+        ffd_journal_close(&journal);
+        char text[16] = "";
+        FILE *const file = fopen(in_folder(k ? "victim" : "grows.new"), "rb");
+        assert_non_null(file);
+        assert_int_equal(fread(text, 1, sizeof text, file), 8);
+        assert_string_equal(text, "precious");
+        fclose(file);
+    }
+    (void)state;
+}
+
+static long size_of(const char *name)
+{
+    FILE *const file = fopen(in_folder(name), "rb");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, 0, SEEK_END), 0);
+    const long size = ftell(file);
+    fclose(file);
+    return size;
+}
+
+/* Figures that are put again and again leave nothing for ever. */
+static void a_journal_stays_in_bounds(void **state)
+{
+    static char text[1 << 18];
+    job_journal *journal = opened(in_folder("again"));
+    const job_record record = record_of(1), other = record_of(2);
+    byte_buffer figures = {0};
+    job_record found;
+    memset(text, 'x', sizeof text);
+    assert_true(ffd_journal_put(journal, target_of(2), &other, "other", 5));
+    for (int i = 0; i < 200; i++) {
+        text[0] = (char)i;
+        assert_true(ffd_journal_put(journal, target_of(1), &record, text, sizeof text));
+    }
+    assert_true(size_of("again") < 20 << 20);
+    for (int again = 0; again < 2; again++) {
+        assert_true(ffd_journal_find(journal, target_of(1), &found, &figures));
+        assert_int_equal(figures.size, sizeof text);
+        assert_memory_equal(figures.data, text, sizeof text);
+        assert_true(ffd_journal_find(journal, target_of(2), &found, &figures));
+        assert_memory_equal(figures.data, "other", 5);
+        ffd_journal_close(&journal);
+        journal = opened(in_folder("again"));
+    }
+    ffd_buffer_free(&figures);
+    ffd_journal_close(&journal);
+    (void)state;
+}
+
+/* What another version of the program has left is of no use, but it is a journal. */
+static void a_journal_of_another_version_is_replaced(void **state)
+{
+    static const char old[64] = "ffd-journal 1\n";
+    put("old", old, sizeof old);
+    job_journal *journal = opened(in_folder("old"));
+    assert_true(put_record(journal, 3, 3));
+    assert_true(holds(journal, 3, 3));
+    ffd_journal_close(&journal);
     (void)state;
 }
 
@@ -137,6 +230,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(records_are_found_after_reopening),
         cmocka_unit_test(a_damaged_journal_never_gives_a_wrong_record),
+        cmocka_unit_test(growing_touches_no_other_file),
+        cmocka_unit_test(a_journal_stays_in_bounds),
+        cmocka_unit_test(a_journal_of_another_version_is_replaced),
         cmocka_unit_test(a_file_that_is_no_journal_is_refused),
         cmocka_unit_test(each_manifest_and_share_has_one_default_path),
     };

@@ -1,3 +1,4 @@
+/* The span reader of JSON: spans, characters, what is refused and at which line, edits of the text. */
 #include "base/memory/memory.h"
 #include "json/json_edit.h"
 #include "json/json_parse.h"
@@ -62,7 +63,7 @@ static void characters_are_decoded(void **state)
     ffd_json_span_free(&tree);
 }
 
-/* Wherever it stands among others: what it is decoded to; NULL: it is refused. */
+/* What it is decoded to, wherever it is among others; NULL: it is refused. */
 static void a_character_is_seen_anywhere(void **state)
 {
     (void)state;

@@ -1,7 +1,6 @@
 /* The lattice file: what it says, what is refused and how, and that it is written as it is read. */
 #include "base/memory/memory.h"
 #include "lattice/lattice.h"
-#include "lattice/spec.h"
 #include "lattice/spec_text.h"
 #include <math.h>
 #include <setjmp.h>
@@ -217,6 +216,9 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {"{\"format\":\"ffd-lattice\"}", FFD_E_INVALID, "f.json: \"version\" is missing"},
         {"{\"format\":\"ffd-lattice\",\"version\":2,\"news\":1}", FFD_E_UNSUPPORTED,
          "f.json:/version: version 2 is newer than 1, the newest known here"},
+        /* A later version may mean something else by what is a placeholder in this one. */
+        {"{\"format\":\"ffd-lattice\",\"moves\":[{\"$\":\"A\"}],\"version\":2}", FFD_E_UNSUPPORTED,
+         "f.json:/version: version 2 is newer than 1, the newest known here"},
         {"{\"format\":\"ffd-lattice\",\"version\":0}", FFD_E_INVALID,
          "f.json:/version: version 0 does not exist; the only version is 1"},
         {"{\"format\":\"ffd-lattice\",\"version\":\"1\"}", FFD_E_INVALID,
@@ -229,7 +231,8 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {HEAD "\"size\":[2,2,2]}", FFD_E_INVALID, "f.json: \"rest\" is missing"},
         {HEAD "\"size\":4," UNIT "}", FFD_E_INVALID,
          "f.json:/size: must be an array of 3 sizes, not the number 4"},
-        {HEAD "\"size\":[2,2]," UNIT "}", FFD_E_INVALID, "f.json:/size: has 2 sizes where 3 are needed"},
+        {HEAD "\"size\":[2,2]," UNIT "}", FFD_E_INVALID,
+         "f.json:/size: must be an array of 3 sizes, not an array of 2"},
         {HEAD "\"size\":[2,1,2]," UNIT "}", FFD_E_INVALID,
          "f.json:/size/1: is 1, but a direction has at least 2 control points"},
         {HEAD "\"size\":[2,2.5,2]," UNIT "}", FFD_E_INVALID,
@@ -246,10 +249,12 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {BOX ",\"degree\":[1,1,10]}", FFD_E_INVALID, "f.json:/degree/2: degree 10 is not between 1 and 9"},
         {BOX ",\"degree\":[2,1,1]}", FFD_E_INVALID,
          "f.json:/degree/0: degree 2 needs at least 3 control points, not 2"},
-        {BOX ",\"degree\":[1,1]}", FFD_E_INVALID, "f.json:/degree: has 2 degrees where 3 are needed"},
+        {BOX ",\"degree\":[1,1]}", FFD_E_INVALID,
+         "f.json:/degree: must be an array of 3 degrees, not an array of 2"},
         {BOX ",\"units\":\"boxes\"}", FFD_E_INVALID,
          "f.json:/units: unknown word \"boxes\"; the nearest known one is \"box\""},
-        {BOX ",\"weights\":[1,1]}", FFD_E_INVALID, "f.json:/weights: has 2 weights where 8 are needed"},
+        {BOX ",\"weights\":[1,1]}", FFD_E_INVALID,
+         "f.json:/weights: must be an array of 8 weights, not an array of 2"},
         {BOX ",\"weights\":[1,1,1,0,1,1,1,1]}", FFD_E_INVALID, "f.json:/weights/3: weight 0 is not positive"},
         {BOX ",\"weights\":[1,1,1,1,-2.5,1,1,1]}", FFD_E_INVALID,
          "f.json:/weights/4: weight -2.5 is not positive"},
@@ -258,7 +263,7 @@ static void bad_versions_sizes_degrees_and_weights_are_refused(void **state)
         {BOX ",\"deformed\":{\"point\":[]}}", FFD_E_INVALID,
          "f.json:/deformed/point: unknown key \"point\"; the nearest known one is \"points\""},
         {BOX ",\"deformed\":{\"points\":[[0,0,0]]}}", FFD_E_INVALID,
-         "f.json:/deformed/points: has 1 points where 8 are needed"},
+         "f.json:/deformed/points: must be an array of 8 points, not an array of 1"},
         {BOX ",\"deformed\":{\"weights\":[1,1,1,1,1,1,1,-1]}}", FFD_E_INVALID,
          "f.json:/deformed/weights/7: weight -1 is not positive"},
     };
@@ -280,7 +285,7 @@ static void bad_knots_are_refused(void **state)
         {BOX ",\"knots\":[{\"closd\":[0,1,2]},\"open\",\"clamped\"]}", FFD_E_INVALID,
          "f.json:/knots/0/closd: unknown key \"closd\"; the nearest known one is \"closed\""},
         {BOX ",\"knots\":[[0,0,1],\"open\",\"clamped\"]}", FFD_E_INVALID,
-         "f.json:/knots/0: has 3 knots where 4 are needed"},
+         "f.json:/knots/0: must be an array of 4 knots, not an array of 3"},
         {BOX ",\"knots\":[[0,0,\"1\",1],\"open\",\"clamped\"]}", FFD_E_INVALID,
          "f.json:/knots/0/2: must be a number, not the text \"1\""},
         {BOX ",\"knots\":[\"open\",\"open\",[0,0,1,0.5]]}", FFD_E_INVALID,
@@ -302,7 +307,7 @@ static void bad_knots_are_refused(void **state)
          FFD_E_INVALID,
          "f.json:/rest/box/spacing: uniform spacing needs clamped knots, which direction v does not have"},
         {SIZE "\"rest\":{\"points\":[" EIGHT "]},\"knots\":[{\"closed\":[0,1]},\"open\",\"clamped\"]}",
-         FFD_E_INVALID, "f.json:/knots/0/closed: has 2 breakpoints where 3 are needed"},
+         FFD_E_INVALID, "f.json:/knots/0/closed: must be an array of 3 breakpoints, not an array of 2"},
     };
     check_refusals(refusals, COUNT(refusals));
 }
@@ -323,10 +328,10 @@ static void bad_rest_volumes_are_refused(void **state)
         {SIZE "\"rest\":{\"box\":\"mesh\",\"margin\":-0.1}}", FFD_E_INVALID,
          "f.json:/rest/margin: margin -0.1 is less than 0"},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1]},\"margin\":0.1}}", FFD_E_INVALID,
-         "f.json:/rest/margin: a margin goes only with \"box\": \"mesh\""},
+         "f.json:/rest/margin: a margin goes only with a box round meshes"},
         {SIZE "\"rest\":{\"box\":{\"max\":[1,1,1]}}}", FFD_E_INVALID, "f.json:/rest/box: \"min\" is missing"},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1]}}}", FFD_E_INVALID,
-         "f.json:/rest/box/max: has 2 numbers where 3 are needed"},
+         "f.json:/rest/box/max: must be an array of 3 numbers, not an array of 2"},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,null,1]}}}", FFD_E_INVALID,
          "f.json:/rest/box/max/1: must be a number, not null"},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,2,0],\"max\":[1,2,1]}}}", FFD_E_INVALID,
@@ -341,11 +346,11 @@ static void bad_rest_volumes_are_refused(void **state)
          FFD_E_INVALID,
          "f.json:/rest/box/axes: axes 0 and 1 are not perpendicular: their dot product is 0.6"},
         {SIZE "\"rest\":{\"box\":{\"min\":[0,0,0],\"max\":[1,1,1],\"axes\":[[1,0,0],[0,1,0]]}}}",
-         FFD_E_INVALID, "f.json:/rest/box/axes: has 2 axes where 3 are needed"},
+         FFD_E_INVALID, "f.json:/rest/box/axes: must be an array of 3 axes, not an array of 2"},
         {SIZE "\"rest\":{\"points\":[[0,0,0]]}}", FFD_E_INVALID,
-         "f.json:/rest/points: has 1 points where 8 are needed"},
+         "f.json:/rest/points: must be an array of 8 points, not an array of 1"},
         {SIZE "\"rest\":{\"points\":[[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0],[0,1,1],[1,1,1]]}}",
-         FFD_E_INVALID, "f.json:/rest/points/5: has 2 numbers where 3 are needed"},
+         FFD_E_INVALID, "f.json:/rest/points/5: must be an array of 3 numbers, not an array of 2"},
         {CYLINDER("\"axis\":\"z\",\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
          "f.json:/rest/cylinder: \"center\" is missing"},
         {CYLINDER("\"center\":[0,0,0],\"axis\":\"w\",\"radius\":[0,1],\"height\":1"), FFD_E_INVALID,
@@ -395,30 +400,45 @@ static void bad_moves_are_refused(void **state)
         {MOVE("{\"at\":[[-1,0],0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
          "f.json:/moves/0/at/0: the range from 1 to 0 is empty"},
         {MOVE("{\"at\":[[0],0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
-         "f.json:/moves/0/at/0: has 1 indices where 2 are needed"},
+         "f.json:/moves/0/at/0: must be an array of 2 indices, not an array of 1"},
         {MOVE("{\"at\":[0.5,0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
          "f.json:/moves/0/at/0: must be a whole number, not the number 0.5"},
         {MOVE("{\"at\":[\"any\",0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
          "f.json:/moves/0/at/0: unknown word \"any\"; the nearest known one is \"all\""},
         {MOVE("{\"at\":[0,0],\"by\":[0,0,0]}"), FFD_E_INVALID,
-         "f.json:/moves/0/at: has 2 selections where 3 are needed"},
+         "f.json:/moves/0/at: must be an array of 3 selections, not an array of 2"},
         {MOVE("{\"within\":{\"min\":[0,0,0]},\"by\":[0,0,0]}"), FFD_E_INVALID,
          "f.json:/moves/0/within: \"max\" is missing"},
         {MOVE("{\"within\":{\"min\":[0,3,0],\"max\":[1,2,1]},\"by\":[0,0,0]}"), FFD_E_INVALID,
          "f.json:/moves/0/within: max 2 is less than min 3"},
         {MOVE("{\"weight\":1.5,\"by\":[0,0,0]}"), FFD_E_INVALID,
          "f.json:/moves/0/weight: weight 1.5 is not between 0 and 1"},
-        {MOVE("{\"by\":[0,0]}"), FFD_E_INVALID, "f.json:/moves/0/by: has 2 numbers where 3 are needed"},
+        {MOVE("{\"by\":[0,0]}"), FFD_E_INVALID,
+         "f.json:/moves/0/by: must be an array of 3 numbers, not an array of 2"},
         {MOVE("{\"scale\":{\"about\":[0,0,0]}}"), FFD_E_INVALID,
          "f.json:/moves/0/scale: \"factor\" is missing"},
         {MOVE("{\"scale\":{\"factor\":\"2\"}}"), FFD_E_INVALID,
          "f.json:/moves/0/scale/factor: must be a number, not the text \"2\""},
         {MOVE("{\"rotate\":{\"axis\":\"z\",\"angle\":3}}"), FFD_E_INVALID,
-         "f.json:/moves/0/rotate/angle: unknown key \"angle\"; the nearest known one is \"axis\""},
+         "f.json:/moves/0/rotate/angle: unknown key \"angle\"; use \"degrees\""},
+        {MOVE("{\"translation\":[0,0,1]}"), FFD_E_INVALID,
+         "f.json:/moves/0/translation: unknown key \"translation\"; use \"by\""},
+        {MOVE("{\"rotation\":{}}"), FFD_E_INVALID,
+         "f.json:/moves/0/rotation: unknown key \"rotation\"; use \"rotate\""},
+        {MOVE("{\"by\":[0,0,0],\"coment\":\"\"}"), FFD_E_INVALID,
+         "f.json:/moves/0/coment: unknown key \"coment\"; the nearest known one is \"comment\""},
+        {MOVE("{\"by\":[0,0,0],\"name\":null}"), FFD_E_INVALID,
+         "f.json:/moves/0/name: must be a text, not null"},
+        {MOVE("{\"by\":{\"$\":\"A\",\"comment\":7}}"), FFD_E_INVALID,
+         "f.json:/moves/0/by/comment: must be a text, not the number 7"},
+        {MOVE("{\"by\":{\"$\":\"A\",\"comment\":\"\"}}"), FFD_E_INVALID,
+         "f.json:/moves/0/by: the placeholder \"A\" has no value (--set A=VALUE)"},
+        {MOVE("{\"by\":[0,0,0],\"comment\":{\"$\":\"A\"}}"), FFD_E_INVALID,
+         "f.json:/moves/0/comment: the placeholder \"A\" has no value (--set A=VALUE)"},
         {MOVE("{\"rotate\":{\"axis\":\"z\"}}"), FFD_E_INVALID,
          "f.json:/moves/0/rotate: \"degrees\" is missing"},
         {MOVE("{\"matrix\":[1,2,3]}"), FFD_E_INVALID,
-         "f.json:/moves/0/matrix: has 3 numbers where 16 are needed"},
+         "f.json:/moves/0/matrix: must be an array of 16 numbers, not an array of 3"},
         {MOVE("{\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,5,0,0,1]}"), FFD_E_INVALID,
          "f.json:/moves/0/matrix: the last row is 5 0 0 1, not 0 0 0 1"},
         {MOVE("{\"bend\":{\"axis\":\"x\",\"toward\":[-2,0,0],\"degrees\":3}}"), FFD_E_INVALID,
@@ -520,6 +540,35 @@ static void text_is_written_in_a_fixed_layout(void **state)
     ffd_lattice_destroy(&l);
 }
 
+/* The rest of a lattice file is there without the values that its moves need; with all of them it is moved.
+ */
+static void the_rest_needs_no_values(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/ffd-test-XXXXXX", path[64];
+    const ffd_setting values[] = {{"A", "1"}, {"C", "1"}, {"B", "0.5"}};
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/l.json", folder);
+    FILE *const file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(MOVE("{\"by\":[{\"$\":\"A\",\"name\":\"a\"},0,0]},{\"by\":{\"$\":\"B\"},\"weight\":7}"), file);
+    fclose(file);
+    ffd_lattice *l;
+    ffd_error error;
+    bool used[3] = {false};
+    assert_int_equal(ffd_lattice_load_rest(path, values, 2, used, &l, &error), FFD_OK);
+    assert_true(used[0] && !used[1]);
+    assert_memory_equal(l->rest, l->deformed, 3 * l->count * sizeof *l->rest);
+    ffd_lattice_destroy(&l);
+    assert_int_equal(ffd_lattice_load_set(path, values, 2, used, &l, &error), FFD_E_INVALID);
+    assert_string_equal(error.pointer, "/moves/1/by");
+    /* With all values the moves are read, and judged. */
+    assert_int_equal(ffd_lattice_load_rest(path, values, 3, used, &l, &error), FFD_E_INVALID);
+    assert_string_equal(error.pointer, "/moves/1/weight");
+    unlink(path);
+    rmdir(folder);
+}
+
 static void a_saved_file_loads_and_is_kept_unless_forced(void **state)
 {
     (void)state;
@@ -609,6 +658,7 @@ int main(void)
         cmocka_unit_test(bad_moves_are_refused),
         cmocka_unit_test(written_text_reads_back_to_the_bit),
         cmocka_unit_test(text_is_written_in_a_fixed_layout),
+        cmocka_unit_test(the_rest_needs_no_values),
         cmocka_unit_test(a_saved_file_loads_and_is_kept_unless_forced),
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(broken_text_is_read_or_refused_with_a_message),

@@ -118,14 +118,23 @@ static ffd_status run_lattice_new(ffd_error *error)
     ffd_lattice_desc desc;
     ffd_lattice_desc_init(&desc);
     desc.principal = true;
-    return ffd_lattice_new_run(&source, &desc, output, false, error);
+    ffd_lattice_new_desc made;
+    ffd_lattice_new_desc_init(&made);
+    made.meshes = &source;
+    made.mesh_count = 1;
+    made.lattice = &desc;
+    made.output = output;
+    return ffd_lattice_new_run(&made, error);
 }
 
 static ffd_status run_info(ffd_error *error)
 {
-    const ffd_source source = {.path = input};
+    ffd_info_desc desc;
     char *text = NULL;
-    const ffd_status status = ffd_info_run(&source, false, &text, error);
+    ffd_info_desc_init(&desc);
+    desc.file.path = input;
+    desc.parts = true;
+    const ffd_status status = ffd_info_run(&desc, &text, error);
     assert_true((status == FFD_OK) == (text != NULL));
     ffd_text_free(text);
     return status;

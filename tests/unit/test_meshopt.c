@@ -7,6 +7,7 @@
 
 #include "../support/draw.h"
 #include "base/memory/memory.h"
+#include "io/gltf/decode/meshopt_filters.h"
 #include "io/gltf/decode/meshopt_view.h"
 #include <math.h>
 #include <meshoptimizer.h>
@@ -206,6 +207,80 @@ static void quaternion_filter_gives_rotations(void **state)
     ffd_free(bytes);
 }
 
+static int nearest(long double value)
+{
+    return (int)(value < 0 ? ceill(value - 0.5L) : floorl(value + 0.5L));
+}
+
+/* The direction that KHR_meshopt_compression gives three integers, in steps of the largest one. */
+static void expect_direction(const int from[3], int largest, int to[3])
+{
+    long double v[3] = {(long double)from[0] / from[2], (long double)from[1] / from[2]};
+    v[2] = 1 - fabsl(v[0]) - fabsl(v[1]);
+    const long double t = v[2] < 0 ? -v[2] : 0;
+    for (int a = 0; a < 2; a++)
+        v[a] += v[a] < 0 ? t : -t;
+    const long double length = sqrtl(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (int a = 0; a < 3; a++)
+        to[a] = nearest(v[a] / length * largest);
+}
+
+/* Every pair of 8 bits, and pairs of 4 to 16 bits: to the last bit, on whatever processor. */
+static void octahedral_filter_is_exact(void **state)
+{
+    (void)state;
+    draw d = {7};
+    for (int x = -127; x <= 127; x++)
+        for (int y = -127; y <= 127; y++) {
+            unsigned char bytes[4] = {(unsigned char)(x & 255), (unsigned char)(y & 255), 127, 9};
+            int expected[3];
+            expect_direction((const int[]){x, y, 127}, 127, expected);
+            ffd_meshopt_unfold(bytes, 1, 4);
+            for (int a = 0; a < 3; a++)
+                assert_int_equal((signed char)bytes[a], expected[a]);
+            assert_int_equal(bytes[3], 9);
+        }
+    for (int i = 0; i < 20000; i++) {
+        const int one = (1 << (3 + i % 13)) - 1, range = 2 * one + 1;
+        const int from[3] = {(int)(draw_number(&d) % (unsigned)range) - one,
+                             (int)(draw_number(&d) % (unsigned)range) - one, one};
+        int16_t v[4] = {(int16_t)from[0], (int16_t)from[1], (int16_t)one, -5};
+        int expected[3];
+        expect_direction(from, 32767, expected);
+        ffd_meshopt_unfold((unsigned char *)v, 1, 8);
+        for (int a = 0; a < 3; a++)
+            assert_int_equal(v[a], expected[a]);
+        assert_int_equal(v[3], -5);
+    }
+    int16_t none[8] = {0, 0, 0, 1, -32768, -32768, 0, 1};
+    ffd_meshopt_unfold((unsigned char *)none, 2, 8);
+    assert_true(none[0] == 0 && none[1] == 0 && none[2] == 0);
+}
+
+static void quaternion_filter_is_exact(void **state)
+{
+    (void)state;
+    draw d = {8};
+    for (int i = 0; i < 20000; i++) {
+        const int one = (1 << (3 + i % 13)) - 1, range = 2 * one + 1, largest = i / 13 % 4;
+        int16_t q[4];
+        long double rest = 1;
+        int expected[4];
+        for (int a = 0; a < 3; a++) {
+            const int part = ((int)(draw_number(&d) % (unsigned)range) - one) * 9 / 10;
+            const long double value = part / (one * sqrtl(2.0L));
+            q[a] = (int16_t)part;
+            rest -= value * value;
+            expected[(largest + 1 + a) % 4] = nearest(value * 32767);
+        }
+        expected[largest] = nearest(rest > 0 ? sqrtl(rest) * 32767 : 0);
+        q[3] = (int16_t)((one & ~3) | largest);
+        ffd_meshopt_complete_rotations((unsigned char *)q, 1);
+        for (int a = 0; a < 4; a++)
+            assert_int_equal(q[a], expected[a]);
+    }
+}
+
 static void exponential_filter_gives_floats(void **state)
 {
     (void)state;
@@ -222,6 +297,42 @@ static void exponential_filter_gives_floats(void **state)
         assert_true(fabs((double)value - (double)values[i]) < 0.01);
     }
     ffd_free(bytes);
+}
+
+/* Every number is a whole multiple of 2 to the power of its column's exponent, the least one that is stored.
+ */
+static void exponential_filter_tells_its_steps(void **state)
+{
+    (void)state;
+    static float values[3 * COUNT];
+    unsigned char elements[12 * COUNT], bytes[12 * COUNT];
+    int8_t exponents[MESHOPT_COLUMNS];
+    draw d = {6};
+    for (size_t i = 0; i < 3 * COUNT; i++)
+        values[i] = i % 7 == 0 ? 0 : (float)((double)(draw_bits(&d) >> 40) - 0x1p23) * (float)(1 + i % 3);
+    for (int bits = 4; bits <= 24; bits += 10) {
+        stream s;
+        meshopt_encodeFilterExp(elements, COUNT, 12, bits, values);
+        make_attributes(&s, 12, elements);
+        s.view.filter = MESHOPT_EXPONENTIAL;
+        s.view.exponents = exponents;
+        assert_int_equal(ffd_meshopt_check(&s.view, NULL), FFD_OK);
+        assert_int_equal(ffd_meshopt_decode(&s.view, bytes, NULL), FFD_OK);
+        for (size_t c = 0; c < 3; c++) {
+            int least = INT8_MAX;
+            for (size_t i = 0; i < COUNT; i++) {
+                const unsigned char *const stored =
+                    elements + 12 * i + 4 * c; /* a factor of 3 bytes, an exponent */
+                float value;
+                memcpy(&value, bytes + 12 * i + 4 * c, sizeof value);
+                const double multiple = ldexp((double)value, -exponents[c]);
+                assert_true(multiple == floor(multiple));
+                if ((stored[0] || stored[1] || stored[2]) && (int8_t)stored[3] < least)
+                    least = (int8_t)stored[3];
+            }
+            assert_int_equal(exponents[c], least);
+        }
+    }
 }
 
 static void check_refusal(const meshopt_view *view, ffd_status status, const char *message)
@@ -325,7 +436,10 @@ int main(void)
         cmocka_unit_test(indices_come_back),
         cmocka_unit_test(octahedral_filter_gives_unit_vectors),
         cmocka_unit_test(quaternion_filter_gives_rotations),
+        cmocka_unit_test(octahedral_filter_is_exact),
+        cmocka_unit_test(quaternion_filter_is_exact),
         cmocka_unit_test(exponential_filter_gives_floats),
+        cmocka_unit_test(exponential_filter_tells_its_steps),
         cmocka_unit_test(what_cannot_be_is_refused_before_there_is_memory),
         cmocka_unit_test(broken_streams_do_no_harm),
     };

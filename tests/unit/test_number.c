@@ -161,8 +161,8 @@ static void any_double_comes_back_as_itself(void **state)
 }
 
 /* The shortest text by trial: with ever more digits until it reads back, in the shorter of both forms. Not
-   for powers of two, whose neighbours are not equally far away: the nearest of so many digits may not read
-   back where the one beside it does. */
+   for powers of two, whose neighbours are not equally far away: the nearest with that many digits may not
+   read back where the one beside it does. */
 static void write_by_trial(double value, char *text, size_t capacity)
 {
     char digits[40];

@@ -66,6 +66,11 @@ static void statements_are_split_into_words_with_their_lines(void **state)
         {"usemtl a\\\n#b", "usemtl@1 a #b"},
         {"curv 0 1 \\\n 2\nend\nvp 1", "curv@1 0 1 2;end@3;vp@4 1"},
         {"v", "v@1"},
+        {"v 1 \\ \n2 \\\t\v\r\n 3\\ \r4\nf 5", "v@1 1 2 3 4;f@5 5"},
+        {"f 1 # \\ \nf 2 \\ ", "f@1 1;f@2 2"},
+        {"usemtl a\\ \nv 1", "usemtl@1 a\\;v@2 1"},
+        {"x 1 \\ \nv 1", "x@1 1 \\;v@2 1"},
+        {"v 1 2 3 \\ x\nf 1", "v@1 1 2 3 \\ x;f@2 1"},
         {"\\x 1", "\\x@1 1"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
@@ -79,7 +84,7 @@ static void statements_are_split_into_words_with_their_lines(void **state)
 static void unread_words_do_not_move_the_next_statement(void **state)
 {
     (void)state;
-    static const char text[] = "v 1 2 \\\n 3 # \\\nusemtl a \\\n#b\nf 1\n";
+    static const char text[] = "v 1 2 \\ \n 3 # \\\nusemtl a \\\n#b\nf 1\n";
     for (int taken = 0; taken < 5; taken++) {
         obj_scan scan;
         text_word word;
@@ -206,8 +211,7 @@ static void every_dialect_is_read(void **state)
 {
     (void)state;
     static const read_text cases[] = {
-        {"", ""},
-        {"\n# nothing\n", ""},
+        {"o\n# nothing\n", ""},
         {"v 1 2 3\nv 4 5 6\n", "1,2,3 4,5,6"},
         {"v 1 2 3\rv 4 5 6", "1,2,3 4,5,6"},
         {"v 1 2 3\r\n\tv\t4 5  6 \r\n", "1,2,3 4,5,6"},
@@ -257,7 +261,7 @@ static void broken_files_are_refused_with_their_line(void **state)
         {"v 0 0 0\nvn 1 2 3e\n", FFD_E_INVALID, 2, "coordinate z of a normal is not a number: \"3e\""},
         {"v 0 0 0\nf 1 2 1\n", FFD_E_INVALID, 2, "vertex index 2 is out of range: the file has 1"},
         {"v 0 0 0\nf 1 1\\\n -2\nv 0 0 0\n", FFD_E_INVALID, 3,
-         "vertex index -2 is out of range: 1 come before it"},
+         "vertex index -2 is out of range: 1 comes before it"},
         {"v 0 0 0\nf 1 0 1\n", FFD_E_INVALID, 2, "vertex index 0 is out of range: indices start at 1"},
         {"v 0 0 0\nf 1 4294967297 1\n", FFD_E_INVALID, 2,
          "vertex index 4294967297 is out of range: the file has 1"},
@@ -275,7 +279,10 @@ static void broken_files_are_refused_with_their_line(void **state)
         {"v 0 0 0\np x\n", FFD_E_INVALID, 2, "not a corner (v, v/t, v//n or v/t/n): \"x\""},
         {"v 0 0 1234567890123456789012345678901234567890x\n", FFD_E_INVALID, 1,
          "coordinate z of a vertex is not a number: \"1234567890123456789012345678901234567890\""},
-        {"\xff\xfev", FFD_E_INVALID, 1, "is UTF-16 text: an OBJ file is ASCII or UTF-8"},
+        {"", FFD_E_INVALID, 1, "the file has no content"},
+        {"\n# nothing\nx 1\n", FFD_E_INVALID, 1, "is not an OBJ file: it has no statement of one"},
+        {"\xff\xfev", FFD_E_INVALID, 1,
+         "is not an OBJ file, which is text in ASCII or UTF-8; it seems to be UTF-16 text"},
     };
     assert_refused(obj, cases, COUNT(cases), is_words);
 }
@@ -320,7 +327,6 @@ static void only_changed_coordinates_get_new_text(void **state)
     const edit zero[] = {{'v', 0, {-0.0, 0, 0}}, {0}};
     static const char odd[] =
         "\xEF\xBB\xBF\r# c\r\n v\t1.0  2.00 3.1+e2 .5 x # c\\\nv 4 \\\r\n 5e0 \\\r 6#7\nl 1 2";
-    assert_edited("", nothing, "");
     assert_edited(odd, nothing, odd);
     assert_edited("v 1.0 2.00 3e0", same, "v 1.0 2.00 3e0");
     assert_edited("v 1.0 2.00 3 .1 .2 .3\n", first, "v 0.1 2.00 -1e+300 .1 .2 .3\n");
@@ -374,7 +380,7 @@ static void shared_normals_are_split_only_where_they_differ(void **state)
         /* the same new value from two `vn` is not shared between them, and unused ones stay */
         {"v 0 0 0\nvn 1 1 1\nvn 5 5 5\nvn 2 2 2\nf 1//1 1//3", both,
          "v 0 0 0\nvn 1 0 0\nvn 5 5 5\nvn 2 0 0\nf 1//1 1//3"},
-        /* after the last `vn`, whatever stands there */
+        /* after the last `vn`, whatever follows it */
         {"vn 0 0 1\r\nv 0 0 0\r\nv 0 0 0\r\nf 1//1 2//1\r\n", one,
          "vn 0 0 1\r\nvn 1 0 0\r\nv 0 0 0\r\nv 0 0 0\r\nf 1//1 2//2\r\n"},
         {"vn 0 0 1\rv 0 0 0\nv 0 0 0\nf 1//1 2//1", one, "vn 0 0 1\rvn 1 0 0\rv 0 0 0\nv 0 0 0\nf 1//1 2//2"},
@@ -489,7 +495,7 @@ static void assert_text_described(const char *text, const char *expected)
 static void a_description_counts_what_the_file_has(void **state)
 {
     (void)state;
-    assert_text_described("",
+    assert_text_described("s off",
                           "{\"vertices\": 0, \"vertices_with_color\": 0, \"normals\": 0, \"texcoords\": 0, "
                           "\"faces\": 0, \"triangles\": 0, \"quads\": 0, \"ngons\": 0, \"lines\": 0, "
                           "\"points\": 0, \"groups\": 0, \"objects\": 0, \"materials\": 0, "
@@ -528,7 +534,7 @@ static void a_comparison_names_the_first_difference(void **state)
         uint64_t compared;
         double max;
     } cases[] = {
-        {"", "", 0, "", 0, 0},
+        {"o", "o", 0, "", 0, 0},
         {"v 1 2 3\n", "v 1 2 3\n", 0, "", 1, 0},
         {"v 1 2 3\n# c\n\nf 1 1 1", "\xEF\xBB\xBF  v\t1.0 2e0 \\\r +3.00 # x\r\nf 1 -1 \\\r\n01\r\n", 0, "",
          1, 0},
@@ -561,9 +567,9 @@ static void a_comparison_names_the_first_difference(void **state)
         {"usemtl 1\n", "usemtl 1.0\n", 0, "usemtl (line 1): \"1\" and \"1.0\"", 0, 0},
         {"mtllib a.mtl\n", "mtllib b.mtl\n", 0, "mtllib (line 1): \"a.mtl\" and \"b.mtl\"", 0, 0},
         {"g a b\n", "g a c\n", 0, "g (line 1): \"b\" and \"c\"", 0, 0},
-        {"foo \x01"
+        {"s\nfoo \x01"
          "a\n",
-         "foo b\n", 0, "foo (line 1): \"?a\" and \"b\"", 0, 0},
+         "s\nfoo b\n", 0, "foo (line 2): \"?a\" and \"b\"", 0, 0},
         {"v 1 2 3\nv 0 0 0\nf 1 2 2", "v 1 2 4\nv 0 5 0\nf 1 2 1", 0, "vertex 1 (line 1): z differs by 1", 2,
          5},
     };

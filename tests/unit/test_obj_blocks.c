@@ -37,6 +37,8 @@ static const char *const pieces[] = {
     "\\\r\n",
     "\\\r",
     "\\",
+    "\\ \n",
+    "v 1 2 \\\t\r\n 3",
     " ",
     "\t",
     "#",

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "../support/mesh_bytes.h"
+#include "../support/repetitions.h"
 #include "base/text/buffer.h"
 #include "io/ply/ply_document.h"
 #include "io/ply/ply_format.h"
@@ -134,7 +135,7 @@ static const refused_text refused[] = {
     {"", FFD_E_INVALID, 1, "\"ply\""},
     {"plyx\n", FFD_E_INVALID, 1, "\"ply\""},
     {" ply\nformat ascii 1.0\nend_header\n", FFD_E_INVALID, 1, "\"ply\""},
-    {"\xef\xbb\xbfply\n", FFD_E_INVALID, 1, "\"ply\""},
+    {"\xef\xbb\xbf ply\n", FFD_E_INVALID, 1, "\"ply\""},
     {"ply", FFD_E_INVALID, 1, "end_header"},
     {"ply\n", FFD_E_INVALID, 1, "end_header"},
     {"ply\nend_header\n", FFD_E_INVALID, 2, "format"},
@@ -166,8 +167,8 @@ static const refused_text refused[] = {
      FFD_E_INVALID, 3, "property y"},
     {ONE, FFD_E_INVALID, 6, "end_header"},
     {ONE "comment end_header\n", FFD_E_INVALID, 7, "end_header"},
-    {ONE "end_header\n", FFD_E_INVALID, 3, "1 rows"},
-    {ONE "end_header\n1 2\n", FFD_E_INVALID, 3, "1 rows"},
+    {ONE "end_header\n", FFD_E_INVALID, 3, "1 row"},
+    {ONE "end_header\n1 2\n", FFD_E_INVALID, 3, "1 row"},
     {ONE "end_header\n1 2    \n", FFD_E_INVALID, 8, "the line ends before z"},
     {ONE "end_header\n1 2 3 4\n", FFD_E_INVALID, 8, "\"4\""},
     {ONE "end_header\n\n\n1 two 3\n", FFD_E_INVALID, 10, "\"two\""},
@@ -180,7 +181,7 @@ static const refused_text refused[] = {
     {ONE FACE "end_header\n1 2 3\n1 0 0\n", FFD_E_INVALID, 11, "goes on"},
     {ASCII "element vertex 9223372036854775809\n" XYZ "end_header\n1 2 3\n", FFD_E_INVALID, 3, "rows"},
     {ASCII "element vertex 4294967296\n" XYZ "end_header\n", FFD_E_INVALID, 3, "rows"},
-    {LITTLE "element vertex 1\n" XYZ "end_header\n01234567890", FFD_E_INVALID, 3, "1 rows of 12 bytes"},
+    {LITTLE "element vertex 1\n" XYZ "end_header\n01234567890", FFD_E_INVALID, 3, "1 row of 12 bytes"},
     {LITTLE "element vertex 1537228672809129302\n" XYZ "end_header\n01234567", FFD_E_INVALID, 3, "rows"},
     {LITTLE "element face 2\nproperty list char int vertex_index\nelement vertex 1\n" XYZ
             "end_header\n\x01\x01\x01\x01\x01\xff"
@@ -535,17 +536,19 @@ static void bad_faces_are_refused_with_their_line(void **state)
 {
     (void)state;
     static const refused_text cases[] = {
-        {ONE FACE "end_header\n1 2 3\n2 0 1\n", FFD_E_INVALID, 11,
-         "face 0 (counted from 0): 1 is not an index"},
-        {ONE FACE "end_header\n1 2 3\n1 -1\n", FFD_E_INVALID, 11, "-1 is not an index"},
-        {ONE FACE "end_header\n1 2 3\n1 0.5\n", FFD_E_INVALID, 11, "0.5 is not an index"},
-        {ONE FACE "end_header\n1 2 3\n1 a\n", FFD_E_INVALID, 11, "a is not an index"},
+        {ONE FACE "end_header\n1 2 3\n2 0 1\n", FFD_E_INVALID, 11, "face 0: there is no vertex 1, only 1"},
+        {ONE FACE "end_header\n1 2 3\n1 -1\n", FFD_E_INVALID, 11, "there is no vertex -1, only 1"},
+        {ONE FACE "end_header\n1 2 3\n1 0.5\n", FFD_E_INVALID, 11, "there is no vertex 0.5, only 1"},
+        {ONE FACE "end_header\n1 2 3\n1 a\n", FFD_E_INVALID, 11, "there is no vertex a, only 1"},
         {LITTLE "element face 1\nproperty list char int vertex_index\nelement vertex 1\n" XYZ
                 "end_header\n\x01\xff\xff\xff\xff"
                 "0123456789ab",
-         FFD_E_INVALID, 0, "-1 is not an index of the 1 vertices"},
-        {ONE "element tristrips 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n3 0 0 0\n",
-         FFD_E_UNSUPPORTED, 7, "tristrips"},
+         FFD_E_INVALID, 0, "there is no vertex -1, only 1"},
+        {ONE
+         "element tristrips 2\nproperty list int int vertex_indices\nend_header\n1 2 3\n1 0\n4 0 0 -1 1\n",
+         FFD_E_INVALID, 12, "strip 1: there is no vertex 1, only 1"},
+        {ONE "element tristrips 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n1 -2\n",
+         FFD_E_INVALID, 11, "strip 0: there is no vertex -2, only 1"},
     };
     for (size_t i = 0; i < COUNT(cases); i++) {
         mesh_faces faces;
@@ -567,6 +570,8 @@ static void missing_or_empty_face_lists_give_no_faces(void **state)
         ONE "element face 4000000000000000000\nend_header\n1 2 3\n",
         ONE "element face 1\nproperty int vertex_index\nend_header\n1 2 3\n7\n",
         ONE "element tristrips 0\nproperty list int int vertex_indices\nend_header\n1 2 3\n",
+        ONE "element tristrips 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n5 0 0 0 -1 -1\n",
+        ONE "element tristrips 1\nproperty int n\nend_header\n1 2 3\n5\n",
     };
     for (size_t i = 0; i < COUNT(texts); i++) {
         mesh_faces faces;
@@ -681,10 +686,11 @@ static void files_with_a_changed_byte_are_read_or_refused(void **state)
     (void)state;
     static const char values[] = {0, '\n', '\r', ' ', '9', '-', 'e', (char)0x80, (char)0xff};
     draw d = {draw_seed()};
+    const size_t apart = (size_t)stride(5);
     size_t opened_files = 0, refused_files = 0;
     for (size_t k = 0; k < 3; k++) {
         sample s = make_sample(kind_of(k));
-        for (size_t at = 0; at < s.bytes.size; at++)
+        for (size_t at = 0; at < s.bytes.size; at += apart)
             for (size_t v = 0; v < COUNT(values); v++) {
                 const char kept = s.bytes.data[at];
                 s.bytes.data[at] = values[v];
@@ -695,7 +701,7 @@ static void files_with_a_changed_byte_are_read_or_refused(void **state)
             }
         ffd_buffer_free(&s.bytes);
     }
-    assert_true(opened_files > 1000 && refused_files > 1000);
+    assert_true(opened_files > 1000 / apart && refused_files > 1000 / apart);
 }
 
 static void every_failed_allocation_is_reported(void **state)

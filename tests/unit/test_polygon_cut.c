@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "../support/repetitions.h"
 #include "base/memory/memory.h"
 #include "mesh/polygon_cut.h"
 #include <math.h>
@@ -221,7 +222,7 @@ static void degenerate_polygons_end(void **state)
 static void tangles_end_soon(void **state)
 {
     (void)state;
-    const size_t count = 20000;
+    const size_t count = (size_t)repetitions(20000);
     double *points = calloc(count, 3 * sizeof *points);
     uint32_t *triangles = calloc(count, 3 * sizeof *triangles);
     polygon_cutter cutter = {0};

@@ -6,10 +6,13 @@
 #include <cmocka.h>
 
 #include "../support/draw.h"
+#include "../support/repetitions.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "job/chain/chain_apply.h"
 #include "job/judge/edge_list.h"
 #include "job/judge/quality.h"
+#include "job/judge/quality_edges.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -93,7 +96,8 @@ static edge_quality measure(const sample *s, int threads)
 {
     edge_quality quality;
     memset(&quality, 0xff, sizeof quality);
-    assert_int_equal(ffd_quality_edges(&s->faces, s->deformed, &s->chain, threads, &quality, NULL), FFD_OK);
+    assert_int_equal(ffd_quality_edges(NULL, &s->faces, s->deformed, &s->chain, threads, &quality, NULL),
+                     FFD_OK);
     return quality;
 }
 
@@ -362,7 +366,7 @@ static double least_found(draw *d, int rounds, int lowest_degree, bool two_links
         add_random_lattice(&s, d, lowest_degree, 0, 1);
         if (two_links)
             add_random_lattice(&s, d, lowest_degree, -1, 2);
-        for (int e = 0; e < 16; e++) {
+        for (int e = 0; e < repetitions(16); e++) {
             double positions[6];
             draw_edge(d, positions);
             set_mesh(&s, 2, positions, 1, 2, corners);
@@ -630,7 +634,7 @@ static void every_failed_allocation_is_reported(void **state)
         edge_quality quality;
         ffd_error error = {0};
         ffd_alloc_fail_after(failures);
-        status = ffd_quality_edges(&s.faces, s.deformed, &s.chain, 1, &quality, &error);
+        status = ffd_quality_edges(NULL, &s.faces, s.deformed, &s.chain, 1, &quality, &error);
         ffd_alloc_fail_after(-1);
         if (status) {
             assert_int_equal(status, FFD_E_MEMORY);

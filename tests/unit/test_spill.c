@@ -84,7 +84,7 @@ static void without_a_folder_they_stay_in_memory(void **state)
     unsetenv("TMPDIR");
 }
 
-/* A limit on the size of files stands for a disk that is full. */
+/* A limit on the size of files imitates a full disk. */
 static void a_full_disk_brings_them_back(void **state)
 {
     (void)state;

@@ -200,8 +200,8 @@ static void binary_that_is_too_short_is_refused(void **state)
          "is not an STL file: it neither begins with \"solid\" nor has, with 83 bytes, the 84 of a binary "
          "file's "
          "header"},
-        {1, 84, "1 facets are stated, which take 134 bytes: the file has 84"},
-        {1, 133, "1 facets are stated, which take 134 bytes: the file has 133"},
+        {1, 84, "1 facet is stated, which takes 134 bytes: the file has 84"},
+        {1, 133, "1 facet is stated, which takes 134 bytes: the file has 133"},
         {2, 134, "2 facets are stated, which take 184 bytes: the file has 134"},
         {UINT32_MAX, 134, "4294967295 facets are stated, which take 214748364834 bytes: the file has 134"},
     };

@@ -339,7 +339,7 @@ static void a_mesh_without_faces_has_only_vertices(void **state)
     expect(&s, (mesh_topology){.vertices = 4, .isolated_vertices = 4});
 }
 
-/* Vertices for which others stand are no vertices at all; one that nobody needs still is. */
+/* Vertices that others represent do not count as vertices; one that no face uses still does. */
 static void repeated_vertices_are_not_counted(void **state)
 {
     (void)state;

@@ -1,3 +1,4 @@
+/* Sine, cosine and arc tangent: exact at multiples of 30 and 45 degrees, within an ulp elsewhere. */
 #include "base/vector/trig.h"
 #include <float.h>
 #include <math.h>

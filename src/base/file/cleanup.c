@@ -17,12 +17,12 @@ struct cleanup_entry {
     pid_t owner;
 };
 
-/* Those that end a program which does nothing about them, and come from outside or from a pipe. */
+/* The signals from outside or from a pipe that end a program without a handler for them. */
 static const int signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM};
 enum { SIGNALS = sizeof signals / sizeof *signals };
 
 static atomic_flag held = ATOMIC_FLAG_INIT;
-static atomic_bool is_over;     /* a handler waits for the lock, or has it: nobody else is to get it */
+static atomic_bool is_over;     /* a handler waits for the lock or holds it: nobody else may take it */
 static cleanup_entry *newest;   /* while held */
 static sigset_t mask_of_holder; /* before it held; while held */
 
@@ -114,7 +114,7 @@ static void clean_up(int signal)
     raise(signal);
 }
 
-/* The lock may be held by the thread that has crashed: then nothing is known of the list. */
+/* The thread that crashed may hold the lock: the state of the list is then unknown. */
 static void clean_up_crash(int signal)
 {
     int tries = 1000;
@@ -126,7 +126,7 @@ static void clean_up_crash(int signal)
     raise(signal);
 }
 
-/* Where nothing is done about them yet. */
+/* Installs the handler for signals that have none yet. */
 static void install(void (*handler)(int signal), const int *numbers, int count)
 {
     struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND}, old;

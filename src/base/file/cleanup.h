@@ -1,5 +1,5 @@
-/* cleanup.h - what a signal that ends the program shall not leave behind: temporary files, and folders that
-   were made for them.
+/* cleanup.h - what must be removed when a signal ends the program: temporary files, and folders
+   that were made for them.
 
    The list is guarded by a lock that its holder keeps only while signals wait, so that a handler can take it:
    in the holder's thread no handler runs, in other threads the handler waits its turn. The list lives in

@@ -48,10 +48,34 @@ void ffd_folder_unmake(char *path, size_t made)
     }
 }
 
+bool ffd_folders_differ(const char *file, const char *other)
+{
+    char *const here = ffd_path_folder(file), *const there = ffd_path_folder(other);
+    const bool differ = here && there && !ffd_file_same(here, there);
+    ffd_free(here);
+    ffd_free(there);
+    return differ;
+}
+
 char *ffd_path_resolve(const char *path)
 {
     char *resolved = realpath(path, NULL);
     char *copy = resolved ? ffd_text_copy(resolved) : NULL;
     free(resolved);
     return copy;
+}
+
+ffd_status ffd_path_turn_slashes(char *name, const char *folder, bool *turned, ffd_error *error)
+{
+    *turned = false;
+    if (!strchr(name, '\\'))
+        return FFD_OK;
+    char *const path = ffd_path_join(folder, name);
+    if (!path)
+        return ffd_fail_memory(error);
+    *turned = !ffd_file_exists(path);
+    ffd_free(path);
+    for (char *c = name; *turned && *c; c++)
+        *c = (char)(*c == '\\' ? '/' : *c);
+    return FFD_OK;
 }

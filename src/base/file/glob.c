@@ -1,10 +1,63 @@
+#define _DEFAULT_SOURCE /* GLOB_ALTDIRFUNC */
 #include "base/file/glob.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/system/interrupt.h"
+#include <dirent.h>
 #include <errno.h>
 #include <glob.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+/* A folder may have millions of files, and be on a slow disk: after a request to end there are no more. */
+#ifdef GLOB_ALTDIRFUNC
+#define OWN_CALLS GLOB_ALTDIRFUNC
+
+static void *open_folder(const char *path)
+{
+    if (!ffd_interrupt_requested())
+        return opendir(path);
+    errno = EINTR;
+    return NULL;
+}
+
+static void close_folder(void *folder)
+{
+    closedir(folder);
+}
+
+static void *next_entry(void *folder)
+{
+    return ffd_interrupt_requested() ? NULL : readdir(folder);
+}
+
+static int look_at(const char *path, void *info)
+{
+    return stat(path, info);
+}
+
+static int look_at_link(const char *path, void *info)
+{
+    return lstat(path, info);
+}
+
+static void use_own_calls(glob_t *found)
+{
+    found->gl_opendir = open_folder;
+    found->gl_readdir = next_entry;
+    found->gl_closedir = close_folder;
+    found->gl_stat = look_at;
+    found->gl_lstat = look_at_link;
+}
+#else
+#define OWN_CALLS 0
+
+static void use_own_calls(glob_t *found)
+{
+    (void)found;
+}
+#endif
 
 static int compare(const void *a, const void *b)
 {
@@ -15,7 +68,7 @@ static int refuse(const char *path, int reason)
 {
     (void)path;
     errno = reason;
-    return reason != ENOENT && reason != ENOTDIR; /* in a folder that is not there nothing matches */
+    return reason != ENOENT && reason != ENOTDIR; /* nothing matches in a folder that does not exist */
 }
 
 static ffd_status copy(const glob_t *found, file_list *list, ffd_error *error)
@@ -35,17 +88,18 @@ static ffd_status copy(const glob_t *found, file_list *list, ffd_error *error)
 
 ffd_status ffd_glob(const char *pattern, file_list *list, ffd_error *error)
 {
-    glob_t found;
+    glob_t found = {0};
     *list = (file_list){0};
+    use_own_calls(&found);
     errno = 0;
-    const int result = glob(pattern, GLOB_NOSORT, refuse, &found);
+    const int result = glob(pattern, GLOB_NOSORT | OWN_CALLS, refuse, &found);
     const int reason = errno;
     ffd_status status = FFD_OK;
-    if (result == 0)
-        status = copy(&found, list, error);
-    else if (result == GLOB_NOSPACE)
+    if (result == GLOB_NOSPACE)
         status = ffd_fail_memory(error);
-    else if (result != GLOB_NOMATCH)
+    else if (result == 0 && !ffd_interrupt_requested())
+        status = copy(&found, list, error);
+    else if (result == GLOB_ABORTED && !ffd_interrupt_requested())
         status = ffd_fail_file(error, FFD_E_IO, pattern, "a folder cannot be read: %s", strerror(reason));
     if (result != GLOB_NOSPACE)
         globfree(&found);

@@ -12,20 +12,20 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What a stream without end is cut off at. */
+/* The most bytes that are read of a stream that does not end. */
 #define LONGEST_STREAM ((size_t)1 << 32)
 /* Bytes of two files that are in memory while they are compared: a multiple of any page. */
 #define COMPARED ((size_t)1 << 22)
 
-/* Files of fewer bytes are read: to map them would take longer. A mapped page costs a fault, and to give it
-   back stops every processor that the program runs on; under some hypervisors each takes as long as reading a
-   hundred kilobytes. */
+/* Smaller files are read, since mmap would take longer. A mapped page costs a page fault, and releasing
+   it stops every processor that the program runs on; under some hypervisors each takes as long as
+   reading a hundred kilobytes. */
 #define SMALL ((size_t)1 << 18)
 
 /* Fewer bytes are not prefaulted. */
 #define LEAST_PREFAULT ((size_t)1 << 16)
 
-/* Bytes that are given back at a time where a file is read from start to end: a multiple of any page size. */
+/* Bytes that are released at a time while a file is read from start to end: a multiple of any page size. */
 #define RELEASE_UNIT ((size_t)1 << 23)
 
 static const unsigned char nothing[1] = {0};
@@ -33,7 +33,7 @@ static const unsigned char nothing[1] = {0};
 /* Read from the descriptor's current position instead of an offset in its file. */
 #define FROM_HERE ((off_t)-1)
 
-/* As many bytes as come at once. *got: 0 at the end. */
+/* Reads as many bytes as one call gives. *got: 0 at the end. */
 static ffd_status read_piece(int fd, const char *name, off_t offset, void *to, size_t size, size_t *got,
                              ffd_error *error)
 {
@@ -75,8 +75,8 @@ static ffd_status fail_room(const char *name, size_t size, ffd_error *error)
     return ffd_fail_file(error, FFD_E_MEMORY, name, "out of memory for %zu bytes", size);
 }
 
-/* Like a memory mapping: the whole file, whatever the descriptor's position, without bytes that are appended
- * meanwhile. */
+/* Like a memory mapping: the whole file, whatever the descriptor's position, without bytes that
+   are appended meanwhile. */
 static ffd_status read_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
 {
     unsigned char *const block = ffd_alloc(size, 1);
@@ -88,6 +88,8 @@ static ffd_status read_file(int fd, const char *name, size_t size, file_input *i
         status = read_piece(fd, name, (off_t)done, block + done, size - done, &got, error);
         done += got;
     } while (!status && got > 0 && done < size);
+    if (!status && done < size)
+        status = ffd_fail_file(error, FFD_E_IO, name, "became shorter while it was read");
     if (status)
         ffd_free(block);
     else
@@ -95,12 +97,20 @@ static ffd_status read_file(int fd, const char *name, size_t size, file_input *i
     return status;
 }
 
-static ffd_status map_file(int fd, const char *name, size_t size, file_input *input, ffd_error *error)
+static ffd_status map_file(int fd, const char *name, const struct stat *info, file_input *input,
+                           ffd_error *error)
 {
+    const size_t size = (size_t)info->st_size;
+    const uint64_t identity[2] = {(uint64_t)info->st_dev, (uint64_t)info->st_ino};
     void *block = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
     if (block == MAP_FAILED)
         return errno == ENOMEM ? fail_room(name, size, error) : read_stream(fd, name, input, error);
-    *input = (file_input){.data = block, .size = size, .block = block, .mapped = true};
+    file_mapping *const mapping = ffd_mapping_note(block, size, name, fd == STDIN_FILENO ? NULL : identity);
+    if (!mapping) {
+        munmap(block, size);
+        return ffd_fail_memory(error);
+    }
+    *input = (file_input){.data = block, .size = size, .block = block, .mapped = true, .mapping = mapping};
     return FFD_OK;
 }
 
@@ -124,6 +134,16 @@ bool ffd_stamp_equal(const file_stamp *a, const file_stamp *b)
     return memcmp(a, b, sizeof *a) == 0; /* there is nothing between the members */
 }
 
+bool ffd_stamps_hold(char *const *paths, const file_stamp *stamps, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        file_stamp now;
+        if (!ffd_file_stamp(paths[i], &now) || !ffd_stamp_equal(&now, &stamps[i]))
+            return false;
+    }
+    return true;
+}
+
 bool ffd_file_is_stream(const char *path)
 {
     static const char *const names[] = {"/dev/stdin", "/dev/fd/", "/proc/self/fd/", "/dev/null"};
@@ -135,7 +155,7 @@ bool ffd_file_is_stream(const char *path)
     return false;
 }
 
-/* A pipe or device that lies among files may never give anything, or never end. */
+/* A pipe or device among the files may never give anything, or never end. */
 static ffd_status refuse_special(int fd, const char *path, ffd_error *error)
 {
     struct stat info;
@@ -159,7 +179,7 @@ static ffd_status load_descriptor(int fd, const char *name, size_t least_mapped,
         return ffd_fail_file(error, FFD_E_LIMIT, name, "is too large for this machine");
     const size_t size = (size_t)info.st_size;
     const ffd_status status = size < least_mapped ? read_file(fd, name, size, input, error)
-                                                  : map_file(fd, name, size, input, error);
+                                                  : map_file(fd, name, &info, input, error);
     input->identity[0] = (uint64_t)info.st_dev;
     input->identity[1] = (uint64_t)info.st_ino;
     return status;
@@ -199,7 +219,7 @@ static bool is_inside(const char *folder, const char *path)
     return strncmp(folder, path, length) == 0 && path[length] == '/';
 }
 
-ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by,
+ffd_status ffd_file_load_within(const char *folder, const char *relative, const char *named_by, size_t *most,
                                 file_input *input, ffd_error *error)
 {
     *input = (file_input){.data = nothing};
@@ -222,7 +242,9 @@ ffd_status ffd_file_load_within(const char *folder, const char *relative, const 
     else if (stat(path, &info) != 0 || !S_ISREG(info.st_mode))
         status = ffd_fail_file(error, FFD_E_IO, named_by, "\"%s\" is not a file", relative);
     else
-        status = ffd_file_map(path, input, error);
+        status = load(path, *most < SMALL ? *most + 1 : SMALL, input, error);
+    if (!status && !input->mapped)
+        *most -= input->size < *most ? input->size : *most;
     free(root);
     free(path);
     ffd_free(joined);
@@ -231,10 +253,12 @@ ffd_status ffd_file_load_within(const char *folder, const char *relative, const 
 
 void ffd_file_unload(file_input *input)
 {
-    if (input->mapped)
+    if (input->mapped) {
+        ffd_mapping_forget(input->mapping);
         munmap(input->block, input->size);
-    else
+    } else {
         ffd_free(input->block);
+    }
     *input = (file_input){.data = nothing};
 }
 

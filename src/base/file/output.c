@@ -1,6 +1,7 @@
-#define _DEFAULT_SOURCE /* flock, realpath */
+#define _GNU_SOURCE /* realpath, statx */
 #include "base/file/output.h"
 #include "base/file/cleanup.h"
+#include "base/file/file_set.h"
 #include "base/file/folder.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
@@ -12,19 +13,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Bytes that are held back until they are worth a call of the system. */
+/* Bytes that are buffered before a system call writes them. */
 #define BLOCK ((size_t)1 << 16)
 
 typedef struct output_file {
-    char *target;    /* where it shall appear; links are followed beforehand */
+    char *target;    /* where it will appear, with links resolved */
     char *temporary; /* NULL where bytes go straight to the target: standard output, devices */
     cleanup_entry *noted;
     int fd; /* -1 when closed */
-    bool committed, remove_first;
+    bool force, committed;
+    bool stays_open; /* after the commit too */
 } output_file;
 
 typedef struct output_folder {
@@ -43,14 +44,8 @@ struct file_output {
     unsigned char *block; /* bytes of the last file that are not yet written */
     size_t filled;
     written_files *written; /* or NULL */
+    hash_stream *hash;      /* of the first file's bytes; NULL: not wanted */
 };
-
-static ffd_status fail_errno(ffd_error *error, const char *file, const char *what)
-{
-    const int reason = errno;
-    return ffd_fail_file(error, reason == ENOMEM ? FFD_E_MEMORY : FFD_E_IO, file, "%s: %s", what,
-                         strerror(reason));
-}
 
 ffd_status ffd_output_create(file_output **output, ffd_error *error)
 {
@@ -68,6 +63,19 @@ void ffd_output_record(file_output *output, written_files *written)
     output->written = written;
 }
 
+void ffd_output_hash(file_output *output)
+{
+    output->hash = ffd_hash_stream_create(); /* without memory there is none */
+}
+
+bool ffd_output_hash_value(const file_output *output, hash128 *hash)
+{
+    const bool is_known = output->hash && output->count == 1 && output->files[0].temporary;
+    if (is_known)
+        *hash = ffd_hash_stream_value(output->hash);
+    return is_known;
+}
+
 static ffd_status refuse_written(const file_output *output, const char *path, ffd_error *error)
 {
     if (!output->written || !ffd_written_holds(output->written, path))
@@ -76,7 +84,7 @@ static ffd_status refuse_written(const file_output *output, const char *path, ff
                          "was written by this run already, under this name or another");
 }
 
-/* No target may be one of the record's, also none that has come to be since it was begun. */
+/* No target may be a file of the record, nor have become one since it was begun. */
 static ffd_status refuse_recorded(const file_output *output, ffd_error *error)
 {
     ffd_status status = FFD_OK;
@@ -97,7 +105,7 @@ static ffd_status record_files(const file_output *output, bool stays, ffd_error 
         if (!file->temporary)
             continue;
         if (!ffd_file_stamp(stays ? file->target : file->temporary, &stamp))
-            return fail_errno(error, file->target, "cannot be written");
+            return ffd_fail_errno(error, file->target, "cannot be written");
         status = ffd_written_add(output->written, &stamp, file->target, error);
     }
     return status;
@@ -113,9 +121,10 @@ static int stream_of(const char *path)
     if (strcmp(path, "/dev/stderr") == 0)
         return STDERR_FILENO;
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const char *number = path + strlen(names[i]);
-        if (strncmp(path, names[i], strlen(names[i])) == 0 && *number && strlen(number) < 9 &&
-            number[strspn(number, "0123456789")] == 0)
+        if (strncmp(path, names[i], strlen(names[i])) != 0)
+            continue;
+        const char *const number = path + strlen(names[i]);
+        if (*number && strlen(number) < 9 && number[strspn(number, "0123456789")] == 0)
             return atoi(number);
     }
     return -1;
@@ -132,20 +141,79 @@ static const char *shown(const char *path)
     return stream_of(path) == STDOUT_FILENO ? "standard output" : path;
 }
 
+/* What neither holds an output nor takes one without a wait. */
+static ffd_status refuse_special(const struct stat *info, const char *path, ffd_error *error)
+{
+    if (S_ISDIR(info->st_mode))
+        return ffd_fail_file(error, FFD_E_IO, path, "is a folder");
+    if (S_ISREG(info->st_mode) || S_ISCHR(info->st_mode))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_IO, path, "is a %s, not a file (- writes to standard output)",
+                         S_ISFIFO(info->st_mode)   ? "pipe"
+                         : S_ISSOCK(info->st_mode) ? "socket"
+                                                   : "device");
+}
+
+/* Whether the file of this name is the place of a mount, or may not be changed. */
+static bool is_fixed(const char *path)
+{
+#ifdef STATX_ATTR_MOUNT_ROOT
+    struct statx info;
+    return statx(AT_FDCWD, path, 0, 0, &info) == 0 &&
+           info.stx_attributes & (STATX_ATTR_MOUNT_ROOT | STATX_ATTR_IMMUTABLE | STATX_ATTR_APPEND);
+#else
+    (void)path;
+    return false;
+#endif
+}
+
+/* Whether a folder lets only their owners rename its files, and this user is none of them. */
+static bool is_held_by_folder(const char *path, const struct stat *info)
+{
+    struct stat folder = {0};
+    if (geteuid() == 0 || geteuid() == info->st_uid)
+        return false;
+    char *const target = realpath(path, NULL), *const name = target ? ffd_path_folder(target) : NULL;
+    const bool found = name && stat(name, &folder) == 0;
+    free(target);
+    ffd_free(name);
+    return found && folder.st_mode & S_ISVTX && geteuid() != folder.st_uid;
+}
+
+/* What would come out only when the new file is complete, and others may have been replaced. */
+static ffd_status check_replaceable(const char *path, const struct stat *info, ffd_error *error)
+{
+    if (is_fixed(path))
+        return ffd_fail_file(error, FFD_E_IO, path, "cannot be replaced: it is mounted here, or immutable");
+    if (is_held_by_folder(path, info))
+        return ffd_fail_file(
+            error, FFD_E_IO, path,
+            "cannot be replaced: it belongs to another user, in a folder with the sticky bit");
+    return FFD_OK;
+}
+
+static ffd_status fail_exists(const char *path, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already (--force overwrites it)");
+}
+
 static ffd_status check_target(const char *path, bool force, struct stat *info, bool *exists,
                                ffd_error *error)
 {
     *exists = stat(path, info) == 0;
     if (!*exists) {
         if (errno != ENOENT)
-            return fail_errno(error, path, "cannot be written");
+            return ffd_fail_errno(error, path, "cannot be written");
+        if (lstat(path, info) == 0)
+            return ffd_fail_file(error, FFD_E_IO, path, "is a link that leads to no file");
         return FFD_OK;
     }
-    if (S_ISDIR(info->st_mode))
-        return ffd_fail_file(error, FFD_E_IO, path, "is a folder");
-    if (S_ISREG(info->st_mode) && !force)
-        return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already (--force overwrites it)");
-    return FFD_OK;
+    const ffd_status status = refuse_special(info, path, error);
+    if (status)
+        return status;
+    if (!S_ISREG(info->st_mode))
+        return FFD_OK;
+    return force ? check_replaceable(path, info, error) : fail_exists(path, error);
 }
 
 ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
@@ -165,6 +233,17 @@ ffd_status ffd_output_check(const char *path, bool force, ffd_error *error)
         result = ffd_fail_file(error, FFD_E_IO, path, "cannot be written: there is no folder \"%s\"", folder);
     ffd_free(folder);
     return result;
+}
+
+/* Opens a character device, without a wait for what stands behind it. */
+static ffd_status open_device(output_file *file, const char *path, ffd_error *error)
+{
+    struct stat info;
+    file->fd = open(path, O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (file->fd < 0 || fstat(file->fd, &info) != 0 ||
+        fcntl(file->fd, F_SETFL, fcntl(file->fd, F_GETFL) & ~O_NONBLOCK) != 0)
+        return ffd_fail_errno(error, path, "cannot be written");
+    return S_ISCHR(info.st_mode) ? FFD_OK : ffd_fail_file(error, FFD_E_IO, path, "is no device any more");
 }
 
 /* *busy: it failed because another run is writing the target. */
@@ -188,7 +267,7 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
         if (*busy)
             return ffd_fail_file(error, FFD_E_IO, path, "is being written by another run");
         errno = reason;
-        return fail_errno(error, path, "cannot be written");
+        return ffd_fail_errno(error, path, "cannot be written");
     }
     /* Only root can give a file away; for others it is theirs already, or must stay so. */
     if (old && (old->st_uid != geteuid() || old->st_gid != getegid())) {
@@ -196,8 +275,21 @@ static ffd_status open_beside(output_file *file, const char *path, const struct 
         (void)given;
     }
     if (old && fchmod(file->fd, old->st_mode & 0777) != 0)
-        return fail_errno(error, path, "its permissions cannot be kept");
+        return ffd_fail_errno(error, path, "its permissions cannot be kept");
     return FFD_OK;
+}
+
+/* Removes the temporary file, and gives up its lock. */
+static void drop_temporary(output_file *file)
+{
+    ffd_cleanup_hold();
+    unlink(file->temporary);
+    ffd_cleanup_strike(&file->noted);
+    ffd_cleanup_release();
+    close(file->fd);
+    file->fd = -1;
+    ffd_free(file->temporary);
+    file->temporary = NULL;
 }
 
 static ffd_status write_all(const output_file *file, const unsigned char *bytes, size_t size,
@@ -209,7 +301,7 @@ static ffd_status write_all(const output_file *file, const unsigned char *bytes,
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
-            return fail_errno(error, shown(file->target), "cannot be written");
+            return ffd_fail_errno(error, shown(file->target), "cannot be written");
         done += (size_t)written;
     }
     return FFD_OK;
@@ -235,7 +327,7 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
     if (!ffd_grow((void **)&output->files, &output->capacity, output->count + 1, sizeof *output->files))
         return ffd_fail_memory(error);
     output_file *file = &output->files[output->count];
-    *file = (output_file){.fd = -1};
+    *file = (output_file){.fd = -1, .force = force};
 
     struct stat info;
     bool exists = false;
@@ -253,16 +345,19 @@ ffd_status ffd_output_begin(file_output *output, const char *path, bool force, f
 
     if (ffd_output_is_stream(path)) {
         file->fd = dup(stream_of(path));
-        return file->fd < 0 ? fail_errno(error, shown(path), "cannot be written") : FFD_OK;
+        return file->fd < 0 ? ffd_fail_errno(error, shown(path), "cannot be written") : FFD_OK;
     }
     status = exists ? refuse_written(output, path, error) : FFD_OK;
     if (status)
         return status;
-    if (exists && !S_ISREG(info.st_mode)) {
-        file->fd = open(path, O_WRONLY | O_CLOEXEC);
-        return file->fd < 0 ? fail_errno(error, path, "cannot be written") : FFD_OK;
-    }
+    if (exists && !S_ISREG(info.st_mode))
+        return open_device(file, path, error);
     status = open_beside(file, path, exists ? &info : NULL, &output->was_busy, error);
+    /* Another run may have placed the target before the name was locked for this one. */
+    if (!status && !force && lstat(file->target, &info) == 0) {
+        status = fail_exists(path, error);
+        drop_temporary(file);
+    }
     if (status && file->fd < 0) { /* as if it had not been begun */
         ffd_free(file->target);
         output->count--;
@@ -296,6 +391,8 @@ ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size,
     const ffd_status status = size > BLOCK - output->filled ? flush(output, error) : FFD_OK;
     if (status)
         return status;
+    if (output->hash && output->count == 1)
+        ffd_hash_stream_add(output->hash, bytes, size);
     if (size >= BLOCK)
         return write_all(&output->files[output->count - 1], bytes, size, error);
     if (size > 0)
@@ -304,9 +401,10 @@ ffd_status ffd_output_write(file_output *output, const void *bytes, size_t size,
     return FFD_OK;
 }
 
-void ffd_output_remove_first(file_output *output)
+int ffd_output_keep_open(file_output *output)
 {
-    output->files[output->count - 1].remove_first = true;
+    output->files[output->count - 1].stays_open = true;
+    return output->files[output->count - 1].fd;
 }
 
 /* Some file systems report a full disk only when a file is closed. Closing a twin asks them, while the old
@@ -317,7 +415,7 @@ static ffd_status check_written(const file_output *output, ffd_error *error)
         const output_file *file = &output->files[i];
         const int twin = file->temporary ? dup(file->fd) : -1;
         if (file->temporary && (twin < 0 || close(twin) != 0))
-            return fail_errno(error, file->target, "cannot be written");
+            return ffd_fail_errno(error, file->target, "cannot be written");
     }
     return FFD_OK;
 }
@@ -327,7 +425,7 @@ void ffd_output_keep_equal(file_output *output)
     output->keeps_equal = true;
 }
 
-/* Whether a target has the bytes already that were written for it. One that cannot be read has not. */
+/* Whether a target already has the bytes that were written for it; false if it cannot be read. */
 static bool is_equal(const output_file *file)
 {
     file_input bytes;
@@ -348,31 +446,58 @@ static bool is_to_stay(const file_output *output)
     return true;
 }
 
-/* Takes the temporary file's name away: to the target or, where that stays, altogether. */
-static ffd_status settle_file(output_file *file, bool stays, ffd_error *error)
+/* Lets go of a file that has its name, or whose target stays. */
+static ffd_status settle_file(output_file *file, ffd_error *error)
 {
-    if (file->temporary && (stays ? unlink(file->temporary) : rename(file->temporary, file->target)) != 0)
-        return fail_errno(error, file->target, "cannot be written");
     file->committed = true;
     ffd_cleanup_strike(&file->noted);
+    if (file->stays_open)
+        return FFD_OK;
     /* Closing gives up the lock: only now may another run take the name. */
     const int fd = file->fd;
     file->fd = -1;
-    return close(fd) == 0 ? FFD_OK : fail_errno(error, file->target, "cannot be written");
+    return close(fd) == 0 ? FFD_OK : ffd_fail_errno(error, file->target, "cannot be written");
+}
+
+/* Removes the temporary files: the targets stay. */
+static ffd_status drop_all(const file_output *output, ffd_error *error)
+{
+    for (size_t i = 0; i < output->count; i++) {
+        const output_file *const file = &output->files[i];
+        if (file->temporary && unlink(file->temporary) != 0)
+            return ffd_fail_errno(error, file->target, "cannot be written");
+    }
+    return FFD_OK;
+}
+
+/* Renames the temporary files to the targets. */
+static ffd_status place_all(file_output *output, ffd_error *error)
+{
+    size_t count = 0;
+    set_file *const files = ffd_alloc(output->count, sizeof *files);
+    if (!files)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < output->count; i++) {
+        const output_file *const file = &output->files[i];
+        if (file->temporary)
+            files[count++] =
+                (set_file){.target = file->target, .temporary = file->temporary, .replace = file->force};
+    }
+    const ffd_status status = ffd_set_place(files, count, error);
+    for (size_t i = 0, k = 0; i < output->count; i++)
+        if (output->files[i].temporary)
+            output->files[i].committed = files[k++].is_gone;
+    ffd_free(files);
+    return status;
 }
 
 static ffd_status settle_all(file_output *output, bool stays, ffd_error *error)
 {
-    for (size_t i = 0; i < output->count && !stays; i++) {
-        output_file *file = &output->files[i];
-        if (file->remove_first && file->temporary && unlink(file->target) != 0 && errno != ENOENT)
-            return fail_errno(error, file->target, "cannot be replaced");
-    }
-    for (size_t i = 0; i < output->count; i++) {
-        const ffd_status status = settle_file(&output->files[i], stays, error);
-        if (status)
-            return status;
-    }
+    ffd_status status = stays ? drop_all(output, error) : place_all(output, error);
+    for (size_t i = 0; i < output->count && !status; i++)
+        status = settle_file(&output->files[i], error);
+    if (status)
+        return status;
     for (size_t i = 0; i < output->folder_count; i++)
         ffd_cleanup_strike(&output->folders[i].noted);
     output->committed = true;
@@ -428,6 +553,7 @@ void ffd_output_destroy(file_output **output)
     ffd_free((*output)->folders);
     ffd_free((*output)->files);
     ffd_free((*output)->block);
+    ffd_free((*output)->hash);
     ffd_free(*output);
     *output = NULL;
 }

@@ -1,5 +1,6 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/buffer.h"
 #include <string.h>
 
 static bool is_separator(char c)
@@ -111,4 +112,61 @@ char *ffd_path_beside(const char *path, const char *name)
 char *ffd_text_copy(const char *text)
 {
     return copy_range(text, strlen(text));
+}
+
+char *ffd_path_normalize(const char *path)
+{
+    char *out = ffd_alloc(strlen(path) + 1, 1);
+    if (!out)
+        return NULL;
+    size_t length = 0, kept = 0; /* kept: length of the leading "/" or "../" */
+    const bool absolute = *path == '/';
+    if (absolute)
+        out[length++] = *path++;
+    kept = length;
+    while (*path) {
+        size_t part = strcspn(path, "/");
+        const bool up = part == 2 && path[0] == '.' && path[1] == '.';
+        if (up && length > kept) {
+            while (length > kept && out[length - 1] != '/')
+                length--;
+            if (length > kept)
+                length--;
+        } else if (part > 0 && !(part == 1 && path[0] == '.') && !(up && absolute)) {
+            if (length > 0 && out[length - 1] != '/')
+                out[length++] = '/';
+            memmove(out + length, path, part);
+            length += part;
+            if (up)
+                kept = length;
+        }
+        path += part;
+        path += *path == '/';
+    }
+    out[length] = 0;
+    return out;
+}
+
+bool ffd_path_leads_out(const char *path)
+{
+    return strcmp(path, "..") == 0 || strncmp(path, "../", 3) == 0;
+}
+
+char *ffd_path_relative(const char *from, const char *to)
+{
+    size_t common = 0;
+    for (size_t i = 0;; i++) {
+        const bool from_ends = from[i] == 0 || from[i] == '/', to_ends = to[i] == 0 || to[i] == '/';
+        if (from_ends && to_ends)
+            common = i;
+        if (from[i] != to[i] || from[i] == 0)
+            break;
+    }
+    byte_buffer out = {0};
+    for (const char *c = from + common; *c; c++)
+        if (*c == '/' && c[1])
+            ffd_buffer_text(&out, "../");
+    to += common;
+    ffd_buffer_text(&out, *to == '/' ? to + 1 : to);
+    return ffd_buffer_finish(&out);
 }

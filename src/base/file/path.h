@@ -16,7 +16,10 @@ bool ffd_path_is_absolute(const char *path);
 /* The path as messages show it: "-" -> "standard input"; others as they are. */
 const char *ffd_path_display_name(const char *path);
 
-/* The functions below return new strings (free with ffd_free); NULL when there is no memory. */
+/* Whether a normalized relative path leads out of its folder. */
+bool ffd_path_leads_out(const char *path);
+
+/* The functions below return new strings (free with ffd_free); NULL if memory runs out. */
 
 /* "a/b.obj" -> "a"; "b.obj" -> "." */
 char *ffd_path_folder(const char *path);
@@ -26,6 +29,10 @@ char *ffd_path_stem(const char *path);
 char *ffd_path_join(const char *folder, const char *name);
 /* "a/b.obj", "c" -> "a/c" */
 char *ffd_path_beside(const char *path, const char *name);
+/* The path with "." and ".." resolved ("a/../b" -> "b"); leading ".." of a relative path stay. */
+char *ffd_path_normalize(const char *path);
+/* The path that leads from the folder `from` to `to`, both absolute and normalized. */
+char *ffd_path_relative(const char *from, const char *to);
 /* A copy of text. */
 char *ffd_text_copy(const char *text);
 

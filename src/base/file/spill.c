@@ -13,7 +13,7 @@
 /* Bytes that are copied at a time: a multiple of any page. */
 #define COPIED ((size_t)1 << 22)
 
-/* A file without a name; -1 where there can be none. */
+/* Opens a file without a name; -1 if that is not possible. */
 static int make_file(void)
 {
     const char *folder = getenv("TMPDIR");
@@ -33,7 +33,7 @@ static int make_file(void)
 }
 
 /* The file's first `size` bytes, which have been allocated on the disk: writing to a page without disk space
- * would end the program. NULL where they cannot be had. */
+   would end the program. NULL if there is no disk space or no memory. */
 static void *map_bytes(int file, size_t size)
 {
     int failure = (size_t)(off_t)size == size ? EINTR : EFBIG;
@@ -56,7 +56,7 @@ static bool grow_mapped(spill_array *array, size_t size)
     return true;
 }
 
-/* Back to memory, where the disk is full. */
+/* Moves the array back to memory because the disk is full. */
 static bool leave_file(spill_array *array, size_t size)
 {
     void *data = ffd_alloc(size, 1);
@@ -68,7 +68,7 @@ static bool leave_file(spill_array *array, size_t size)
     return true;
 }
 
-/* Moves the array into a file; false where there can be none. */
+/* Moves the array into a file. Returns false if there can be none. */
 static bool move_to_file(spill_array *array, size_t size)
 {
     const int file = make_file();

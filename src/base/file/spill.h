@@ -1,6 +1,6 @@
 /* spill.h - arrays that may be larger than memory: beyond a size they are memory-mapped from a temporary file
-   without a name, in the folder TMPDIR or /var/tmp, whose pages can leave memory (but where that is a file
-   system in memory). Where there is no such folder, or it is full, they are in memory. */
+   without a name, in the folder TMPDIR or /var/tmp, whose pages the system can evict (unless that is a file
+   system in memory). If there is no such folder, or it is full, they are in memory. */
 #ifndef FFD_BASE_FILE_SPILL_H
 #define FFD_BASE_FILE_SPILL_H
 
@@ -18,10 +18,9 @@ typedef struct spill_array {
 } spill_array;
 
 /* Grows the capacity to at least `needed` bytes, by half at least; the content is kept, its address may
-   change. An array of zeros is empty. False when there is no memory; nothing is changed then. */
+   change. An array of zeros is empty. Returns false if memory runs out; nothing is changed then. */
 bool ffd_spill_grow(spill_array *array, size_t needed);
-/* For bytes that are not needed for a while: gives back the memory that they take, where they are in a
-   file. Any thread. */
+/* Releases the pages of bytes that are not needed for a while, if they are in a file. Thread-safe. */
 void ffd_spill_release_pages(const spill_array *array, size_t offset, size_t size);
 /* Frees the array and closes its file; the array is empty then. */
 void ffd_spill_free(spill_array *array);

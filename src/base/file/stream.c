@@ -39,7 +39,7 @@ ffd_status ffd_stream_open(const char *path, const char *name, byte_stream **str
     return FFD_OK;
 }
 
-/* Waits so many milliseconds, -1: without limit. */
+/* Waits for this many milliseconds; -1: without limit. */
 static bool wait_for_bytes(const byte_stream *stream, int most)
 {
     struct pollfd ready = {.fd = stream->fd, .events = POLLIN};

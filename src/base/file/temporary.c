@@ -1,4 +1,4 @@
-#define _DEFAULT_SOURCE /* flock, realpath */
+#define _GNU_SOURCE /* flock, realpath, renameat2 */
 #include "base/file/temporary.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
@@ -12,9 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The longest name that file systems take, less what is added to it. */
+/* The longest name that file systems take. */
 #define LONGEST_NAME 255
-#define NAME_SUFFIX ".ffd-tmp"
 
 /* FNV-1a (Fowler, Noll, Vo): distinguishes names that start alike. */
 static unsigned long long digest_of(const char *text)
@@ -25,25 +24,27 @@ static unsigned long long digest_of(const char *text)
     return digest;
 }
 
-char *ffd_temporary_name(const char *target)
+char *ffd_hidden_name(const char *target, const char *ending)
 {
     const char *name = ffd_path_name(target);
     const size_t folder = (size_t)(name - target), length = strlen(name);
-    const size_t capacity = strlen(target) + sizeof "..0123456789abcdef" NAME_SUFFIX;
+    const size_t capacity = strlen(target) + strlen(ending) + sizeof "..0123456789abcdef";
     char *text = ffd_alloc(capacity, 1);
     if (!text)
         return NULL;
-    if (length + sizeof "." NAME_SUFFIX - 1 <= LONGEST_NAME)
-        snprintf(text, capacity, "%.*s.%s" NAME_SUFFIX, (int)folder, target, name);
+    if (1 + length + strlen(ending) <= LONGEST_NAME)
+        snprintf(text, capacity, "%.*s.%s%s", (int)folder, target, name, ending);
     else
-        snprintf(text, capacity, "%.*s.%.200s.%016llx" NAME_SUFFIX, (int)folder, target, name,
-                 digest_of(name));
+        snprintf(text, capacity, "%.*s.%.200s.%016llx%s", (int)folder, target, name, digest_of(name), ending);
     return text;
 }
 
-/* Locks a file against other runs. 1: done; 0: it is no longer the one of that name, as its owner has renamed
-   or removed it between our open and our lock; -1: errno says why not; EBUSY: another run holds it. */
-static int lock_named(int fd, const char *path)
+char *ffd_temporary_name(const char *target)
+{
+    return ffd_hidden_name(target, ".ffd-tmp");
+}
+
+int ffd_lock_named(int fd, const char *path)
 {
     struct stat ours, there;
     if (flock(fd, LOCK_EX | LOCK_NB) != 0) {
@@ -56,7 +57,8 @@ static int lock_named(int fd, const char *path)
         errno = EEXIST;
         return -1;
     }
-    return stat(path, &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
+    /* Its owner may have renamed or removed it between our open and our lock. */
+    return lstat(path, &there) == 0 && ours.st_ino == there.st_ino && ours.st_dev == there.st_dev;
 }
 
 /* Opens what a run has left, to be locked: for writing, which some file systems want for that, if it may be.
@@ -73,12 +75,12 @@ int ffd_temporary_open(const char *path)
     int fd, locked;
     do {
         bool is_new = true;
-        fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (fd < 0 && errno == EEXIST) {
             is_new = false;
             fd = open_left(path);
         }
-        locked = fd >= 0 ? lock_named(fd, path) : is_new || errno != ENOENT ? -1 : 0;
+        locked = fd >= 0 ? ffd_lock_named(fd, path) : is_new || errno != ENOENT ? -1 : 0;
         if (locked > 0 && !is_new)
             locked = unlink(path);
         if (locked <= 0 && fd >= 0) {
@@ -90,7 +92,42 @@ int ffd_temporary_open(const char *path)
     return locked > 0 ? fd : -1;
 }
 
-static void discard_one(const char *target)
+/* For file systems without renameat2's flags. A link is a second name, which is never given away; where there
+   are no links either, somebody may come between the look and the step. */
+static int place_by_link(const char *from, const char *to)
+{
+    struct stat info;
+    if (link(from, to) == 0) {
+        if (unlink(from) == 0)
+            return 0;
+        const int reason = errno;
+        unlink(to);
+        errno = reason;
+        return -1;
+    }
+    if (errno != EPERM && errno != ENOSYS && errno != EOPNOTSUPP && errno != EMLINK)
+        return -1;
+    if (lstat(to, &info) == 0) {
+        errno = EEXIST;
+        return -1;
+    }
+    return rename(from, to);
+}
+
+int ffd_place(const char *from, const char *to, bool replace)
+{
+    if (replace)
+        return rename(from, to);
+#ifdef RENAME_NOREPLACE
+    if (renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0)
+        return 0;
+    if (errno != EINVAL && errno != ENOSYS && errno != EOPNOTSUPP)
+        return -1;
+#endif
+    return place_by_link(from, to);
+}
+
+void ffd_temporary_remove(const char *target)
 {
     char *const name = ffd_temporary_name(target);
     const int fd = name && ffd_file_exists(name) ? ffd_temporary_open(name) : -1;
@@ -104,7 +141,7 @@ static void discard_one(const char *target)
 void ffd_temporary_discard(const char *path)
 {
     char *const target = realpath(path, NULL), *const stem = ffd_path_stem(path);
-    discard_one(target ? target : path);
+    ffd_temporary_remove(target ? target : path);
     free(target);
     const size_t capacity = stem ? strlen(stem) + 40 : 0;
     char *const name = stem ? ffd_alloc(capacity, 1) : NULL;
@@ -115,7 +152,7 @@ void ffd_temporary_discard(const char *path)
         char *const begun = buffer ? ffd_temporary_name(buffer) : NULL;
         more = begun && (i == 0 || ffd_file_exists(begun));
         if (more)
-            discard_one(buffer);
+            ffd_temporary_remove(buffer);
         ffd_free(begun);
         ffd_free(buffer);
     }

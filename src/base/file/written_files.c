@@ -2,7 +2,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 
-/* What a stamp says of which file it is. */
+/* The members of a stamp that identify the file. */
 typedef struct file_key {
     uint64_t device, number;
 } file_key;

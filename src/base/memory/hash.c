@@ -1,5 +1,7 @@
 #include "base/memory/hash.h"
 #include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include <stdint.h>
 
 /* Compiled in, the streaming state can be on the stack: its size is then the header's, not that of
    whatever library is installed. */
@@ -32,6 +34,34 @@ hash128 ffd_hash_blocks(const hash_block *blocks, size_t count)
         if (blocks[i].size)
             XXH3_128bits_update(&state, blocks[i].bytes, blocks[i].size);
     return canonical(XXH3_128bits_digest(&state));
+}
+
+struct hash_stream {
+    XXH3_state_t *state; /* in the bytes behind, where it is aligned as it has to be */
+};
+
+#define STATE_ALIGNMENT _Alignof(XXH3_state_t)
+
+hash_stream *ffd_hash_stream_create(void)
+{
+    hash_stream *const stream = ffd_alloc(1, sizeof *stream + sizeof(XXH3_state_t) + STATE_ALIGNMENT);
+    if (!stream)
+        return NULL;
+    unsigned char *const free = (unsigned char *)(stream + 1);
+    stream->state = (void *)(free + (STATE_ALIGNMENT - (uintptr_t)free % STATE_ALIGNMENT));
+    XXH3_128bits_reset(stream->state);
+    return stream;
+}
+
+void ffd_hash_stream_add(hash_stream *stream, const void *bytes, size_t size)
+{
+    if (size)
+        XXH3_128bits_update(stream->state, bytes, size);
+}
+
+hash128 ffd_hash_stream_value(const hash_stream *stream)
+{
+    return canonical(XXH3_128bits_digest(stream->state));
 }
 
 hash128 ffd_hash_doubles(const double *values, size_t count)

@@ -20,10 +20,20 @@ typedef struct hash_block {
     size_t size;
 } hash_block;
 
-/* Of the bytes of all blocks, one after the other, as if they were one. */
+/* Hashes the bytes of all blocks, one after the other, as if they were one block. */
 hash128 ffd_hash_blocks(const hash_block *blocks, size_t count);
 
-/* Of the values' bits, 8 bytes each, the lowest byte first: the same on every machine. 0 and -0 differ. */
+/* A hash of bytes that come one piece after the other, as if they were one block. */
+typedef struct hash_stream hash_stream;
+/* NULL if memory runs out; free with ffd_free. */
+hash_stream *ffd_hash_stream_create(void);
+/* Adds the next bytes. */
+void ffd_hash_stream_add(hash_stream *stream, const void *bytes, size_t size);
+/* Of what was added so far. */
+hash128 ffd_hash_stream_value(const hash_stream *stream);
+
+/* Hashes the values' bits, 8 bytes each, the lowest byte first: the same on every
+   machine. 0 and -0 differ. */
 hash128 ffd_hash_doubles(const double *values, size_t count);
 
 static inline bool ffd_hash_equal(const hash128 *a, const hash128 *b)

@@ -1,4 +1,4 @@
-/* intern.h - numbers for different keys: the first key is 0, the next other one 1, and so on. */
+/* intern.h - a hash table that numbers different keys: the first key is 0, the next new one 1, and so on. */
 #ifndef FFD_BASE_MEMORY_INTERN_H
 #define FFD_BASE_MEMORY_INTERN_H
 
@@ -16,10 +16,10 @@ typedef struct intern_table {
     size_t slot_count;
 } intern_table;
 
-/* The number of the key, which is copied where it is new. False when there is no memory, or the numbers have
-   run out. */
+/* Looks up the number of a key, which is copied and added if it is new. Returns false if memory
+   or the numbers run out. */
 bool ffd_intern(intern_table *table, const void *key, size_t size, uint32_t *number);
-/* The number of a key that is there already; false for others. */
+/* Looks up the number of a key; false if it is not in the table. */
 bool ffd_intern_find(const intern_table *table, const void *key, size_t size, uint32_t *number);
 /* A key, ended by 0; lent until the next one is added. */
 const char *ffd_intern_key(const intern_table *table, uint32_t number);

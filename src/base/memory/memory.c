@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <sys/mman.h>
 
-/* Blocks from this size on get large pages. */
+/* Blocks from this size on get huge pages. */
 #define LARGE_BLOCK ((size_t)4 << 20)
 #define LARGE_PAGE ((size_t)2 << 20)
 
@@ -57,7 +57,7 @@ void *ffd_alloc_whole(size_t count, size_t size)
 #ifdef MADV_HUGEPAGE
     size_t bytes;
     if (ffd_multiply_size(count, size, &bytes) && bytes >= LARGE_BLOCK && bytes <= SIZE_MAX - LARGE_PAGE) {
-        /* From page to page, for the system has large ones for no others. */
+        /* Aligned to huge pages, since the system uses them for nothing else. */
         const size_t whole = (bytes + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE;
         void *block = fails_on_purpose() ? NULL : aligned_alloc(LARGE_PAGE, whole);
         if (block)

@@ -9,8 +9,8 @@
 extern "C" {
 #endif
 
-/* count * size bytes, not cleared; NULL when there is no memory or the product overflows. A count
-   of 0 gives a pointer that can be freed. Free with ffd_free. */
+/* count * size bytes, not cleared; NULL if memory runs out or the product overflows. A count of 0 gives a
+   pointer that can be freed. Free with ffd_free. */
 void *ffd_alloc(size_t count, size_t size);
 /* The same, cleared. */
 void *ffd_alloc_zero(size_t count, size_t size);
@@ -19,13 +19,13 @@ void *ffd_realloc(void *block, size_t count, size_t size);
 /* Frees a block of any of these; NULL is allowed. */
 void ffd_free(void *block);
 
-/* As ffd_alloc, for a block that will be used from end to end: a large one gets huge pages, where the
-   system has them, since the page fault at a page's first touch costs more than filling it. Not for memory of
-   which little may be touched. */
+/* As ffd_alloc, for a block that will be used from end to end: a large one gets huge pages if the system has
+   them, since the page fault at the first touch of a page costs more than filling it. Not for memory of which
+   only a little may be touched. */
 void *ffd_alloc_whole(size_t count, size_t size);
 
 /* Grows the capacity to at least `needed` elements of `size` bytes in *block, whose capacity is *capacity
-   elements, by half at least. False when there is no memory; nothing is changed then. */
+   elements, by half at least. Returns false if memory runs out; nothing is changed then. */
 bool ffd_grow(void **block, size_t *capacity, size_t needed, size_t size);
 
 /* Tests: after `successes` further allocations every one fails; a negative number turns this off. */

@@ -4,7 +4,7 @@
 
 /* Seconds from some fixed moment; never goes back. */
 double ffd_clock_seconds(void);
-/* Waits at least so many seconds. */
+/* Waits at least this many seconds. */
 void ffd_clock_sleep(double seconds);
 
 #endif

@@ -6,13 +6,14 @@
 
 static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
 
-static volatile sig_atomic_t requested = INTERRUPT_NONE;
+static volatile sig_atomic_t requested = false;
 static int stream[2] = {-1, -1};
 
 static void notice(int number)
 {
     const int before = errno;
-    requested = number == SIGINT && requested == INTERRUPT_NONE ? INTERRUPT_FINISH : INTERRUPT_STOP;
+    (void)number;
+    requested = true;
     /* It stays readable from the first request on; a pipe that is full says as much. */
     const ssize_t written = write(stream[1], "", 1);
     (void)written;
@@ -38,14 +39,14 @@ void ffd_interrupt_watch(void)
             sigaction(numbers[i], &action, NULL);
 }
 
-interrupt_request ffd_interrupt_requested(void)
+bool ffd_interrupt_requested(void)
 {
-    return (interrupt_request)requested;
+    return requested;
 }
 
 int ffd_interrupt_stream(void)
 {
-    return requested == INTERRUPT_NONE ? stream[0] : -1;
+    return requested ? -1 : stream[0];
 }
 
 void ffd_interrupt_ignore(void)

@@ -2,16 +2,13 @@
 #ifndef FFD_BASE_SYSTEM_INTERRUPT_H
 #define FFD_BASE_SYSTEM_INTERRUPT_H
 
-typedef enum interrupt_request {
-    INTERRUPT_NONE,
-    INTERRUPT_FINISH, /* Ctrl-C, once: finish what is under way */
-    INTERRUPT_STOP    /* a request to terminate, a closed terminal, or Ctrl-C again: stop at once */
-} interrupt_request;
+#include <stdbool.h>
 
-/* From now on such requests are noticed and do not end the program. */
+/* From now on such requests (Ctrl-C, SIGTERM, a closed terminal) are noticed and do not end the program,
+   which must then end within a second: every loop that can take longer looks whether there was one. */
 void ffd_interrupt_watch(void);
-/* The strongest so far. */
-interrupt_request ffd_interrupt_requested(void);
+/* Whether there was a request. */
+bool ffd_interrupt_requested(void);
 /* A stream that can be read once there is a request; -1: there is none. For ffd_process_wait. */
 int ffd_interrupt_stream(void);
 

@@ -24,7 +24,7 @@ struct worker_process {
     int channel;
 };
 
-/* What a worker talks over: none of the standard streams, where a library might print. */
+/* A worker's descriptor of the channel: none of the standard streams, where a library might print. */
 enum { CHANNEL = 3 };
 
 static ffd_status fail_start(ffd_error *error, int reason)
@@ -134,7 +134,7 @@ void ffd_process_wait(worker_process *const *processes, size_t count, double sec
     struct pollfd *set = ffd_alloc(count + 1, sizeof *set);
     nfds_t used = 0;
     if (!set) {
-        /* Then without knowing who has something to say. */
+        /* Waits without knowing which process has something to be read. */
         poll(NULL, 0, 10);
         return;
     }
@@ -206,7 +206,7 @@ void ffd_process_follow_parent(void)
 #ifdef __linux__
     char byte;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    /* Where that came too late, nobody has the other end any more. */
+    /* If that came too late, the parent process has closed the other end. */
     if (recv(CHANNEL, &byte, 1, MSG_PEEK | MSG_DONTWAIT) == 0)
         _exit(0);
 #endif

@@ -1,5 +1,5 @@
-/* process.h - workers: this program, started again, with which one talks over a channel. What ends a worker,
-   whether a crash or a limit of the system, ends it alone. */
+/* process.h - workers: processes of this program, reached over a channel. What ends a worker, be it a crash
+   or a limit of the system, ends nothing else. */
 #ifndef FFD_BASE_SYSTEM_PROCESS_H
 #define FFD_BASE_SYSTEM_PROCESS_H
 
@@ -15,18 +15,19 @@ typedef struct process_end {
     int code;       /* its exit code, where no signal ended it */
     int signal;     /* 0: none */
     char text[128]; /* in words: "Segmentation fault", "exit code 3" */
-    bool killed; /* by a signal that no process sends itself: by the system, for want of memory, or by hand */
+    bool killed;    /* by a signal that no process sends itself: from the system, out of memory, or by hand */
 } process_end;
 
 /* Starts this program with `name` as its argument 0, and no other arguments: by that it knows that it is a
    worker. Standard error is shared. Errors: FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_process_start(const char *name, worker_process **process, ffd_error *error);
-/* Hands bytes to the worker, and waits until it has taken them. False where it has ended. */
+/* Sends bytes to the worker, and waits until it has taken them. Returns false if it has ended. */
 bool ffd_process_send(worker_process *process, const void *bytes, size_t size);
 /* Waits until one of the processes has something to be read or has ended, or seconds have gone by (below 0:
    without limit), or the program was interrupted (interrupt.h). Entries may be NULL. */
 void ffd_process_wait(worker_process *const *processes, size_t count, double seconds);
-/* Appends what is there to be read, without waiting. False at its end: the worker has ended, or will. */
+/* Appends the bytes that can be read without waiting. Returns false at the end of the channel: the
+   worker has ended, or will. */
 bool ffd_process_receive(worker_process *process, byte_buffer *bytes);
 /* Ends the worker after it has removed what it was writing. */
 void ffd_process_stop(worker_process *process);
@@ -41,9 +42,9 @@ void ffd_process_follow_parent(void);
 /* In a worker: from now on ffd_process_stop waits, or does not wait any more. One thread calls this; others
    must have ended. */
 void ffd_process_defer_stop(bool wait);
-/* In a worker: the next size bytes from its parent process; false where there are no more. */
+/* In a worker: receives the next size bytes from its parent process. Returns false if there are no more. */
 bool ffd_process_take(void *bytes, size_t size);
-/* In a worker: hands bytes back. False where nobody is there to take them. */
+/* In a worker: sends bytes to its parent process. Returns false if that has ended. */
 bool ffd_process_give(const void *bytes, size_t size);
 
 #endif

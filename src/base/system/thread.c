@@ -18,7 +18,8 @@ static void *start(void *argument)
     return NULL;
 }
 
-/* Runs in so many threads. Worker 0 is this one; it alone suffices where the others cannot be had. */
+/* Runs in this many threads. Worker 0 is the calling thread, which alone suffices if no
+   others can be started. */
 static void run_all(void (*run)(void *work, int number), void *work, int threads)
 {
     worker_thread *others = threads > 1 ? ffd_alloc_zero((size_t)threads - 1, sizeof *others) : NULL;

@@ -12,8 +12,8 @@ typedef struct byte_buffer {
     bool failed; /* memory ran out: everything appended since is lost */
 } byte_buffer;
 
-/* Where size more bytes can be written by the caller, who adds what was written to the buffer's size; NULL
-   when memory ran out. */
+/* Returns where the caller can write size more bytes, and then adds what was written to the buffer's size;
+   NULL if memory ran out. */
 char *ffd_buffer_reserve(byte_buffer *buffer, size_t size);
 /* Appends size bytes. */
 void ffd_buffer_append(byte_buffer *buffer, const void *bytes, size_t size);
@@ -23,7 +23,7 @@ void ffd_buffer_text(byte_buffer *buffer, const char *text);
 void ffd_buffer_format(byte_buffer *buffer, const char *format, ...) FFD_PRINTF(2, 3);
 /* Appends the shortest text of a number (number.h). */
 void ffd_buffer_number(byte_buffer *buffer, double value);
-/* Appends a final 0 (not counted in size) and hands the block over (free with ffd_free); NULL when memory ran
+/* Appends a final 0 (not counted in size) and hands the block over (free with ffd_free); NULL if memory ran
    out. The buffer is empty afterwards. */
 char *ffd_buffer_finish(byte_buffer *buffer);
 /* Frees the bytes; the buffer is empty then. */

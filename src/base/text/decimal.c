@@ -1,4 +1,5 @@
 #include "base/text/decimal.h"
+#include "base/inline.h"
 #include "base/little_endian.h"
 #include "base/text/decimal_kernel.h"
 #include "base/vector/isa.h"
@@ -41,6 +42,10 @@ const uint64_t ffd_powers_of_five[POWERS_OF_FIVE] = {
     UINT64_C(1490116119384765625),
 };
 
+/* What shortest_wide is made for. Of a float's mantissa. */
+#define LEAST_WIDE_EXPONENT (-172)
+#define FLOAT_BITS 23
+
 /* 10^point, which lifts the interval of a number with this exponent to a width of 1 to 10. */
 static int point_of(int exponent)
 {
@@ -54,7 +59,7 @@ static int point_of(int exponent)
    than all others; else the nearest whole number has as many digits as any (Giulietti, The Schubfach way to
    render doubles, 2020, 8). All of it is in whole numbers, in units of 2^-shift: nothing is rounded. (Of a
    power of two the halfway point below is nearer.) Which way it goes cannot be predicted: no branches. */
-static uint64_t shortest(uint64_t mantissa, int exponent, int point)
+static ALWAYS_INLINE uint64_t shortest(uint64_t mantissa, int exponent, int point)
 {
     const int shift = 2 - exponent - point; /* 2 to 60: ten units fit in 64 bits */
     const uint64_t five = ffd_powers_of_five[point];
@@ -70,19 +75,43 @@ static uint64_t shortest(uint64_t mantissa, int exponent, int point)
     return nearest + ((tens - nearest) & (0 - (down | up)));
 }
 
+/* The same for numbers that need longer powers of five. */
+static uint64_t shortest_wide(uint64_t mantissa, int exponent, int point)
+{
+    const int shift = 2 - exponent - point; /* 122 at most: ten units fit in 128 bits */
+    const int more = point > MOST_POWER_OF_FIVE ? point - MOST_POWER_OF_FIVE : 0;
+    const uint128 five = (uint128)ffd_powers_of_five[point - more] * ffd_powers_of_five[more];
+    const uint128 low = (uint128)(4 * mantissa) * (uint64_t)five;
+    const uint128 high = (uint128)(4 * mantissa) * (uint64_t)(five >> 64) + (low >> 64);
+    const uint128 unit = (uint128)1 << shift;
+    /* The product is high, and the lower half of low. */
+    const uint128 lower = high << 64 | (uint64_t)low;
+    const uint64_t whole =
+        (uint64_t)(shift < 64 ? high << (64 - shift) | (uint64_t)low >> shift : high >> (shift - 64));
+    const uint128 part = lower & (unit - 1), reach = 2 * five - (mantissa & 1);
+    const uint64_t last_digit = whole % 10;
+    const uint128 above_ten = ((uint128)last_digit << shift) + part;
+    if (above_ten <= reach)
+        return whole - last_digit;
+    if (10 * unit - above_ten <= reach)
+        return whole - last_digit + 10;
+    return whole + (part + (whole & 1) > unit / 2);
+}
+
 #define DIGITS 17
 #define EIGHT UINT32_C(100000000)
 
 /* Up to 24 characters, the first lowest. Registers: what was just written as bytes is slow to read as words.
  */
 typedef struct characters {
-    uint64_t words[3];
+    uint64_t first, middle, last;
 } characters;
 
-static void put(const characters *from, char *to)
+static void put(characters from, char *to)
 {
-    for (int i = 0; i < 3; i++)
-        store_u64((unsigned char *)to + 8 * i, from->words[i]);
+    store_u64((unsigned char *)to, from.first);
+    store_u64((unsigned char *)to + 8, from.middle);
+    store_u64((unsigned char *)to + 16, from.last);
 }
 
 /* The digits of a number below 10^8, one a byte. */
@@ -102,7 +131,7 @@ typedef struct number_digits {
     uint64_t first, middle, low;
 } number_digits;
 
-static number_digits digits_of(uint64_t number)
+static ALWAYS_INLINE number_digits digits_of(uint64_t number)
 {
     const uint32_t upper = (uint32_t)(number / EIGHT), first = upper / EIGHT;
     return (number_digits){first, eight_digits(upper - first * EIGHT),
@@ -110,32 +139,32 @@ static number_digits digits_of(uint64_t number)
 }
 
 /* How many zeros they end with. */
-static int final_zeros(const number_digits *digits)
+static int final_zeros(number_digits digits)
 {
-    return digits->low      ? __builtin_clzll(digits->low) / 8
-           : digits->middle ? 8 + __builtin_clzll(digits->middle) / 8
-                            : 16;
+    return digits.low      ? __builtin_clzll(digits.low) / 8
+           : digits.middle ? 8 + __builtin_clzll(digits.middle) / 8
+                           : 16;
 }
 
-static characters characters_of(const number_digits *digits)
+static characters characters_of(number_digits digits)
 {
     const uint64_t text = UINT64_C(0x3030303030303030);
-    const int shift = digits->first ? 8 : 0; /* where there is one digit more */
-    return (characters){{(digits->middle << shift | digits->first) + text,
-                         (digits->low << shift | digits->middle >> 1 >> (63 - shift)) + text,
-                         (digits->low >> 1 >> (63 - shift)) + text}};
+    const int shift = digits.first ? 8 : 0; /* where there is one digit more */
+    return (characters){(digits.middle << shift | digits.first) + text,
+                        (digits.low << shift | digits.middle >> 1 >> (63 - shift)) + text,
+                        (digits.low >> 1 >> (63 - shift)) + text};
 }
 
 /* With a point after the first 1 to 7. */
-static characters with_point(const characters *digits, int before_point)
+static characters with_point(characters digits, int before_point)
 {
     const int at = 8 * before_point;
-    const uint64_t *const from = digits->words, before = ((uint64_t)1 << at) - 1;
-    return (characters){{(from[0] & before) | (uint64_t)'.' << at | (from[0] & ~before) << 8,
-                         from[1] << 8 | from[0] >> 56, from[2] << 8 | from[1] >> 56}};
+    const uint64_t before = ((uint64_t)1 << at) - 1;
+    return (characters){(digits.first & before) | (uint64_t)'.' << at | (digits.first & ~before) << 8,
+                        digits.middle << 8 | digits.first >> 56, digits.last << 8 | digits.middle >> 56};
 }
 
-static char *put_fixed(char *to, const characters *digits, int count, int before_point)
+static char *put_fixed(char *to, characters digits, int count, int before_point)
 {
     if (before_point <= 0) {
         memcpy(to, "0.0000", 6);
@@ -150,11 +179,10 @@ static char *put_fixed(char *to, const characters *digits, int count, int before
     return to + count + 1;
 }
 
-static char *put_scientific(char *to, const characters *digits, int count, int exponent)
+static char *put_scientific(char *to, characters digits, int count, int exponent)
 {
     const int size = exponent < 0 ? -exponent : exponent;
-    const characters pointed = with_point(digits, 1);
-    put(&pointed, to);
+    put(with_point(digits, 1), to);
     to += count > 1 ? count + 1 : 1;
     *to++ = 'e';
     *to++ = exponent < 0 ? '-' : '+';
@@ -164,11 +192,10 @@ static char *put_scientific(char *to, const characters *digits, int count, int e
 }
 
 /* In the shorter of both forms. */
-static char *put_number(char *to, const characters *digits, int count, int before_point)
+static char *put_number(char *to, characters digits, int count, int before_point)
 {
     if (before_point > 0 && before_point < 8 && before_point < count) {
-        const characters pointed = with_point(digits, before_point);
-        put(&pointed, to);
+        put(with_point(digits, before_point), to);
         return to + count + 1;
     }
     const int fixed = before_point <= 0      ? 2 - before_point + count
@@ -179,26 +206,71 @@ static char *put_number(char *to, const characters *digits, int count, int befor
                                : put_scientific(to, digits, count, before_point - 1);
 }
 
-static size_t put_digits(double value, const number_digits *digits, int point, char *text)
+static ALWAYS_INLINE size_t put_digits(double value, number_digits digits, int point, char *text)
 {
-    const characters text_of = characters_of(digits);
-    const int length = digits->first ? DIGITS : DIGITS - 1;
+    const int length = digits.first ? DIGITS : DIGITS - 1;
     *text = '-';
     char *const first = text + (signbit(value) ? 1 : 0);
-    return (size_t)(put_number(first, &text_of, length - final_zeros(digits), length - point) - text);
+    return (size_t)(put_number(first, characters_of(digits), length - final_zeros(digits), length - point) -
+                    text);
+}
+
+#define LEAST_OF_DIGITS UINT64_C(1000000000000000) /* of DIGITS - 1 */
+
+/* 2^exponent with all of its digits, as a whole number by 10^-point. No other number of as few digits as the
+   type surely keeps is so near. */
+static uint64_t power_of_two(int exponent, int *point)
+{
+    uint64_t number = exponent < 0 ? ffd_powers_of_five[-exponent] : (uint64_t)1 << exponent;
+    *point = exponent < 0 ? -exponent : 0;
+    for (; number < LEAST_OF_DIGITS; number *= 10)
+        ++*point;
+    return number;
 }
 
 size_t ffd_decimal_format(double value, char text[FFD_NUMBER_CAPACITY])
 {
-    uint64_t bits;
+    uint64_t bits, number;
     memcpy(&bits, &value, sizeof bits);
     const uint64_t hidden = (uint64_t)1 << MANTISSA_BITS, fraction = bits & (hidden - 1);
-    const int exponent = (int)(bits >> MANTISSA_BITS & 0x7ff) - 1075;
-    if (fraction == 0 || exponent < LEAST_EXPONENT || exponent >= 0)
+    const int exponent = (int)(bits >> MANTISSA_BITS & 0x7ff) - 1075, size = exponent + MANTISSA_BITS;
+    int point = point_of(exponent);
+    if (fraction != 0 && exponent >= LEAST_EXPONENT && exponent < 0)
+        number = shortest(fraction | hidden, exponent, point);
+    else if (fraction == 0 && size >= -21 && size <= 49) /* 15 digits */
+        number = power_of_two(size, &point);
+    else if (fraction != 0 && exponent >= LEAST_WIDE_EXPONENT && exponent < 0)
+        number = shortest_wide(fraction | hidden, exponent, point);
+    else
         return 0;
-    const int point = point_of(exponent);
-    const number_digits digits = digits_of(shortest(fraction | hidden, exponent, point));
-    return put_digits(value, &digits, point, text);
+    return put_digits(value, digits_of(number), point, text);
+}
+
+/* 7 to 9 digits as many as a double has. */
+static uint64_t widen(uint64_t number, int *point)
+{
+    const bool is_short = number < EIGHT;
+    *point += is_short ? 9 : 8;
+    return number * (is_short ? 10 * (uint64_t)EIGHT : EIGHT);
+}
+
+size_t ffd_decimal_format_float(float value, char text[FFD_NUMBER_CAPACITY])
+{
+    uint32_t bits;
+    uint64_t number;
+    memcpy(&bits, &value, sizeof bits);
+    const uint32_t hidden = (uint32_t)1 << FLOAT_BITS, fraction = bits & (hidden - 1);
+    const int exponent = (int)(bits >> FLOAT_BITS & 0xff) - 150, size = exponent + FLOAT_BITS;
+    int point = point_of(exponent);
+    if (fraction != 0 && exponent >= LEAST_EXPONENT && exponent < 0)
+        number = widen(shortest(fraction | hidden, exponent, point), &point);
+    else if (fraction == 0 && size >= -8 && size <= 19) /* 6 digits */
+        number = power_of_two(size, &point);
+    else if (fraction != 0 && exponent >= -149 && exponent < 0)
+        number = widen(shortest_wide(fraction | hidden, exponent, point), &point);
+    else
+        return 0;
+    return put_digits((double)value, digits_of(number), point, text);
 }
 
 /* Numbers of a run that are that far from each other are near. */
@@ -214,7 +286,7 @@ static decimal_kernel *find_kernel(void)
     return NULL;
 }
 
-/* Whether the run has the text of a number now. It makes texts where the numbers before were near: of
+/* Whether the run has the text of a number now. It makes texts ahead only if the numbers before were near: in
    an array that is read in another order it would make many that nobody reads. */
 static bool reach(decimal_run *run, const double *value)
 {
@@ -245,11 +317,18 @@ size_t ffd_decimal_run_format(decimal_run *run, const double *value, char text[F
     const decimal_batch *const batch = &run->batch;
     if (batch->size[i] == 0)
         return ffd_number_format(*value, text);
-    put(&(characters){{batch->words[0][i], batch->words[1][i], batch->words[2][i]}}, text);
+    put((characters){batch->words[0][i], batch->words[1][i], batch->words[2][i]}, text);
     return (size_t)batch->size[i];
 }
 
 #else
+
+size_t ffd_decimal_format_float(float value, char text[FFD_NUMBER_CAPACITY])
+{
+    (void)value;
+    (void)text;
+    return 0;
+}
 
 void ffd_decimal_run_begin(decimal_run *run, const double *end)
 {

@@ -29,7 +29,7 @@ static ALWAYS_INLINE words to_words(lanes value)
     return (words)(value + 0x1p52) & (((uint64_t)1 << MANTISSA_BITS) - 1);
 }
 
-/* The product of the lower halves: of whole words it would be three times as slow. */
+/* The product of the lower halves; one of whole words would be three times as slow. */
 static ALWAYS_INLINE words times(words a, words b)
 {
     return (words)_mm512_mul_epu32((__m512i)a, (__m512i)b);
@@ -112,8 +112,8 @@ static ALWAYS_INLINE digits find(words bits)
                     fits};
 }
 
-/* Of eight digits, how many there are up to the last that is not 0; below 0 if all are 0. A double's
-   exponent shows it: it cannot be rounded into the next byte. */
+/* Returns how many of eight digits there are up to the last one that is not 0; below 0 if all are 0. A
+   double's exponent shows it: it cannot be rounded into the next byte. */
 static ALWAYS_INLINE mask last_of(words eight)
 {
     return (((mask) __builtin_convertvector(eight, lanes) >> MANTISSA_BITS) - 1023 + 8) >> 3;

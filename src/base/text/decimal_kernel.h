@@ -11,6 +11,7 @@
 
 /* As many as LEAST_EXPONENT asks for, and zeros up to the size of four registers. */
 #define POWERS_OF_FIVE 32
+#define MOST_POWER_OF_FIVE 26
 extern const uint64_t ffd_powers_of_five[POWERS_OF_FIVE];
 
 /* Numbers that are made at once. */
@@ -24,7 +25,7 @@ typedef struct decimal_batch {
     uint64_t words[3][DECIMAL_BATCH], size[DECIMAL_BATCH];
 } decimal_batch;
 
-/* Of the one instruction set that is much faster by it than by one number after the other. */
+/* The kernel of the one instruction set (AVX-512) that is much faster by it than number by number. */
 typedef void decimal_kernel(const double values[DECIMAL_BATCH], decimal_batch *batch);
 
 #ifdef FFD_X86

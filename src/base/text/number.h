@@ -1,5 +1,5 @@
-/* number.h - number text: exact both ways, whatever the locale (C++17 <charconv> behind C functions, and
-   decimal.h for what meshes mostly hold). */
+/* number.h - number text: exact both ways, whatever the locale. Declares number_parse.c and number_format.c;
+   what meshes mostly hold is done by decimal.h. */
 #ifndef FFD_BASE_TEXT_NUMBER_H
 #define FFD_BASE_TEXT_NUMBER_H
 
@@ -13,7 +13,7 @@ extern "C" {
 #define FFD_NUMBER_CAPACITY 40
 
 /* Reads the decimal number at the start of [first, last): optional sign, digits, point, exponent, or inf/nan.
-   Returns the end of the number, or NULL where there is none. The nearest double is stored; too large numbers
+   Returns the end of the number, or NULL if there is none. The nearest double is stored; too large numbers
    give an infinity, too small ones 0, with their sign. */
 const char *ffd_number_parse(const char *first, const char *last, double *value);
 /* The nearest float, which is not always that of the nearest double. */

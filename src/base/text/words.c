@@ -49,3 +49,21 @@ const char *ffd_nearest_word(const char *word, const char *const *known, size_t 
     }
     return nearest;
 }
+
+const char *ffd_plural(uint64_t count, const char *one, const char *many)
+{
+    return count == 1 ? one : many;
+}
+
+void ffd_name_shown(const char *name, char *shown, size_t capacity)
+{
+    size_t length = strlen(name);
+    if (length >= capacity) {
+        length = capacity - 1;
+        while (length > 0 && ((unsigned char)name[length] & 0xc0) == 0x80)
+            length--;
+    }
+    for (size_t i = 0; i < length; i++)
+        shown[i] = (unsigned char)name[i] < 0x20 || name[i] == 0x7f ? '?' : name[i];
+    shown[length] = 0;
+}

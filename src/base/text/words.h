@@ -1,9 +1,10 @@
-/* words.h - the known word nearest to one that somebody wrote. */
+/* words.h - words of messages: after a count, the known one nearest to what somebody wrote, names. */
 #ifndef FFD_BASE_TEXT_WORDS_H
 #define FFD_BASE_TEXT_WORDS_H
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* Whether word is one of known (count words). */
 bool ffd_word_is_known(const char *word, const char *const *known, size_t count);
@@ -15,5 +16,12 @@ size_t ffd_word_distance(const char *a, const char *b);
 /* The entry of known (count words) with the least edit distance to word, the first of equals; NULL when count
  * is 0. */
 const char *ffd_nearest_word(const char *word, const char *const *known, size_t count);
+
+/* one where count is 1, else many: "1 vertex is", "0 vertices are". */
+const char *ffd_plural(uint64_t count, const char *one, const char *many);
+
+/* Copies a name for a message, which is one line: control characters become '?', and what does not fit in
+   capacity bytes, its end among them, is cut off where a character of UTF-8 ends. */
+void ffd_name_shown(const char *name, char *shown, size_t capacity);
 
 #endif

@@ -32,7 +32,7 @@ static void add(const double *restrict terms, size_t count, double *restrict to)
     }
 }
 
-/* What is found of groups of points, number by number. */
+/* The totals of groups of points, number by number. */
 typedef struct group_range {
     double min[NUMBERS], max[NUMBERS];
     double zero[NUMBERS]; /* no longer 0 where a number was not finite */

@@ -1,5 +1,5 @@
-/* array_kernel.h - loops over many numbers, compiled once for each instruction set: compilers make vectors of
-   them. Each number is treated by itself, so that all give the same bits. */
+/* array_kernel.h - loops over many numbers, compiled once for each instruction set: compilers turn them into
+   SIMD. Each number is treated by itself, so that all give the same bits. array.c chooses among them. */
 #ifndef FFD_BASE_VECTOR_ARRAY_KERNEL_H
 #define FFD_BASE_VECTOR_ARRAY_KERNEL_H
 
@@ -15,13 +15,13 @@ typedef struct array_kernel {
     void (*round)(const double *from, size_t count, float *to);
     /* to[i] += terms[i]; where that is 0 the bits stay. */
     void (*add)(const double *terms, size_t count, double *to);
-    /* Widens the box by count points, 3 numbers each. Returns whether all of these are finite; else the box
-       stays. */
+    /* Widens the box by count points, 3 numbers each. Returns whether all of these are
+       finite; else the box stays. */
     bool (*widen)(const double *points, size_t count, double min[3], double max[3]);
-    /* Adds a vector to each of count points, 3 numbers each; a coordinate to which 0 is added keeps its bits.
-       changed: count bytes, 1 where a point has another value than before, else 0. Returns the number of the
-       first point with a coordinate that changed and now is larger than `largest`, or no number; count where
-       there is none. */
+    /* Adds a vector to each of count points, 3 numbers each; a coordinate to which 0 is added keeps its
+       bits. changed: count bytes, 1 where a point has another value than before, else 0. Returns the
+       number of the first point with a coordinate that changed and is now NaN or larger than `largest`;
+       count if there is none. */
     size_t (*displace)(const double *vectors, size_t count, double largest, double *points, uint8_t *changed);
 } array_kernel;
 

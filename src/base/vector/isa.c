@@ -1,4 +1,26 @@
 #include "base/vector/isa.h"
+#if defined(__has_include) && defined(FFD_X86)
+#if __has_include(<sys/platform/x86.h>)
+#include <sys/platform/x86.h>
+#endif
+#endif
+
+#ifdef FFD_X86
+/* What the processor and the system have. The C library has asked for it already: to ask again, as the
+   compiler's own function does at the start of every run, takes long in virtual machines. */
+#ifdef CPU_FEATURE_ACTIVE
+#define HAS(feature, name) has(x86_cpu_##feature)
+
+/* As x86_cpu_active of the header, which shifts into the sign. */
+static bool has(unsigned feature)
+{
+    const struct cpuid_feature *const leaf = __x86_get_cpuid_feature_leaf(feature / 128);
+    return leaf->active_array[feature % 128 / 32] >> feature % 32 & 1;
+}
+#else
+#define HAS(feature, name) __builtin_cpu_supports(name)
+#endif
+#endif
 
 bool ffd_isa_available(ffd_isa isa)
 {
@@ -8,12 +30,11 @@ bool ffd_isa_available(ffd_isa isa)
         return true;
 #ifdef FFD_X86
     case FFD_ISA_SSE2:
-        return __builtin_cpu_supports("sse2");
+        return HAS(SSE2, "sse2");
     case FFD_ISA_AVX2:
-        return __builtin_cpu_supports("avx2");
+        return HAS(AVX2, "avx2");
     case FFD_ISA_AVX512:
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-               __builtin_cpu_supports("avx512vl");
+        return HAS(AVX512F, "avx512f") && HAS(AVX512DQ, "avx512dq") && HAS(AVX512VL, "avx512vl");
 #endif
     default:
         return false;

@@ -1,5 +1,5 @@
-/* lanes.h - doubles side by side in a register, for kernels that are compiled once for each instruction set:
-   FFD_LANES of them, 2, 4 or 8. */
+/* lanes.h - doubles side by side in a SIMD register, for kernels that are compiled once for each instruction
+   set: FFD_LANES of them, 2, 4 or 8. */
 #ifndef FFD_BASE_VECTOR_LANES_H
 #define FFD_BASE_VECTOR_LANES_H
 

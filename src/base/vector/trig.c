@@ -110,9 +110,8 @@ static const double ARC_OF_EIGHTHS[] = {0,
                                         0x1.921fb54442d18p-1};
 static const double HALF_TURN = 0x1.921fb54442d18p+1, QUARTER_TURN = 0x1.921fb54442d18p+0;
 
-/* atan(y/x) for 0 <= y <= x, 0 < x: with c the multiple of 1/8 nearest to y/x, atan(y/x) = atan(c) +
-   atan((y - c x)/(x + c y)), whose argument z is at most 1/16: Taylor's sum to z^15, the next term is below
-   2^-72. */
+/* atan(y/x) for 0 <= y <= x, 0 < x: with c the multiple of 1/8 nearest to y/x, atan(y/x) = atan(c) + atan((y
+   - c x)/(x + c y)), whose argument z is at most 1/16: Taylor's sum to z^15, the next term is below 2^-72. */
 static double arc_of_octant(double y, double x)
 {
     static const double term[] = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};

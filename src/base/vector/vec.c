@@ -1,7 +1,8 @@
 #include "base/vector/vec.h"
+#include <float.h>
 
-/* The power of two that brings the largest of three numbers into [0.5, 1); 0 where all are 0 or one is not
-   finite. */
+/* The power of two that brings the largest of three numbers into [0.5, 1); 0 where all are 0
+   or one is not finite. */
 static int exponent_of(double a, double b, double c, bool *usable)
 {
     const double largest = fmax(fabs(a), fmax(fabs(b), fabs(c)));
@@ -49,4 +50,16 @@ bool ffd_mat_invert_scaled(const double m[9], double out[9])
     for (int i = 0; i < 9; i++)
         out[i] = result[i];
     return true;
+}
+
+bool ffd_mat_is_singular(const double m[9], double *determinant)
+{
+    double column[3][3], cross[3];
+    for (int a = 0; a < 3; a++)
+        for (int r = 0; r < 3; r++)
+            column[a][r] = m[3 * r + a];
+    vec_cross(column[1], column[2], cross);
+    *determinant = vec_dot(column[0], cross);
+    return !(fabs(*determinant) >
+             16 * DBL_EPSILON * vec_length(column[0]) * vec_length(column[1]) * vec_length(column[2]));
 }

@@ -103,6 +103,9 @@ static inline bool mat_invert(const double m[9], double out[9])
     return true;
 }
 
+/* Whether the determinant, which is stored, is no more than the rounding of its own terms. */
+bool ffd_mat_is_singular(const double m[9], double *determinant);
+
 #ifdef __cplusplus
 }
 #endif

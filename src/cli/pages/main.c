@@ -1,6 +1,6 @@
 /* main.c - makes the man page and the shells' completions: prints a template in which a line @NAME@ is
-   replaced by what the tables of commands and options say. Called by the build as `ffd-pages TEMPLATE`; not
-   installed. */
+   replaced by what the tables of commands and options say. Called by the build as `ffd-pages
+   TEMPLATE`; not installed. */
 #include "cli/pages/pages.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* pages.h - what the man page and the shells' completions say of the tables of commands and options. */
+/* pages.h - what the man page and the shells' completions say of the tables of commands and options.
+   Main header of the pages: declares man.c, bash.c, zsh.c. */
 #ifndef FFD_CLI_PAGES_PAGES_H
 #define FFD_CLI_PAGES_PAGES_H
 

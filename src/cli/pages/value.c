@@ -8,7 +8,7 @@
 static const struct {
     const char *name, *endings;
 } kinds[] = {
-    {"MESH", "obj|gltf|glb|ply|off|stl"},
+    {"MESH", "obj|gltf|glb|vrm|ply|off|stl"},
     {"LATTICE", "json"},
     {"REPORT", "json"},
     {"MANIFEST", "jsonl"},
@@ -45,7 +45,7 @@ static void take(pages_value *value, const char *part, size_t length)
 {
     static const char file[] = "FILE";
     if (is(part, length, "FORMAT"))
-        append(value->words, " ", "obj gltf glb ply off stl", 24);
+        append(value->words, " ", "obj gltf glb vrm ply off stl", 28);
     else if (is_word(part, length))
         append(value->words, " ", part, length);
     else if (is(part, length, "DIR"))

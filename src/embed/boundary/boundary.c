@@ -2,7 +2,6 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/boundary/boundary_faces.h"
-#include <float.h>
 #include <string.h>
 
 /* Exponents of the search's units for which products neither overflow nor underflow. */
@@ -84,8 +83,8 @@ void ffd_boundary_destroy(boundary **made)
     *made = NULL;
 }
 
-/* Quarters do not overflow in the difference. */
-static void make_query(const boundary *border, const double p[3], boundary_query *query)
+/* Quarters do not overflow in the difference. Returns whether p is too far for the lattice's units. */
+static bool make_query(const boundary *border, const double p[3], boundary_query *query)
 {
     double farthest = 0;
     for (int a = 0; a < 3; a++) {
@@ -97,6 +96,7 @@ static void make_query(const boundary *border, const double p[3], boundary_query
         query->x[a] = is_far ? query->x[a] / farthest * FARTHEST : query->x[a] * border->scale * 4;
     query->unit = is_far ? farthest / (0.25 * FARTHEST) : 1 / border->scale;
     query->length = vec_length(query->x);
+    return is_far;
 }
 
 /* The residual may be too small to be squared. */
@@ -145,15 +145,37 @@ ffd_status ffd_boundary_find(const boundary *border, const double p[3], double r
         if (status)
             return status;
     }
+    nearest->cut_short = foot.cut_short;
     if (!found)
         return FFD_OK;
     report_distance(&query, &foot, nearest);
     if (!(nearest->distance <= reach)) {
-        memset(nearest, 0, sizeof *nearest);
+        *nearest = (boundary_point){.cut_short = foot.cut_short};
         return FFD_OK;
     }
     nearest->found = true;
     memcpy(nearest->uvw, foot.uvw, sizeof foot.uvw);
     report_derivative(&query, &foot, nearest);
     return FFD_OK;
+}
+
+ffd_status ffd_boundary_meets(const boundary *border, const double p[3], const double each[3],
+                              boundary_verdict *verdict, ffd_error *error)
+{
+    static const boundary_verdict verdicts[] = {[PATCH_MISSES] = BOUNDARY_MISSES,
+                                                [PATCH_MEETS] = BOUNDARY_MEETS,
+                                                [PATCH_UNKNOWN] = BOUNDARY_UNDECIDED};
+    boundary_query query;
+    patch_cell cell;
+    patch_view view = PATCH_UNKNOWN;
+    *verdict = BOUNDARY_UNDECIDED;
+    if (!vec_is_finite(p) || make_query(border, p, &query))
+        return FFD_OK;
+    for (int a = 0; a < 3; a++) {
+        cell.centre[a] = query.x[a];
+        cell.half[a] = each[a] / query.unit;
+    }
+    const ffd_status status = ffd_boundary_view_cell(border, &cell, &view, error);
+    *verdict = verdicts[view];
+    return status;
 }

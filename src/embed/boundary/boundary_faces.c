@@ -11,13 +11,13 @@ enum { N = PATCH_COMPONENTS };
 /* Patches are kept up to this size in all (bytes); a boundary with more of them has each search make its own.
  */
 #define KEPT_SIZE ((size_t)64 << 20)
-/* Kept patches are cut until they have one minimum for points about their own size away, but so often only,
-   and into so many in all. */
+/* Kept patches are cut until they have one minimum for points about their own size away, but at most this
+   often, and into this many in all. */
 #define MOST_CUTS 6
 #define MOST_PARTS ((size_t)1 << 14)
-/* Control points of the faces are kept, each 32 bytes, where they are no more than this in all. */
+/* Control points of the faces are kept, 32 bytes each, if there are no more than this in all. */
 #define KEPT_POINTS ((size_t)1 << 20)
-/* Leaves hold one cell, or more where there would be more of them than this. */
+/* A leaf holds one cell, or more if there would be more leaves than this. */
 #define MOST_LEAVES ((size_t)1 << 18)
 
 typedef struct builder {

@@ -1,4 +1,6 @@
-/* boundary_faces.h - what a boundary is made of: the faces of the domain, their cells, a tree over them. */
+/* boundary_faces.h - what a boundary is made of: the faces of the domain, their cells, a tree over them.
+   Main header of the search on the border: declares boundary_faces.c, boundary_box.c, boundary_cell.c,
+   boundary_search.c and boundary_settle.c. */
 #ifndef FFD_EMBED_BOUNDARY_BOUNDARY_FACES_H
 #define FFD_EMBED_BOUNDARY_BOUNDARY_FACES_H
 
@@ -41,11 +43,11 @@ typedef struct boundary {
     face_patch *patches; /* the kept ones, a list */
 } boundary;
 
-/* boundary_faces.c: cuts the border into patches and makes the tree. */
+/* Cuts the border into patches and makes the tree. Errors: FFD_E_MEMORY. */
 ffd_status ffd_boundary_build(boundary *border, ffd_error *error);
 /* The whole cell of the face as a patch (of the face's orders), not yet measured. */
 void ffd_boundary_patch(const boundary *border, int face, const size_t cell[2], face_patch *made);
-/* A patch of the face's orders, without contents; NULL when there is no memory. */
+/* A patch of the face's orders, without contents; NULL if memory runs out. */
 face_patch *ffd_boundary_new_patch(const boundary *border, int face);
 /* Frees a list of patches. */
 void ffd_boundary_free_patches(face_patch *list);
@@ -69,14 +71,20 @@ typedef struct boundary_foot {
     int free[2];        /* the coordinates that follow x, */
     int free_count;     /* so many of them, */
     double by_x[2][3];  /* and how */
+    bool cut_short;     /* the search ended at its limit */
 } boundary_foot;
 
-/* boundary_box.c: the box's sides in the search's units; the nearest point. */
+/* Finds the nearest point of a box (REST_BOX_AFFINE). */
 void ffd_boundary_box_find(const boundary *border, const boundary_query *query, boundary_foot *foot);
 
-/* boundary_search.c: *found stays false where the border is farther than reach (in the search's units). */
+/* Finds the nearest point of a border of patches. Sets *found only if the border is no farther than reach (in
+   the search's units); else of the foot only cut_short is set. Errors: FFD_E_MEMORY. */
 ffd_status ffd_boundary_search(const boundary *border, const boundary_query *query, double reach, bool *found,
                                boundary_foot *foot, ffd_error *error);
+
+/* What is known of the border and a cell, whose numbers are in the search's units. Errors: FFD_E_MEMORY. */
+ffd_status ffd_boundary_view_cell(const boundary *border, const patch_cell *cell, patch_view *view,
+                                  ffd_error *error);
 
 /* A point on the border: a cell of a face and t in [0,1]^2 of it. */
 typedef struct boundary_location {
@@ -90,7 +98,7 @@ void ffd_boundary_uvw(const boundary *border, const boundary_location *location,
 /* Whether a comes before b by (u,v,w); coordinates within 1e-9 of the domain are equal. */
 bool ffd_boundary_before(const boundary *border, const double a[3], const double b[3]);
 
-/* boundary_settle.c: moves the point to where the distance is stationary on the border around it, and finds
+/* Moves the point to where the distance is stationary on the border around it, and finds
    how it follows x. scratch is a patch of MAX_ORDER by MAX_ORDER points. */
 void ffd_boundary_settle(const boundary *border, const double x[3], const boundary_location *location,
                          face_patch *scratch, boundary_foot *foot);

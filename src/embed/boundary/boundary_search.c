@@ -21,7 +21,7 @@
 #define LEAST_PART 0x1p-44
 #define MOST_TIES 16
 
-/* What waits to be looked at: a node of the tree, or a part of a patch. */
+/* An entry of the queue: a node of the tree, or a part of a patch. */
 typedef struct waiting {
     double key;      /* a lower bound of the excess */
     uint32_t number; /* breaks ties: the order of arrival */
@@ -48,6 +48,7 @@ typedef struct border_search {
     size_t heap_count, heap_capacity;
     uint32_t arrivals;
     int budget;
+    bool cut_short;      /* the budget was too small */
     face_patch *parts;   /* made by this search, a list */
     face_patch *scratch; /* as large as any patch; made when first needed */
     ffd_error *error;
@@ -199,7 +200,7 @@ static const candidate *choose(const border_search *search)
 
 /* Patches */
 
-/* Of a line of t that the patch collapses to one point, the least t. */
+/* Moves t to the least one of a line that the patch collapses to one point. */
 static void go_to_least(const border_search *search, const face_patch *patch, double t[2],
                         patch_sample *sample)
 {
@@ -267,8 +268,7 @@ static ffd_status halve(border_search *search, const face_patch *patch, double k
     return status;
 }
 
-/* Looks for the patch's nearest point; where it need not be the only minimum, the halves wait for their turn.
- */
+/* Looks for the patch's nearest point; if that may not be the only minimum, the halves are queued. */
 static ffd_status look_into(border_search *search, const face_patch *patch, double key)
 {
     search->budget--;
@@ -296,13 +296,17 @@ static ffd_status make_scratch(border_search *search)
     return search->scratch ? FFD_OK : ffd_fail_memory(search->error);
 }
 
-/* A leaf's patches that are not kept are made in the scratch; halves have their own memory. The reach may not
-   choose among them: the search would not be the same one with another. */
+/* A leaf's patches that are not kept are made in the scratch; halves have their own memory. Which ones are
+   made must not depend on the reach: it would change the search. */
 static ffd_status look_into_cells(border_search *search, const boundary_node *leaf)
 {
     ffd_status status = make_scratch(search);
     for (size_t j = 0; j < leaf->cells[1] && !status; j++)
-        for (size_t i = 0; i < leaf->cells[0] && !status && search->budget > 0; i++) {
+        for (size_t i = 0; i < leaf->cells[0] && !status; i++) {
+            if (search->budget <= 0) {
+                search->cut_short = true;
+                return FFD_OK;
+            }
             const size_t cell[2] = {leaf->cell[0] + i, leaf->cell[1] + j};
             ffd_boundary_patch(search->border, leaf->face, cell, search->scratch);
             ffd_patch_measure(search->scratch);
@@ -349,6 +353,10 @@ static ffd_status search_border(border_search *search)
             break;
         status = expand(search, &next);
     }
+    /* What waits may hold a nearer point. */
+    if (search->budget <= 0 && search->heap_count > 0)
+        search->cut_short |=
+            search->heap[0].key < search->least - GAP && search->heap[0].key <= threshold(search);
     return status;
 }
 
@@ -373,6 +381,7 @@ ffd_status ffd_boundary_search(const boundary *border, const boundary_query *que
         ffd_boundary_settle(border, query->x, &best->location, search.scratch, foot);
         *found = true;
     }
+    foot->cut_short = search.cut_short;
     ffd_boundary_free_patches(search.parts);
     ffd_free(search.scratch);
     ffd_free(search.heap);

@@ -6,11 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Crossings of lines between patches: a point that settles is a rounding away from where it belongs. */
+/* The most lines between patches that a point crosses: it settles within roundings of where it starts. */
 #define CROSSINGS 6
 /* u,v,w that are this near in each coordinate, relative to the domain, are equal. */
 #define EQUAL_UVW 1e-9
-/* A slope of the distance that is no more than this many roundings of |S_f| |x - S| is none. */
+/* A slope of the distance counts as 0 up to this many roundings of |S_f| |x - S|. */
 #define SLOPE_ROUNDINGS 64
 /* A second derivative matrix is singular where its determinant is this small. */
 #define LEAST_DETERMINANT 1e-12
@@ -104,7 +104,7 @@ static void neighbour(const boundary *border, const boundary_location *from, int
         }
 }
 
-/* Goes over to a neighbour in which the distance falls further; false where none is such. */
+/* Moves to a neighbour in which the distance falls further. Returns false if there is none. */
 static bool cross(settling *at)
 {
     for (int f = 0; f < 2; f++) {

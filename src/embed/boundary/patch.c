@@ -18,7 +18,7 @@ face_patch *ffd_patch_create(const int order[2], bool rational)
     return made;
 }
 
-/* What a half has of the whole but its points and bounds. */
+/* Copies what a half has in common with the whole: all but points and bounds. */
 static void inherit(const face_patch *whole, face_patch *half)
 {
     half->rational = whole->rational;
@@ -29,7 +29,7 @@ static void inherit(const face_patch *whole, face_patch *half)
     memcpy(half->hi, whole->hi, sizeof half->hi);
 }
 
-void ffd_patch_halve(const face_patch *whole, int f, face_patch *lower, face_patch *upper)
+void ffd_patch_split(const face_patch *whole, int f, face_patch *lower, face_patch *upper)
 {
     const size_t order = (size_t)whole->order[f], inner = N * (f == 0 ? 1 : (size_t)whole->order[0]),
                  size = N * (size_t)whole->order[0] * (size_t)whole->order[1];
@@ -40,6 +40,11 @@ void ffd_patch_halve(const face_patch *whole, int f, face_patch *lower, face_pat
     for (size_t slab = 0; slab < size; slab += order * inner)
         ffd_bezier_halve_lines(order, inner, lower->points + slab, upper->points + slab);
     lower->hi[f] = upper->lo[f] = middle;
+}
+
+void ffd_patch_halve(const face_patch *whole, int f, face_patch *lower, face_patch *upper)
+{
+    ffd_patch_split(whole, f, lower, upper);
     ffd_patch_measure(lower);
     ffd_patch_measure(upper);
 }

@@ -1,4 +1,5 @@
-/* patch.h - a rectangle of a face of the domain as a Bezier surface: its bounds, the nearest point of it. */
+/* patch.h - a rectangle of a face of the domain as a Bezier surface: its bounds, the nearest point of it.
+   Main header of patches: declares patch.c, patch_bounds.c, patch_project.c, patch_cell.c. */
 #ifndef FFD_EMBED_BOUNDARY_PATCH_H
 #define FFD_EMBED_BOUNDARY_PATCH_H
 
@@ -25,13 +26,15 @@ typedef struct face_patch {
     double points[]; /* PATCH_COMPONENTS a control point, s fastest */
 } face_patch;
 
-/* A patch without contents; NULL when there is no memory. To be freed with ffd_free. */
+/* A patch without contents; NULL if memory runs out. To be freed with ffd_free. */
 face_patch *ffd_patch_create(const int order[2], bool rational);
 
-/* The halves of whole across direction f, measured; they have whole's orders. */
+/* The halves of whole across direction f; they have whole's orders. */
+void ffd_patch_split(const face_patch *whole, int f, face_patch *lower, face_patch *upper);
+/* The same, measured. */
 void ffd_patch_halve(const face_patch *whole, int f, face_patch *lower, face_patch *upper);
 
-/* patch_bounds.c */
+/* Computes what follows `points` from them. */
 void ffd_patch_measure(face_patch *patch);
 /* Bounds along x,y,z. */
 bounds ffd_patch_hull(const face_patch *patch);
@@ -43,7 +46,7 @@ bool ffd_patch_has_one_minimum(const face_patch *patch, const bounds *residual);
 /* The direction whose halving makes the derivatives vary least. */
 int ffd_patch_direction(const face_patch *patch);
 
-/* patch_project.c */
+/* The patch at one t, relative to a point x. */
 typedef struct patch_sample {
     double point[3];
     double residual[3];  /* S - x */
@@ -57,6 +60,21 @@ void ffd_patch_evaluate(const face_patch *patch, const double x[3], const double
 /* Goes from t to a local minimum of |S - x| in [0,1]^2, which is the only one where the patch has one;
  *sample becomes that at t. */
 void ffd_patch_project(const face_patch *patch, const double x[3], double t[2], patch_sample *sample);
+
+/* A box with sides along x,y,z. */
+typedef struct patch_cell {
+    double centre[3], half[3]; /* half its sides, > 0 */
+} patch_cell;
+
+/* What the control points of a patch tell of a cell. */
+typedef enum patch_view {
+    PATCH_MISSES, /* a plane is between the patch and the cell */
+    PATCH_MEETS,  /* they have a point in common, or are nearer than a millionth of the cell */
+    PATCH_UNKNOWN /* neither is shown; *longer is the direction to halve */
+} patch_view;
+
+/* Whether a patch, which need not be measured, meets a cell. */
+patch_view ffd_patch_view_cell(const face_patch *patch, const patch_cell *cell, int *longer);
 
 /* The gradient and the second derivatives (ss, st, tt) of |S - x|^2 / 2. */
 void ffd_patch_gradient(const patch_sample *sample, double gradient[2], double hessian[3]);

@@ -169,14 +169,14 @@ static bool is_definite(const patch_sample *sample, const double hessian[3])
            det > LEAST_DETERMINANT * hessian[0] * hessian[2];
 }
 
-/* A coordinate at an end of [0,1] whose way down leads out rests there. */
+/* A coordinate at an end of [0,1] is held there if the distance falls only outwards. */
 static bool rests(double t, double gradient)
 {
     return (t == 0 && gradient >= 0) || (t == 1 && gradient <= 0);
 }
 
-/* The next t; false where both coordinates are held at an end. Where the second derivatives are not positive
-   definite each coordinate goes its own way. */
+/* Finds the next t. Returns false if both coordinates are held at an end. If the second derivatives are not
+   positive definite, each coordinate takes a step of its own. */
 static bool next_parameters(const patch_sample *sample, const double t[2], double to[2])
 {
     double gradient[2], hessian[3], step[2] = {0, 0};

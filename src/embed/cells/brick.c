@@ -167,16 +167,16 @@ static bool index_leaves(cell_brick *brick)
 
 /* Limits */
 
-/* A limit in leaves of cubic lattices, for leaves whose making takes as much longer as they have control
-   points. */
+/* Converts a limit in leaves of cubic lattices to leaves of these degrees, which take as much longer to make
+   as they have more control points. */
 static size_t limit_of(const cell_search *cells, size_t cubic)
 {
     const size_t points = ffd_bezier_count(cells->order);
     return points <= 64 ? cubic : cubic * 64 / points;
 }
 
-/* The brick is the lattice's from now on, unless another thread was faster: its brick is the same. Returns
-   whether it was not. */
+/* Gives the brick to the lattice, unless another thread was faster; that thread's brick is the same. Returns
+   whether the lattice took this one. */
 static bool keep(cell_search *cells, uint32_t number, cell_brick *mine, const cell_brick **kept)
 {
     cell_brick *there = NULL;

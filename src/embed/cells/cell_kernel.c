@@ -36,7 +36,7 @@ static inline void sum_cell(const cell_basis *basis, const int order[3], const c
 void FFD_CELL_KERNEL(const cell_basis *basis, const int order[3], const cell_rows *rows, homogeneous *result)
 {
     static const int cubic[3] = {4, 4, 4};
-    /* What the compiler knows it unrolls. */
+    /* The compiler unrolls loops whose bounds it knows. */
     if (order[0] == 4 && order[1] == 4 && order[2] == 4)
         sum_cell(basis, cubic, rows, result);
     else

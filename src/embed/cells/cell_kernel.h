@@ -5,8 +5,8 @@
 #include "embed/frame/bezier_box.h"
 #include "lattice/lattice.h"
 
-/* A and W at u = t_span + offset, with their derivatives, from the polynomial of the given span (also at its
-   ends). */
+/* A and W at u = t_span + offset, with their derivatives, from the polynomial of the given
+   span (also at its ends). */
 typedef struct homogeneous {
     double value[BEZIER_COMPONENTS];
     double derivative[3][BEZIER_COMPONENTS]; /* by u, v, w */
@@ -17,8 +17,8 @@ typedef struct cell_basis {
     double value[3][MAX_ORDER], slope[3][MAX_ORDER];
 } cell_basis;
 
-/* The rows of its control points along u, by w and v: BEZIER_COMPONENTS numbers a point, one after the
-   other. */
+/* The rows of its control points along u, by w and v: BEZIER_COMPONENTS numbers a
+   point, one after the other. */
 typedef const double *cell_rows[MAX_ORDER][MAX_ORDER];
 
 /* sum N N N P with its derivatives, u first, then v, then w, each in ascending index. One function for each

@@ -1,4 +1,6 @@
-/* cell_locator.h - the certified cell search, as the locator uses it. */
+/* cell_locator.h - the certified cell search, as the locator uses it.
+   Main header of the search for the folders above: declares functions of cells_create.c, search.c,
+   search_many.c, point_search.c, brick.c. */
 #ifndef FFD_EMBED_CELLS_CELL_LOCATOR_H
 #define FFD_EMBED_CELLS_CELL_LOCATOR_H
 
@@ -23,6 +25,9 @@ ffd_status ffd_cells_find_many(const ffd_locator *locator, const double *p, size
                                search_scratch **scratch, ffd_location *locations, ffd_error *error);
 /* Frees the memory of one thread's searches; NULL is allowed. */
 void ffd_search_scratch_free(search_scratch *scratch);
+
+/* Whether the direction's first and last face coincide at rest (ffd_lattice_is_seam). */
+bool ffd_cells_have_seam(const struct cell_search *cells, int direction);
 
 /* Whether points so far needed bricks that count against the limit (FFD_E_LIMIT). */
 bool ffd_cells_are_strained(const struct cell_search *cells);

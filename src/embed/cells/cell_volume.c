@@ -1,47 +1,143 @@
 #include "embed/cells/cell_volume.h"
 #include "base/vector/vec.h"
 
+enum { N = BEZIER_COMPONENTS };
+
 /* Flat cells */
 
-/* C's derivatives, each coordinate in units of the lattice's extent; C itself likewise where value is not
-   NULL. */
+/* The columns C_u, C_v, C_w by the quotient rule, each coordinate in units of the lattice's extent; C itself
+   likewise where value is not NULL. */
+static void columns_of(const cell_search *cells, const homogeneous *at, double column[3][3], double *value)
+{
+    for (int r = 0; r < 3; r++) {
+        const double unit = at->value[3] * cells->extent[r];
+        for (int a = 0; a < 3; a++)
+            column[a][r] = (at->derivative[a][r] - at->value[r] / at->value[3] * at->derivative[a][3]) / unit;
+        if (value)
+            value[r] = at->value[r] / unit;
+    }
+}
+
 static void derivatives_at(const ffd_locator *locator, const int span[3], const double offset[3],
                            double column[3][3], double *value)
 {
     homogeneous at;
     ffd_cells_evaluate(locator, span, offset, &at);
+    columns_of(locator->cells, &at, column, value);
+}
+
+/* Returns det [C_u C_v C_w]; across[a] is the cross product of the other two columns, cyclic. */
+static double determinant_of(const double column[3][3], double across[3][3])
+{
+    for (int a = 0; a < 3; a++)
+        vec_cross(column[(a + 1) % 3], column[(a + 2) % 3], across[a]);
+    return vec_dot(column[0], across[0]);
+}
+
+/* A cell of the lattice without its weights, at one u,v,w. */
+typedef struct plain_cell {
+    cell_basis basis;
+    cell_rows rows;
+    double points[CELL_NUMBERS];
+} plain_cell;
+
+static void take_plain_cell(const ffd_locator *locator, const int span[3], const double offset[3],
+                            plain_cell *cell)
+{
+    const int *const order = locator->cells->order;
+    double *to = cell->points;
+    ffd_cells_rows(locator, span, cell->rows, cell->points);
+    for (int a = 0; a < 3; a++) {
+        span_scheme own;
+        ffd_basis_derivatives_by(ffd_cells_scheme(locator, a, span[a], &own), offset[a], cell->basis.value[a],
+                                 cell->basis.slope[a]);
+    }
+    for (int k = 0; k < order[2]; k++)
+        for (int j = 0; j < order[1]; j++) {
+            const double *from = cell->rows[k][j];
+            cell->rows[k][j] = to;
+            for (int i = 0; i < order[0]; i++, from += N, to += N) {
+                const double h = from[3];
+                for (int r = 0; r < 3; r++)
+                    to[r] = from[r] / h;
+                to[3] = 1;
+            }
+        }
+}
+
+/* What each coordinate of a control point is rounded by, in units of the extent: half an ulp in the file
+   where it was worked out well, and less than another one when the origin is subtracted. */
+static void roundings_of(const ffd_locator *locator, const double *point, double rounding[3])
+{
+    const cell_search *const cells = locator->cells;
     for (int r = 0; r < 3; r++) {
-        const double unit = at.value[3] * locator->cells->extent[r];
-        for (int a = 0; a < 3; a++)
-            column[a][r] = (at.derivative[a][r] - at.value[r] / at.value[3] * at.derivative[a][3]) / unit;
-        if (value)
-            value[r] = at.value[r] / unit;
+        const double file = point[r] + locator->origin[r] * cells->scale;
+        rounding[r] = DBL_EPSILON * larger_of(fabs(file), fabs(point[r])) / cells->extent[r];
     }
 }
 
-static double triple_product(const double a[3], const double b[3], const double c[3])
+/* What the determinant changes by at most when every control point moves by its rounding. */
+static double effect_of_roundings(const ffd_locator *locator, const plain_cell *cell,
+                                  const double column[3][3], const double across[3][3])
 {
-    double cross[3];
-    vec_cross(b, c, cross);
-    return vec_dot(a, cross);
+    const int *const order = locator->cells->order;
+    const cell_basis *const basis = &cell->basis;
+    double alone[3] = {0, 0, 0}, rounding[3], sum = 0;
+    for (int k = 0; k < order[2]; k++)
+        for (int j = 0; j < order[1]; j++)
+            for (int i = 0; i < order[0]; i++) {
+                const double u = basis->value[0][i], v = basis->value[1][j], w = basis->value[2][k];
+                const double slope[3] = {basis->slope[0][i] * v * w, u * basis->slope[1][j] * w,
+                                         u * v * basis->slope[2][k]};
+                roundings_of(locator, cell->rows[k][j] + N * i, rounding);
+                for (int r = 0; r < 3; r++) {
+                    sum += rounding[r] *
+                           fabs(slope[0] * across[0][r] + slope[1] * across[1][r] + slope[2] * across[2][r]);
+                    alone[r] += fabs(slope[r]) * vec_length(rounding);
+                }
+            }
+    /* Of second and third order, where the columns are nearly parallel or 0. */
+    for (int a = 0; a < 3; a++)
+        sum += (vec_length(column[a]) + alone[a]) * alone[(a + 1) % 3] * alone[(a + 2) % 3];
+    return sum + 4 * DBL_EPSILON * vec_length(column[0]) * vec_length(column[1]) * vec_length(column[2]);
 }
 
-/* Whether det [C_u C_v C_w] at t of a cell's [0,1]^3 is no more than the rounding of its columns can make,
-   which are sums of control points times slopes of about degree / side. */
+/* Whether the roundings of the control points can make the determinant 0. Weights are left out: where one
+   outdoes the others C hardly moves, and its derivatives are mostly rounding. */
+static bool is_flat_to_rounding(const ffd_locator *locator, const int span[3], const double offset[3])
+{
+    const cell_search *const cells = locator->cells;
+    double column[3][3], across[3][3];
+    plain_cell cell;
+    homogeneous at;
+    take_plain_cell(locator, span, offset, &cell);
+    cells->kernel(&cell.basis, cells->order, (const cell_rows *)&cell.rows, &at);
+    columns_of(cells, &at, column, NULL);
+    const double determinant = determinant_of((const double(*)[3])column, across);
+    return !(fabs(determinant) >
+             effect_of_roundings(locator, &cell, (const double(*)[3])column, (const double(*)[3])across));
+}
+
+/* Whether det [C_u C_v C_w] at t of a cell's [0,1]^3 is 0 to rounding. A first look settles most cells: there
+   it is far more than any rounding of its columns, which are sums of control points times slopes of about
+   degree / side. */
 static bool is_flat_at(const ffd_locator *locator, const int span[3], const double t[3])
 {
-    double offset[3], column[3][3], length[3], noise[3];
+    double offset[3], column[3][3], across[3][3], length[3], noise[3], most = 0;
+    for (int r = 0; r < 3; r++)
+        most = larger_of(most, locator->cells->size[r] / locator->cells->extent[r]);
     for (int a = 0; a < 3; a++) {
         const double *knot = locator->knots[a].t + span[a], side = knot[1] - knot[0];
         offset[a] = t[a] * side;
-        noise[a] = 32 * DBL_EPSILON * locator->knots[a].degree / side;
+        noise[a] = 32 * DBL_EPSILON * most * locator->knots[a].degree / side;
     }
     derivatives_at(locator, span, offset, column, NULL);
     for (int a = 0; a < 3; a++)
         length[a] = vec_length(column[a]);
-    const double det = triple_product(column[0], column[1], column[2]);
-    return !(fabs(det) > noise[0] * length[1] * length[2] + noise[1] * length[0] * length[2] +
-                             noise[2] * length[0] * length[1]);
+    const double determinant = determinant_of((const double(*)[3])column, across);
+    return !(fabs(determinant) > noise[0] * length[1] * length[2] + noise[1] * length[0] * length[2] +
+                                     noise[2] * length[0] * length[1]) &&
+           is_flat_to_rounding(locator, span, offset);
 }
 
 static bool is_flat(const ffd_locator *locator, const size_t cell[3])
@@ -55,6 +151,13 @@ static bool is_flat(const ffd_locator *locator, const size_t cell[3])
         if (!is_flat_at(locator, span, samples[i]))
             return false;
     return true;
+}
+
+static double triple_product(const double a[3], const double b[3], const double c[3])
+{
+    double cross[3];
+    vec_cross(b, c, cross);
+    return vec_dot(a, cross);
 }
 
 /* Signed volume: the integral of det [C_u C_v C_w] over the domain is that of det [C, C_b, C_c] / 3 over its

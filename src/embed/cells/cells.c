@@ -56,12 +56,14 @@ void ffd_cell_region(const ffd_locator *locator, const int span[3], const bezier
                      const contraction_bound *contraction, cell_region *result)
 {
     double least;
+    result->grain = 0;
     for (int a = 0; a < 3; a++) {
         const double *t = locator->knots[a].t;
         const double side = t[span[a] + 1] - t[span[a]];
         result->span[a] = span[a];
         result->lo[a] = box->lo[a] * side;
         result->width[a] = (box->hi[a] - box->lo[a]) * side;
+        result->grain = fmax(result->grain, DBL_EPSILON * (box->hi[a] / (box->hi[a] - box->lo[a])));
     }
     memcpy(result->inverse, contraction->inverse, sizeof result->inverse);
     result->bound = contraction->bound;

@@ -1,6 +1,6 @@
-/* cells.h - the span cells of a lattice cut into leaves, in bricks of a few cells that are made when a point
-   first needs them. What a brick holds depends on the lattice only, so it does not matter who makes it, or
-   when. */
+/* cells.h - the span cells of a lattice cut into leaves, in bricks of a few cells that are made when
+   a point first needs them. What a brick holds depends on the lattice only, so it does not matter
+   who makes it, or when. */
 #ifndef FFD_EMBED_CELLS_CELLS_H
 #define FFD_EMBED_CELLS_CELLS_H
 
@@ -66,12 +66,13 @@ typedef struct cell_search {
     bool rational;
     cell_kernel *kernel;
     const contraction_kernel *contraction;
-    region_kernel *region_kernel; /* for so many points at a time; NULL: one by one */
+    region_kernel *region_kernel; /* for this many points at a time; NULL: one by one */
     int lanes;
     /* The search's units: powers of two that bring the lattice and its weights to size 1, so that products of
        three derivatives stay in the range of doubles. x = (P - origin) scale. */
     double scale;
     double extent[3];   /* max |x_a| over the control points */
+    double size[3];     /* max |P_a|, sizes as in the file */
     double volume_sign; /* of the lattice's signed volume: -1, 1 */
     double *points;     /* h x and h: BEZIER_COMPONENTS a control point */
     bool is_seam[3];    /* the first and the last face of this direction are one (ffd_lattice_is_seam) */
@@ -84,11 +85,15 @@ typedef struct cell_search {
     atomic_size_t light_leaves, heavy_leaves; /* kept so far */
 } cell_search;
 
-/* 16 eps (max|x_a| + |x|): the tolerance of src/maths.md 6.6 in the search's units. */
-static inline void ffd_cells_tolerance(const cell_search *cells, const double x[3], double tolerance[3])
+/* ffd_locator_tolerance and ffd_locator_aim in the search's units. */
+static inline void ffd_cells_tolerance(const ffd_locator *locator, const cell_search *cells,
+                                       const double x[3], double tolerance[3], double aim[3])
 {
-    for (int a = 0; a < 3; a++)
-        tolerance[a] = 16 * DBL_EPSILON * (cells->extent[a] + fabs(x[a]));
+    for (int a = 0; a < 3; a++) {
+        tolerance[a] = 16 * DBL_EPSILON * (cells->size[a] + fabs(x[a] + locator->origin[a] * cells->scale));
+        aim[a] = 16 * DBL_EPSILON * (cells->extent[a] + fabs(x[a]));
+        tolerance[a] = tolerance[a] > aim[a] ? tolerance[a] : aim[a]; /* but for a rounding it is */
+    }
 }
 
 /* The triangular scheme of a span, which may be made in *own. */

@@ -23,6 +23,8 @@ static void find_scale(const ffd_locator *locator, cell_search *cells)
     cells->scale = scale_of(fmax(extent[0], fmax(extent[1], extent[2])));
     for (int a = 0; a < 3; a++)
         cells->extent[a] = extent[a] * cells->scale;
+    for (int a = 0; a < 3; a++)
+        cells->size[a] = fmax(fabs(locator->hull.lo[a]), fabs(locator->hull.hi[a])) * cells->scale;
 }
 
 static ffd_status make_points(const ffd_locator *locator, cell_search *cells, ffd_error *error)
@@ -74,7 +76,7 @@ static ffd_status make_schemes(const ffd_locator *locator, cell_search *cells, f
     return FFD_OK;
 }
 
-/* Those of an instruction set; region is NULL where points are searched one by one. */
+/* The kernels of an instruction set; region is NULL if points are searched one by one. */
 typedef struct kernel_set {
     cell_kernel *cell;
     const contraction_kernel *contraction;
@@ -128,6 +130,11 @@ ffd_status ffd_cells_create(ffd_locator *locator, ffd_error *error)
     if (!status)
         status = ffd_bricks_create(locator, error);
     return status; /* the locator's destroy frees what there is */
+}
+
+bool ffd_cells_have_seam(const cell_search *cells, int direction)
+{
+    return cells->is_seam[direction];
 }
 
 void ffd_cells_destroy(cell_search **cells_pointer)

@@ -10,7 +10,7 @@
 
 enum { N = BEZIER_COMPONENTS };
 
-/* A curve is halved until its parts are this short, relative to a span, and in so many parts in all. */
+/* A curve is halved until its parts are this short relative to a span, and into this many parts in all. */
 #define CURVE_HALVINGS 52
 #define CURVE_BUDGET 4096
 

@@ -60,8 +60,8 @@ static void centre_jacobian(const bezier_box *box, const double p[3], double jac
     }
 }
 
-/* A column of Y J_F: the coefficients that its three rows have, and the derivative's of W, one after the
- * other. */
+/* A column of Y J_F: the coefficients that its three rows have, and the derivative's of
+   W, one after the other. */
 typedef struct column_form {
     double *numbers; /* N a coefficient */
     int size[3];     /* the box's orders, one less along the column's own direction */
@@ -121,7 +121,7 @@ static void column_distance(const column_form *column, int b, const double reach
         quad with_reach = quad_magnitude(&off);
         quad_add(&with_reach, fabs(numbers[3]), &reached);
         greatest = quad_larger(&with_reach, &greatest);
-        quad_add(&zero, 0, &with_reach); /* what is not finite must not pass as a small bound */
+        quad_add(&zero, 0, &with_reach); /* NaN and infinity must not pass as a small bound */
     }
     quad_add(&greatest, 1, &zero);
     quad_store(&greatest, distance);
@@ -150,9 +150,9 @@ static void column_spread(const column_form *column, int a, double spread[3][3])
         spread[r][a] = rows[r];
 }
 
-/* The greatest row sum of spreads once the box is halved along c (-1: as it is). Halving halves every spread
-   along c and all of column c (its derivative is by a shorter side), and doubles row c (its coordinate is
-   stretched). */
+/* The greatest row sum of spreads once the box is halved along c (-1: as it is). Halving halves every
+   spread along c and all of column c (its derivative is by a shorter side), and doubles row c (its
+   coordinate is stretched). */
 static double predicted_sum(double spread[3][3][3], int c)
 {
     double greatest = 0;
@@ -166,7 +166,7 @@ static double predicted_sum(double spread[3][3][3], int c)
     return greatest;
 }
 
-/* Where no halving alone wins anything, the longest side is taken: all three together always do. */
+/* If no single halving lowers the bound, the longest side is halved: halving all three always lowers it. */
 static int best_halving(const bezier_box *box, double spread[3][3][3])
 {
     int best = 0, longest = 0;

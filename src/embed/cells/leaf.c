@@ -2,16 +2,25 @@
 #include "embed/cells/leaf.h"
 #include "base/vector/vec.h"
 #include "embed/frame/face.h"
+#include <float.h>
 #include <string.h>
 
 /* Newton steps in one leaf: the certified radius at least halves with each, and 2^-64 is below any rounding.
  */
 #define LEAF_STEPS 64
+#define CALM_STEPS 32
 
 static double greatest(const double v[3])
 {
     const double x = fabs(v[0]), y = fabs(v[1]), z = fabs(v[2]);
     return x > y ? (x > z ? x : z) : (y > z ? y : z);
+}
+
+/* What is not finite proves nothing. */
+static bool is_beyond(const double v[3], double limit)
+{
+    const double size = greatest(v);
+    return size > limit && size <= DBL_MAX;
 }
 
 static void offset_of(const cell_region *region, const double t[3], double offset[3])
@@ -36,7 +45,7 @@ static void step_from(const double t[3], const double step[3], double to[3])
         to[a] = clip_to_unit(t[a] + step[a]);
 }
 
-/* The full Newton step -J^{-1} F by Cramer's rule; false where J is singular. */
+/* The full Newton step -J^{-1} F by Cramer's rule; false if J is singular. */
 static bool newton_step(const sample *at, double step[3])
 {
     double inverse[9];
@@ -48,10 +57,33 @@ static bool newton_step(const sample *at, double step[3])
     return true;
 }
 
+/* What a root at t may miss the point by: its tolerance, and what the rounding of u,v,w moves C by. */
+static void find_allowance(const point_search *search, const cell_region *region, const double t[3],
+                           const sample *at, double allowance[3])
+{
+    for (int r = 0; r < 3; r++) {
+        double jump = 0;
+        for (int a = 0; a < 3; a++) {
+            const double grain = DBL_EPSILON * (region->lo[a] / region->width[a] + t[a]);
+            jump += fabs(at->jacobian[3 * r + a]) * grain;
+        }
+        allowance[r] = search->tolerance[r] * region->weight_ratio + jump / at->weight;
+    }
+}
+
+bool ffd_search_admits(const point_search *search, const cell_region *region, const double t[3],
+                       const sample *at)
+{
+    double allowance[3];
+    find_allowance(search, region, t, at, allowance);
+    return ffd_within_tolerance(at->residual, allowance);
+}
+
 /* A root may lie a rounding outside the box. */
 typedef struct face_search {
     point_search *search;
     const cell_region *region;
+    bool admits; /* whatever ffd_search_admits does */
     sample at;
 } face_search;
 
@@ -61,28 +93,17 @@ static bool evaluate_on_face(void *context, const double t[3], double jacobian[9
     ffd_search_evaluate_in(face->search, face->region, t, &face->at);
     memcpy(jacobian, face->at.jacobian, sizeof face->at.jacobian);
     memcpy(equation, face->at.equation, sizeof face->at.equation);
-    return ffd_search_accepts(face->search, &face->at, face->region->weight_ratio);
+    return face->admits ? ffd_search_admits(face->search, face->region, t, &face->at)
+                        : ffd_search_accepts(face->search, &face->at, face->region->weight_ratio);
 }
 
-/* Whether the determinant is no more than the rounding of its own terms. */
-static bool is_singular(const double jacobian[9], double *determinant)
-{
-    double column[3][3], cross[3];
-    for (int a = 0; a < 3; a++)
-        for (int r = 0; r < 3; r++)
-            column[a][r] = jacobian[3 * r + a];
-    vec_cross(column[1], column[2], cross);
-    *determinant = vec_dot(column[0], cross);
-    return !(fabs(*determinant) >
-             16 * DBL_EPSILON * vec_length(column[0]) * vec_length(column[1]) * vec_length(column[2]));
-}
-
-void ffd_search_record(point_search *search, const cell_region *region, const double t[3], const sample *at,
-                       bool singular)
+/* The root at t, whose sample is `at`. */
+static root root_at(const point_search *search, const cell_region *region, const double t[3],
+                    const sample *at)
 {
     root found = {.residual = vec_length(at->residual)};
     double inverse[9], offset[3];
-    found.singular = is_singular(at->jacobian, &found.determinant) || singular;
+    found.singular = ffd_mat_is_singular(at->jacobian, &found.determinant);
     offset_of(region, t, offset);
     for (int a = 0; a < 3; a++) {
         const knot_vector *knots = &search->locator->knots[a];
@@ -95,10 +116,286 @@ void ffd_search_record(point_search *search, const cell_region *region, const do
                               (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
                                fabs(row[2]) * search->tolerance[2]);
         }
+    return found;
+}
+
+void ffd_search_record(point_search *search, const cell_region *region, const double t[3], const sample *at,
+                       bool singular)
+{
+    root found = root_at(search, region, t, at);
+    found.singular = found.singular || singular;
     ffd_roots_add(search->locator, &search->roots, &found);
 }
 
-/* The first step, -Y F from the centre, whose value is known: false where the region has no root. */
+void ffd_search_stall(point_search *search, const cell_region *region, const double t[3], const sample *at,
+                      root *stall)
+{
+    *stall = root_at(search, region, t, at);
+    stall->singular = true;
+}
+
+/* Whether the face of the region is one of the domain: beyond it there is no other. */
+static bool is_domain_face(const ffd_locator *locator, const cell_region *region, int a, int end)
+{
+    const knot_vector *knots = &locator->knots[a];
+    const int span = region->span[a];
+    if (ffd_knots_closed(knots))
+        return false;
+    return end ? span == knots->spans[knots->span_count - 1] &&
+                     region->lo[a] + region->width[a] >= knots->t[span + 1] - knots->t[span]
+               : span == knots->spans[0] && region->lo[a] == 0;
+}
+
+/* Whether the box is left by all that a root in it can be: what G = t - Y F makes of t is no farther from the
+   root than L e and the tolerance, in each direction. Sets e, a bound of the distance from a root. */
+static bool leaves_by_contraction(const point_search *search, const cell_region *region, const double t[3],
+                                  const sample *at, double *e)
+{
+    double image[3], noise[3], most = 0;
+    mat_apply(region->inverse, at->equation, image);
+    for (int a = 0; a < 3; a++) {
+        const double *row = region->inverse + 3 * a;
+        noise[a] = region->greatest_weight *
+                       (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
+                        fabs(row[2]) * search->tolerance[2]) +
+                   region->grain;
+        most = noise[a] > most ? noise[a] : most;
+    }
+    *e = lesser_of(1, (greatest(image) + most) / (1 - region->bound));
+    for (int a = 0; a < 3; a++) {
+        const double to = t[a] - image[a], out = to < 0 ? -to : to - 1;
+        if (out > region->bound * *e + noise[a])
+            return true;
+    }
+    return false;
+}
+
+/* v less its components along unit vectors that are orthogonal. */
+static void take_away(const double unit[3][3], int count, double v[3])
+{
+    for (int round = 0; round < 2; round++) /* twice: once leaves what rounding made */
+        for (int i = 0; i < count; i++) {
+            const double along = vec_dot(unit[i], v);
+            for (int r = 0; r < 3; r++)
+                v[r] -= along * unit[i][r];
+        }
+}
+
+/* What is left of the residual, and of the columns that the box holds, across those that are free. Returns
+   false if the free ones are not independent. */
+static bool look_across(const double jacobian[9], const double residual[3], const double t[3],
+                        double across[3][3], double left[3])
+{
+    double unit[3][3];
+    int count = 0;
+    for (int a = 0; a < 3; a++)
+        for (int r = 0; r < 3; r++)
+            across[a][r] = jacobian[3 * r + a];
+    for (int a = 0; a < 3; a++) {
+        if (t[a] == 0 || t[a] == 1)
+            continue;
+        const double length = vec_length(across[a]);
+        take_away((const double(*)[3])unit, count, across[a]);
+        const double rest = vec_length(across[a]);
+        if (!(rest > 1e-10 * length))
+            return false;
+        for (int r = 0; r < 3; r++)
+            unit[count][r] = across[a][r] / rest;
+        count++;
+    }
+    memcpy(left, residual, 3 * sizeof *left);
+    take_away((const double(*)[3])unit, count, left);
+    for (int a = 0; a < 3; a++)
+        if (t[a] == 0 || t[a] == 1)
+            take_away((const double(*)[3])unit, count, across[a]);
+    return true;
+}
+
+/* Whether t, on faces of the region, is next to the point of it that is closest to x in units of the
+   allowance, and that one misses: most of the residual is across the coordinates that are free, is more than
+   the allowance, and the others could only go on outwards. */
+static bool is_closest(const double t[3], const sample *at, const double allowance[3])
+{
+    double jacobian[9], equation[3], across[3][3], left[3];
+    bool outward = false;
+    if (!ffd_weigh_rows(at->jacobian, at->equation, allowance, jacobian, equation) ||
+        !look_across(jacobian, equation, t, across, left) ||
+        !(vec_length(left) > 0.5 * vec_length(equation)) ||
+        !(greatest(left) > at->weight * fmin(allowance[0], fmin(allowance[1], allowance[2]))))
+        return false;
+    for (int a = 0; a < 3; a++) {
+        if (t[a] != 0 && t[a] != 1)
+            continue;
+        const double slope = (t[a] == 0 ? 1 : -1) * vec_dot(across[a], left);
+        const double size = vec_length(across[a]) * vec_length(left);
+        if (slope < -0.01 * size)
+            return false;
+        outward = outward || slope > 0.1 * size;
+    }
+    return outward;
+}
+
+/* J is taken for the same around t if it changes by no more than this part. */
+#define MOST_CHANGE 0.25
+
+/* What I - Y J, which L bounds over the region, changes by at most within e of a point: Markov's inequality
+   for polynomials of the lattice's degrees. *usual: what it does but for polynomials made for it. */
+static double change_of_jacobian(const point_search *search, const cell_region *region, double e,
+                                 double *usual)
+{
+    double slope = 0;
+    for (int a = 0; a < 3; a++) {
+        const int degree = search->locator->cells->order[a] - 1;
+        slope += 2.0 * degree * degree;
+    }
+    *usual = 8 * region->bound * e;
+    return slope * region->bound * e;
+}
+
+/* Whether Newton's step, which ends within e of any root, leads out of the region. Over an inner face that
+   has to be by more than the tolerance explains, so that a root on the face is not left by both neighbours.
+   On a face of the domain the point that is closest was looked for before, and misses. */
+static bool leads_out_by_step(const point_search *search, const cell_region *region, const double t[3],
+                              const sample *at, const double allowance[3], double e)
+{
+    double inverse[9], step[3], reach[3], usual, most = 0;
+    const double change = change_of_jacobian(search, region, e, &usual);
+    if (usual > MOST_CHANGE || !mat_invert(at->jacobian, inverse))
+        return false;
+    mat_apply(inverse, at->equation, step);
+    for (int a = 0; a < 3; a++) {
+        const double *row = inverse + 3 * a;
+        reach[a] = at->weight *
+                   (fabs(row[0]) * allowance[0] + fabs(row[1]) * allowance[1] + fabs(row[2]) * allowance[2]);
+        most = larger_of(most, fabs(step[a]) + reach[a]);
+    }
+    for (int a = 0; a < 3; a++) {
+        const double to = t[a] - step[a], out = to < 0 ? -to : to - 1;
+        if ((change < MOST_CHANGE && out > change * most / (1 - change) + reach[a]) ||
+            (out > usual * most / (1 - usual) && is_domain_face(search->locator, region, a, to > 0)))
+            return true;
+    }
+    return false;
+}
+
+/* Whether the point can only be out of the region: by the contraction, by Newton's step; or t, on a face of
+   it, is the point of the region that is closest, and misses. */
+static bool leads_out(const point_search *search, const cell_region *region, const double t[3],
+                      const sample *at)
+{
+    double allowance[3], e;
+    if (leaves_by_contraction(search, region, t, at, &e))
+        return true;
+    find_allowance(search, region, t, at, allowance);
+    return leads_out_by_step(search, region, t, at, allowance, e) ||
+           (8 * region->bound * e <= MOST_CHANGE && is_closest(t, at, allowance));
+}
+
+static bool is_within_box(const double t[3])
+{
+    return t[0] > 0 && t[0] < 1 && t[1] > 0 && t[1] < 1 && t[2] > 0 && t[2] < 1;
+}
+
+/* Whether t is a root, or the closest point of a face beside it. */
+static bool settle(face_search *face, double t[3])
+{
+    const sample at = face->at;
+    if (ffd_search_accepts(face->search, &at, face->region->weight_ratio) ||
+        ffd_face_settle(face->search->aim, false, evaluate_on_face, face, t))
+        return true;
+    const bool admitted = ffd_search_admits(face->search, face->region, t, &at);
+    face->admits = true;
+    if (admitted && is_within_box(t)) {
+        face->at = at;
+        return true;
+    }
+    if (ffd_face_settle(face->search->tolerance, true, evaluate_on_face, face, t))
+        return true;
+    face->at = at;
+    return admitted;
+}
+
+/* |F| in units of each row's allowance. */
+static double miss_of(const sample *at, const double allowance[3])
+{
+    double weighed[3];
+    for (int r = 0; r < 3; r++)
+        weighed[r] = at->residual[r] / allowance[r];
+    return vec_length(weighed);
+}
+
+/* Levenberg's damped step of least squares within the box. Returns false if there is none. */
+static bool damped_step(const sample *at, const double allowance[3], double damping, const double t[3],
+                        double to[3])
+{
+    double jacobian[9], equation[3], normal[9], gradient[3], inverse[9], step[3], trace = 0;
+    if (!ffd_weigh_rows(at->jacobian, at->equation, allowance, jacobian, equation))
+        return false;
+    for (int a = 0; a < 3; a++) {
+        double slope = 0;
+        for (int r = 0; r < 3; r++)
+            slope += jacobian[3 * r + a] * equation[r];
+        const bool rests = (t[a] == 0 && slope > 0) || (t[a] == 1 && slope < 0);
+        for (int r = 0; r < 3 && rests; r++)
+            jacobian[3 * r + a] = 0;
+        gradient[a] = rests ? 0 : -slope;
+    }
+    for (int b = 0; b < 3; b++)
+        for (int a = 0; a < 3; a++)
+            normal[3 * b + a] = jacobian[b] * jacobian[a] + jacobian[3 + b] * jacobian[3 + a] +
+                                jacobian[6 + b] * jacobian[6 + a];
+    trace = normal[0] + normal[4] + normal[8];
+    for (int a = 0; a < 3; a++)
+        normal[4 * a] += damping * trace;
+    if (!mat_invert(normal, inverse))
+        return false;
+    mat_apply(inverse, gradient, step);
+    step_from(t, step, to);
+    return true;
+}
+
+/* Where J is nearly singular, Newton's steps are mostly rounding in the direction that it hardly sees, and
+   the curvature makes each of them miss again. Damped steps leave that direction alone as long as they can.
+   Returns whether t is a root then. */
+static bool calm_down(point_search *search, const cell_region *region, double t[3], sample *at)
+{
+    double damping = 1e-6;
+    for (int step = 0; step < CALM_STEPS; step++) {
+        double allowance[3], to[3];
+        sample ahead;
+        find_allowance(search, region, t, at, allowance);
+        if (ffd_within_tolerance(at->residual, allowance))
+            return true;
+        if (!damped_step(at, allowance, damping, t, to) || memcmp(t, to, sizeof to) == 0)
+            return false;
+        ffd_search_evaluate_in(search, region, to, &ahead);
+        const bool falls = miss_of(&ahead, allowance) < miss_of(at, allowance);
+        damping *= falls ? 0.1 : 10;
+        if (!falls)
+            continue;
+        memcpy(t, to, sizeof to);
+        *at = ahead;
+    }
+    return ffd_search_admits(search, region, t, at);
+}
+
+/* The iteration stands still at t. Returns false if that proves nothing. */
+static bool end_without_root(point_search *search, const cell_region *region, double t[3], sample *at,
+                             root *stall)
+{
+    face_search face = {.search = search, .region = region, .at = *at};
+    if (settle(&face, t))
+        ffd_search_record(search, region, t, &face.at, false);
+    else if (calm_down(search, region, t, at))
+        ffd_search_record(search, region, t, at, false);
+    else if (!leads_out(search, region, t, at)) {
+        ffd_search_stall(search, region, t, at, stall);
+        return false;
+    }
+    return true;
+}
+
+/* The first step, -Y F from the centre, whose value is known. Returns false if the region has no root. */
 static bool leave_centre(const point_search *search, const cell_region *region, double noise, double t[3],
                          double *e)
 {
@@ -107,7 +404,7 @@ static bool leave_centre(const point_search *search, const cell_region *region, 
     for (int r = 0; r < 3; r++)
         equation[r] = search->x[r] * region->centre[3] - region->centre[r];
     mat_apply(region->inverse, equation, step);
-    if (!(greatest(step) <= (1 + region->bound) * *e + noise))
+    if (is_beyond(step, (1 + region->bound) * *e + noise))
         return false;
     step_from(middle, step, t);
     *e = region->bound * *e + noise;
@@ -136,25 +433,25 @@ static bool newton_stride(point_search *search, const cell_region *region, const
 
 /* e bounds |t - root| throughout, if there is a root: Y F contracts distances from it by L, clipping does not
    lengthen them, and any t has |Y F(t)| between (1-L) and (1+L) times its distance. */
-void ffd_search_region(point_search *search, const cell_region *region)
+bool ffd_search_region(point_search *search, const cell_region *region, root *stall)
 {
     const double noise = ffd_image_of_tolerance(region->inverse, search->tolerance, region->greatest_weight);
-    const double bound = region->bound, least = fmax(1e-12, 4 * noise);
+    const double bound = region->bound, least = fmax(1e-12, 4 * fmax(region->grain, noise));
     double t[3], e = 0.5, image[3];
     sample at;
     if (!leave_centre(search, region, noise, t, &e))
-        return;
+        return true;
     ffd_search_evaluate_in(search, region, t, &at);
     for (int i = 0; i < LEAF_STEPS; i++) {
         stride ahead;
         e = e > least ? e : least;
         if (ffd_search_accepts(search, &at, region->weight_ratio)) {
             ffd_search_record(search, region, t, &at, false);
-            return;
+            return true;
         }
         mat_apply(region->inverse, at.equation, image);
-        if (!(greatest(image) <= (1 + bound) * e + noise))
-            return; /* also where a value is not finite */
+        if (is_beyond(image, (1 + bound) * e + noise))
+            return true;
         const double shorter = bound * e + noise;
         if (!newton_stride(search, region, t, &at, noise, shorter, &ahead)) {
             for (int a = 0; a < 3; a++)
@@ -170,8 +467,5 @@ void ffd_search_region(point_search *search, const cell_region *region)
         if (unmoved)
             break;
     }
-    face_search face = {.search = search, .region = region, .at = at};
-    if (ffd_search_accepts(search, &at, region->weight_ratio) ||
-        ffd_face_settle(search->tolerance, evaluate_on_face, &face, t))
-        ffd_search_record(search, region, t, &face.at, false);
+    return end_without_root(search, region, t, &at, stall);
 }

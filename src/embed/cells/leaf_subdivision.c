@@ -16,9 +16,16 @@
 #define BLURRED_SIDE 0x1p-22
 #define HARD_BUDGET 4096 /* boxes in one leaf */
 #define HARD_BOUND 0.75
+/* Halvings of a region in which the iteration stood still. */
+#define PART_LEVELS 16
 #define POLISH_ROUNDS 12
+/* A u,v,w that misses by more, in the search's units, in which the lattice has about the size 1, is no
+ * answer. */
+#define LARGEST_MISS 1e-6
 /* Singular boxes that are polished in one hard leaf before the rest of it is left. */
 #define HARD_SINGULAR 8
+/* Boxes that are polished in one hard leaf once its budget is used up. */
+#define MOST_LEFT 16
 
 static bool make_memory(point_search *search)
 {
@@ -64,35 +71,62 @@ static bool full_step(const double jacobian[9], const double equation[3], double
     return true;
 }
 
-/* A box too small to halve further, where J is singular or nearly so: Newton's steps while they can be made,
-   then damped ones. */
+/* One step, damped if need be; false if there is none. */
+static bool polishing_step(const point_search *search, const sample *at, bool full, double t[3])
+{
+    double jacobian[9], equation[3], step[3];
+    if (!ffd_weigh_rows(at->jacobian, at->equation, search->tolerance, jacobian, equation))
+        return false;
+    if (!(full && full_step(jacobian, equation, step)) && !damped_step(jacobian, equation, step))
+        return false;
+    for (int a = 0; a < 3; a++)
+        t[a] = clip_to_unit(t[a] + step[a]);
+    return true;
+}
+
+static void note_stall(point_search *search, const cell_region *region, const double t[3], const sample *at)
+{
+    root stall;
+    ffd_search_stall(search, region, t, at, &stall);
+    ffd_search_note_stall(search, &stall);
+}
+
+/* A box that is not halved further, where J is singular or nearly so: Newton's steps while they can be made,
+   then damped ones. Returns whether there is a root; else notes the best point. */
 static bool polish(point_search *search, const cell_region *region)
 {
-    double t[3] = {0.5, 0.5, 0.5};
-    sample at;
-    ffd_search_evaluate_in(search, region, t, &at);
-    for (int round = 0; round < POLISH_ROUNDS; round++) {
-        double jacobian[9], equation[3], step[3];
+    double t[3] = {0.5, 0.5, 0.5}, best_t[3], least = HUGE_VAL;
+    sample at, best = {.weight = 1};
+    for (int round = 0; round <= POLISH_ROUNDS; round++) {
+        ffd_search_evaluate_in(search, region, t, &at);
         if (ffd_search_accepts(search, &at, region->weight_ratio)) {
             ffd_search_record(search, region, t, &at, true);
             return true;
         }
-        if (!ffd_weigh_rows(at.jacobian, at.equation, search->tolerance, jacobian, equation))
-            return false;
-        const bool full = round < POLISH_ROUNDS / 2 && full_step(jacobian, equation, step);
-        if (!full && !damped_step(jacobian, equation, step))
-            return false;
-        for (int a = 0; a < 3; a++)
-            t[a] = clip_to_unit(t[a] + step[a]);
-        ffd_search_evaluate_in(search, region, t, &at);
+        if (round == 0 || vec_length(at.residual) < least) {
+            least = vec_length(at.residual);
+            best = at;
+            memcpy(best_t, t, sizeof t);
+        }
+        if (round < POLISH_ROUNDS && !polishing_step(search, &at, round < POLISH_ROUNDS / 2, t))
+            break;
     }
-    return false;
+    const bool admitted = ffd_search_admits(search, region, best_t, &best);
+    if (admitted)
+        ffd_search_record(search, region, best_t, &best, true);
+    else if (least <= LARGEST_MISS)
+        note_stall(search, region, best_t, &best);
+    else
+        search->unresolved = true;
+    return admitted;
 }
 
 typedef struct hard_search {
     point_search *search;
     int span[3];
     int budget, singular;
+    int left; /* boxes left without a look into, of which a few are polished */
+    int most_levels;
 } hard_search;
 
 static const contraction_kernel *kernel_of(const hard_search *hard)
@@ -129,7 +163,7 @@ static double shortest_side(const bezier_box *box)
 
 /* Whether the box is done with: it holds no root, or its one root was looked for. *blurred: else, its parts
  * could not be distinguished, since the tolerance alone reaches across half of it. */
-static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bound *found,
+static bool settle_box(hard_search *hard, const bezier_box *box, int level, contraction_bound *found,
                        cell_region *region, bool *blurred)
 {
     static const double no_reach[3] = {0, 0, 0};
@@ -157,8 +191,28 @@ static bool settle_box(hard_search *hard, const bezier_box *box, contraction_bou
     }
     ffd_cells_centre(search->locator, region);
     search->evaluations++;
-    ffd_search_region(search, region);
+    root stall;
+    if (ffd_search_region(search, region, &stall))
+        return true;
+    /* Where the tolerance reaches across half of the box, its parts can tell no more. */
+    if (noise < 64 && level < hard->most_levels)
+        return false;
+    ffd_search_note_stall(search, &stall);
     return true;
+}
+
+/* A box that is not looked into any more. The point has at least the u,v,w at which the first few of them
+ * end. */
+static void leave_box(hard_search *hard, const bezier_box *box)
+{
+    static const contraction_bound unknown = {.bound = HUGE_VAL};
+    cell_region region;
+    hard->search->unresolved = true;
+    if (hard->singular >= HARD_SINGULAR || hard->left++ >= MOST_LEFT)
+        return;
+    ffd_cell_region(hard->search->locator, hard->span, box, &unknown, &region);
+    if (polish(hard->search, &region))
+        hard->left = MOST_LEFT;
 }
 
 static void halve_for_point(hard_search *hard, bezier_box *box, int level)
@@ -168,10 +222,10 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     cell_region region;
     bool blurred;
     if (hard->singular >= HARD_SINGULAR || hard->budget-- <= 0 || search->hard_boxes-- <= 0) {
-        search->unresolved = true;
+        leave_box(hard, box);
         return;
     }
-    if (settle_box(hard, box, &found, &region, &blurred))
+    if (settle_box(hard, box, level, &found, &region, &blurred))
         return;
     const int across =
         blurred
@@ -180,8 +234,6 @@ static void halve_for_point(hard_search *hard, bezier_box *box, int level)
     if (across < 0) {
         if (polish(search, &region))
             hard->singular++;
-        else
-            search->unresolved = true;
         return;
     }
     bezier_box lower = {.coefficients =
@@ -209,21 +261,39 @@ static void restrict_to_part(bezier_box *box, const double lo[3], const double h
         }
 }
 
-void ffd_search_hard_leaf(point_search *search, const cell_leaf *leaf)
+static void search_part(point_search *search, const int span[3], const double lo[3], const double hi[3],
+                        int most_levels)
 {
     const ffd_lattice *lattice = search->locator->lattice;
     if (!make_memory(search))
         return;
-    hard_search hard = {.search = search, .budget = HARD_BUDGET};
+    hard_search hard = {.search = search, .budget = HARD_BUDGET, .most_levels = most_levels};
     bezier_box box = {.coefficients = search->scratch->slots};
     size_t cell[3];
     for (int a = 0; a < 3; a++) {
-        hard.span[a] = leaf->region.span[a];
+        hard.span[a] = span[a];
         cell[a] = 0;
-        while (lattice->knots[a].spans[cell[a]] != hard.span[a])
+        while (lattice->knots[a].spans[cell[a]] != span[a])
             cell[a]++;
     }
     ffd_cell_bezier(search->locator, cell, &box);
-    restrict_to_part(&box, leaf->part.lo, leaf->part.hi, search->scratch->slots + ffd_bezier_size(box.order));
+    restrict_to_part(&box, lo, hi, search->scratch->slots + ffd_bezier_size(box.order));
     halve_for_point(&hard, &box, 0);
+}
+
+void ffd_search_hard_leaf(point_search *search, const cell_leaf *leaf)
+{
+    search_part(search, leaf->region.span, leaf->part.lo, leaf->part.hi, HARD_LEVELS);
+}
+
+void ffd_search_part(point_search *search, const cell_region *region)
+{
+    double lo[3], hi[3];
+    for (int a = 0; a < 3; a++) {
+        /* Halvings of the cell, to which the roundings of lo and width are nothing. */
+        const double *knot = search->locator->knots[a].t + region->span[a], side = knot[1] - knot[0];
+        lo[a] = ldexp(round(ldexp(region->lo[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
+        hi[a] = lo[a] + ldexp(round(ldexp(region->width[a] / side, LEAF_DEPTH)), -LEAF_DEPTH);
+    }
+    search_part(search, region->span, lo, hi, PART_LEVELS);
 }

@@ -1,7 +1,8 @@
 #include "embed/cells/packet.h"
 #include <math.h>
 
-/* The side, of a cell's mean one: walks are shared by points whose leaves are nearly the same. */
+/* The side of a packet, relative to a cell's mean side: points that share a walk have
+   nearly the same leaves. */
 #define CELLS_A_PACKET (1.0 / 8)
 
 void ffd_packet_begin(point_packet *packet, const ffd_locator *locator)

@@ -6,7 +6,7 @@
 #include "embed/cells/point_search.h"
 
 #define PACKET_SIZE 8
-/* Leaves of a point; with more it is searched for alone. */
+/* Most leaves of a point; a point with more is searched for alone. */
 #define MOST_LEAVES 4
 
 typedef struct packet_point {
@@ -25,15 +25,15 @@ typedef struct point_packet {
     int count; /* the caller empties it */
     bounds hull;
     double slack[3]; /* the largest */
-    /* Of the brick that is being looked into: */
+    /* While a brick is looked into: */
     const cell_brick *brick;
     bool enter[PACKET_SIZE];
 } point_packet;
 
 /* An empty packet for points in this locator's lattice. */
 void ffd_packet_begin(point_packet *packet, const ffd_locator *locator);
-/* Takes a point in; one beyond the search's doubles is left out. False where the packet is full, or the point
-   too far from the others. */
+/* Adds a point; one that is too large for the search's doubles is left out. Returns false if the packet is
+   full, or the point is too far from the others. */
 bool ffd_packet_add(point_packet *packet, const double p[3], uint32_t number);
 /* Finds each point's leaves. */
 void ffd_packet_find_leaves(point_packet *packet);

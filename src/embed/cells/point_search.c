@@ -26,7 +26,7 @@ bool ffd_search_accepts(const point_search *search, const sample *at, double wei
 {
     double tolerance[3];
     for (int a = 0; a < 3; a++)
-        tolerance[a] = search->tolerance[a] * weight_ratio;
+        tolerance[a] = search->aim[a] * weight_ratio;
     return ffd_within_tolerance(at->residual, tolerance);
 }
 
@@ -55,17 +55,49 @@ bool ffd_search_image_holds(const point_search *search, const cell_leaf *leaf)
     return bounds_hold(&leaf->image, image, slack);
 }
 
+void ffd_search_note_stall(point_search *search, const root *stall)
+{
+    root *const first = &search->stalls[0];
+    if (!vec_is_finite(stall->uvw) || !isfinite(stall->residual)) {
+        search->unresolved = true;
+        return;
+    }
+    if (ffd_roots_hold(search->locator, &search->roots, stall))
+        return;
+    if (search->stall_count > 0 && stall->residual < first->residual) {
+        const root before = *first;
+        *first = *stall;
+        ffd_search_note_stall(search, &before);
+        return;
+    }
+    /* The list full, there may be more. */
+    if (search->stall_count < MOST_STALLS)
+        search->stalls[search->stall_count++] = *stall;
+    else
+        search->unresolved = true;
+}
+
+/* Whether the search stood still anywhere but at a root that it found. */
+static bool has_stalled(const point_search *search)
+{
+    for (int i = 0; i < search->stall_count; i++)
+        if (!ffd_roots_hold(search->locator, &search->roots, &search->stalls[i]))
+            return true;
+    return false;
+}
+
 void ffd_search_judge(const point_search *search, ffd_location *location)
 {
     const root_list *list = &search->roots;
+    const bool unresolved = search->unresolved || has_stalled(search);
     location->evaluations = search->evaluations;
     location->leaves = search->leaves;
-    location->unresolved = search->unresolved;
-    if (list->count == 0) {
-        location->status = search->unresolved ? FFD_SINGULAR : FFD_OUTSIDE;
+    location->unresolved = unresolved;
+    if (list->count == 0 && search->stall_count == 0) {
+        location->status = unresolved ? FFD_SINGULAR : FFD_OUTSIDE;
         return;
     }
-    const root *best = ffd_roots_best(search->locator, list);
+    const root *best = list->count > 0 ? ffd_roots_best(search->locator, list) : &search->stalls[0];
     bool regular = false;
     for (int i = 0; i < list->count; i++)
         regular = regular || !list->roots[i].singular;
@@ -73,7 +105,7 @@ void ffd_search_judge(const point_search *search, ffd_location *location)
     if (list->count > 1 && regular)
         location->status = FFD_MULTIPLE;
     else
-        location->status = best->singular || search->unresolved ? FFD_SINGULAR : FFD_INSIDE;
+        location->status = best->singular || unresolved ? FFD_SINGULAR : FFD_INSIDE;
     location->residual = best->residual / search->locator->cells->scale;
     ffd_locator_report(search->locator, best->uvw, location->uvw);
 }
@@ -92,7 +124,7 @@ bool ffd_search_set_point(point_search *search, const double p[3])
         search->x[a] = p[a] * cells->scale;
     if (!vec_is_finite(search->x))
         return false;
-    ffd_cells_tolerance(cells, search->x, search->tolerance);
+    ffd_cells_tolerance(search->locator, cells, search->x, search->tolerance, search->aim);
     for (int a = 0; a < 3; a++)
         search->slack[a] = HULL_SLACK * search->tolerance[a];
     return true;

@@ -11,6 +11,8 @@
 
 /* Bricks that one point may look into. */
 #define SEARCH_BRICKS 4096
+/* Iterations without an end that are told apart for one point. */
+#define MOST_STALLS 8
 
 struct search_scratch {
     struct many_scratch *many; /* search_many.c */
@@ -21,8 +23,9 @@ struct search_scratch {
 
 typedef struct point_search {
     const ffd_locator *locator;
-    double x[3], tolerance[3]; /* the point, in the search's units, and its tolerance there */
-    double slack[3];           /* that of hulls */
+    double x[3];                 /* the point, in the search's units */
+    double tolerance[3], aim[3]; /* what a root may miss it by, and what the search aims at */
+    double slack[3];             /* that of hulls */
     search_scratch *scratch;
     bool unresolved; /* a part of the lattice is left in which nothing could be shown */
     long hard_boxes; /* that may still be looked at */
@@ -30,7 +33,10 @@ typedef struct point_search {
     uint32_t evaluations, leaves;
     ffd_status status;
     ffd_error *error;
-    root_list roots; /* the last: see ffd_search_begin */
+    int stall_count; /* iterations that ended without a root or a proof that there is none */
+    /* The last, not cleared: see ffd_search_begin. */
+    root_list roots;
+    root stalls[MOST_STALLS]; /* where they stood still, the first with the least residual */
 } point_search;
 
 /* C - x and F's derivatives at one u,v,w. */
@@ -41,10 +47,10 @@ typedef struct sample {
     double weight;
 } sample;
 
-/* Makes the scratch where there is none; false: no memory. */
+/* Makes the scratch if there is none. Returns false if memory runs out. */
 bool ffd_search_scratch_make(search_scratch **scratch);
 
-/* Nothing is found. The memory of roots, which are more than all else, is left as it is. */
+/* Clears what was found. The list of roots, by far the largest member, is not overwritten. */
 static inline void ffd_search_begin(point_search *search, const ffd_locator *locator)
 {
     memset(search, 0, offsetof(point_search, roots));
@@ -52,8 +58,8 @@ static inline void ffd_search_begin(point_search *search, const ffd_locator *loc
     search->locator = locator;
 }
 
-/* Sets the point, with the origin subtracted. False where it is farther away than the search's doubles reach.
- */
+/* Sets the point, with the origin subtracted. Returns false if it is too far away for
+   the search's doubles. */
 bool ffd_search_set_point(point_search *search, const double p[3]);
 
 /* Whether a leaf that is not hard can hold the point, by the image of its control points. */
@@ -65,8 +71,11 @@ void ffd_search_judge(const point_search *search, ffd_location *location);
 /* At the offsets from the spans' starts. */
 void ffd_search_evaluate(point_search *search, const int span[3], const double offset[3], sample *at);
 
-/* Whether the residual is within the tolerance. */
+/* Whether the residual is within what the search aims at. */
 bool ffd_search_accepts(const point_search *search, const sample *at, double weight_ratio);
+
+/* Notes where an iteration ended that proved nothing. */
+void ffd_search_note_stall(point_search *search, const root *stall);
 
 /* The greatest row of |Y| tolerance: what a rounding of C can do to t. */
 double ffd_image_of_tolerance(const double inverse[9], const double tolerance[3], double weight);

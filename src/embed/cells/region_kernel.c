@@ -1,7 +1,7 @@
-/* region_kernel.c - compiled once for each instruction set with lanes: FFD_REGION_KERNEL is the function's
-   name, FFD_LANES the number of points in hand at a time. Operation by operation it is leaf.c, evaluation
-   included: a lane that is done keeps its numbers while the others go on. Loops are unrolled as in
-   deform/kernel.c. */
+/* region_kernel.c - compiled once for each instruction set with lanes: FFD_REGION_KERNEL is the
+   function's name, FFD_LANES the number of SIMD lanes, each with one point. Operation by operation it is
+   leaf.c, evaluation included: a lane that is done keeps its numbers while the others go on. Loops are
+   unrolled as in deform/kernel.c. */
 #include "embed/cells/region_kernel.h"
 #include "base/vector/lanes.h"
 #include <float.h>
@@ -22,7 +22,7 @@ static ALWAYS_INLINE lanes clip_to_unit(lanes t)
 
 /* The numbers of the lanes' regions. */
 typedef struct numbers_lanes {
-    lanes lo[3], width[3], inverse[9], bound, centre[BEZIER_COMPONENTS], greatest_weight, weight_ratio;
+    lanes lo[3], width[3], inverse[9], bound, centre[BEZIER_COMPONENTS], greatest_weight, weight_ratio, grain;
 } numbers_lanes;
 
 static ALWAYS_INLINE void take_numbers(const cell_region *const region[REGION_LANES], numbers_lanes *numbers)
@@ -40,6 +40,7 @@ static ALWAYS_INLINE void take_numbers(const cell_region *const region[REGION_LA
             numbers->centre[c][l] = of->centre[c];
         numbers->greatest_weight[l] = of->greatest_weight;
         numbers->weight_ratio[l] = of->weight_ratio;
+        numbers->grain[l] = of->grain;
     }
 }
 
@@ -148,7 +149,7 @@ static ALWAYS_INLINE mask accepts(const sample_lanes *at, const lanes tolerance[
     return within;
 }
 
-/* t - J^{-1} F; returns where J's determinant is one to be trusted. */
+/* Computes t - J^{-1} F. Returns a mask of the lanes whose determinant of J can be trusted. */
 static ALWAYS_INLINE mask newton_step(const sample_lanes *at, const lanes t[3], lanes to[3])
 {
     const lanes *const m = at->jacobian;
@@ -206,6 +207,12 @@ static ALWAYS_INLINE void count_evaluation(mask which, region_lanes *result)
         result->evaluations[l] += which[l] != 0;
 }
 
+/* What is not finite proves nothing. */
+static ALWAYS_INLINE mask is_beyond(lanes size, lanes limit)
+{
+    return (mask)(size > limit) & (size <= DBL_MAX);
+}
+
 /* A bound of the distance from the root. */
 static ALWAYS_INLINE lanes radius_at(const numbers_lanes *region, const sample_lanes *at, lanes noise)
 {
@@ -243,7 +250,7 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
     for (int a = 0; a < 3; a++) {
         x[a] = lanes_load(result->x[a]);
         tolerance[a] = lanes_load(result->tolerance[a]);
-        accepted[a] = tolerance[a] * region.weight_ratio;
+        accepted[a] = lanes_load(result->aim[a]) * region.weight_ratio;
         equation[a] = x[a] * region.centre[3] - region.centre[a];
     }
     for (int r = 0; r < 3; r++) {
@@ -253,12 +260,13 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
                           region.greatest_weight;
         noise = lanes_choose(sum > noise, sum, noise);
     }
-    const lanes least = lanes_choose(4.0 * noise > 1e-12, 4.0 * noise, lanes_all(1e-12));
+    const lanes blur = lanes_choose(region.grain > noise, region.grain, noise);
+    const lanes least = lanes_choose(4.0 * blur > 1e-12, 4.0 * blur, lanes_all(1e-12));
     now.open = ~(mask){0};
     now.e = lanes_all(0.5);
     memset(result->evaluations, 0, sizeof result->evaluations);
     apply(region.inverse, equation, step);
-    settle(&now, ~(mask)(greatest(step) <= (1 + bound) * now.e + noise), REGION_EMPTY, result);
+    settle(&now, is_beyond(greatest(step), (1 + bound) * now.e + noise), REGION_EMPTY, result);
     if (!lanes_any(now.open))
         return;
     for (int a = 0; a < 3; a++)
@@ -270,7 +278,7 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
         now.e = lanes_choose(now.e > least, now.e, least);
         settle(&now, accepts(&now.at, accepted), REGION_FOUND, result);
         apply(region.inverse, now.at.equation, image);
-        settle(&now, ~(mask)(greatest(image) <= (1 + bound) * now.e + noise), REGION_EMPTY, result);
+        settle(&now, is_beyond(greatest(image), (1 + bound) * now.e + noise), REGION_EMPTY, result);
         const lanes shorter = bound * now.e + noise;
         settle(&now, ~newton_step(&now.at, now.t, t), REGION_UNCERTAIN, result);
         if (!lanes_any(now.open))
@@ -302,7 +310,7 @@ static ALWAYS_INLINE void find(const region_kernel_cell *cell, const int order[3
 void FFD_REGION_KERNEL(const region_kernel_cell *cell, region_lanes *result)
 {
     static const int cubic[3] = {4, 4, 4};
-    /* What the compiler knows it unrolls. */
+    /* The compiler unrolls loops whose bounds it knows. */
     if (cell->order[0] == 4 && cell->order[1] == 4 && cell->order[2] == 4)
         find(cell, cubic, result);
     else

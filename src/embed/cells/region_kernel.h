@@ -11,7 +11,7 @@
 #define REGION_LANES 8
 
 /* A part of a cell in which F is certain to have at most one root: u = t_span + lo + t width, t in [0,1]^3.
-   Places are offsets from the span's start throughout: in a narrow span u itself would be too coarse. */
+   Parameters are offsets from the span's start throughout: in a narrow span u itself would be too coarse. */
 typedef struct cell_region {
     int span[3];
     double lo[3], width[3];
@@ -19,6 +19,7 @@ typedef struct cell_region {
     double bound;                     /* L < 1 */
     double centre[BEZIER_COMPONENTS]; /* A and W there (ffd_cells_centre) */
     double greatest_weight, weight_ratio;
+    double grain; /* what the rounding of u,v,w can move t by, in the direction where it is most */
 } cell_region;
 
 /* What is the same for all points of a cell of a lattice without weights. */
@@ -38,16 +39,17 @@ typedef enum region_outcome {
 /* One point a lane; all lanes are filled, if need be with points twice. */
 typedef struct region_lanes {
     const cell_region *region[REGION_LANES];
-    double x[3][REGION_LANES], tolerance[3][REGION_LANES]; /* as point_search has them */
+    double x[3][REGION_LANES], tolerance[3][REGION_LANES],
+        aim[3][REGION_LANES]; /* as point_search has them */
     /* Results: */
     region_outcome outcome[REGION_LANES];
     double t[3][REGION_LANES], equation[3][REGION_LANES], jacobian[9][REGION_LANES]; /* as sample has them */
     uint32_t evaluations[REGION_LANES];
 } region_lanes;
 
-/* Does what ffd_search_region does, with the same bits, in Newton's steps and those of the contraction; what
-   is left to a face of the region is uncertain, and so is a J that is nearly singular. One function for
-   each instruction set that has lanes; a processor without takes the points one by one. */
+/* Does what ffd_search_region does, with the same bits, by Newton's steps and those of the contraction. A
+   root that may lie on a face of the region is uncertain, and so is one whose J is nearly singular. One
+   function for each SIMD instruction set; a processor without SIMD takes the points one by one. */
 typedef void region_kernel(const region_kernel_cell *cell, region_lanes *lanes);
 
 #ifdef FFD_X86

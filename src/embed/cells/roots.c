@@ -20,15 +20,29 @@ static bool is_across_seam(const ffd_locator *locator, const root *a, const root
            fabs(a->uvw[direction] - b->uvw[direction]) > 0.5 * side_of(locator, direction);
 }
 
+/* How far apart two roots are along a direction, the short way round where its ends are one. */
+static double distance_along(const ffd_locator *locator, const root *a, const root *b, int direction)
+{
+    const double apart = fabs(a->uvw[direction] - b->uvw[direction]);
+    return is_across_seam(locator, a, b, direction) ? side_of(locator, direction) - apart : apart;
+}
+
+/* Two faces of other weights have a point of them at other parameters, so that those along the faces need not
+   agree. */
+static bool are_one_on_seam(const ffd_locator *locator, const root *a, const root *b)
+{
+    for (int d = 0; d < 3; d++)
+        if (locator->cells->is_seam[d] && is_across_seam(locator, a, b, d) &&
+            distance_along(locator, a, b, d) <= tolerance_of(locator, a, b, d))
+            return true;
+    return false;
+}
+
 static bool are_one(const ffd_locator *locator, const root *a, const root *b)
 {
-    for (int d = 0; d < 3; d++) {
-        double apart = fabs(a->uvw[d] - b->uvw[d]);
-        if (is_across_seam(locator, a, b, d))
-            apart = side_of(locator, d) - apart;
-        if (!(apart <= tolerance_of(locator, a, b, d)))
-            return false;
-    }
+    for (int d = 0; d < 3; d++)
+        if (!(distance_along(locator, a, b, d) <= tolerance_of(locator, a, b, d)))
+            return are_one_on_seam(locator, a, b);
     return true;
 }
 
@@ -58,12 +72,13 @@ static bool is_preferred(const ffd_locator *locator, const root *a, const root *
     return compare_within_tolerance(locator, a, b) < 0;
 }
 
-/* Of two finds of one root: across a seam the one at the start; else the one that meets the point better. */
+/* Chooses between two finds of one root: across a seam the least; else the one that meets the point
+   better. */
 static bool is_better_find(const ffd_locator *locator, const root *a, const root *b)
 {
     for (int d = 0; d < 3; d++)
         if (is_across_seam(locator, a, b, d))
-            return a->uvw[d] < b->uvw[d];
+            return compare_within_tolerance(locator, a, b) < 0;
     if (a->residual != b->residual)
         return a->residual < b->residual;
     return compare_exactly(a, b) < 0;
@@ -94,6 +109,14 @@ void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *foun
             last = i;
     if (is_preferred(locator, found, &list->roots[last]))
         list->roots[last] = *found;
+}
+
+bool ffd_roots_hold(const ffd_locator *locator, const root_list *list, const root *found)
+{
+    for (int i = 0; i < list->count; i++)
+        if (are_one(locator, &list->roots[i], found))
+            return true;
+    return false;
 }
 
 const root *ffd_roots_best(const ffd_locator *locator, const root_list *list)

@@ -24,8 +24,11 @@ typedef struct root_list {
    across the seam of a closed direction or of two faces that are one. */
 void ffd_roots_add(const ffd_locator *locator, root_list *list, const root *found);
 
-/* The tie rule: the root with the sign of the lattice's volume, then the least (u,v,w). The list must not be
-   empty. */
+/* Whether a root of the list is the same. */
+bool ffd_roots_hold(const ffd_locator *locator, const root_list *list, const root *found);
+
+/* The tie rule: the root with the sign of the lattice's volume, then the least (u,v,w). The
+   list must not be empty. */
 const root *ffd_roots_best(const ffd_locator *locator, const root_list *list);
 
 #endif

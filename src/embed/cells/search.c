@@ -1,5 +1,4 @@
 /* search.c - every u,v,w with C(u,v,w) = p: bricks, leaves, verdict (src/maths.md 6.4 to 6.7). */
-#include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "embed/cells/cell_locator.h"
 #include "embed/cells/collapse.h"
@@ -30,7 +29,9 @@ static bool visit_leaf(void *context, uint32_t number)
         ffd_search_hard_leaf(search, leaf);
     } else if (ffd_search_image_holds(search, leaf)) {
         search->leaves++;
-        ffd_search_region(search, &leaf->region);
+        root stall;
+        if (!ffd_search_region(search, &leaf->region, &stall))
+            ffd_search_part(search, &leaf->region);
     }
     return search->status == FFD_OK;
 }
@@ -92,7 +93,7 @@ static bool is_on_collapse(point_search *search, ffd_location *location)
         ffd_search_evaluate(search, span, offset, &at);
         if (list->sets[i].along >= 0)
             settle_on_curve(search, list->sets[i].along, span, offset, &at);
-        if (!ffd_search_accepts(search, &at, 1))
+        if (!ffd_within_tolerance(at.residual, search->tolerance))
             continue;
         for (int a = 0; a < 3; a++)
             uvw[a] = locator->knots[a].t[span[a]] + offset[a];

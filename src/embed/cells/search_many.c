@@ -3,11 +3,9 @@
    each, and is judged when all of them are through. Whatever is not settled so is searched for alone
    (search.c), and what is settled has the bits that it would get there. */
 #include "base/memory/memory.h"
-#include "base/vector/vec.h"
 #include "embed/cells/leaf.h"
 #include "embed/cells/packet.h"
 #include "embed/cells/region_kernel.h"
-#include "spline/basis.h"
 #include <math.h>
 #include <string.h>
 
@@ -32,6 +30,11 @@ typedef struct shared_point {
     leaf_result *results; /* in the order in which it is in them */
 } shared_point;
 
+/* A point in the search's units, and what a root may miss it by: worked out once. */
+typedef struct placed_point {
+    double x[3], tolerance[3], aim[3];
+} placed_point;
+
 /* The points that wait in leaves of one cell. */
 typedef struct cell_group {
     const int *span;
@@ -49,6 +52,7 @@ struct many_scratch {
     uint16_t buckets[BUCKETS]; /* groups by their cells */
     shared_point shared[CELLS_AT_ONCE / 2];
     leaf_result results[CELLS_AT_ONCE];
+    placed_point placed[CELLS_AT_ONCE]; /* by their numbers, those that wait */
     region_kernel_cell cell;
     double own[CELL_NUMBERS];
     region_lanes lanes;
@@ -59,7 +63,7 @@ static bool same_cell(const int a[3], const int b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* The group of the cell, made where it is new. */
+/* Returns the group of the cell, which is made if it is new. */
 static cell_group *take_group(struct many_scratch *many, const int span[3], size_t *group_count)
 {
     /* Primes: neighbours are in different buckets. */
@@ -73,8 +77,8 @@ static cell_group *take_group(struct many_scratch *many, const int span[3], size
     return made;
 }
 
-/* Brings the points of each cell together, in their order, into many->grouped. Returns how many cells there
-   are. */
+/* Brings the points of each cell together, in their order, into many->grouped. Returns how
+   many cells there are. */
 static size_t group_waiting(struct many_scratch *many, size_t count)
 {
     size_t group_count = 0, first = 0;
@@ -108,12 +112,13 @@ static void load_cell(const ffd_locator *locator, const int span[3], double *own
     ffd_cells_rows(locator, span, cell->rows, own);
 }
 
-static void load_point(const point_search *search, const cell_leaf *leaf, int lane, region_lanes *lanes)
+static void load_point(const placed_point *point, const cell_leaf *leaf, int lane, region_lanes *lanes)
 {
     lanes->region[lane] = &leaf->region;
     for (int a = 0; a < 3; a++) {
-        lanes->x[a][lane] = search->x[a];
-        lanes->tolerance[a][lane] = search->tolerance[a];
+        lanes->x[a][lane] = point->x[a];
+        lanes->tolerance[a][lane] = point->tolerance[a];
+        lanes->aim[a][lane] = point->aim[a];
     }
 }
 
@@ -133,12 +138,12 @@ static void take_result(const cell_leaf *leaf, const region_lanes *lanes, int la
 }
 
 /* Judges by the results of all leaves of a point. */
-static void judge(const ffd_locator *locator, const double p[3], const leaf_result *results, uint32_t count,
-                  ffd_location *location)
+static void judge(const ffd_locator *locator, const placed_point *point, const leaf_result *results,
+                  uint32_t count, ffd_location *location)
 {
     point_search search;
     ffd_search_begin(&search, locator);
-    ffd_search_set_point(&search, p);
+    memcpy(search.tolerance, point->tolerance, sizeof search.tolerance);
     search.leaves = count;
     for (uint32_t i = 0; i < count; i++) {
         search.evaluations += results[i].evaluations;
@@ -161,16 +166,14 @@ static ffd_status find_in_cell(const ffd_locator *locator, const double *p, cons
 {
     const size_t width = (size_t)locator->cells->lanes;
     region_lanes *const lanes = &(*scratch)->many->lanes;
+    const placed_point *const placed = (*scratch)->many->placed;
     ffd_status status = FFD_OK;
     load_cell(locator, waiting->leaf->region.span, (*scratch)->many->own, &(*scratch)->many->cell);
     for (size_t first = 0; first < count && !status; first += width) {
         const size_t filled = count - first < width ? count - first : width;
         for (size_t l = 0; l < width; l++) {
             const waiting_point *const point = &waiting[first + (l < filled ? l : filled - 1)];
-            point_search search;
-            ffd_search_begin(&search, locator);
-            ffd_search_set_point(&search, p + 3 * (size_t)point->number);
-            load_point(&search, point->leaf, (int)l, lanes);
+            load_point(&placed[point->number], point->leaf, (int)l, lanes);
         }
         locator->cells->region_kernel(&(*scratch)->many->cell, lanes);
         for (size_t l = 0; l < filled && !status; l++) {
@@ -182,7 +185,7 @@ static ffd_status find_in_cell(const ffd_locator *locator, const double *p, cons
             if (result->outcome == REGION_UNCERTAIN)
                 status = find_alone(locator, p, point->number, scratch, locations, error);
             else
-                judge(locator, p + 3 * (size_t)point->number, result, 1, &locations[point->number]);
+                judge(locator, &placed[point->number], result, 1, &locations[point->number]);
         }
     }
     return status;
@@ -217,7 +220,7 @@ typedef struct many_search {
     size_t waiting, shared, results; /* in the scratch */
 } many_search;
 
-/* Queues a point in its leaves. False: it has too many. */
+/* Queues a point in its leaves. Returns false if it has too many. */
 static bool wait_in_leaves(many_search *many, const packet_point *point)
 {
     struct many_scratch *const scratch = (*many->scratch)->many;
@@ -229,6 +232,10 @@ static bool wait_in_leaves(many_search *many, const packet_point *point)
         many->results += point->count;
         scratch->shared[many->shared++] = (shared_point){point->number, point->count, results};
     }
+    placed_point *const placed = &scratch->placed[point->number];
+    memcpy(placed->x, point->search.x, sizeof placed->x);
+    memcpy(placed->tolerance, point->search.tolerance, sizeof placed->tolerance);
+    memcpy(placed->aim, point->search.aim, sizeof placed->aim);
     for (uint32_t i = 0; i < point->count; i++)
         scratch->waiting[many->waiting++] =
             (waiting_point){point->leaves[i], point->number, results ? results + i : NULL};
@@ -246,7 +253,7 @@ static ffd_status judge_shared(const many_search *many)
         for (uint32_t l = 0; l < point->count; l++)
             certain = certain && point->results[l].outcome != REGION_UNCERTAIN;
         if (certain)
-            judge(many->locator, many->p + 3 * (size_t)point->number, point->results, point->count,
+            judge(many->locator, &scratch->placed[point->number], point->results, point->count,
                   &many->locations[point->number]);
         else
             status = find_alone(many->locator, many->p, point->number, many->scratch, many->locations,

@@ -81,6 +81,25 @@ static bool has_volume(const double frame[9])
     return fabs(mat_determinant(unit)) > 16 * DBL_EPSILON;
 }
 
+/* Whether the determinant is more than the control points' own rounding makes: the ends of a column may each
+   be off by half an ulp in the file, and by as much once the origin is subtracted. */
+static bool exceeds_rounding(const ffd_locator *locator, const double frame[9])
+{
+    double column[3][3], off[3], across[3], sum = 0;
+    for (int r = 0; r < 3; r++) {
+        const double size = larger_of(fabs(locator->hull.lo[r]), fabs(locator->hull.hi[r]));
+        off[r] = 2 * DBL_EPSILON * size / locator->extent[r];
+        for (int a = 0; a < 3; a++)
+            column[a][r] = frame[3 * r + a] / locator->extent[r];
+    }
+    const double reach = vec_length(off);
+    for (int a = 0; a < 3; a++) {
+        vec_cross(column[(a + 1) % 3], column[(a + 2) % 3], across);
+        sum += reach * (vec_length(across) + reach * (vec_length(column[a]) + reach));
+    }
+    return fabs(vec_dot(column[2], across)) > sum;
+}
+
 bool ffd_affine_detect(ffd_locator *locator)
 {
     const ffd_lattice *lattice = locator->lattice;
@@ -102,7 +121,7 @@ bool ffd_affine_detect(ffd_locator *locator)
                 fabs(map->frame[3 * r]) + fabs(map->frame[3 * r + 1]) + fabs(map->frame[3 * r + 2]);
     } else {
         map_of_corners(locator, map->frame, start);
-        if (!map_fits(locator, map->frame, start))
+        if (!map_fits(locator, map->frame, start) || !exceeds_rounding(locator, map->frame))
             return false;
         for (int r = 0; r < 3; r++)
             locator->origin[r] += start[r];
@@ -135,41 +154,75 @@ static void refine(const affine_map *map, const double p[3], const double tolera
 typedef struct affine_point {
     const affine_map *map;
     const double *p, *tolerance;
+    bool grains; /* beside the tolerance, what the rounding of t moves C by */
 } affine_point;
 
 static bool evaluate_on_face(void *context, const double t[3], double jacobian[9], double equation[3])
 {
     const affine_point *point = context;
+    double allowance[3];
     memcpy(jacobian, point->map->frame, sizeof point->map->frame);
     affine_equation(point->map, point->p, t, equation);
-    return ffd_within_tolerance(equation, point->tolerance);
+    for (int r = 0; r < 3; r++) {
+        double jump = 0;
+        for (int a = 0; a < 3; a++)
+            jump += fabs(point->map->frame[3 * r + a]) * DBL_EPSILON * fabs(t[a]);
+        allowance[r] = point->tolerance[r] + (point->grains ? jump : 0);
+    }
+    return ffd_within_tolerance(equation, allowance);
+}
+
+/* Clips t to the domain. Returns false if it is farther out than the tolerance and the residual explain. */
+static bool clip(const affine_map *map, const double p[3], const double tolerance[3], double t[3],
+                 bool *clipped)
+{
+    double residual[3];
+    affine_equation(map, p, t, residual);
+    for (int a = 0; a < 3; a++) {
+        const double inner = clip_to_unit(t[a]), *row = map->inverse + 3 * a;
+        double reach = 0; /* roundings included */
+        for (int r = 0; r < 3; r++)
+            reach += fabs(row[r]) * larger_of(tolerance[r], fabs(residual[r]));
+        if (fabs(t[a] - inner) > 4 * reach)
+            return false;
+        *clipped = *clipped || inner != t[a];
+        t[a] = inner;
+    }
+    return true;
+}
+
+/* Whether t is a root, or the point of a face that is closest. */
+static bool settle(affine_point *point, bool clipped, const double aim[3], const double tolerance[3],
+                   double t[3])
+{
+    double jacobian[9], residual[3];
+    *point = (affine_point){point->map, point->p, aim, false};
+    if (evaluate_on_face(point, t, jacobian, residual) ||
+        (clipped && ffd_face_settle(aim, false, evaluate_on_face, point, t)))
+        return true;
+    *point = (affine_point){point->map, point->p, tolerance, true};
+    return (clipped && ffd_face_settle(tolerance, true, evaluate_on_face, point, t)) ||
+           evaluate_on_face(point, t, jacobian, residual);
 }
 
 void ffd_affine_find(const ffd_locator *locator, const double p[3], ffd_location *location)
 {
     const affine_map *map = &locator->affine;
-    double t[3], residual[3], tolerance[3];
+    double t[3], residual[3], aim[3], tolerance[3];
     bool clipped = false;
+    affine_point point = {.map = map, .p = p};
+    ffd_locator_aim(locator, p, aim);
     ffd_locator_tolerance(locator, p, tolerance);
     mat_apply(map->inverse, p, t);
-    refine(map, p, tolerance, t);
-    for (int a = 0; a < 3; a++) {
-        const double inner = clip_to_unit(t[a]), *row = map->inverse + 3 * a;
-        /* What a point within the tolerance can be off by, roundings included. */
-        const double reach =
-            fabs(row[0]) * tolerance[0] + fabs(row[1]) * tolerance[1] + fabs(row[2]) * tolerance[2];
-        if (fabs(t[a] - inner) > 4 * reach)
-            return;
-        clipped = clipped || inner != t[a];
-        t[a] = inner;
-    }
-    affine_equation(map, p, t, residual);
-    affine_point point = {map, p, tolerance};
-    if (!ffd_within_tolerance(residual, tolerance) &&
-        !(clipped && ffd_face_settle(tolerance, evaluate_on_face, &point, t)))
+    refine(map, p, aim, t);
+    if (!clip(map, p, tolerance, t, &clipped))
         return;
+    const bool found = settle(&point, clipped, aim, tolerance, t);
+    if (!found && clipped)
+        return; /* the closest point of the border misses */
     affine_equation(map, p, t, residual);
-    location->status = FFD_INSIDE;
+    location->status = found ? FFD_INSIDE : FFD_SINGULAR;
+    location->unresolved = !found;
     location->residual = vec_length(residual);
     for (int a = 0; a < 3; a++) {
         const knot_vector *knots = &locator->lattice->knots[a];

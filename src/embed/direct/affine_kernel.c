@@ -1,5 +1,5 @@
 /* affine_kernel.c - compiled once for each instruction set with lanes: FFD_AFFINE_KERNEL is the function's
-   name, FFD_LANES the number of points in hand at a time. Operation by operation it is affine.c. */
+   name, FFD_LANES the number of SIMD lanes, each with one point. Operation by operation it is affine.c. */
 #include "embed/direct/affine_kernel.h"
 #include "base/vector/lanes.h"
 
@@ -24,7 +24,7 @@ static ALWAYS_INLINE void find(const ffd_locator *locator, const double *xyz, af
         residual[a] -= p[a];
         at->found &= (residual[a] <= tolerance) & (residual[a] >= -tolerance) & (t[a] >= 0.0) & (t[a] <= 1.0);
     }
-    /* Others than these vec_length leaves to a function. */
+    /* vec_length leaves all other lengths to a function. */
     const lanes square = lanes_dot(residual, residual);
     at->found &= ((square > 1e-280) & (square < 1e300)) |
                  ((residual[0] == 0.0) & (residual[1] == 0.0) & (residual[2] == 0.0));

@@ -11,8 +11,8 @@ static size_t stride_of(const ffd_lattice *lattice, int a)
     return a == 0 ? 1 : a == 1 ? lattice->size[0] : lattice->size[0] * lattice->size[1];
 }
 
-/* Whether coordinate a of every control point is that of the point with the same index along a and 0
- * elsewhere. */
+/* Whether coordinate a of every control point is that of the point with the same index
+   along a and 0 elsewhere. */
 static bool depends_on_own_index(const ffd_lattice *lattice, int a)
 {
     const size_t stride = stride_of(lattice, a);
@@ -118,8 +118,10 @@ static size_t span_holding(const knot_vector *knots, const monotone_curve *curve
 
 /* Solves x(u) = x within one span, by offsets from its start: Newton steps, and halving wherever one would
    leave the bracket or gains less than a half. Ends when the bracket is two neighbouring numbers, or the
-   value is met. Beyond the ends the nearest end is the answer. Stores x(u) - x. */
-static double solve(const knot_vector *knots, const monotone_curve *curve, double x, double *residual)
+   value is met. Beyond the ends the nearest end is the answer. Stores x(u) - x, and what the rounding of u
+   moves x(u) by. */
+static double solve(const knot_vector *knots, const monotone_curve *curve, double x, double *residual,
+                    double *grain)
 {
     const size_t number = span_holding(knots, curve, x);
     const int span = knots->spans[number];
@@ -153,12 +155,14 @@ static double solve(const knot_vector *knots, const monotone_curve *curve, doubl
         u = next;
     }
     *residual = best_residual;
+    value_at(knots, curve, span, best, &slope);
+    *grain = fabs(slope) * DBL_EPSILON * best;
     return knots->t[span] + best;
 }
 
 void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_location *location)
 {
-    double residual[3], tolerance[3], uvw[3];
+    double residual[3], tolerance[3], uvw[3], grain[3];
     ffd_locator_tolerance(locator, p, tolerance);
     for (int a = 0; a < 3; a++) {
         /* Far outside needs no solving. */
@@ -168,10 +172,13 @@ void ffd_separable_find(const ffd_locator *locator, const double p[3], ffd_locat
             return;
     }
     for (int a = 0; a < 3; a++)
-        uvw[a] = solve(&locator->knots[a], &locator->curves[a], p[a], &residual[a]);
-    if (!ffd_within_tolerance(residual, tolerance))
-        return;
-    location->status = FFD_INSIDE;
+        uvw[a] = solve(&locator->knots[a], &locator->curves[a], p[a], &residual[a], &grain[a]);
+    for (int a = 0; a < 3; a++)
+        tolerance[a] += grain[a];
+    /* The point is not outside, which was the first question. */
+    const bool found = ffd_within_tolerance(residual, tolerance);
+    location->status = found ? FFD_INSIDE : FFD_SINGULAR;
+    location->unresolved = !found;
     location->residual = vec_length(residual);
     ffd_locator_report(locator, uvw, location->uvw);
 }

@@ -156,7 +156,8 @@ bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double sl
     return ffd_box_tree_visit_box(tree, &query, slack, visit, context);
 }
 
-/* Two are tested at once where the processor can, and every one has such registers or does without. */
+/* Two boxes are tested at once where the processor has SIMD; the compiler splits the
+   vectors where it has none. */
 typedef double pair __attribute__((vector_size(16)));
 typedef int64_t pair_mask __attribute__((vector_size(16)));
 
@@ -200,6 +201,58 @@ bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *query, const dou
         for (int i = CHILDREN - 1; i >= 0; i--)
             if (met >> i & 1)
                 stack[height++] = node->children[i];
+    }
+    return true;
+}
+
+/* A child on the way to what is near. */
+typedef struct near_child {
+    box_tree_child child;
+    double square; /* of its distance */
+} near_child;
+
+static double square_distance(const box_tree_node *node, int i, const double p[3])
+{
+    double square = 0;
+    for (int a = 0; a < 3; a++) {
+        const double beyond = fmax(fmax(node->lo[a][i] - p[a], p[a] - node->hi[a][i]), 0);
+        square += beyond * beyond;
+    }
+    return square;
+}
+
+/* Puts the node's children on the stack, the nearest last. Returns how many. */
+static int push_children(const box_tree_node *node, const double p[3], near_child *stack)
+{
+    int count = 0;
+    for (int i = 0; i < CHILDREN; i++) {
+        if (isnan(node->lo[0][i]))
+            continue;
+        const near_child child = {node->children[i], square_distance(node, i, p)};
+        int at = count++;
+        for (; at > 0 && stack[at - 1].square < child.square; at--)
+            stack[at] = stack[at - 1];
+        stack[at] = child;
+    }
+    return count;
+}
+
+bool ffd_box_tree_visit_near(const box_tree *tree, const double p[3], const double *reach,
+                             box_tree_visitor visit, void *context)
+{
+    near_child stack[CHILDREN * DEPTH];
+    int height = 0;
+    if (tree->node_count > 0)
+        stack[height++] = (near_child){.square = 0};
+    while (height > 0) {
+        const near_child at = stack[--height];
+        if (at.square > *reach * *reach)
+            continue;
+        for (uint32_t i = 0; i < at.child.count; i++)
+            if (!visit(context, tree->items[at.child.first + i]))
+                return false;
+        if (at.child.count == 0)
+            height += push_children(&tree->nodes[at.child.first], p, stack + height);
     }
     return true;
 }

@@ -16,7 +16,7 @@ typedef struct box_tree {
     size_t node_count;
 } box_tree;
 
-/* Builds the tree over count boxes (fewer than 2^31). False when there is no memory. */
+/* Builds the tree over count boxes (fewer than 2^31). Returns false if memory runs out. */
 bool ffd_box_tree_build(const bounds *boxes, size_t count, box_tree *tree);
 /* Frees the tree; it is empty then. */
 void ffd_box_tree_free(box_tree *tree);
@@ -33,6 +33,11 @@ bool ffd_box_tree_visit(const box_tree *tree, const double p[3], const double sl
    What it visits for a point alone, it visits for the box too, if slack is no less. */
 bool ffd_box_tree_visit_box(const box_tree *tree, const bounds *query, const double slack[3],
                             box_tree_visitor visit, void *context);
+
+/* Calls visit for every box whose node's box is no farther than *reach from p (Euclidean), nearer nodes
+ *first. reach is read again all the time: visit lowers it. Stops and returns false when visit does. */
+bool ffd_box_tree_visit_near(const box_tree *tree, const double p[3], const double *reach,
+                             box_tree_visitor visit, void *context);
 
 static inline bool bounds_hold(const bounds *box, const double p[3], const double slack[3])
 {

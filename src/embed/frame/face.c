@@ -72,7 +72,7 @@ static bool step_of_three(const double matrix[9], const double value[3], double 
     return true;
 }
 
-/* One Gauss-Newton step of the coordinates that do not rest, clipped; false where there is none. */
+/* One Gauss-Newton step of the coordinates that do not rest, clipped; false if there is none. */
 static bool step_within(const double jacobian[9], const double equation[3], const double tolerance[3],
                         const bool rests[3], double t[3])
 {
@@ -92,23 +92,25 @@ static bool step_within(const double jacobian[9], const double equation[3], cons
     return found;
 }
 
-static bool settle_with(const double tolerance[3], face_function function, void *context, const bool rests[3],
-                        double t[3])
+static bool settle_with(const double tolerance[3], bool closest, face_function function, void *context,
+                        const bool rests[3], double t[3])
 {
     double jacobian[9], equation[3];
     for (int a = 0; a < 3; a++)
         if (rests[a])
             t[a] = t[a] < 0.5 ? 0 : 1;
     for (int step = 0; step < FACE_STEPS; step++) {
-        if (function(context, t, jacobian, equation))
+        const bool within = function(context, t, jacobian, equation);
+        if (within && !closest)
             return true;
         if (!step_within(jacobian, equation, tolerance, rests, t))
-            return false;
+            return within;
     }
     return function(context, t, jacobian, equation);
 }
 
-bool ffd_face_settle(const double tolerance[3], face_function function, void *context, double t[3])
+bool ffd_face_settle(const double tolerance[3], bool closest, face_function function, void *context,
+                     double t[3])
 {
     int near = 0;
     for (int a = 0; a < 3; a++)
@@ -120,7 +122,7 @@ bool ffd_face_settle(const double tolerance[3], face_function function, void *co
         if ((resting & near) != resting)
             continue;
         memcpy(settled, t, sizeof settled);
-        if (settle_with(tolerance, function, context, rests, settled)) {
+        if (settle_with(tolerance, closest, function, context, rests, settled)) {
             memcpy(t, settled, sizeof settled);
             return true;
         }

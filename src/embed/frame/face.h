@@ -11,17 +11,19 @@ static inline double clip_to_unit(double t)
 }
 
 /* F and its jacobian in units of each row's tolerance (>= 0), times the least of these; a row without any
-   counts most. False where no row has one. */
+   counts most. Returns false if no row has one. */
 bool ffd_weigh_rows(const double jacobian[9], const double equation[3], const double tolerance[3],
                     double weighed_jacobian[9], double weighed_equation[3]);
 
 /* F and its jacobian (by t, row by row) at t; returns whether F is within the tolerance there. */
 typedef bool (*face_function)(void *context, const double t[3], double jacobian[9], double equation[3]);
 
-/* Looks for a t in [0,1]^3 with F(t) within the tolerance, from a t near it that has coordinates at or next
-   to an end: some of these are held there, in every combination, the others follow by Gauss-Newton steps,
-   each row of F weighed by its tolerance. On success t is the point that `function` accepted last; else it is
+/* Looks for a t in [0,1]^3 with F(t) within the tolerance, from a t near it that has coordinates at or
+   next to an end: some of these are held there, in every combination, the others follow by Gauss-Newton
+   steps, each row of F weighed by its tolerance. closest: all steps are taken, to where F is least; else none
+   once F is within the tolerance. On success t is the point that `function` accepted last; else it is
    unchanged. */
-bool ffd_face_settle(const double tolerance[3], face_function function, void *context, double t[3]);
+bool ffd_face_settle(const double tolerance[3], bool closest, face_function function, void *context,
+                     double t[3]);
 
 #endif

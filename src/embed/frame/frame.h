@@ -1,12 +1,15 @@
-/* frame.h - what the methods that find u,v,w share: the rest lattice in the search's own parameters, and the
-   tolerance. */
+/* frame.h - what the methods that find u,v,w share: the rest lattice in the search's own
+   parameters, and the tolerance. */
 #ifndef FFD_EMBED_FRAME_FRAME_H
 #define FFD_EMBED_FRAME_FRAME_H
 
 #include "base/vector/isa.h"
+#include "base/vector/vec.h"
+#include "embed/frame/box_tree.h"
 #include "lattice/lattice.h"
 #include <ffd/embedding.h>
 #include <float.h>
+#include <math.h>
 
 typedef enum locator_method { METHOD_AFFINE, METHOD_SEPARABLE, METHOD_GENERAL } locator_method;
 
@@ -32,18 +35,42 @@ struct ffd_locator {
        taken back. */
     knot_vector knots[3];
     double knot_scale[3];
-    double origin[3]; /* subtracted from control points and points before anything else */
-    double extent[3]; /* max |P_a - origin_a| over the control points */
+    double origin[3];              /* subtracted from control points and points before anything else */
+    double extent[3];              /* max |P_a - origin_a| over the control points */
+    bounds hull;                   /* of the control points, in world units */
+    struct locator_border *border; /* for points that miss the volume, made when first needed */
     affine_map affine;
     monotone_curve curves[3];
     struct cell_search *cells;
 };
 
-/* tol_a = 16 eps (max|P_a| + |p_a|), p with the origin subtracted (src/maths.md 6.6). */
-static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
+/* What a root may miss a point of the world by: 16 eps (max|P_a| + |p_a|), sizes as in the file (src/maths.md
+   6.6). */
+static inline void ffd_world_tolerance(const ffd_locator *locator, const double xyz[3], double tolerance[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const double most = larger_of(fabs(locator->hull.lo[a]), fabs(locator->hull.hi[a]));
+        tolerance[a] = 16 * DBL_EPSILON * (most + fabs(xyz[a]));
+    }
+}
+
+/* What a search aims at, p with the origin subtracted: 16 eps of sizes from there, to which C is known. */
+static inline void ffd_locator_aim(const ffd_locator *locator, const double p[3], double aim[3])
 {
     for (int a = 0; a < 3; a++)
-        tolerance[a] = 16 * DBL_EPSILON * (locator->extent[a] + (p[a] < 0 ? -p[a] : p[a]));
+        aim[a] = 16 * DBL_EPSILON * (locator->extent[a] + fabs(p[a]));
+}
+
+/* The tolerance of p with the origin subtracted; no less than the aim. */
+static inline void ffd_locator_tolerance(const ffd_locator *locator, const double p[3], double tolerance[3])
+{
+    double xyz[3], aim[3];
+    for (int a = 0; a < 3; a++)
+        xyz[a] = p[a] + locator->origin[a];
+    ffd_world_tolerance(locator, xyz, tolerance);
+    ffd_locator_aim(locator, p, aim);
+    for (int a = 0; a < 3; a++)
+        tolerance[a] = larger_of(tolerance[a], aim[a]);
 }
 
 /* The search's u,v,w in the lattice's own range. */

@@ -1,13 +1,12 @@
-/* gltf_as_morph.c - the deformation as a further morph target. The file with a target of zeros added is
-   opened as a document of its own; the results of this document become the results of that target, and
-   that document is saved. */
+/* gltf_as_morph.c - the deformation as a further morph target, or in place of one with its name. The file
+   with a target of zeros is opened as a document of its own; the results of this document become the results
+   of that target, and that document is saved. */
 #include "io/gltf/gltf_as_morph.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/gltf_open.h"
 #include "io/gltf/save/gltf_morph_text.h"
 #include "io/gltf/save/gltf_save.h"
-#include "io/gltf/save/gltf_saver.h"
 #include "io/gltf/scene/gltf_results.h"
 #include <string.h>
 
@@ -17,8 +16,7 @@ ffd_status ffd_gltf_keep_base(mesh_document *document, const char *name, ffd_err
     d->morph_name = ffd_text_copy(name);
     if (!d->morph_name)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < d->base.part_count; i++)
-        d->mesh_parts[i].shape_count = 0; /* the other targets stay as they are */
+    d->base.keeps_base = true;
     return FFD_OK;
 }
 
@@ -42,24 +40,45 @@ static bool is_stream_moved(const gltf_document *d, size_t part, size_t semantic
     return *known > 1;
 }
 
-/* Marks the meshes that changed under some node. Returns whether there are any. */
-static bool mark_moved(const gltf_document *d, unsigned char *moved, bool *meshes)
+/* The meshes that get the target. */
+typedef struct morph_marks {
+    bool *meshes;    /* gets it */
+    bool *selected;  /* some node shows it, and is selected */
+    size_t *named;   /* its target of the name (ffd_gltf_find_target) */
+    bool any, moved; /* some mesh gets it; some mesh changed */
+} morph_marks;
+
+/* Marks the meshes that are selected, and those of them that changed under some node. */
+static void mark_moved(const gltf_document *d, unsigned char *moved, morph_marks *marks)
 {
     const gltf_instance *instance = d->instances;
-    bool any = false;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t k = 0; k < d->model.meshes[m].primitive_count * d->mesh_uses[m].node_count;
-             k++, instance++)
-            for (size_t s = 0; s < GLTF_DEFORMED && instance->selected && !meshes[m]; s++) {
-                meshes[m] = is_stream_moved(d, instance->part[s], s, moved);
-                any = any || meshes[m];
-            }
-    return any;
+             k++, instance++) {
+            const bool shown = instance->selected && instance->part[GLTF_POSITION] != GLTF_NONE;
+            marks->selected[m] = marks->selected[m] || shown;
+            for (size_t s = 0; s < GLTF_DEFORMED && instance->selected && !marks->meshes[m]; s++)
+                marks->meshes[m] = is_stream_moved(d, instance->part[s], s, moved);
+            marks->moved = marks->moved || marks->meshes[m];
+        }
 }
 
-/* Lends the results to the last targets of the other document's primitives, or takes them back. Both
-   have the same instances in the same order. */
-static void lend_results(const gltf_document *d, const bool *meshes, bool back, gltf_document *other)
+/* A mesh gets the target where it changed, and where it has one of the name, which would be out of date;
+   where nothing changed at all, every mesh does. */
+static void mark_meshes(const gltf_document *d, unsigned char *moved, morph_marks *marks)
+{
+    mark_moved(d, moved, marks);
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        marks->named[m] = ffd_gltf_find_target(d, m);
+        marks->meshes[m] =
+            marks->meshes[m] || (marks->selected[m] && (!marks->moved || marks->named[m] != GLTF_NONE));
+        marks->any = marks->any || marks->meshes[m];
+    }
+}
+
+/* Lends the results to the targets of the other document's primitives, or takes them back. Both have the same
+   instances in the same order. */
+static void lend_results(const gltf_document *d, const morph_marks *marks, bool back, gltf_document *other)
 {
     size_t k = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
@@ -68,11 +87,11 @@ static void lend_results(const gltf_document *d, const bool *meshes, bool back, 
                 const gltf_instance *from = &d->instances[k];
                 gltf_instance *to = &other->instances[k];
                 to->selected = from->selected;
-                if (!meshes[m] || !from->selected)
+                if (!marks->meshes[m] || !from->selected)
                     continue;
-                const size_t target =
-                    to->first_target + other->model.meshes[m].primitives[p].target_count - 1;
-                const size_t shape = other->targets[target];
+                const size_t place =
+                    ffd_gltf_target_place(&d->model.meshes[m].primitives[p], marks->named[m]);
+                const size_t shape = other->targets[to->first_target + place];
                 for (size_t s = 0; s < GLTF_DEFORMED && shape != GLTF_NONE; s++)
                     if (other->parts[shape].streams[s].accessor != GLTF_NONE && from->part[s] != GLTF_NONE)
                         other->parts[shape].streams[s].result =
@@ -80,7 +99,7 @@ static void lend_results(const gltf_document *d, const bool *meshes, bool back, 
             }
 }
 
-static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
+static ffd_status save_with_target(const gltf_document *d, const morph_marks *marks,
                                    const mesh_save_options *options, file_output *output, const mesh_log *log,
                                    ffd_error *error)
 {
@@ -90,7 +109,7 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
     budget.is_shared = true;
     mesh_document *other = NULL;
     file_input file = {0};
-    ffd_status status = ffd_gltf_add_target(d, meshes, log, &file, error);
+    ffd_status status = ffd_gltf_add_target(d, marks->meshes, marks->named, log, &file, error);
     if (status == FFD_OK)
         status = ffd_budget_take(&budget, file.size, 1, error);
     if (status == FFD_OK)
@@ -98,9 +117,9 @@ static ffd_status save_with_target(const gltf_document *d, const bool *meshes,
     if (status == FFD_OK) {
         ((gltf_document *)other)->own_accessors =
             ffd_gltf_of(other)->model.accessor_count - d->model.accessor_count;
-        lend_results(d, meshes, false, (gltf_document *)other);
+        lend_results(d, marks, false, (gltf_document *)other);
         status = ffd_gltf_save_results(other, options, output, log, error);
-        lend_results(d, meshes, true, (gltf_document *)other);
+        lend_results(d, marks, true, (gltf_document *)other);
     }
     ffd_gltf_close(other);
     ffd_file_unload(&file);
@@ -120,19 +139,28 @@ static ffd_status save_as_morph(mesh_document *document, const mesh_save_options
                                 file_output *output, const mesh_log *log, ffd_error *error)
 {
     gltf_document *d = (gltf_document *)document;
-    bool *meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *meshes);
+    morph_marks marks = {.meshes = ffd_alloc_zero(d->model.mesh_count, sizeof *marks.meshes),
+                         .selected = ffd_alloc_zero(d->model.mesh_count, sizeof *marks.selected),
+                         .named = ffd_alloc(d->model.mesh_count, sizeof *marks.named)};
     unsigned char *moved = ffd_alloc_zero(d->base.part_count, GLTF_DEFORMED);
+    const bool allocated = marks.meshes && marks.selected && marks.named && moved;
     ffd_status status;
-    if (!meshes || !moved) {
+    if (allocated)
+        mark_meshes(d, moved, &marks);
+    if (!allocated) {
         status = ffd_fail_memory(error);
-    } else if (mark_moved(d, moved, meshes)) {
-        status = save_with_target(d, meshes, options, output, log, error);
+    } else if (marks.any) {
+        if (!marks.moved)
+            ffd_log_line(log, FFD_LOG_WARNING, "no vertex moves: all offsets of the morph target are 0");
+        status = save_with_target(d, &marks, options, output, log, error);
     } else {
-        ffd_log_line(log, FFD_LOG_WARNING, "nothing moves: no morph target is added");
+        ffd_log_line(log, FFD_LOG_WARNING, "the file has no mesh that could get the morph target");
         drop_results(d);
         status = ffd_gltf_save_results(document, options, output, log, error);
     }
-    ffd_free(meshes);
+    ffd_free(marks.meshes);
+    ffd_free(marks.selected);
+    ffd_free(marks.named);
     ffd_free(moved);
     return status;
 }

@@ -7,8 +7,8 @@
 /* mesh_format's keep_base: results become offsets of a further morph target of this name. */
 mesh_keep_base_function ffd_gltf_keep_base;
 
-/* mesh_format's save: with a further morph target after ffd_gltf_keep_base, else as ffd_gltf_save_results
-   does. */
+/* mesh_format's save: with a further morph target after ffd_gltf_keep_base, else as
+   ffd_gltf_save_results does. */
 mesh_save_function ffd_gltf_save;
 
 #endif

@@ -4,7 +4,6 @@
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/decode/gltf_views.h"
 #include "io/gltf/gltf_compare_json.h"
-#include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,7 @@
 #include "io/gltf/gltf_describe.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_draco.h"
+#include "io/gltf/scene/gltf_detail.h"
 #include "io/gltf/scene/gltf_faces.h"
 #include <string.h>
 
@@ -161,6 +162,7 @@ ffd_status ffd_gltf_describe(const mesh_document *document, json_text *json, ffd
         describe_count(d, counted[i], json);
     ffd_json_count(json, "primitives", d->primitive_values.count);
     ffd_json_count(json, "nodes_with_mesh_not_shown", d->nodes_outside_scene);
+    ffd_json_count(json, "nodes_with_mesh_of_coarser_detail", ffd_gltf_count_stand_ins(d));
     if (d->shared_child != GLTF_NONE)
         ffd_json_count(json, "node_with_two_parents", d->shared_child);
     ffd_status status = describe_attributes(d, json, error);

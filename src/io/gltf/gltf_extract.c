@@ -2,21 +2,29 @@
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/gltf_attribute.h"
+#include "io/gltf/scene/gltf_detail.h"
 #include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/scene/gltf_shown.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "mesh/srgb.h"
 #include <string.h>
 
 typedef struct extractor {
     const gltf_document *document;
     mesh_model *model;
-    /* The first value of each part, and of each accessor of texture coordinates; GLTF_NONE: it has none. */
-    size_t *first_position, *first_normal, *first_texcoord;
+    size_t *first_position, *first_normal; /* of each part */
+    size_t *colours; /* of each part: the accessor that its colours were read from; GLTF_NONE: none yet */
+    intern_table texcoords; /* keys: gltf_texcoords */
+    size_t *first_texcoord; /* of each of these */
+    size_t texcoords_capacity;
     ffd_error *error;
 } extractor;
 
 /* What a primitive draws under one node. */
 typedef struct drawn {
     const gltf_primitive *primitive;
+    size_t part; /* of its positions */
     uint32_t *corners;
     size_t count;
     size_t position, normal, texcoord; /* the first of each; GLTF_NONE: none */
@@ -28,53 +36,73 @@ static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
     return &e->document->mesh_uses[mesh];
 }
 
-/* Returns the accessor of an attribute with least to most numbers per element for all of a primitive's
-   vertices; GLTF_NONE if it has none that can be used. */
-static size_t find_attribute(const gltf_document *d, size_t m, size_t p, const char *name, int least,
-                             int most)
+/* Whether a node is drawn: not if it only stands in for another at a distance, or is hidden. */
+static bool is_drawn(const gltf_document *d, size_t node)
 {
-    const uint32_t primitive = ffd_gltf_primitive_value(d, m, p);
-    const uint32_t value =
-        ffd_json_span_member(&d->tree, ffd_json_span_member(&d->tree, primitive, "attributes"), name);
-    const int positions = d->model.meshes[m].primitives[p].accessor[GLTF_POSITION];
-    double number;
-    if (positions < 0 || !ffd_json_span_number(&d->tree, value, &number) || !(number >= 0) ||
-        number >= (double)d->model.accessor_count)
-        return GLTF_NONE;
-    const size_t a = (size_t)number;
-    const gltf_accessor *accessor = &d->model.accessors[a];
-    const bool fits = accessor->columns == 1 && accessor->rows >= least && accessor->rows <= most &&
-                      accessor->count >= d->model.accessors[positions].count && d->layouts[a].readable;
-    return fits ? a : GLTF_NONE;
+    return node == GLTF_NONE || (!d->stands_in[node] && !ffd_gltf_is_hidden(d, node));
 }
 
-static size_t find_texcoords(const gltf_document *d, size_t m, size_t p)
+static bool is_mesh_drawn(const extractor *e, size_t m)
 {
-    return find_attribute(d, m, p, "TEXCOORD_0", 2, 2);
+    const gltf_mesh_uses *uses = uses_of(e, m);
+    for (size_t n = 0; n < uses->node_count; n++)
+        if (is_drawn(e->document, uses->nodes ? uses->nodes[n] : GLTF_NONE))
+            return true;
+    return false;
 }
 
-/* Counts the values and sets the first one of each part and accessor. */
+/* Numbers the texture coordinates of a primitive, and counts them where they are new. */
+static ffd_status add_texcoords(extractor *e, size_t m, size_t p, size_t *count)
+{
+    const gltf_document *d = e->document;
+    gltf_texcoords texcoords;
+    uint32_t number;
+    ffd_gltf_texcoords(d, m, p, &texcoords);
+    if (texcoords.accessor == GLTF_NONE || *count > MODEL_VALUES_MAX)
+        return FFD_OK; /* too many are refused */
+    const size_t known = e->texcoords.count;
+    if (!ffd_intern(&e->texcoords, &texcoords, sizeof texcoords, &number) ||
+        !ffd_grow((void **)&e->first_texcoord, &e->texcoords_capacity, e->texcoords.count,
+                  sizeof *e->first_texcoord))
+        return ffd_fail_memory(e->error);
+    if (number < known)
+        return FFD_OK;
+    const uint64_t own = d->model.accessors[texcoords.accessor].count;
+    e->first_texcoord[number] = *count;
+    *count = own > MODEL_VALUES_MAX - *count ? MODEL_VALUES_MAX + (size_t)1 : *count + (size_t)own;
+    return FFD_OK;
+}
+
+/* Returns the first of a primitive's texture coordinates, GLTF_NONE if it has none. */
+static size_t find_texcoords(const extractor *e, size_t m, size_t p)
+{
+    gltf_texcoords texcoords;
+    uint32_t number;
+    ffd_gltf_texcoords(e->document, m, p, &texcoords);
+    return ffd_intern_find(&e->texcoords, &texcoords, sizeof texcoords, &number) ? e->first_texcoord[number]
+                                                                                 : GLTF_NONE;
+}
+
+/* Counts the values and sets the first one of each part and of all texture coordinates. */
 static ffd_status count_values(extractor *e)
 {
     const gltf_document *d = e->document;
     size_t positions = 0, texcoords = 0, normals = 0;
+    ffd_status status = FFD_OK;
     for (size_t i = 0; i < d->base.part_count; i++) {
         e->first_position[i] = positions;
         e->first_normal[i] = normals;
+        e->colours[i] = GLTF_NONE;
+        if (!is_drawn(d, d->parts[i].node))
+            continue;
         positions += d->mesh_parts[i].repeats_positions ? 0 : d->mesh_parts[i].vertex_count;
         normals += d->mesh_parts[i].normal_count;
     }
-    for (size_t a = 0; a < d->model.accessor_count; a++)
-        e->first_texcoord[a] = GLTF_NONE;
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && uses_of(e, m)->node_count > 0; p++) {
-            const size_t a = find_texcoords(d, m, p);
-            if (a == GLTF_NONE || e->first_texcoord[a] != GLTF_NONE)
-                continue;
-            e->first_texcoord[a] = texcoords;
-            texcoords += (size_t)d->model.accessors[a].count;
-        }
-    return ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
+    for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && is_mesh_drawn(e, m) && status == FFD_OK;
+             p++)
+            status = add_texcoords(e, m, p, &texcoords);
+    return status ? status : ffd_model_make_values(e->model, positions, texcoords, normals, e->error);
 }
 
 /* Reads a stream's results where they differ from the file's values as floats, else the file's values:
@@ -83,7 +111,7 @@ static void read_stream(const gltf_document *d, size_t part, gltf_semantic seman
 {
     const gltf_stream *stream = &d->parts[part].streams[semantic];
     const size_t count = d->mesh_parts[part].vertex_count;
-    ffd_gltf_read(d, stream->accessor, 0, count, 3, values);
+    ffd_gltf_read_shown(d, part, semantic, 0, count, 3, values);
     for (size_t i = 0; i < 3 * count && stream->result; i++) {
         const bool filled = !stream->filled || stream->filled[i / 3 / MESH_RANGE_STEP];
         if (filled && ((float)values[i] < stream->result[i] || (float)values[i] > stream->result[i]))
@@ -95,7 +123,7 @@ static void read_transform(const gltf_document *d, size_t part, size_t vertex, d
 {
     const mesh_part *p = &d->mesh_parts[part];
     if (p->skinned)
-        ffd_gltf_read_transforms(&d->base, part, vertex, 1, transform);
+        ffd_gltf_read_transforms(&d->base, part, vertex, 1, transform, NULL);
     else
         memcpy(transform, p->linear, sizeof p->linear);
 }
@@ -126,6 +154,8 @@ static void fill_values(const extractor *e)
     const gltf_document *d = e->document;
     for (size_t i = 0; i < d->base.part_count; i++) {
         const mesh_part *part = &d->mesh_parts[i];
+        if (!is_drawn(d, d->parts[i].node))
+            continue;
         if (!part->repeats_positions) {
             double *positions = e->model->positions + 3 * e->first_position[i];
             read_stream(d, i, GLTF_POSITION, positions);
@@ -137,28 +167,33 @@ static void fill_values(const extractor *e)
             turn_normals(d, i, normals);
         }
     }
-    for (size_t a = 0; a < d->model.accessor_count; a++) {
-        if (e->first_texcoord[a] == GLTF_NONE)
-            continue;
-        const size_t count = (size_t)d->model.accessors[a].count;
-        double *texcoords = e->model->texcoords + 2 * e->first_texcoord[a];
-        ffd_gltf_read(d, a, 0, count, 2, texcoords);
-        for (size_t i = 0; i < count; i++)
-            texcoords[2 * i + 1] = 1 - texcoords[2 * i + 1]; /* v points down in glTF */
+    for (size_t i = 0; i < e->texcoords.count; i++) {
+        gltf_texcoords texcoords;
+        memcpy(&texcoords, ffd_intern_key(&e->texcoords, (uint32_t)i), sizeof texcoords);
+        ffd_gltf_read_texcoords(d, &texcoords, e->model->texcoords + 2 * e->first_texcoord[i]);
     }
 }
 
+/* Colours are linear, and shown as if clamped to 0 to 1 (glTF 2.0, 3.9.2 and 3.7.2.1). */
 static ffd_status take_colours(extractor *e, size_t m, size_t p, const drawn *drawing)
 {
     const gltf_document *d = e->document;
-    const size_t a = find_attribute(d, m, p, "COLOR_0", 3, 4);
-    if (a == GLTF_NONE || drawing->position == GLTF_NONE)
+    const size_t a = ffd_gltf_attribute(d, m, p, "COLOR_0", 3, 4);
+    if (a == GLTF_NONE || a == e->colours[drawing->part])
         return FFD_OK;
+    e->colours[drawing->part] = a;
+    const bool coarse =
+        d->model.accessors[a].component == GLTF_U8 && (!e->model->colours || e->model->coarse_colours);
     const ffd_status status = ffd_model_make_colours(e->model, e->error);
+    e->model->coarse_colours = coarse;
     const size_t count = (size_t)d->model.accessors[drawing->primitive->accessor[GLTF_POSITION]].count;
     for (size_t i = 0; i < count && status == FFD_OK; i++) {
         double *colour = e->model->colours + 4 * (drawing->position + i);
         ffd_gltf_read(d, a, i, 1, (size_t)d->model.accessors[a].rows, colour);
+        for (int c = 0; c < 4; c++)
+            colour[c] = colour[c] > 0 ? lesser_of(colour[c], 1) : 0;
+        for (int c = 0; c < 3; c++)
+            colour[c] = ffd_srgb_from_linear(colour[c]);
     }
     return status;
 }
@@ -272,13 +307,17 @@ static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
     const gltf_mesh_uses *uses = uses_of(e, m);
     const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
     const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
-    const size_t texcoords = find_texcoords(d, m, p);
     if (part == GLTF_NONE)
         return FFD_OK;
+    if (d->model.meshes[m].primitives[p].mode == MODE_UNKNOWN)
+        return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID,
+                                  e->error,
+                                  "what the primitive draws is not known, so that it cannot be converted");
     drawn drawing = {.primitive = &d->model.meshes[m].primitives[p],
+                     .part = part,
                      .position = e->first_position[part],
                      .normal = normals == GLTF_NONE ? GLTF_NONE : e->first_normal[normals],
-                     .texcoord = texcoords == GLTF_NONE ? GLTF_NONE : e->first_texcoord[texcoords],
+                     .texcoord = find_texcoords(e, m, p),
                      .mirrored = is_mirrored(d, part)};
     ffd_status status = ffd_gltf_read_corners(d, m, p, &drawing.corners, &drawing.count, e->error);
     if (status == FFD_OK)
@@ -295,7 +334,7 @@ static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
 
 static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
 {
-    static const char *const known[] = {"POSITION", "NORMAL", "TEXCOORD_0", "COLOR_0"};
+    static const char *const known[] = {"POSITION", "NORMAL", "COLOR_0"};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (ffd_json_span_key_is(tree, value, known[i]))
             return 0;
@@ -303,16 +342,19 @@ static uint32_t feature_of_attribute(const json_span *tree, uint32_t value)
         return MODEL_HAS_TANGENTS;
     const char *key = tree->text + tree->values[value].key_begin + 1;
     if (strncmp(key, "TEXCOORD_", 9) == 0)
-        return MODEL_HAS_MORE_TEXCOORDS;
+        return 0; /* ffd_gltf_has_more_texcoords looks at them */
     return strncmp(key, "JOINTS_", 7) == 0 || strncmp(key, "WEIGHTS_", 8) == 0 ? MODEL_HAS_SKINS
                                                                                : MODEL_HAS_MORE;
 }
 
 static uint32_t features_of_primitive(const gltf_document *d, size_t m, size_t p)
 {
+    gltf_texcoords texcoords;
+    ffd_gltf_texcoords(d, m, p, &texcoords);
     const uint32_t attributes =
         ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "attributes");
     uint32_t found = d->model.meshes[m].primitives[p].target_count > 0 ? MODEL_HAS_MORPHS : 0;
+    found |= ffd_gltf_has_more_texcoords(d, m, p, &texcoords) ? MODEL_HAS_MORE_TEXCOORDS : 0;
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
          v = ffd_json_span_after(&d->tree, v))
         found |= feature_of_attribute(&d->tree, v);
@@ -330,7 +372,7 @@ static uint32_t features_of(const extractor *e)
     const gltf_document *d = e->document;
     uint32_t found = 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count && uses_of(e, m)->node_count > 0; p++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && is_mesh_drawn(e, m); p++)
             found |= features_of_primitive(d, m, p);
     for (size_t n = 0; n < d->model.node_count; n++)
         found |= d->model.nodes[n].child_count > 0 ? MODEL_HAS_HIERARCHY : 0;
@@ -340,7 +382,8 @@ static uint32_t features_of(const extractor *e)
     found |= has_any(d, "animations") ? MODEL_HAS_ANIMATIONS : 0;
     found |=
         has_any(d, "cameras") || ffd_gltf_has_extension(d, 0, "KHR_lights_punctual") ? MODEL_HAS_CAMERAS : 0;
-    found |= d->nodes_outside_scene > 0 ? MODEL_HAS_HIDDEN : 0;
+    found |=
+        d->nodes_outside_scene > 0 || ffd_gltf_count_stand_ins(d) > 0 || d->hidden ? MODEL_HAS_HIDDEN : 0;
     found |= d->space == FFD_SPACE_MESH && d->model.node_count > 0 ? MODEL_HAS_TRANSFORMS : 0;
     return found;
 }
@@ -350,8 +393,8 @@ static ffd_status extract(extractor *e)
     const gltf_document *d = e->document;
     e->first_position = ffd_alloc(d->base.part_count, sizeof *e->first_position);
     e->first_normal = ffd_alloc(d->base.part_count, sizeof *e->first_normal);
-    e->first_texcoord = ffd_alloc(d->model.accessor_count, sizeof *e->first_texcoord);
-    if (!e->first_position || !e->first_normal || !e->first_texcoord)
+    e->colours = ffd_alloc(d->base.part_count, sizeof *e->colours);
+    if (!e->first_position || !e->first_normal || !e->colours)
         return ffd_fail_memory(e->error);
     /* Memory for the corners of a primitive while it is added. */
     ffd_status status = ffd_model_take(e->model, ffd_gltf_most_corners(d), sizeof(uint32_t), e->error);
@@ -363,7 +406,8 @@ static ffd_status extract(extractor *e)
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
             for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
-                status = add_instance(e, m, p, n);
+                if (is_drawn(d, uses_of(e, m)->nodes ? uses_of(e, m)->nodes[n] : GLTF_NONE))
+                    status = add_instance(e, m, p, n);
     e->model->features = features_of(e);
     return status;
 }
@@ -388,6 +432,8 @@ ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ff
         status = ffd_model_finish(model, error);
     ffd_free(e.first_position);
     ffd_free(e.first_normal);
+    ffd_free(e.colours);
     ffd_free(e.first_texcoord);
+    ffd_intern_free(&e.texcoords);
     return status;
 }

@@ -6,13 +6,21 @@
 #include "io/gltf/gltf_describe.h"
 #include "io/gltf/gltf_extract.h"
 #include "io/gltf/gltf_open.h"
+#include "io/gltf/save/gltf_output_names.h"
 #include "io/gltf/save/gltf_resources.h"
 #include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/scene/gltf_faults.h"
 #include "io/gltf/scene/gltf_instancing.h"
+#include "io/gltf/scene/gltf_listing.h"
+#include "io/gltf/scene/gltf_mixed.h"
+#include "io/gltf/scene/gltf_names.h"
+#include "io/gltf/scene/gltf_places.h"
 #include "io/gltf/scene/gltf_refuse.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_select.h"
+#include "io/gltf/scene/gltf_shown.h"
 #include "io/gltf/scene/gltf_skin.h"
+#include "io/gltf/scene/gltf_used.h"
 #include <float.h>
 
 static ffd_status check(const mesh_document *document, ffd_error *error)
@@ -20,28 +28,21 @@ static ffd_status check(const mesh_document *document, ffd_error *error)
     return ffd_gltf_refuse_read(ffd_gltf_of(document), error);
 }
 
-static void read_stream(const mesh_document *document, size_t part, gltf_semantic semantic, size_t first,
-                        size_t count, size_t components, double *values)
-{
-    const gltf_document *d = ffd_gltf_of(document);
-    ffd_gltf_read(d, d->parts[part].streams[semantic].accessor, first, count, components, values);
-}
-
 static void read_positions(const mesh_document *document, size_t part, size_t first, size_t count,
                            double *xyz)
 {
-    read_stream(document, part, GLTF_POSITION, first, count, 3, xyz);
+    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_POSITION, first, count, 3, xyz);
 }
 
 static void read_normals(const mesh_document *document, size_t part, size_t first, size_t count, double *xyz)
 {
-    read_stream(document, part, GLTF_NORMAL, first, count, 3, xyz);
+    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_NORMAL, first, count, 3, xyz);
 }
 
 static void read_tangents(const mesh_document *document, size_t part, size_t first, size_t count,
                           double *xyzw)
 {
-    read_stream(document, part, GLTF_TANGENT, first, count, 4, xyzw);
+    ffd_gltf_read_shown(ffd_gltf_of(document), part, GLTF_TANGENT, first, count, 4, xyzw);
 }
 
 static void read_offsets(const mesh_document *document, size_t part, size_t shape, mesh_stream stream,
@@ -59,12 +60,20 @@ const mesh_format ffd_gltf_format = {
     .close = ffd_gltf_close,
     .list_files = ffd_gltf_list_files,
     .list_images = ffd_gltf_list_images,
+    .find_resources = ffd_gltf_find_resources,
+    .count_beside = ffd_gltf_count_beside,
+    .list_beside = ffd_gltf_list_beside,
     .check = check,
+    .warn = ffd_gltf_warn_of_faults,
     .check_reach = ffd_gltf_check_reach,
+    .list_places = ffd_gltf_list_places,
+    .place_name = ffd_gltf_place_name,
     .keep_base = ffd_gltf_keep_base,
     .largest_coordinate = FLT_MAX,
     .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
     .select = ffd_gltf_select,
+    .list_parts = ffd_gltf_list_parts,
+    .mark_used = ffd_gltf_mark_used,
     .read_positions = read_positions,
     .read_normals = read_normals,
     .read_tangents = read_tangents,
@@ -76,7 +85,10 @@ const mesh_format ffd_gltf_format = {
     .write_tangents = ffd_gltf_write_tangents,
     .write_offsets = ffd_gltf_write_offsets,
     .save = ffd_gltf_save,
+    .check_save = ffd_gltf_save,
     .faces = ffd_gltf_faces,
+    .mixed_faces = ffd_gltf_mixed_faces,
+    .name_part = ffd_gltf_name_part,
     .corner_normals = ffd_gltf_corner_normals,
     .model = ffd_gltf_extract,
     .describe = ffd_gltf_describe,

@@ -3,10 +3,13 @@
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "io/gltf/decode/gltf_check.h"
+#include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
 #include "io/gltf/model/gltf_schema.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_parts.h"
+#include "io/gltf/scene/gltf_places.h"
+#include "io/gltf/scene/gltf_required.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_scene.h"
 #include "io/gltf/scene/gltf_shapes.h"
@@ -15,10 +18,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the JSON library and tinygltf need at most for one object of a list, and what the model keeps of
-   it. */
+/* What the JSON library and tinygltf need at most for one object of a list, and what
+   the model keeps of it. */
 #define OBJECT_BYTES 1024
 #define KEPT_OBJECT_BYTES 256
+
+/* Bytes of small external buffers that are read: thousands may name one file. Others are mapped, which takes
+   no memory. */
+#define MOST_READ ((size_t)1 << 24)
 
 /* Bytes that are kept per byte of a file: the file itself. */
 #define KEPT_PER_BYTE 1
@@ -96,8 +103,29 @@ static ffd_status count_files(gltf_document *d, ffd_error *error)
     return FFD_OK;
 }
 
+/* Notes what is wrong with a buffer that was loaded all the same. */
+static ffd_status note_buffer(gltf_document *d, size_t i, ffd_error *error)
+{
+    const gltf_buffer *const buffer = &d->buffers[i];
+    const uint32_t value = d->buffer_values.values[i], uri = ffd_json_span_member(&d->tree, value, "uri");
+    ffd_status status = FFD_OK;
+    if (buffer->flaws & BUFFER_ODD_MARKER)
+        status = ffd_gltf_flaw(d, uri, error,
+                               "the head of the data URI does not end with \";base64\" in small letters");
+    if (status == FFD_OK && buffer->flaws & BUFFER_BLANKS)
+        status = ffd_gltf_flaw(d, uri, error, "there are blanks in the base64 of the data URI");
+    if (status == FFD_OK && buffer->flaws & BUFFER_BACKSLASH)
+        status =
+            ffd_gltf_flaw(d, uri, error, "the URI has backslashes for slashes: \"%s\" is read", buffer->path);
+    if (status == FFD_OK && buffer->flaws & BUFFER_SHORT)
+        status = ffd_gltf_flaw(d, value, error, "the buffer has %zu bytes, less than its byteLength %zu",
+                               buffer->size, buffer->stated);
+    return status;
+}
+
 static ffd_status load_buffers(gltf_document *d, ffd_error *error)
 {
+    size_t most_read = MOST_READ;
     d->buffers = ffd_alloc_zero(d->buffer_values.count, sizeof *d->buffers);
     if (!d->buffers)
         return ffd_fail_memory(error);
@@ -106,9 +134,11 @@ static ffd_status load_buffers(gltf_document *d, ffd_error *error)
         const bool bin = i == 0 && d->binary && d->glb.has_bin;
         status = ffd_gltf_load_buffer(&d->tree, d->buffer_values.values[i],
                                       bin ? d->input.data + d->glb.bin_begin : NULL, d->glb.bin_size, d->path,
-                                      d->name, &d->buffers[i], error);
+                                      d->name, &most_read, &d->buffers[i], error);
         if (d->buffers[i].kind == BUFFER_DATA && status == FFD_OK)
             status = ffd_budget_take(&d->base.budget, d->buffers[i].size, 1, error);
+        if (status == FFD_OK)
+            status = note_buffer(d, i, error);
     }
     return status == FFD_OK ? count_files(d, error) : status;
 }
@@ -154,17 +184,6 @@ static void hide_indices(const gltf_document *d, json_edits *edits)
             ffd_edits_format(edits, d->tree.values[indices].key_begin, d->tree.values[indices].key_end,
                              "\"\"");
     }
-}
-
-static void set_indices(gltf_document *d)
-{
-    for (size_t m = 0; m < d->model.mesh_count; m++)
-        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
-            const uint32_t value = ffd_gltf_primitive_value(d, m, p);
-            double number;
-            if (ffd_json_span_number(&d->tree, ffd_json_span_member(&d->tree, value, "indices"), &number))
-                d->model.meshes[m].primitives[p].indices = (int)number;
-        }
 }
 
 /* Writes the JSON for tinygltf. It has only the geometry, so that tinygltf does not spend time on the
@@ -229,20 +248,21 @@ static ffd_status parse_model(gltf_document *d, ffd_error *error)
     ffd_buffer_free(&text);
     if (status == FFD_OK)
         status = check_counts(d, error);
-    if (status == FFD_OK)
-        set_indices(d);
-    return status;
+    return status ? status : ffd_gltf_read_drawings(d, error);
 }
 
 static void free_decoded(gltf_document *d)
 {
     for (size_t i = 0; d->decoded_views && i < d->model.view_count; i++)
         ffd_free(d->decoded_views[i]);
+    for (size_t i = 0; d->view_exponents && i < d->model.view_count; i++)
+        ffd_free(d->view_exponents[i]);
     for (size_t i = 0; d->unpacked && i < d->model.accessor_count; i++)
         ffd_free(d->unpacked[i].bytes);
     for (size_t i = 0; d->draco_problems && i < d->primitive_values.count; i++)
         ffd_free(d->draco_problems[i]);
     ffd_free(d->decoded_views);
+    ffd_free(d->view_exponents);
     ffd_free(d->unpacked);
     ffd_free(d->draco_problems);
 }
@@ -256,6 +276,7 @@ static void free_document(gltf_document *d)
         for (int s = 0; s < GLTF_DEFORMED; s++)
             ffd_gltf_free_result(&d->parts[i].streams[s]);
         ffd_free(d->parts[i].selected);
+        ffd_free(d->parts[i].used);
     }
     for (size_t i = 0; d->buffers && i < d->buffer_values.count; i++)
         ffd_gltf_free_buffer(&d->buffers[i]);
@@ -270,6 +291,10 @@ static void free_document(gltf_document *d)
     ffd_free(d->layouts);
     ffd_free(d->world);
     ffd_free(d->in_scene);
+    ffd_free(d->scene_ranks);
+    ffd_free(d->stands_in);
+    ffd_free(d->selected_nodes);
+    ffd_free(d->hidden);
     ffd_free(d->scene_nodes);
     ffd_free(d->mesh_uses);
     ffd_free(d->instances);
@@ -310,6 +335,7 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
         status = load_buffers(d, error);
     if (status)
         return status;
+    ffd_gltf_choose_pages(d);
     d->layouts = ffd_alloc_zero(d->model.accessor_count, sizeof *d->layouts);
     if (!d->layouts)
         return ffd_fail_memory(error);
@@ -317,11 +343,15 @@ static ffd_status read_document(gltf_document *d, const ffd_source *source, ffd_
     if (status == FFD_OK)
         status = ffd_gltf_check_indices(d, error);
     if (status == FFD_OK)
+        status = ffd_gltf_find_required(d, source, error);
+    if (status == FFD_OK)
         status = ffd_gltf_list_skins(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_scene(d, error);
     if (status == FFD_OK)
         status = ffd_gltf_make_parts(d, error);
+    if (status == FFD_OK)
+        ffd_gltf_mark_splats(d);
     if (status == FFD_OK)
         status = ffd_gltf_make_shapes(d, error);
     if (status == FFD_OK)
@@ -343,6 +373,7 @@ ffd_status ffd_gltf_open_within(file_input *input, const ffd_source *source, con
     if (!d)
         return ffd_fail_memory(error);
     d->base.budget = *budget;
+    d->base.flaws.strict = source->strict;
     d->space = source->space;
     d->threads = source->threads > 0 ? source->threads : ffd_processor_count();
     d->input = *input; /* the caller's until all succeeded */

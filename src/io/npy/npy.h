@@ -3,7 +3,6 @@
 #define FFD_IO_NPY_NPY_H
 
 #include "base/file/output.h"
-#include <stdint.h>
 
 /* Capacity that is enough for every header below. */
 #define NPY_HEADER_CAPACITY 256

@@ -4,9 +4,11 @@
 #include <string.h>
 
 /* Whether the line that ends at `end` (a line end's first character) may go on in the next: a backslash in a
-   comment does not continue it, but cutting elsewhere is as good. */
+   comment, or with blanks after it, may not continue it, but cutting elsewhere is as good. */
 static bool may_continue(const char *first, const char *end)
 {
+    while (end > first && ffd_obj_class(end - 1) == OBJ_BLANK)
+        end--;
     return end > first && end[-1] == '\\';
 }
 
@@ -31,9 +33,9 @@ static const char *find_cut(const char *first, const char *at, const char *last)
 /* The shortest line with numbers, "v 1 2 3". A shorter line is no basis for an estimate. */
 #define SHORTEST_LINE 8
 
-/* Counts the lines of the block as if all were like the first `v` or `vn`, unless others than those of a
-   file's or an object's beginning come before. These bytes are in memory already: the search for the cut
-   before read them. */
+/* Estimates how many `v` or `vn` lines the block has by the length of the first one. Estimates nothing if a
+   line comes before it that does not belong to the beginning of a file or an object. These bytes are in
+   memory already: the search for the cut before read them. */
 static void estimate(const obj_block *block, obj_blocks *blocks)
 {
     const size_t size = (size_t)(block->last - block->first);
@@ -55,14 +57,14 @@ static void estimate(const obj_block *block, obj_blocks *blocks)
     }
 }
 
-/* Cuts after which the pages that the search has read are given back: the system reads in up to 2 MB for one
-   byte. */
+/* After so many cuts the mapped pages that the search has read are released: the system reads in up to 2 MB
+   (a huge page) for one byte. */
 #define CUTS ((size_t)32)
 
 ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t target, obj_blocks *blocks,
                               ffd_error *error)
 {
-    const char *const last = (const char *)input->data + input->size;
+    const char *const last = (const char *)input->data + ffd_text_size(input->data, input->size);
     const size_t most = (size_t)(last - first) / target + 1;
     const char *at = first;
     *blocks = (obj_blocks){.list = ffd_alloc_zero(most, sizeof *blocks->list)};

@@ -13,17 +13,19 @@ typedef struct obj_block {
     size_t line; /* of its first character, from 1 */
     size_t vertices, texcoords, normals, faces;
     bool plain;          /* see obj_scan */
+    bool names_groups;   /* has a `g` or `o` */
     bool names_elements; /* has a statement that may name elements by their numbers */
 } obj_block;
 
 typedef struct obj_blocks {
     obj_block *list; /* at least one */
     size_t count;
-    size_t vertices, normals; /* about so many, if each block goes on as it begins */
+    size_t vertices, normals; /* an estimate from how each block begins */
 } obj_blocks;
 
-/* Cuts the input from `first` on, after its byte order mark, at line ends that nothing continues: at the
-   first one from each multiple of `target` bytes on. Errors: FFD_E_MEMORY; *blocks is then empty. */
+/* Cuts the input from `first` on, after its byte order mark, up to its text's end (ffd_text_size), at line
+   ends that nothing continues: at the first one from each multiple of `target` bytes on. Errors:
+   FFD_E_MEMORY; *blocks is then empty. */
 ffd_status ffd_obj_blocks_cut(const file_input *input, const char *first, size_t target, obj_blocks *blocks,
                               ffd_error *error);
 /* Frees the list of blocks. */

@@ -1,8 +1,8 @@
-/* obj_compare.c - compares two OBJ files. Two OBJ files are the same mesh when their statements are, one by
-   one: the keyword, and each argument as text, as a number (1.0 and 1, NaN and NaN) or, in f, l and p, as the
-   element it names (-1 and 8). The coordinates of `v` and `vn` may differ by their tolerances; other numbers
-   may not. Names and mtllib are compared; comments, empty lines, blanks, continuations and line ends are
-   not. */
+/* obj_compare.c - compares two OBJ files. Two OBJ files are the same mesh when their statements are,
+   one by one: the keyword, and each argument as text, as a number (1.0 and 1, NaN and NaN) or, in f, l
+   and p, as the element it names (-1 and 8). The coordinates of `v` and `vn` may differ by their
+   tolerances; other numbers may not. Names and mtllib are compared; comments, empty lines, blanks,
+   continuations and line ends are not. */
 #include "io/obj/obj_document.h"
 #include "io/obj/obj_number.h"
 #include "mesh/difference.h"
@@ -33,8 +33,8 @@ static void format_place(const void *context, char *text, size_t capacity)
         snprintf(text, capacity, "%.*s%s", ffd_text_display_size(name), name.first, lines);
 }
 
-/* The kind of a difference in what a statement has besides coordinates, such as the weight or colour of a
-   vertex. */
+/* The kind of a difference in what a statement has besides coordinates, such as the weight
+   or colour of a vertex. */
 static ffd_difference_kind kind_of(obj_keyword keyword)
 {
     switch (keyword) {

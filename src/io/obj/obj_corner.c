@@ -43,7 +43,7 @@ bool ffd_obj_corner(text_word word, obj_corner *corner)
     return false;
 }
 
-/* An index of so many digits, 8 at most, where 8 bytes can be read. */
+/* Reads an index of this many digits, at most 8, from text of which 8 bytes can be read. */
 static ALWAYS_INLINE obj_index index_at(const char *at, int count)
 {
     const uint64_t values = load_u64((const unsigned char *)at) ^ '0' * BYTES_ONES;

@@ -17,8 +17,8 @@ typedef struct obj_corner {
     obj_index vertex, texcoord, normal;
 } obj_corner;
 
-/* Takes a scan's next argument if it is a corner in digits and slashes alone, and its vertex is there. False,
-   and nothing is taken, where it is anything else: the caller then reads it as a word. */
+/* Takes a scan's next argument if it is a corner of digits and slashes only and has a vertex. Otherwise
+   returns false and takes nothing; the caller then reads it as a word. */
 bool ffd_obj_scan_corner(obj_scan *scan, obj_corner *corner);
 
 /* Reads v, v/t, v//n or v/t/n; a slash with nothing after it is allowed. False for anything else. */
@@ -32,9 +32,9 @@ typedef struct obj_corner_form {
     int vertex, texcoord, normal, end;
 } obj_corner_form;
 
-/* Finds the two slashes of a text that begins with digits, at most eight to each index, one or more of the
-   vertex. All at once: one index after the other would be looked for only when the end of the one before is
-   known. False where it begins otherwise. */
+/* Finds the two slashes of a corner whose indices have at most eight digits, the vertex at least one. All
+   are found at once: a search index by index would wait for the end of the one before. Returns false if the
+   text begins otherwise. */
 static ALWAYS_INLINE bool ffd_obj_find_slashes(const char *at, obj_corner_form *form)
 {
     uint32_t others = bytes_not_digits_of_32(at);
@@ -49,8 +49,8 @@ static ALWAYS_INLINE bool ffd_obj_find_slashes(const char *at, obj_corner_form *
            form->texcoord <= 8 && form->normal <= 8;
 }
 
-/* Reads the vertex and normal of a corner that has both and two slashes: their indices, as two numbers.
-   Returns the position after it; NULL where the text is anything else. */
+/* Reads the vertex and normal index of a corner v//n or v/t/n. Returns the position after it; NULL if the
+   text is anything else. */
 static ALWAYS_INLINE const char *ffd_obj_pair_at(const char *at, byte_numbers *indices)
 {
     obj_corner_form form;

@@ -29,3 +29,9 @@ void ffd_obj_document_walk_users(const obj_document *d, obj_walk *walk)
         first++;
     walk_blocks(d, first, d->blocks.count - 1, walk);
 }
+
+void ffd_obj_forget_block(const obj_document *d, size_t block)
+{
+    const obj_block *const b = &d->blocks.list[block];
+    ffd_file_release_pages(&d->file.input, (const unsigned char *)b->first, (size_t)(b->last - b->first));
+}

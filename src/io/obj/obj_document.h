@@ -32,12 +32,13 @@ typedef struct obj_document {
     uint32_t *pair_start, *pair_normal;
     /* Where `vn` can be added so that every index keeps its meaning: an offset into the file. */
     size_t addition;
+    size_t end;        /* offset where the text ends: at a Ctrl-Z, or with the file */
     obj_blocks blocks; /* of the file */
     int threads;
-    /* What ffd_obj_select left: bytes of vertices, faces, pairs; and of `vn` that a corner of a face uses
-       which is not selected, so that they must stay. NULL: all is selected. */
+    /* What ffd_obj_select selected: a byte for each vertex, face and pair; and one for each `vn`, set if a
+       face that is not selected uses it, so that it must stay. NULL: all is selected. */
     uint8_t *selected_vertices, *selected_faces, *selected_pairs, *held_normals;
-    /* Of each vertex, and of each pair, a bit for each coordinate that has other bits than before. */
+    /* For each vertex and each pair, a bit for each coordinate whose bits have changed. */
     uint8_t *position_changes, *direction_changes;
 } obj_document;
 
@@ -53,17 +54,24 @@ void ffd_obj_document_walk(const obj_document *document, obj_walk *walk);
 void ffd_obj_document_walk_users(const obj_document *document, obj_walk *walk);
 /* The same over one block. */
 void ffd_obj_document_walk_block(const obj_document *document, size_t block, obj_walk *walk);
+/* Releases the pages of a block; they are read again when they are needed. */
+void ffd_obj_forget_block(const obj_document *document, size_t block);
 /* The entries of the format's table. */
 mesh_open_function ffd_obj_open;
 mesh_close_function ffd_obj_close;
 mesh_select_function ffd_obj_select;
+mesh_list_parts_function ffd_obj_list_parts;
+mesh_mark_used_function ffd_obj_mark_used;
 mesh_read_function ffd_obj_read_positions;
 mesh_read_function ffd_obj_read_normals;
 mesh_begin_results_function ffd_obj_begin_results;
 mesh_write_function ffd_obj_write_positions;
 mesh_write_function ffd_obj_write_normals;
 mesh_save_function ffd_obj_save;
+mesh_save_function ffd_obj_check_save;
 mesh_faces_function ffd_obj_faces;
+mesh_mixed_faces_function ffd_obj_mixed_faces;
+mesh_name_part_function ffd_obj_name_part;
 mesh_corner_normals_function ffd_obj_corner_normals;
 mesh_model_function ffd_obj_model;
 mesh_describe_function ffd_obj_describe;

@@ -1,12 +1,17 @@
 #include "io/obj/obj_faces.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "io/obj/obj_vectors.h"
+#include "mesh/face_filler.h"
+#include "mesh/mixed_faces.h"
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Sums up what the blocks have, but for normals. A `vn` added before an index that counts back would change
-   its meaning: where there is one after the last `vn`, they are added at the end of the file. */
+/* Adds up the counts of the blocks, except those of normals. A `vn` added before an index that counts back
+   would change the meaning of that index: if there is such an index after the last `vn`, new ones are added
+   at the end of the file. */
 static void join_blocks(obj_document *d, const obj_users *users)
 {
     for (size_t i = 0; i < d->blocks.count; i++) {
@@ -15,7 +20,7 @@ static void join_blocks(obj_document *d, const obj_users *users)
         d->corners += block->corners;
         d->lines += block->lines;
         d->points += block->points;
-        d->addition = block->counts_back > d->addition ? d->file.input.size : d->addition;
+        d->addition = block->counts_back > d->addition ? d->end : d->addition;
     }
 }
 
@@ -61,7 +66,7 @@ static void count_tile(void *context, size_t tile, size_t first, size_t last, in
     list->counts[tile] = count;
 }
 
-/* Where no vertex has more than one. */
+/* For meshes in which no vertex has more than one normal. */
 static void take_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     const first_list *list = context;
@@ -187,20 +192,20 @@ size_t ffd_obj_find_pair(const obj_document *d, const obj_face_corner *corner)
     return low;
 }
 
-static void fill_faces(const obj_document *d, mesh_faces *faces)
+static ffd_status fill_faces(const obj_document *d, mesh_faces *faces, ffd_error *error)
 {
     obj_walk walk;
     obj_face_corner corner;
-    size_t face = 0, count = 0;
+    face_filler filler = {.faces = faces, .corners = d->corners};
     ffd_obj_document_walk_users(d, &walk);
     while (ffd_obj_walk_next(&walk)) {
         if (walk.scan.keyword != OBJ_FACE)
             continue;
-        faces->start[face++] = count;
+        ffd_filler_face(&filler);
         while (ffd_obj_walk_corner(&walk, &corner))
-            faces->corners[count++] = (uint32_t)corner.vertex;
+            ffd_filler_corner(&filler, corner.vertex);
     }
-    faces->start[face] = count;
+    return ffd_filler_end(&filler, d->file.name, error);
 }
 
 ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
@@ -211,9 +216,113 @@ ffd_status ffd_obj_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     const ffd_status status = ffd_mesh_faces_make(document, faces, d->corners, error);
     if (status)
         return status;
-    ffd_obj_read_positions(document, 0, 0, d->vertices, faces->positions);
-    fill_faces(d, faces);
+    if (d->file.new_positions && d->file.new_positions == d->file.positions)
+        ffd_obj_read_again(d, NULL, faces->positions);
+    else
+        ffd_obj_read_positions(document, 0, 0, d->vertices, faces->positions);
+    return fill_faces(d, faces, error);
+}
+
+typedef struct mixed_search {
+    const obj_document *document;
+    vertex_marks marks;
+    face_list *lists; /* of each block */
+} mixed_search;
+
+/* Corners of a face that is looked at without care. */
+#define PLAIN_CORNERS 8
+
+/* Lists the vertices of the current face, line or point where it is plainly written: all corners begin with a
+   number that counts from the file's first vertex, on one line. Returns how many; 0: it has to be looked at
+   with care. Takes nothing. */
+static size_t list_plainly(const obj_document *d, const obj_scan *scan, uint32_t vertices[PLAIN_CORNERS])
+{
+    size_t count = 0;
+    const char *c = scan->at;
+    while (scan->plain) {
+        size_t number = 0;
+        while (c < scan->last && (*c == ' ' || *c == '\t'))
+            c++;
+        if (c == scan->last || *c == '\n' || *c == '\r')
+            return count;
+        for (; c < scan->last && (unsigned)(*c - '0') < 10; c++)
+            number = 10 * number + (size_t)(*c - '0');
+        if (number - 1 >= d->vertices || count == PLAIN_CORNERS)
+            break;
+        vertices[count++] = (uint32_t)(number - 1);
+        while (c < scan->last && (unsigned char)*c > ' ')
+            c++;
+    }
+    return 0;
+}
+
+static void search_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const mixed_search *const search = context;
+    face_list list = {0};
+    obj_walk walk;
+    obj_face_corner corner;
+    uint32_t plain[PLAIN_CORNERS];
+    (void)tile;
+    (void)last;
+    (void)worker;
+    if (!search->document->blocks.list[first].names_elements)
+        return;
+    ffd_obj_document_walk_block(search->document, first, &walk);
+    while (!list.failed && ffd_obj_walk_next(&walk)) {
+        if (walk.scan.keyword != OBJ_FACE)
+            continue;
+        const size_t count = list_plainly(search->document, &walk.scan, plain);
+        if (count > 0 && !ffd_marks_differ(&search->marks, plain, count))
+            continue;
+        while (ffd_obj_walk_corner(&walk, &corner))
+            ffd_face_list_corner(&list, (uint32_t)corner.vertex);
+        ffd_face_list_end(&list, &search->marks);
+    }
+    search->lists[first] = list;
+    ffd_obj_forget_block(search->document, first);
+}
+
+/* Reads the positions of the faces' vertices. */
+static ffd_status read_positions(const obj_document *d, const mesh_faces *faces, ffd_error *error)
+{
+    uint8_t *wanted;
+    if (faces->face_count == 0)
+        return FFD_OK;
+    wanted = ffd_alloc_zero(d->vertices, 1);
+    if (!wanted)
+        return ffd_fail_memory(error);
+    for (size_t c = 0; c < faces->start[faces->face_count]; c++)
+        wanted[faces->corners[c]] = 1;
+    ffd_obj_read_again(d, wanted, faces->positions);
+    ffd_free(wanted);
     return FFD_OK;
+}
+
+static ffd_status find_mixed(mixed_search *search, mesh_faces *faces, ffd_error *error)
+{
+    const obj_document *const d = search->document;
+    ffd_parallel_tiles(d->blocks.count, 1, d->threads, search_tile, search);
+    ffd_status status = ffd_face_lists_join(&d->file.base, search->lists, d->blocks.count, faces, error);
+    if (status)
+        return status;
+    status = read_positions(d, faces, error);
+    if (status)
+        ffd_mesh_faces_free(faces);
+    return status;
+}
+
+ffd_status ffd_obj_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
+                               ffd_error *error)
+{
+    const obj_document *const d = ffd_obj_of(document);
+    mixed_search search = {d, *marks, ffd_alloc_zero(d->blocks.count, sizeof *search.lists)};
+    *faces = (mesh_faces){.vertex_count = d->vertices};
+    const ffd_status status = search.lists ? find_mixed(&search, faces, error) : ffd_fail_memory(error);
+    for (size_t b = 0; search.lists && b < d->blocks.count; b++)
+        ffd_free(search.lists[b].words);
+    ffd_free(search.lists);
+    return status;
 }
 
 ffd_status ffd_obj_corner_normals(const mesh_document *document, const mesh_faces *faces, uint32_t *normals,
@@ -222,11 +331,56 @@ ffd_status ffd_obj_corner_normals(const mesh_document *document, const mesh_face
     const obj_document *d = ffd_obj_of(document);
     obj_walk walk;
     obj_face_corner corner;
-    (void)faces; /* they are read again, in the same order */
-    (void)error;
+    const size_t count = faces->start[faces->face_count]; /* they are read again, in the same order */
+    size_t found = 0;
     ffd_obj_document_walk_users(d, &walk);
     while (ffd_obj_walk_next(&walk))
-        while (walk.scan.keyword == OBJ_FACE && ffd_obj_walk_corner(&walk, &corner))
-            *normals++ = corner.has_normal ? (uint32_t)ffd_obj_find_pair(d, &corner) : MESH_NO_NORMAL;
+        while (walk.scan.keyword == OBJ_FACE && ffd_obj_walk_corner(&walk, &corner)) {
+            if (found == count || corner.vertex != faces->corners[found])
+                return ffd_faces_changed(d->file.name, error);
+            normals[found++] = corner.has_normal ? (uint32_t)ffd_obj_find_pair(d, &corner) : MESH_NO_NORMAL;
+        }
+    return found == count ? FFD_OK : ffd_faces_changed(d->file.name, error);
+}
+
+/* Sets the byte of a vertex, as other threads may do at the same time. */
+static void mark(const obj_document *d, size_t vertex)
+{
+    atomic_store_explicit((_Atomic uint8_t *)&d->file.used[vertex], 1, memory_order_relaxed);
+}
+
+static void mark_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const obj_document *const d = context;
+    obj_walk walk;
+    obj_face_corner corner;
+    uint32_t plain[PLAIN_CORNERS];
+    (void)tile;
+    (void)last;
+    (void)worker;
+    if (!d->blocks.list[first].names_elements)
+        return;
+    ffd_obj_document_walk_block(d, first, &walk);
+    while (ffd_obj_walk_next(&walk)) {
+        if (walk.scan.keyword != OBJ_FACE && walk.scan.keyword != OBJ_LINE && walk.scan.keyword != OBJ_POINT)
+            continue;
+        const size_t count = list_plainly(d, &walk.scan, plain);
+        for (size_t i = 0; i < count; i++)
+            mark(d, plain[i]);
+        while (count == 0 && ffd_obj_walk_corner(&walk, &corner))
+            mark(d, corner.vertex);
+    }
+    ffd_obj_forget_block(d, first);
+}
+
+ffd_status ffd_obj_mark_used(mesh_document *document, ffd_error *error)
+{
+    obj_document *const d = (obj_document *)document;
+    const ffd_status status = ffd_used_make(document, d->vertices, &d->file.used, error);
+    if (status)
+        return status;
+    ffd_parallel_tiles(d->blocks.count, 1, d->threads, mark_tile, d);
+    if (ffd_used_keep(document, d->vertices, &d->file.used))
+        d->file.part.used = d->file.used;
     return FFD_OK;
 }

@@ -1,5 +1,6 @@
 #include "io/obj/obj_format.h"
 #include "io/obj/obj_document.h"
+#include "io/obj/resource/obj_resources.h"
 #include <float.h>
 
 const mesh_format ffd_obj_format = {
@@ -7,17 +8,23 @@ const mesh_format ffd_obj_format = {
     .name = "OBJ",
     .open = ffd_obj_open,
     .close = ffd_obj_close,
+    .find_resources = ffd_obj_find_resources,
     .largest_coordinate = DBL_MAX,
     .selector_kinds =
         SELECTOR_BIT(SELECT_GROUP) | SELECTOR_BIT(SELECT_OBJECT) | SELECTOR_BIT(SELECT_MATERIAL),
     .select = ffd_obj_select,
+    .list_parts = ffd_obj_list_parts,
+    .mark_used = ffd_obj_mark_used,
     .read_positions = ffd_obj_read_positions,
     .read_normals = ffd_obj_read_normals,
     .begin_results = ffd_obj_begin_results,
     .write_positions = ffd_obj_write_positions,
     .write_normals = ffd_obj_write_normals,
     .save = ffd_obj_save,
+    .check_save = ffd_obj_check_save,
     .faces = ffd_obj_faces,
+    .mixed_faces = ffd_obj_mixed_faces,
+    .name_part = ffd_obj_name_part,
     .corner_normals = ffd_obj_corner_normals,
     .model = ffd_obj_model,
     .describe = ffd_obj_describe,

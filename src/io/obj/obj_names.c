@@ -3,6 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+text_word ffd_obj_names_line(obj_scan *scan)
+{
+    text_word name = {0}, word;
+    while (ffd_obj_scan_word(scan, &word))
+        name = (text_word){name.first ? name.first : word.first, word.last};
+    return name;
+}
+
 static int compare_words(const void *a, const void *b)
 {
     const text_word *x = a, *y = b;

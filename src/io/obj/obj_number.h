@@ -4,17 +4,18 @@
 
 #include "io/obj/obj_scan.h"
 
-/* Reads a word that is a number as a whole. An exponent with its sign on the wrong side ("3.1+e2") is
-   accepted and not applied: some files have it, and the readers that they are made for stop before it. */
+/* Reads a word that is a number from its first to its last character. An exponent with its sign on the
+   wrong side ("3.1+e2") is accepted and not applied: some files have it, and the readers that they are
+   made for stop before it. */
 bool ffd_obj_number(text_word word, double *value);
 
-/* Takes a scan's next argument if it is a number. False, and nothing is taken, where it is anything else: the
-   caller then reads it as a word. */
+/* Takes a scan's next argument if it is a number. Otherwise returns false and takes nothing; the caller
+   then reads it as a word. */
 bool ffd_obj_scan_number(obj_scan *scan, double *value);
 
-/* Takes a scan's next three arguments if they are numbers as most are: digits, 16 at most, with a point or a
-   minus or without, one blank before each, and not at the very end of the text. False, and nothing is taken,
-   where they are not: the caller then takes them one by one. values are undefined then. */
+/* Takes a scan's next three arguments if they are numbers of the usual form: at most 16 digits, perhaps a
+   minus and a point, one blank before each, and not at the very end of the text. Otherwise returns false,
+   takes nothing and leaves values undefined; the caller then takes them one by one. */
 bool ffd_obj_scan_numbers(obj_scan *scan, double values[3]);
 
 #endif

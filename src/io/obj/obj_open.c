@@ -4,16 +4,47 @@
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_results.h"
 #include "io/obj/obj_vectors.h"
+#include "io/text/content.h"
 
-/* UTF-16 text would have no known statement and so give an empty mesh. */
-static ffd_status check_encoding(const obj_document *d, ffd_error *error)
+/* A file that is no text may have lines that begin like a statement. */
+static ffd_status check_bytes(const obj_document *d, ffd_error *error)
 {
-    const unsigned char *data = d->file.input.data;
-    if (d->file.input.size >= 2 &&
-        ((data[0] == 0xff && data[1] == 0xfe) || (data[0] == 0xfe && data[1] == 0xff)))
+    const content_kind *const kind = ffd_content_kind(d->file.input.data, d->file.input.size);
+    if (d->file.input.size == 0)
+        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, 1, "the file has no content");
+    if (kind && kind->is_binary)
         return ffd_fail_line(error, FFD_E_INVALID, d->file.name, 1,
-                             "is UTF-16 text: an OBJ file is ASCII or UTF-8");
+                             "is not an OBJ file, which is text in ASCII or UTF-8");
     return FFD_OK;
+}
+
+/* Statements of which a file without a vertex may consist. */
+static bool is_statement(const obj_scan *scan)
+{
+    static const char *const others[] = {"s",      "mg",     "vp",         "lod",      "cstype",
+                                         "usemap", "maplib", "shadow_obj", "trace_obj"};
+    bool is_one = scan->keyword != OBJ_OTHER;
+    for (size_t i = 0; i < sizeof others / sizeof *others && !is_one; i++)
+        is_one = ffd_text_is(scan->name, others[i]);
+    return is_one;
+}
+
+/* Refuses a file without any statement. Statements that are not known are let pass, so that every text
+   would be an empty mesh. */
+static ffd_status check_statements(const obj_document *d, ffd_error *error)
+{
+    const content_kind *const kind = ffd_content_kind(d->file.input.data, d->file.input.size);
+    bool found = false;
+    obj_walk walk;
+    if (d->vertices || d->texcoords || d->normals || d->faces || d->lines || d->points)
+        return FFD_OK;
+    ffd_obj_document_walk(d, &walk);
+    while ((!kind || kind->format == FFD_FORMAT_OBJ) && !found && ffd_obj_walk_next(&walk))
+        found = is_statement(&walk.scan);
+    if (found)
+        return FFD_OK;
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, 1,
+                         "is not an OBJ file: it has no statement of one");
 }
 
 static void describe_part(obj_document *d)
@@ -40,6 +71,7 @@ static void free_document(obj_document *d)
     ffd_free(d->held_normals);
     ffd_free(d->position_changes);
     ffd_free(d->direction_changes);
+    ffd_free(d->file.used);
     ffd_free(d->file.name);
     ffd_free(d);
 }
@@ -72,9 +104,11 @@ ffd_status ffd_obj_open(file_input *input, const ffd_source *source, mesh_docume
         return FFD_E_MEMORY;
     d->threads = threads_for(source, input->size);
     d->only_positions = source->only_positions;
-    ffd_status status = check_encoding(d, error);
+    ffd_status status = check_bytes(d, error);
     if (status == FFD_OK)
         status = read_elements(d, error);
+    if (status == FFD_OK)
+        status = check_statements(d, error);
     if (status) {
         free_document(d);
         return status;

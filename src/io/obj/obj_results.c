@@ -117,7 +117,8 @@ ffd_status ffd_obj_begin_results(mesh_document *document, bool normals, bool tan
     return status;
 }
 
-/* Puts those that are marked as changed into results, and notes which of their coordinates are. */
+/* Copies the vectors that are marked as changed to the results, and notes which of
+   their coordinates changed. */
 static void write_vectors(double *results, uint8_t *changes, size_t first, size_t count, const double *xyz,
                           const uint8_t *changed)
 {

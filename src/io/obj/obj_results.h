@@ -6,7 +6,7 @@
 
 /* Frees the results of normals, if there are any: normals are kept. */
 void ffd_obj_free_normals(obj_document *document);
-/* Gives back the memory of positions and results of so many vertices, if they are in a memory-mapped file. */
+/* Releases the pages of the positions and results of count vertices if they are in a memory-mapped file. */
 void ffd_obj_forget_vectors(const obj_document *document, size_t first, size_t count);
 
 #endif

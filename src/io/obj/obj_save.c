@@ -5,6 +5,7 @@
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_results.h"
 #include "io/obj/obj_split.h"
+#include "io/obj/resource/obj_resources.h"
 #include "io/text/splice.h"
 #include <inttypes.h>
 #include <stdatomic.h>
@@ -73,8 +74,8 @@ static void write_word(file_splice *splice, text_word word)
     ffd_splice_bytes(splice, word.first, (size_t)(word.last - word.first));
 }
 
-/* Begins a new line at `where` that no line before continues into: after a line that ends with a backslash,
-   an empty line is written. That holds for comments as well, which some readers continue too. */
+/* Begins a new line at `where` that does not continue the line before: if that ends with a backslash, an
+   empty line is written first. Comments count too, since some readers continue them. */
 static void begin_line(file_splice *splice, const char *first, const char *where, text_word line_end)
 {
     const char *text_end = where;
@@ -82,6 +83,8 @@ static void begin_line(file_splice *splice, const char *first, const char *where
         text_end -= line_end.last - line_end.first;
     else
         write_word(splice, line_end);
+    while (text_end > first && ffd_obj_class(text_end - 1) == OBJ_BLANK)
+        text_end--;
     if (text_end > first && text_end[-1] == '\\')
         write_word(splice, line_end);
 }
@@ -114,7 +117,7 @@ static void replace_normal(block_saver *s, obj_walk *walk)
     if (keeper != OBJ_NONE)
         replace_numbers(s, &walk->scan, d->file.new_directions + 3 * (size_t)keeper,
                         d->direction_changes[keeper], &s->directions);
-    if (n + 1 == d->normals && d->addition < d->file.input.size)
+    if (n + 1 == d->normals && d->addition < d->end)
         add_normals(s->all, &s->splice);
 }
 
@@ -218,16 +221,23 @@ ffd_status ffd_obj_save(mesh_document *document, const mesh_save_options *option
     const obj_document *d = ffd_obj_of(document);
     file_splice splice;
     saver s = {.document = d, .splice = &splice};
-    (void)log;
-    ffd_status status = d->file.new_directions ? ffd_obj_split_normals(d, &s.split, error) : FFD_OK;
+    ffd_status status = ffd_obj_bring_resources(&d->file.input, options, output, log, error);
+    if (status == FFD_OK && d->file.new_directions)
+        status = ffd_obj_split_normals(d, &s.split, error);
     if (status == FFD_OK) {
         ffd_splice_begin(&splice, &d->file.input, options, output, error);
         if (d->file.new_positions && splice.status == FFD_OK)
             write_blocks(&s);
-        if (d->addition == d->file.input.size)
+        if (d->addition == d->end)
             add_normals(&s, &splice);
         status = ffd_splice_end(&splice);
     }
     ffd_obj_split_free(&s.split);
     return status;
+}
+
+ffd_status ffd_obj_check_save(mesh_document *document, const mesh_save_options *options, file_output *output,
+                              const mesh_log *log, ffd_error *error)
+{
+    return ffd_obj_bring_resources(&ffd_obj_of(document)->file.input, options, output, log, error);
 }

@@ -16,15 +16,30 @@ void ffd_obj_scan_begin(obj_scan *scan, const void *data, size_t size)
 {
     const char *first = data;
     *scan = (obj_scan){.at = first, .last = first + size, .line = 1};
-    if (size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
-        scan->at += 3;
+    if (ffd_text_has_mark(data, size))
+        scan->at += TEXT_MARK_SIZE;
+}
+
+static bool takes_names(obj_keyword keyword)
+{
+    return keyword >= OBJ_GROUP;
+}
+
+/* What follows the backslash at `at`: the first character that is no blank where numbers are expected. */
+static const char *after_backslash(const obj_scan *scan, const char *at)
+{
+    const bool numbers = scan->inside && scan->keyword != OBJ_OTHER && !takes_names(scan->keyword);
+    for (at++; numbers && at < scan->last && ffd_obj_class(at) == OBJ_BLANK;)
+        at++;
+    return at;
 }
 
 /* Whether the backslash at `at` continues its line; one at the very end of the file counts too, though it
    joins nothing. */
 static bool continues(const obj_scan *scan, const char *at)
 {
-    return scan->last - at == 1 || ffd_obj_class(at + 1) == OBJ_LINE_END;
+    const char *const next = after_backslash(scan, at);
+    return next == scan->last || ffd_obj_class(next) == OBJ_LINE_END;
 }
 
 static void pass_line_end(obj_scan *scan)
@@ -35,14 +50,12 @@ static void pass_line_end(obj_scan *scan)
 
 static void pass_continuation(obj_scan *scan)
 {
-    scan->at++;
+    const char *const next = after_backslash(scan, scan->at);
+    if (next - scan->at > 1 && scan->loose++ == 0)
+        scan->loose_line = scan->line;
+    scan->at = next;
     if (scan->at < scan->last)
         pass_line_end(scan);
-}
-
-static bool takes_names(obj_keyword keyword)
-{
-    return keyword >= OBJ_GROUP;
 }
 
 static void pass_comment(obj_scan *scan)
@@ -65,15 +78,9 @@ static void pass_plain_line(obj_scan *scan)
     scan->at = end ? end + 1 : scan->last;
 }
 
-void ffd_obj_scan_finish(obj_scan *scan)
+/* Moves past the line that the statement is in, and those that go on with it. */
+static void pass_rest(obj_scan *scan)
 {
-    if (!scan->inside)
-        return;
-    scan->inside = false;
-    if (scan->plain) {
-        pass_plain_line(scan);
-        return;
-    }
     const bool names = takes_names(scan->keyword);
     while (scan->at < scan->last) {
         const int class = ffd_obj_class(scan->at);
@@ -88,6 +95,15 @@ void ffd_obj_scan_finish(obj_scan *scan)
         else
             scan->at++;
     }
+}
+
+void ffd_obj_scan_finish(obj_scan *scan)
+{
+    if (scan->inside && scan->plain)
+        pass_plain_line(scan);
+    else if (scan->inside)
+        pass_rest(scan);
+    scan->inside = false;
 }
 
 void ffd_obj_scan_pass_blanks(obj_scan *scan)

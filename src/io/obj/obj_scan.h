@@ -1,10 +1,12 @@
 /* obj_scan.h - the statements of an OBJ file and their words.
 
    A statement is a keyword and its arguments on one line, which a backslash right before the line's end
-   continues on the next. Lines end with LF, CRLF or CR, also mixed; blanks and tabs separate; a byte order
-   mark is skipped. A comment reaches from # to the end of its line and is never continued (its last character
-   may well be the backslash of a Windows path). It may also follow arguments, even without a blank ("f 1 2 3#
-   face"), but not the names of g, o, usemtl and mtllib, where # is a character like others. */
+   continues on the next. Where numbers are expected, blanks may come between the two: nothing else can be
+   meant. A name may end with a backslash. Lines end with LF, CRLF or CR, also mixed; blanks and tabs
+   separate; a byte order mark is skipped. A comment reaches from # to the end of its line and is never
+   continued (its last character may well be the backslash of a Windows path). It may also follow arguments,
+   even without a blank ("f 1 2 3# face"), but not the names of g, o, usemtl and mtllib, where # is a
+   character like others. */
 #ifndef FFD_IO_OBJ_OBJ_SCAN_H
 #define FFD_IO_OBJ_OBJ_SCAN_H
 
@@ -34,6 +36,7 @@ typedef struct obj_scan {
     obj_keyword keyword; /* of the statement begun last */
     text_word name;      /* the keyword as written */
     size_t keyword_line;
+    size_t loose, loose_line; /* continuations with blanks after the backslash; the line of the first */
 } obj_scan;
 
 /* Begins a scan of these bytes, which must stay as long as it is used. */
@@ -61,9 +64,9 @@ static inline int ffd_obj_class(const char *at)
 /* Moves past blanks and continuations, to a word, a comment or the end of the line. */
 void ffd_obj_scan_pass_blanks(obj_scan *scan);
 
-/* For readers of arguments of a certain form, which need not be words before: where the next one begins, and
-   its end, which is taken if nothing else of the word follows. False, and nothing is taken, where something
-   does. (Inline: they are called for every number of a file.) */
+/* For readers that parse an argument without splitting off its word first. The first function returns where
+   the next argument begins; the second takes it up to `end` if the word ends there, else it returns false and
+   takes nothing. Inline: they are called for every number of a file. */
 static inline const char *ffd_obj_scan_argument(obj_scan *scan)
 {
     /* Most often there is one blank before it. */
@@ -88,7 +91,7 @@ static inline bool ffd_obj_scan_take(obj_scan *scan, const char *end)
     return true;
 }
 
-/* Whether the statement has no more arguments; where this is false it may have none all the same. */
+/* Whether the statement certainly has no more arguments; false does not mean that it has some. */
 static inline bool ffd_obj_scan_is_over(const obj_scan *scan)
 {
     return scan->at == scan->last || ffd_obj_class(scan->at) == OBJ_LINE_END;

@@ -4,6 +4,7 @@
 #include "base/memory/memory.h"
 #include "io/obj/obj_faces.h"
 #include "io/obj/obj_names.h"
+#include <stdio.h>
 #include <string.h>
 
 typedef struct selecting {
@@ -24,15 +25,6 @@ static bool names(const selecting *s, selector_kind kind, text_word name)
             ffd_selector_is(&s->selectors[i], name.first, (size_t)(name.last - name.first)))
             any = s->found[i] = true;
     return any;
-}
-
-/* From the first to the last word that is left; empty where there is none. */
-static text_word take_line(obj_scan *scan)
-{
-    text_word name = {0}, word;
-    while (ffd_obj_scan_word(scan, &word))
-        name = (text_word){name.first ? name.first : word.first, word.last};
-    return name;
 }
 
 static void enter_groups(selecting *s, obj_scan *scan)
@@ -83,10 +75,10 @@ static void mark_elements(selecting *s)
             enter_groups(s, &walk.scan);
             break;
         case OBJ_OBJECT:
-            s->object = names(s, SELECT_OBJECT, take_line(&walk.scan));
+            s->object = names(s, SELECT_OBJECT, ffd_obj_names_line(&walk.scan));
             break;
         case OBJ_MATERIAL:
-            s->material = names(s, SELECT_MATERIAL, take_line(&walk.scan));
+            s->material = names(s, SELECT_MATERIAL, ffd_obj_names_line(&walk.scan));
             break;
         case OBJ_FACE:
             s->document->selected_faces[face] = is_selected(s);
@@ -107,7 +99,7 @@ static bool offer_line(const selector_nearest *nearest, obj_names *known, obj_sc
 {
     text_word word;
     if (nearest->selector->kind != SELECT_GROUP)
-        return ffd_obj_names_add(known, take_line(scan));
+        return ffd_obj_names_add(known, ffd_obj_names_line(scan));
     while (ffd_obj_scan_word(scan, &word))
         if (!ffd_obj_names_add(known, word))
             return false;
@@ -158,4 +150,96 @@ ffd_status ffd_obj_select(mesh_document *document, const mesh_selector *selector
     d->file.part.selected_normals = d->selected_pairs;
     ffd_free(s.found);
     return status;
+}
+
+/* The name of a face's group or, where no `g` has named one, of its object. */
+typedef struct face_name {
+    text_word group, object;
+} face_name;
+
+static void note_name(face_name *name, obj_scan *scan)
+{
+    text_word word;
+    if (scan->keyword == OBJ_GROUP)
+        name->group = ffd_obj_scan_word(scan, &word) ? word : (text_word){0};
+    else if (scan->keyword == OBJ_OBJECT)
+        name->object = ffd_obj_names_line(scan);
+}
+
+static text_word name_of(const face_name *name, const char **kind)
+{
+    *kind = name->group.first ? "group:" : "object:";
+    return name->group.first ? name->group : name->object;
+}
+
+static bool is_same(text_word a, text_word b)
+{
+    return a.last - a.first == b.last - b.first && memcmp(a.first, b.first, (size_t)(a.last - a.first)) == 0;
+}
+
+/* Finds the name of the first face, line or point that has the vertex. */
+static text_word find_name(const obj_document *d, uint64_t vertex, const char **kind)
+{
+    obj_walk walk;
+    obj_face_corner corner;
+    face_name name = {0};
+    ffd_obj_document_walk(d, &walk);
+    while (ffd_obj_walk_next(&walk)) {
+        const obj_keyword keyword = walk.scan.keyword;
+        note_name(&name, &walk.scan);
+        if (keyword != OBJ_FACE && keyword != OBJ_LINE && keyword != OBJ_POINT)
+            continue;
+        while (ffd_obj_walk_corner(&walk, &corner))
+            if (corner.vertex == vertex)
+                return name_of(&name, kind);
+    }
+    return (text_word){0};
+}
+
+/* Counts the marked vertices of all that has the name, and clears their marks. */
+static uint64_t count_marked(const obj_document *d, const char *kind, text_word wanted, uint8_t *marks)
+{
+    obj_walk walk;
+    obj_face_corner corner;
+    face_name name = {0};
+    uint64_t count = 0;
+    ffd_obj_document_walk(d, &walk);
+    while (ffd_obj_walk_next(&walk)) {
+        const obj_keyword keyword = walk.scan.keyword;
+        const char *own;
+        note_name(&name, &walk.scan);
+        if (keyword != OBJ_FACE && keyword != OBJ_LINE && keyword != OBJ_POINT)
+            continue;
+        const text_word text = name_of(&name, &own);
+        if (!text.first || strcmp(own, kind) != 0 || !is_same(text, wanted))
+            continue;
+        while (ffd_obj_walk_corner(&walk, &corner)) {
+            count += marks[corner.vertex] != 0;
+            marks[corner.vertex] = 0;
+        }
+    }
+    return count;
+}
+
+/* Whether there are names of groups or objects. */
+static bool has_names(const obj_document *d)
+{
+    for (size_t b = 0; b < d->blocks.count; b++)
+        if (d->blocks.list[b].names_groups)
+            return true;
+    return false;
+}
+
+uint64_t ffd_obj_name_part(const mesh_document *document, uint64_t vertex, uint8_t *marks, char *name,
+                           size_t capacity)
+{
+    const obj_document *d = ffd_obj_of(document);
+    const char *kind = "";
+    const text_word found = has_names(d) ? find_name(d, vertex, &kind) : (text_word){0};
+    *name = 0;
+    if (!found.first)
+        return 0;
+    snprintf(name, capacity, "%s%.*s", kind,
+             (int)(found.last - found.first < 200 ? found.last - found.first : 200), found.first);
+    return count_marked(d, kind, found, marks);
 }

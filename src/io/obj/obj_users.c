@@ -1,14 +1,15 @@
 #include "io/obj/obj_users.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "base/text/words.h"
 
 /* A block as it is being read, and what its statements may name. */
 typedef struct block_reader {
     const obj_document *document;
     const obj_users *users;
     obj_count vertices, normals;
-    bool any_normals; /* else indices of normals are accepted without a check: some tools leave the normals
-                         out */
+    bool any_normals; /* else indices of normals are accepted without a check: some tools
+                         leave the normals out */
     ffd_error *error;
 } block_reader;
 
@@ -25,8 +26,8 @@ static ffd_status check_index(const block_reader *r, const obj_scan *scan, obj_i
                              index.text.first);
     if (index.value < 0)
         return ffd_fail_line(r->error, FFD_E_INVALID, name, scan->line,
-                             "%s index %.*s is out of range: %zu come before it", kind, shown,
-                             index.text.first, count.seen);
+                             "%s index %.*s is out of range: %zu %s before it", kind, shown, index.text.first,
+                             count.seen, ffd_plural(count.seen, "comes", "come"));
     return ffd_fail_line(r->error, FFD_E_INVALID, name, scan->line,
                          "%s index %.*s is out of range: the file has %zu", kind, shown, index.text.first,
                          count.total);
@@ -44,7 +45,7 @@ static void note_index(const block_reader *r, const obj_scan *scan, const obj_co
         block->counts_back = (size_t)(scan->at - (const char *)r->document->file.input.data);
 }
 
-/* What is left alone may name normals too (surf). */
+/* A statement that is not read may name normals too (surf). */
 static void look_for_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
 {
     text_word word;
@@ -82,7 +83,7 @@ static ffd_status add_normal(const block_reader *r, const obj_scan *scan, size_t
     return FFD_OK;
 }
 
-/* Takes corners of a face as long as each is like most: with a vertex and the normal that is its first. */
+/* Takes corners of a face while each has the common form: a vertex with its first normal. */
 static void pass_common_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
 {
     const char *at = scan->at;
@@ -105,8 +106,8 @@ static void pass_common_corners(const block_reader *r, obj_scan *scan, obj_block
     scan->at = at;
 }
 
-/* Checks the corners of a face, line or point. Only what is used is refused: a texcoord's index is not, nor a
-   normal's in a file without any `vn`. */
+/* Checks the corners of a face, line or point. Indices that are not used are not checked: those of texture
+   coordinates, and those of normals in a file without any `vn`. */
 static ffd_status check_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
 {
     const bool is_face = scan->keyword == OBJ_FACE;
@@ -158,7 +159,7 @@ static ffd_status read_statement(const block_reader *r, obj_scan *scan, obj_bloc
     }
 }
 
-/* Makes memory for the first normals of so many vertices; those that are there stay. */
+/* Grows the memory for first normals to this many vertices; those that it has stay. */
 static bool grow_firsts(obj_users *users, size_t count)
 {
     if (count <= users->first_count)
@@ -188,7 +189,7 @@ ffd_status ffd_obj_users_begin(const obj_document *d, size_t vertices, size_t no
 
 void ffd_obj_users_look(const obj_document *d, const obj_users *users, obj_scan *scan, obj_block_users *block)
 {
-    /* Counting back is out of range: how many come before is not known. */
+    /* An index that counts back is out of range here: how many elements come before is not known. */
     const size_t all = OBJ_ELEMENTS_MAX, normals = users->firsts || d->only_positions ? all : 0;
     const block_reader r = {.document = d,
                             .users = users,

@@ -1,7 +1,7 @@
 /* obj_users.h - which elements of an OBJ file its faces, lines and points name by their numbers.
 
-   They are read together with the vectors, block by block, as long as they can be: what names elements by
-   their distance, or some that are not expected, is read once all elements are known. */
+   Blocks are read together with their vectors. A block that counts back, or names more elements than were
+   expected, is late: it is read again once all elements are known. */
 #ifndef FFD_IO_OBJ_OBJ_USERS_H
 #define FFD_IO_OBJ_OBJ_USERS_H
 
@@ -24,10 +24,10 @@ typedef struct obj_block_users {
     ffd_status status;
 } obj_block_users;
 
-/* Those of a file. */
+/* The users of a file. */
 typedef struct obj_users {
     obj_block_users *blocks; /* one a block */
-    /* Of each vertex the number, from 1, of a normal that is named together with it, whichever thread came
+    /* For each vertex the number, from 1, of a normal that is named together with it, whichever thread came
        first; 0: none so far. Nearly all vertices of most meshes have only one. NULL: normals are not wanted,
        or none yet. What a block has left here that turns out to be late is found there again, or refused. */
     _Atomic uint32_t *firsts;
@@ -38,19 +38,19 @@ typedef struct obj_users {
    FFD_E_MEMORY. To be freed in any case. */
 ffd_status ffd_obj_users_begin(const obj_document *document, size_t vertices, size_t normals,
                                obj_users *users, ffd_error *error);
-/* Takes the statement of a scan in, while elements are still being read, unless the block is late already or
-   becomes so. Any thread, each with blocks of its own, which *block is to be put among when it ends. */
+/* Reads the current statement of a scan while elements are still being read, unless the block is late already
+   or becomes late. Thread-safe for different blocks; the caller stores *block when the block ends. */
 void ffd_obj_users_look(const obj_document *document, const obj_users *users, obj_scan *scan,
                         obj_block_users *block);
-/* Frees those of one block. */
+/* Frees the users of one block. */
 void ffd_obj_free_block_users(obj_block_users *block);
-/* Reads what is late, now that the document has its elements, and refuses what must not be named. firsts are
+/* Reads the late blocks, now that the document has its elements, and refuses indices out of range. firsts are
    then those of all vertices, or NULL. Errors: FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_obj_users_finish(const obj_document *document, obj_users *users, ffd_error *error);
-/* Frees those of a file. */
+/* Frees the users of a file. */
 void ffd_obj_users_free(const obj_document *document, obj_users *users);
 
-/* That number. */
+/* Returns that number of a vertex. */
 static inline uint32_t ffd_obj_first_normal(const obj_users *users, size_t vertex)
 {
     return atomic_load_explicit(&users->firsts[vertex], memory_order_relaxed);

@@ -4,6 +4,7 @@
 #include "base/system/thread.h"
 #include "io/obj/obj_number.h"
 #include <inttypes.h>
+#include <math.h>
 #include <stdatomic.h>
 #include <string.h>
 
@@ -22,9 +23,10 @@ typedef struct vectors {
 typedef struct block_content {
     vectors positions, normals;
     size_t texcoords, faces, lines;
-    size_t addition; /* offset in the file after the last `vn`; 0: none */
+    size_t loose, loose_line; /* as in obj_scan; the line counts from the block's first, 0 */
+    size_t addition;          /* offset in the file after the last `vn`; 0: none */
     obj_block_users users;
-    bool names_elements;
+    bool names_elements, names_groups;
     ffd_status status;
 } block_content;
 
@@ -32,13 +34,29 @@ typedef struct reader {
     obj_document *document;
     obj_users *users;
     block_content *contents; /* of blocks that are not joined yet */
-    /* Before the next block; the document gets them when no thread looks at it any more. */
+    /* Counts before the next block; the document gets them when no thread reads it any more. */
     size_t line, vertices, texcoords, normals, faces;
-    size_t released;   /* bytes of the file whose memory is given back (ffd_file_release_until) */
-    size_t failed;     /* the first block that could not be read; SIZE_MAX: none so far */
-    ffd_status status; /* of that block */
+    size_t loose, loose_line; /* as in obj_scan */
+    size_t released;          /* bytes of the file whose pages are released (ffd_file_release_until) */
+    size_t failed;            /* the first block that could not be read; SIZE_MAX: none so far */
+    ffd_status status;        /* of that block */
     atomic_bool is_over;
 } reader;
+
+/* Positions that are read for the second time. */
+typedef struct again {
+    const obj_document *document;
+    const uint8_t *wanted;
+    double *xyz;
+} again;
+
+/* Reads a number that was valid the first time. */
+static void read_number(obj_scan *scan, double *value)
+{
+    text_word word;
+    if (!ffd_obj_scan_number(scan, value) && !(ffd_obj_scan_word(scan, &word) && ffd_obj_number(word, value)))
+        *value = NAN;
+}
 
 static ffd_status read_vector(const obj_document *d, obj_scan *scan, const char *what, vectors *list,
                               ffd_error *error)
@@ -89,10 +107,14 @@ static ffd_status read_block(const reader *r, size_t block, block_content *conte
             status = read_vector(d, &walk.scan, "normal", &content->normals, error);
             ffd_obj_scan_finish(&walk.scan);
             content->addition = (size_t)(walk.scan.at - (const char *)d->file.input.data);
+        } else if (keyword == OBJ_GROUP || keyword == OBJ_OBJECT) {
+            content->names_groups = true;
         }
     }
     content->texcoords = walk.texcoords.seen;
     content->lines = walk.scan.line - line;
+    content->loose = walk.scan.loose;
+    content->loose_line = walk.scan.loose_line - line;
     return status;
 }
 
@@ -134,8 +156,8 @@ static void expect(size_t count, spill_array *store)
         (void)ffd_spill_grow(store, size);
 }
 
-/* Reserves memory for all elements at once, unless there are too many; what is missing is then allocated
-   later. */
+/* Reserves memory for all elements at once, unless there are too many; what is missing is
+   then allocated later. */
 static ffd_status expect_elements(reader *r, ffd_error *error)
 {
     obj_document *d = r->document;
@@ -176,6 +198,7 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
     block->normals = r->normals;
     block->faces = r->faces;
     block->names_elements = content->names_elements;
+    block->names_groups = content->names_groups;
     r->status = content->status;
     if (r->status == FFD_OK &&
         (!append(&content->positions, r->vertices, &d->position_store) ||
@@ -186,6 +209,9 @@ static void join_tile(void *context, size_t tile, size_t first, size_t last, int
         atomic_store(&r->is_over, true);
         return;
     }
+    if (r->loose == 0)
+        r->loose_line = r->line + content->loose_line;
+    r->loose += content->loose;
     r->line += content->lines;
     r->faces += content->faces;
     r->vertices += content->positions.count;
@@ -206,6 +232,16 @@ static ffd_status find_failure(const reader *r, ffd_error *error)
     free_content(&content);
     return status ? status
                   : ffd_fail_file(error, FFD_E_IO, r->document->file.name, "was changed while it was read");
+}
+
+static ffd_status note_flaws(reader *r, ffd_error *error)
+{
+    obj_document *const d = r->document;
+    ffd_status status = ffd_file_document_note_mark(&d->file, d->end, error);
+    for (size_t i = 0; i < r->loose && status == FFD_OK; i++)
+        status = ffd_flaw_line(&d->file.base.flaws, d->file.name, r->loose_line, error,
+                               "blanks follow the backslash at the end of the line: it goes on in the next");
+    return status;
 }
 
 static ffd_status check_counts(const obj_document *d, ffd_error *error)
@@ -233,7 +269,8 @@ static ffd_status read_blocks(reader *r, ffd_error *error)
         return find_failure(r, error);
     d->file.positions = d->position_store.data;
     d->file.directions = d->direction_store.data;
-    return check_counts(d, error);
+    const ffd_status counted = check_counts(d, error);
+    return counted ? counted : note_flaws(r, error);
 }
 
 static ffd_status cut(obj_document *d, ffd_error *error)
@@ -244,8 +281,9 @@ static ffd_status cut(obj_document *d, ffd_error *error)
         target = SMALLEST_BLOCK;
     if (target > LARGEST_BLOCK)
         target = LARGEST_BLOCK;
-    if (d->file.input.size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
-        first += 3;
+    if (ffd_text_has_mark(first, d->file.input.size))
+        first += TEXT_MARK_SIZE;
+    d->end = ffd_text_size(d->file.input.data, d->file.input.size);
     return ffd_obj_blocks_cut(&d->file.input, first, target, &d->blocks, error);
 }
 
@@ -266,4 +304,42 @@ ffd_status ffd_obj_read_vectors(obj_document *d, obj_users *users, ffd_error *er
         free_content(&r.contents[i]);
     ffd_free(r.contents);
     return status;
+}
+
+/* Whether some vertex of the block is wanted. */
+static bool is_wanted(const again *a, size_t block)
+{
+    const size_t first = a->document->blocks.list[block].vertices, all = a->document->vertices;
+    const size_t end =
+        block + 1 < a->document->blocks.count ? a->document->blocks.list[block + 1].vertices : all;
+    return end > first && (!a->wanted || memchr(a->wanted + first, 1, end - first));
+}
+
+static void read_again_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    const again *const a = context;
+    size_t vertex = a->document->blocks.list[first].vertices;
+    obj_walk walk;
+    (void)tile;
+    (void)last;
+    (void)worker;
+    if (!is_wanted(a, first))
+        return;
+    ffd_obj_document_walk_block(a->document, first, &walk);
+    while (ffd_obj_walk_next(&walk)) {
+        if (walk.scan.keyword != OBJ_VERTEX)
+            continue;
+        double *const xyz = a->xyz + 3 * vertex;
+        if (!a->wanted || a->wanted[vertex])
+            for (int k = 0, at_once = ffd_obj_scan_numbers(&walk.scan, xyz); k < 3 && !at_once; k++)
+                read_number(&walk.scan, &xyz[k]);
+        vertex++;
+    }
+    ffd_obj_forget_block(a->document, first);
+}
+
+void ffd_obj_read_again(const obj_document *d, const uint8_t *wanted, double *xyz)
+{
+    again a = {d, wanted, xyz};
+    ffd_parallel_tiles(d->blocks.count, 1, d->threads, read_again_tile, &a);
 }

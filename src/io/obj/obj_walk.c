@@ -19,7 +19,7 @@ bool ffd_obj_find(int64_t index, obj_count count, size_t *element)
     if (index == 0 || size > (index < 0 ? count.seen : count.total))
         return false;
     *element = index < 0 ? count.seen - (size_t)size : (size_t)size - 1;
-    return true;
+    return *element < count.total; /* a file that changes may have more than were counted */
 }
 
 bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner)

@@ -10,7 +10,7 @@ typedef struct obj_count {
     size_t total, seen;
 } obj_count;
 
-/* The caller sets the totals, which may be 0 where no positive index is looked up. */
+/* The caller sets the totals, which may be 0 if no positive index is looked up. */
 typedef struct obj_walk {
     obj_scan scan;
     obj_count vertices, texcoords, normals;
@@ -19,7 +19,7 @@ typedef struct obj_walk {
 /* Goes to the next statement and counts it. False at the end of the file. */
 bool ffd_obj_walk_next(obj_walk *walk);
 
-/* The element, from 0, that an index names. False where there is none. */
+/* The element, from 0, that an index names. Returns false if there is none. */
 bool ffd_obj_find(int64_t index, obj_count count, size_t *element);
 
 /* A corner of a face with the elements it names, from 0. */
@@ -29,8 +29,8 @@ typedef struct obj_face_corner {
     text_word normal_text; /* the index as written */
 } obj_face_corner;
 
-/* Takes the next corner of the current face in a file whose faces are known to be valid. False where there is
-   none left. */
+/* Takes the next corner of the current face in a file whose faces are known to be valid. Returns false
+   if there is none left. */
 bool ffd_obj_walk_corner(obj_walk *walk, obj_face_corner *corner);
 
 #endif

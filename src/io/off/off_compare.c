@@ -81,7 +81,7 @@ static bool same_number(text_word a, text_word b)
                                    ffd_text_number(b, &y) && !(ffd_difference_of(x, y) > 0));
 }
 
-/* What follows: colours, u v. One difference at most. */
+/* Compares what follows: colours, u v. One difference at most. */
 static void compare_rest(comparer *c, ffd_difference_kind kind)
 {
     for (;;) {
@@ -116,8 +116,8 @@ static void compare_corners(comparer *c, uint64_t count_a, uint64_t count_b)
     for (uint64_t i = 0; i < count_a || i < count_b; i++) {
         text_word a = {0}, b = {0};
         uint64_t x = 0, y = 0;
-        const bool in_a = i < count_a && ffd_off_walk_corner(&c->in_a, &a) && ffd_text_whole(a, &x);
-        const bool in_b = i < count_b && ffd_off_walk_corner(&c->in_b, &b) && ffd_text_whole(b, &y);
+        const bool in_a = i < count_a && ffd_off_walk_whole(&c->in_a, &a, &x);
+        const bool in_b = i < count_b && ffd_off_walk_whole(&c->in_b, &b, &y);
         if (same && (!in_a || !in_b || x != y)) {
             differ(c, FFD_DIFFERENCE_TOPOLOGY, "vertices", a, b);
             same = false;
@@ -129,12 +129,12 @@ static void compare_face(comparer *c)
 {
     text_word a, b;
     uint64_t x = 0, y = 0;
-    ffd_off_walk_face(&c->in_a, &a);
-    ffd_off_walk_face(&c->in_b, &b);
+    ffd_off_walk_face(&c->in_a);
+    ffd_off_walk_face(&c->in_b);
     c->lines[0] = c->in_a.scan.line;
     c->lines[1] = c->in_b.scan.line;
-    ffd_text_whole(a, &x);
-    ffd_text_whole(b, &y);
+    ffd_off_walk_whole(&c->in_a, &a, &x);
+    ffd_off_walk_whole(&c->in_b, &b, &y);
     if (x != y)
         differ(c, FFD_DIFFERENCE_TOPOLOGY, "corners", a, b);
     compare_corners(c, x, y);

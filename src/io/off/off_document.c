@@ -69,6 +69,7 @@ static ffd_status read_body(off_document *d, ffd_error *error)
     off_walk walk;
     ffd_off_walk_begin(&d->header, &walk);
     ffd_status status = read_vertices(d, &walk, error);
+    d->faces_begin = walk;
     if (status == FFD_OK)
         status = ffd_off_read_faces(d, &walk, error);
     if (status)
@@ -86,6 +87,9 @@ ffd_status ffd_off_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return FFD_E_MEMORY;
     ffd_status status = ffd_off_header_read(&d->file.input, d->file.name, &d->header, error);
+    if (status == FFD_OK)
+        status = ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size),
+                                             error);
     if (status == FFD_OK)
         status = read_body(d, error);
     if (status) {

@@ -1,4 +1,5 @@
-/* off_document.h - an OFF file as a mesh document: one part, in the lattice's space.
+/* off_document.h - an OFF file as a mesh document: one part, in the lattice's space. Declares
+   off_document.c and off_faces.c.
 
    Every vertex of the file is one, in its order; that of NOFF has its normal. Coordinates are held as
    numbers; all else stays in the file's bytes, which are read again where it is needed. */
@@ -13,6 +14,7 @@ typedef struct off_document {
     off_header header;
     size_t lines, points; /* faces of two corners, and of one */
     size_t corners;       /* of the other faces */
+    off_walk faces_begin; /* a walk at the first face */
     const char *behind;   /* what follows the line of the last face, or of the last vertex */
 } off_document;
 
@@ -27,7 +29,9 @@ ffd_status ffd_off_read_faces(off_document *document, off_walk *walk, ffd_error 
 /* The entries of the format's table. */
 mesh_open_function ffd_off_open;
 mesh_save_function ffd_off_save;
+mesh_mark_used_function ffd_off_mark_used;
 mesh_faces_function ffd_off_faces;
+mesh_mixed_faces_function ffd_off_mixed_faces;
 mesh_model_function ffd_off_model;
 mesh_describe_function ffd_off_describe;
 mesh_compare_function ffd_off_compare;

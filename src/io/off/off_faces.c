@@ -1,19 +1,22 @@
 /* off_faces.c - reads and hands out the faces of an OFF file. */
+#include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "io/off/off_document.h"
+#include "mesh/face_filler.h"
+#include "mesh/mixed_faces.h"
 #include <inttypes.h>
 
-static ffd_status check_corner(const off_document *d, const text_scan *scan, text_word word, ffd_error *error)
+static ffd_status refuse_corner(const off_document *d, const text_scan *scan, text_word word,
+                                ffd_error *error)
 {
     uint64_t index;
     const int shown = ffd_text_display_size(word);
     if (!ffd_text_whole(word, &index))
         return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
                              "a corner is not a whole number: \"%.*s\"", shown, word.first);
-    if (index >= d->header.vertices)
-        return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
-                             "vertex %.*s is out of range: there are %zu, counted from 0", shown, word.first,
-                             d->header.vertices);
-    return FFD_OK;
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, scan->line,
+                         "there is no vertex %.*s, only %zu (counted from 0)", shown, word.first,
+                         d->header.vertices);
 }
 
 static void count_face(off_document *d, size_t corners)
@@ -26,22 +29,23 @@ static void count_face(off_document *d, size_t corners)
         d->corners += corners;
 }
 
-static ffd_status read_face(off_document *d, off_walk *walk, text_word count, ffd_error *error)
+static ffd_status read_face(off_document *d, off_walk *walk, ffd_error *error)
 {
-    uint64_t corners;
-    text_word word;
-    if (!ffd_text_whole(count, &corners))
+    uint64_t corners, index;
+    text_word count, word;
+    if (!ffd_off_walk_whole(walk, &count, &corners))
         return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                              "a face's number of corners is not a whole number: \"%.*s\"",
                              ffd_text_display_size(count), count.first);
     for (uint64_t i = 0; i < corners; i++) {
-        if (!ffd_off_walk_corner(walk, &word))
+        const bool whole = ffd_off_walk_whole(walk, &word, &index);
+        if (!whole && word.first == word.last)
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
-                                 "a face states %.*s corners, found %" PRIu64, ffd_text_display_size(count),
-                                 count.first, i);
-        const ffd_status status = check_corner(d, &walk->scan, word, error);
-        if (status)
-            return status;
+                                 "a face states %.*s %s, found %" PRIu64, ffd_text_display_size(count),
+                                 count.first, ffd_plural(corners, "corner", "corners"), i);
+        if (!whole || index >= d->header.vertices)
+            return refuse_corner(d, &walk->scan, word, error);
+        d->file.used[index] = 1;
     }
     count_face(d, (size_t)corners);
     return FFD_OK;
@@ -50,36 +54,34 @@ static ffd_status read_face(off_document *d, off_walk *walk, text_word count, ff
 ffd_status ffd_off_read_faces(off_document *d, off_walk *walk, ffd_error *error)
 {
     ffd_status status = FFD_OK;
+    d->file.used = ffd_alloc_zero(d->header.vertices, 1); /* a vertex takes more bytes of the file */
+    if (!d->file.used)
+        return ffd_fail_memory(error);
     for (size_t i = 0; status == FFD_OK && i < d->header.faces; i++) {
-        text_word count;
-        if (!ffd_off_walk_face(walk, &count))
+        if (!ffd_off_walk_face(walk))
             return ffd_fail_line(error, FFD_E_INVALID, d->file.name, walk->scan.line,
                                  "the file ends after %zu of %zu faces", i, d->header.faces);
-        status = read_face(d, walk, count, error);
+        status = read_face(d, walk, error);
     }
     return status;
 }
 
-static void fill_faces(const off_document *d, mesh_faces *faces)
+static ffd_status fill_faces(const off_document *d, mesh_faces *faces, ffd_error *error)
 {
-    off_walk walk;
-    off_vertex vertex;
-    size_t face = 0, count = 0;
-    ffd_off_walk_begin(&d->header, &walk);
-    for (size_t i = 0; i < d->header.vertices; i++)
-        ffd_off_walk_vertex(&walk, &vertex);
+    off_walk walk = d->faces_begin;
+    face_filler filler = {.faces = faces, .corners = d->corners};
     for (size_t i = 0; i < d->header.faces; i++) {
         const size_t corners = ffd_off_walk_face_size(&walk);
         const bool polygon = corners != 1 && corners != 2;
         if (polygon)
-            faces->start[face++] = count;
-        for (size_t c = 0; c < corners; c++) {
+            ffd_filler_face(&filler);
+        for (size_t c = 0; c < corners && !filler.has_other_number; c++) {
             const uint32_t index = ffd_off_walk_corner_index(&walk);
             if (polygon)
-                faces->corners[count++] = index;
+                ffd_filler_corner(&filler, index);
         }
     }
-    faces->start[face] = count;
+    return ffd_filler_end(&filler, d->file.name, error);
 }
 
 ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
@@ -93,6 +95,44 @@ ffd_status ffd_off_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     if (status)
         return status;
     ffd_file_document_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
-    fill_faces(d, faces);
+    return fill_faces(d, faces, error);
+}
+
+ffd_status ffd_off_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
+                               ffd_error *error)
+{
+    const off_document *d = ffd_off_of(document);
+    off_walk walk = d->faces_begin;
+    face_list list = {0};
+    bool has_changed = false;
+    *faces = (mesh_faces){.vertex_count = marks->vertices};
+    for (size_t i = 0; i < d->header.faces && !has_changed; i++) {
+        for (size_t left = ffd_off_walk_face_size(&walk); left > 0 && !has_changed; left--) {
+            const uint32_t vertex = ffd_off_walk_corner_index(&walk);
+            has_changed = vertex >= d->header.vertices; /* it was looked at when the file was opened */
+            if (!has_changed)
+                ffd_face_list_corner(&list, vertex);
+        }
+        if (list.pending == 1 || list.pending == 2) /* it is a point or a line */
+            list.pending = 0;
+        ffd_face_list_end(&list, marks);
+    }
+    const ffd_status status = has_changed ? ffd_faces_changed(d->file.name, error)
+                                          : ffd_face_lists_join(document, &list, 1, faces, error);
+    if (status == FFD_OK)
+        ffd_file_document_fill_positions(&d->file, faces);
+    ffd_free(list.words);
+    return status;
+}
+
+ffd_status ffd_off_mark_used(mesh_document *document, ffd_error *error)
+{
+    off_document *const d = (off_document *)document;
+    /* The bytes are there since the file was read. */
+    const ffd_status status = ffd_budget_take(&document->budget, d->header.vertices, 1, error);
+    if (status)
+        return status;
+    if (ffd_used_keep(document, d->header.vertices, &d->file.used))
+        d->file.part.used = d->file.used;
     return FFD_OK;
 }

@@ -1,5 +1,6 @@
 #include "io/off/off_header.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -39,7 +40,7 @@ static bool is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Takes one of the letters before OFF. False where it is another letter, or is given twice. */
+/* Takes one of the letters before OFF. Returns false if it is another letter, or is given twice. */
 static bool take_letter(const char **at, const char *end, off_header *header, bool *unsupported)
 {
     bool ignored = false;
@@ -58,7 +59,7 @@ static bool take_letter(const char **at, const char *end, off_header *header, bo
     return true;
 }
 
-/* Reads "CNOFF", or "OFF8" of which "8" is left in *rest. False where the word is not a keyword. */
+/* Reads "CNOFF", or "OFF8" of which "8" is left in *rest. Returns false if the word is not a keyword. */
 static bool take_keyword(off_header *header, text_word word, text_word *rest, bool *unsupported)
 {
     const char *at = word.first, *end = word.last;
@@ -152,9 +153,10 @@ static ffd_status check_size(header_reader *r, uint64_t vertices, uint64_t faces
             : least_bytes((size_t)vertices, 2 * off_header_numbers(header), (size_t)faces, FACE_BYTES);
     if (needed > left + 1)
         return ffd_fail_line(r->error, FFD_E_INVALID, r->name, r->scan.line,
-                             "%" PRIu64 " vertices and %" PRIu64
-                             " faces are stated, more than the %zu bytes that follow can hold",
-                             vertices, faces, left);
+                             "%" PRIu64 " %s and %" PRIu64 " %s are stated, more than the %zu %s can hold",
+                             vertices, ffd_plural(vertices, "vertex", "vertices"), faces,
+                             ffd_plural(faces, "face", "faces"), left,
+                             ffd_plural(left, "byte that follows", "bytes that follow"));
     if (vertices > OFF_VERTICES_MAX)
         return ffd_fail_line(r->error, FFD_E_LIMIT, r->name, r->scan.line,
                              "%" PRIu64 " vertices are more than the limit of %" PRIu32, vertices,
@@ -210,7 +212,7 @@ ffd_status ffd_off_header_read(const file_input *input, const char *name, off_he
     text_word first = {0};
     uint64_t vertices = 0, faces = 0;
     *header = (off_header){0};
-    ffd_text_begin(&r.scan, input->data, input->size, true);
+    ffd_text_begin(&r.scan, input->data, ffd_text_size(input->data, input->size), true);
     ffd_status status = read_keyword(&r, &first);
     if (status == FFD_OK)
         status = read_count(&r, "vertices", first, &vertices);

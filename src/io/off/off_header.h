@@ -24,8 +24,8 @@ typedef struct off_header {
     text_scan body; /* right after the header */
 } off_header;
 
-/* Reads the header and checks that the counts fit the file's size. name is for messages; the words are in
-   input. */
+/* Reads the header and checks that the counts fit the file's size. name is for messages;
+   the words are in input. */
 ffd_status ffd_off_header_read(const file_input *input, const char *name, off_header *header,
                                ffd_error *error);
 

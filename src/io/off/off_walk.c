@@ -37,7 +37,7 @@ bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex)
     return true;
 }
 
-bool ffd_off_walk_face(off_walk *walk, text_word *count)
+bool ffd_off_walk_face(off_walk *walk)
 {
     text_word word;
     while (walk->header->free_layout && !walk->in_faces && ffd_off_walk_rest(walk, &word))
@@ -46,12 +46,15 @@ bool ffd_off_walk_face(off_walk *walk, text_word *count)
         return false;
     walk->in_faces = true;
     walk->pass_line = true;
-    return take_word(walk, count);
+    return true;
 }
 
-bool ffd_off_walk_corner(off_walk *walk, text_word *corner)
+bool ffd_off_walk_whole(off_walk *walk, text_word *word, uint64_t *number)
 {
-    return take_word(walk, corner);
+    if (walk->header->free_layout)
+        ffd_text_find(&walk->scan);
+    return ffd_text_short_whole(&walk->scan, word, number) ||
+           (take_word(walk, word) && ffd_text_whole(*word, number));
 }
 
 bool ffd_off_walk_rest(off_walk *walk, text_word *word)
@@ -64,22 +67,16 @@ bool ffd_off_walk_rest(off_walk *walk, text_word *word)
     return take_word(walk, word);
 }
 
-/* Returns the next word that `take` finds, as a whole number; 0 where there is none. */
-static uint64_t take_whole(off_walk *walk, bool (*take)(off_walk *, text_word *))
-{
-    text_word word;
-    uint64_t number = 0;
-    if (take(walk, &word))
-        ffd_text_whole(word, &number);
-    return number;
-}
-
 size_t ffd_off_walk_face_size(off_walk *walk)
 {
-    return (size_t)take_whole(walk, ffd_off_walk_face);
+    ffd_off_walk_face(walk);
+    return ffd_off_walk_corner_index(walk);
 }
 
 uint32_t ffd_off_walk_corner_index(off_walk *walk)
 {
-    return (uint32_t)take_whole(walk, ffd_off_walk_corner);
+    text_word word;
+    uint64_t number = 0;
+    ffd_off_walk_whole(walk, &word, &number);
+    return (uint32_t)number;
 }

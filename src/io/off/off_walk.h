@@ -24,17 +24,17 @@ typedef struct off_vertex {
 void ffd_off_walk_begin(const off_header *header, off_walk *walk);
 /* Goes to the next vertex. False at the end of the file. */
 bool ffd_off_walk_vertex(off_walk *walk, off_vertex *vertex);
-/* Goes to the next face and takes the number of its corners, which ffd_off_walk_corner then takes, all of
-   them. False at the end of the file. */
-bool ffd_off_walk_face(off_walk *walk, text_word *count);
-/* Takes the next corner of the current face. False where it is missing. */
-bool ffd_off_walk_corner(off_walk *walk, text_word *corner);
+/* Goes to the next face. False at the end of the file. */
+bool ffd_off_walk_face(off_walk *walk);
+/* Takes the next whole number of the current face: that of its corners, then each corner. False: it is not
+   one, and *word is what is there; empty: nothing. */
+bool ffd_off_walk_whole(off_walk *walk, text_word *word, uint64_t *number);
 /* Takes the next word after the numbers of the current vertex, or after the last corner of the face. */
 bool ffd_off_walk_rest(off_walk *walk, text_word *word);
 
-/* The same two in a file that was read: numbers. */
+/* In a file that was read: goes to the next face and takes the number of its corners. */
 size_t ffd_off_walk_face_size(off_walk *walk);
-/* The number of a corner's vertex. */
+/* Likewise: takes the number of a corner's vertex. */
 uint32_t ffd_off_walk_corner_index(off_walk *walk);
 
 #endif

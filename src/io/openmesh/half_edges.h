@@ -4,16 +4,8 @@
 
 #include "mesh/mesh.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* Bytes of memory that the half-edges of these faces need about at most, with what topology.h or normals.h
    finds by them. */
 uint64_t ffd_half_edge_bytes(const mesh_faces *faces);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

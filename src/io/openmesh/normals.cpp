@@ -30,10 +30,10 @@ class face_terms
     {
     }
 
-    /* False where the face adds nothing. */
+    /* Returns false if the face adds nothing. */
     bool read(half_edge_mesh::FaceHandle face);
 
-    /* Of the face read last. */
+    /* Figures of the face read last. */
     size_t count() const { return numbers_.size(); }
     uint32_t number(size_t i) const { return numbers_[i]; }
     uint32_t vertex(size_t i) const { return vertices_[i]; }

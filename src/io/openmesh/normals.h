@@ -1,4 +1,5 @@
-/* normals.h - normals from the faces of a polygon mesh by OpenMesh's half-edges (C++ behind C). */
+/* normals.h - normals from the faces of a polygon mesh by OpenMesh's half-edges (C++ behind C). Declares
+   openmesh_load.c too, which a program that loads them has instead. */
 #ifndef FFD_IO_OPENMESH_NORMALS_H
 #define FFD_IO_OPENMESH_NORMALS_H
 
@@ -24,8 +25,8 @@ extern "C" {
      directions  3 a group, cleared by the caller: a unit vector, or 0 0 0 where nothing is added or the terms
                  cancel out
 
-   No exception leaves, nothing is printed. Errors: FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_ARGUMENT (a corner is not
-   the number of a vertex). */
+   No exception leaves, nothing is printed. Errors: FFD_E_MEMORY, FFD_E_LIMIT, FFD_E_UNSUPPORTED (no library),
+   FFD_E_ARGUMENT (a corner is not the number of a vertex). */
 ffd_status ffd_normals_of_groups(const mesh_faces *faces, const double *positions, const uint32_t *groups,
                                  size_t group_count, const uint8_t *mirrored, double *directions,
                                  ffd_error *error);

@@ -1,6 +1,4 @@
 #include "io/openmesh/surface.h"
-#include "io/openmesh/half_edges.h"
-#include <algorithm>
 #include <climits>
 #include <stdexcept>
 
@@ -130,15 +128,3 @@ ffd_status check(const mesh_faces &faces, ffd_error *error)
 }
 
 } // namespace ffd_openmesh
-
-/* Measured. More than eight corners a vertex are faces that share few edges: their vertices are copied. */
-extern "C" uint64_t ffd_half_edge_bytes(const mesh_faces *faces)
-{
-    constexpr uint64_t sharing_bytes = 72, copying_bytes = 120, longest_bytes = 64, vertex_bytes = 16;
-    const uint64_t corners = faces->start[faces->face_count];
-    uint64_t longest = 0;
-    for (size_t f = 0; f < faces->face_count; f++)
-        longest = std::max<uint64_t>(longest, faces->start[f + 1] - faces->start[f]);
-    return corners * (corners / 8 > faces->vertex_count ? copying_bytes : sharing_bytes) +
-           longest_bytes * longest + vertex_bytes * faces->vertex_count;
-}

@@ -8,8 +8,8 @@ namespace
 
 using namespace ffd_openmesh;
 
-/* The edges of the file: those of the half-edge mesh, where edges between copies of the same two sources are
- * one. */
+/* The edges of the file: those of the half-edge mesh, where edges between copies of the
+   same two sources are one. */
 struct source_edges {
     array<uint32_t> number; /* of each edge of the half-edge mesh */
     size_t count = 0;

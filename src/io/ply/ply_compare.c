@@ -203,12 +203,12 @@ static void compare_row(comparer *c)
 
 static void compare_rows(comparer *c)
 {
-    ffd_ply_walk_begin(&c->a->header, &c->a->file.input, &c->in_a);
-    ffd_ply_walk_begin(&c->b->header, &c->b->file.input, &c->in_b);
     for (size_t i = 0; i < c->a->header.element_count; i++) {
         c->element = &c->a->header.elements[i];
         if (c->element->property_count == 0)
             continue;
+        ffd_ply_document_walk(c->a, c->element, &c->in_a);
+        ffd_ply_document_walk(c->b, &c->b->header.elements[i], &c->in_b);
         for (c->row = 0; c->row < c->element->count; c->row++)
             compare_row(c);
     }

@@ -41,7 +41,7 @@ static void append_word(byte_buffer *text, text_word word)
     ffd_buffer_append(text, word.first, (size_t)(word.last - word.first));
 }
 
-/* Writes what was gathered in text. False when memory ran out. */
+/* Writes what was gathered in text. Returns false if memory ran out. */
 static bool write_text(json_text *json, const char *key, byte_buffer *text)
 {
     char *string = ffd_buffer_finish(text);

@@ -2,12 +2,28 @@
 #include "base/memory/memory.h"
 #include <float.h>
 #include <inttypes.h>
+#include <string.h>
 
 void ffd_ply_document_walk(const ply_document *d, const ply_element *element, ply_walk *walk)
 {
-    ffd_ply_walk_begin(&d->header, &d->file.input, walk);
-    for (const ply_element *e = d->header.elements; e < element; e++)
-        ffd_ply_walk_skip_rows(walk, e);
+    const char *first = (const char *)d->file.input.data;
+    *walk = (ply_walk){.header = &d->header,
+                       .at = first + element->begin,
+                       .last = first + d->header.end,
+                       .line = element->begin_line};
+}
+
+ffd_status ffd_ply_refuse_vertex(const ply_document *d, const ply_walk *walk, const char *what, uint64_t row,
+                                 ply_type type, text_word word, ffd_error *error)
+{
+    const bool text = d->header.encoding == PLY_ASCII;
+    double value = 0;
+    ffd_ply_load(d->header.encoding, type, word, &value);
+    const number_text number = ffd_number_text(value);
+    return ffd_fail_line(error, FFD_E_INVALID, d->file.name, text ? walk->line : 0,
+                         "%s %" PRIu64 ": there is no vertex %.*s, only %zu (both counted from 0)", what, row,
+                         text ? ffd_text_display_size(word) : (int)strlen(number.text),
+                         text ? word.first : number.text, d->file.part.vertex_count);
 }
 
 static ffd_status read_number(ply_document *d, const ply_walk *walk, const ply_property *property,
@@ -60,8 +76,21 @@ static void describe_part(ply_document *d)
 {
     const bool narrow = d->types[0] == PLY_FLOAT || d->types[1] == PLY_FLOAT || d->types[2] == PLY_FLOAT;
     d->file.part.vertex_count = (size_t)d->vertex->count;
+    for (size_t a = 0; a < 3; a++)
+        d->file.part.rounding.is_float[a] = d->types[a] == PLY_FLOAT;
     d->file.part.normal_count = d->has_normals ? d->file.part.vertex_count : 0;
     d->file.base.largest_coordinate = narrow ? FLT_MAX : DBL_MAX;
+}
+
+/* Marks that texts of other formats may have. */
+static ffd_status note_marks(ply_document *d, ffd_error *error)
+{
+    const file_input *const input = &d->file.input;
+    ffd_status status = FFD_OK;
+    if (ffd_text_has_mark(input->data, input->size))
+        status =
+            ffd_flaw_line(&d->file.base.flaws, d->file.name, 1, error, "a byte order mark is before \"ply\"");
+    return status ? status : ffd_file_document_note_mark(&d->file, d->header.end, error);
 }
 
 ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_document **document,
@@ -71,6 +100,8 @@ ffd_status ffd_ply_open(file_input *input, const ffd_source *source, mesh_docume
     if (!d)
         return FFD_E_MEMORY;
     ffd_status status = ffd_ply_header_read(input, d->file.name, &d->header, error);
+    if (status == FFD_OK)
+        status = note_marks(d, error);
     if (status == FFD_OK)
         status = ffd_ply_find_roles(d, error);
     if (status == FFD_OK)

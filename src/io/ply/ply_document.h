@@ -1,4 +1,5 @@
-/* ply_document.h - a PLY file as a mesh document: one part, in the lattice's space.
+/* ply_document.h - a PLY file as a mesh document: one part, in the lattice's space. Declares ply_document.c,
+   ply_roles.c, ply_faces.c.
 
    Every row of element vertex is a vertex, in the order of the file; its normal is nx ny nz. Their numbers
    are held as doubles (each one that its type has); all else stays in the file's bytes, which are read again
@@ -15,6 +16,11 @@ typedef struct ply_document {
     const ply_element *vertex;
     const ply_element *face;             /* NULL: no element names vertices */
     const ply_property *face_corners;    /* its list vertex_indices or vertex_index */
+    const ply_element *strips;           /* tristrips; NULL: there are none */
+    const ply_property *strip_corners;   /* their list of vertices; NULL: none has any */
+    const ply_property *face_normals[3]; /* nx ny nz of the faces, with a fraction; NULL: there are none */
+    bool has_whole_face_normals;         /* those of a whole type, which are kept */
+    bool renew_normals;                  /* of faces, with the results */
     ply_type types[PLY_SLOT_COUNT];      /* of x y z nx ny nz */
     bool has_normals, has_whole_normals; /* the latter: nx ny nz of a whole type, which are not shown */
     size_t behind;                       /* offset after the last row */
@@ -25,8 +31,12 @@ static inline const ply_document *ffd_ply_of(const mesh_document *document)
     return (const ply_document *)document;
 }
 
-/* Walks from the header to the rows of an element. */
+/* Begins a walk at the rows of an element. */
 void ffd_ply_document_walk(const ply_document *document, const ply_element *element, ply_walk *walk);
+/* Refuses an index that is of no vertex. what, row: "face" or "strip" and its number; word: the index, of the
+   type. */
+ffd_status ffd_ply_refuse_vertex(const ply_document *document, const ply_walk *walk, const char *what,
+                                 uint64_t row, ply_type type, text_word word, ffd_error *error);
 
 /* Decides what the elements and properties are. */
 ffd_status ffd_ply_find_roles(ply_document *document, ffd_error *error);
@@ -35,7 +45,7 @@ ffd_status ffd_ply_find_roles(ply_document *document, ffd_error *error);
 #define PLY_TEXCOORD_NAMES 3
 extern const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2];
 
-/* The element whose rows are lines: "edge" with vertex1 and vertex2. NULL where there is none. */
+/* The element whose rows are lines: "edge" with vertex1 and vertex2. NULL if there is none. */
 const ply_element *ffd_ply_find_edges(const ply_document *document);
 
 /* Refuses corners of faces that are not numbers of vertices. */
@@ -49,7 +59,9 @@ mesh_begin_results_function ffd_ply_begin_results;
 mesh_write_function ffd_ply_write_positions;
 mesh_write_function ffd_ply_write_normals;
 mesh_save_function ffd_ply_save;
+mesh_mark_used_function ffd_ply_mark_used;
 mesh_faces_function ffd_ply_faces;
+mesh_mixed_faces_function ffd_ply_mixed_faces;
 mesh_model_function ffd_ply_model;
 mesh_describe_function ffd_ply_describe;
 mesh_compare_function ffd_ply_compare;

@@ -1,28 +1,59 @@
 /* ply_faces.c - checks and hands out the faces of a PLY file. */
 #include "base/memory/memory.h"
-#include "io/ply/ply_document.h"
-#include <inttypes.h>
-#include <string.h>
+#include "io/ply/ply_strips.h"
+#include "mesh/face_filler.h"
+#include "mesh/mixed_faces.h"
 
 typedef struct face_reader {
     const ply_document *document;
     ply_walk walk;
     mesh_faces *faces; /* NULL: the corners are only looked at */
+    uint8_t *used;     /* a byte for each vertex, set for those of a face; or NULL */
+    face_list *mixed;  /* gets the faces whose vertices the marks tell apart; or NULL */
+    const vertex_marks *marks;
+    size_t face_count; /* so far */
     size_t corners, capacity;
     ffd_error *error;
 } face_reader;
 
-static ffd_status refuse_index(const face_reader *r, uint64_t face, text_word word)
+/* Begins a face of so many corners. Returns false if memory ran out. */
+static bool begin_face(face_reader *r, size_t count)
 {
-    const ply_document *d = r->document;
-    const bool text = d->header.encoding == PLY_ASCII;
-    double value = 0;
-    ffd_ply_load(d->header.encoding, d->face_corners->type, word, &value);
-    const number_text number = ffd_number_text(value);
-    return ffd_fail_line(r->error, FFD_E_INVALID, d->file.name, text ? r->walk.line : 0,
-                         "face %" PRIu64 " (counted from 0): %.*s is not an index of the %zu vertices", face,
-                         text ? ffd_text_display_size(word) : (int)strlen(number.text),
-                         text ? word.first : number.text, d->file.part.vertex_count);
+    if (r->faces &&
+        !ffd_grow((void **)&r->faces->corners, &r->capacity, r->corners + count, sizeof *r->faces->corners))
+        return false;
+    if (r->faces && r->face_count < r->faces->face_count) /* a file that changes may have more now */
+        r->faces->start[r->face_count] = r->corners;
+    r->face_count++;
+    return true;
+}
+
+static void add_corner(face_reader *r, uint32_t vertex)
+{
+    if (r->faces)
+        r->faces->corners[r->corners] = vertex;
+    if (r->used)
+        r->used[vertex] = 1;
+    if (r->mixed)
+        ffd_face_list_corner(r->mixed, vertex);
+    r->corners++;
+}
+
+static void end_face(const face_reader *r)
+{
+    if (r->mixed)
+        ffd_face_list_end(r->mixed, r->marks);
+}
+
+static bool take_triangle(void *context, const uint32_t corners[3])
+{
+    face_reader *const r = context;
+    if (!begin_face(r, 3))
+        return false;
+    for (int i = 0; i < 3; i++)
+        add_corner(r, corners[i]);
+    end_face(r);
+    return true;
 }
 
 static ffd_status read_corners(face_reader *r, uint64_t face)
@@ -31,21 +62,17 @@ static ffd_status read_corners(face_reader *r, uint64_t face)
     const ply_property *list = d->face_corners;
     text_word word;
     size_t count = 0;
-    ffd_ply_walk_value(&r->walk, list->count_type, &word);
-    ffd_ply_load_count(d->header.encoding, list->count_type, word, &count);
-    if (r->faces &&
-        !ffd_grow((void **)&r->faces->corners, &r->capacity, r->corners + count, sizeof *r->faces->corners))
+    ffd_ply_walk_count(&r->walk, list->count_type, &word, &count);
+    if (!begin_face(r, count))
         return ffd_fail_memory(r->error);
     for (size_t i = 0; i < count; i++) {
         size_t vertex;
-        ffd_ply_walk_value(&r->walk, list->type, &word);
-        if (!ffd_ply_load_count(d->header.encoding, list->type, word, &vertex) ||
-            vertex >= d->file.part.vertex_count)
-            return refuse_index(r, face, word);
-        if (r->faces)
-            r->faces->corners[r->corners] = (uint32_t)vertex;
-        r->corners++;
+        if (!ffd_ply_walk_count(&r->walk, list->type, &word, &vertex) || vertex >= d->file.part.vertex_count)
+            return ffd_ply_refuse_vertex(r->document, &r->walk, "face", face, r->document->face_corners->type,
+                                         word, r->error);
+        add_corner(r, (uint32_t)vertex);
     }
+    end_face(r);
     return FFD_OK;
 }
 
@@ -64,56 +91,119 @@ static ffd_status read_face(face_reader *r, uint64_t face)
     return status;
 }
 
+/* Goes through all faces, then through the triangles of strips; what is done with them is set. */
+static ffd_status look_at_faces(face_reader *r)
+{
+    const ply_document *const d = r->document;
+    ffd_status status = FFD_OK;
+    if (d->face)
+        ffd_ply_document_walk(d, d->face, &r->walk);
+    for (uint64_t face = 0; d->face && status == FFD_OK && face < d->face->count; face++)
+        status = read_face(r, face);
+    return status ? status : ffd_ply_visit_strips(d, take_triangle, r, r->error);
+}
+
+static bool count_triangle(void *context, const uint32_t corners[3])
+{
+    size_t *const count = context;
+    (void)corners;
+    (*count)++;
+    return true;
+}
+
+/* Makes the arrays of the faces that are counted, and fills them. */
 static ffd_status read_faces(const ply_document *d, mesh_faces *faces, ffd_error *error)
 {
     face_reader r = {.document = d, .faces = faces, .capacity = faces->face_count, .error = error};
-    ffd_status status = FFD_OK;
-    if (d->face)
-        ffd_ply_document_walk(d, d->face, &r.walk);
-    for (size_t face = 0; status == FFD_OK && face < faces->face_count; face++) {
-        faces->start[face] = r.corners;
-        status = read_face(&r, face);
-    }
-    faces->start[faces->face_count] = r.corners;
+    ffd_status status = ffd_mesh_faces_make(&d->file.base, faces, faces->face_count, error);
+    if (status)
+        return status;
+    ffd_file_document_read_positions(&d->file.base, 0, 0, faces->vertex_count, faces->positions);
+    status = look_at_faces(&r);
+    if (!status && r.face_count != faces->face_count)
+        status = ffd_faces_changed(d->file.name, error);
+    if (status)
+        ffd_mesh_faces_free(faces);
+    else
+        faces->start[faces->face_count] = r.corners;
     return status;
 }
 
 ffd_status ffd_ply_check_faces(const ply_document *d, ffd_error *error)
 {
     face_reader r = {.document = d, .error = error};
-    ffd_status status = FFD_OK;
-    if (!d->face)
-        return FFD_OK;
-    ffd_ply_document_walk(d, d->face, &r.walk);
-    for (uint64_t face = 0; status == FFD_OK && face < d->face->count; face++)
-        status = read_face(&r, face);
-    return status;
-}
-
-static ffd_status refuse_strips(const ply_document *d, ffd_error *error)
-{
-    const ply_element *strips = ffd_ply_find_element(&d->header, "tristrips");
-    if (!strips || strips->count == 0)
-        return FFD_OK;
-    return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, strips->line,
-                         "element tristrips: triangle strips are not read as faces");
+    return look_at_faces(&r);
 }
 
 ffd_status ffd_ply_faces(const mesh_document *document, mesh_faces *faces, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     const ply_element *edges = ffd_ply_find_edges(d);
-    *faces = (mesh_faces){.vertex_count = d->file.part.vertex_count,
-                          .face_count = d->face ? (size_t)d->face->count : 0,
-                          .lines = edges ? (size_t)edges->count : 0};
-    ffd_status status = refuse_strips(d, error);
-    if (status == FFD_OK)
-        status = ffd_mesh_faces_make(document, faces, faces->face_count, error);
+    size_t triangles = 0;
+    *faces =
+        (mesh_faces){.vertex_count = d->file.part.vertex_count, .lines = edges ? (size_t)edges->count : 0};
+    const ffd_status status = ffd_ply_visit_strips(d, count_triangle, &triangles, error);
     if (status)
         return status;
-    ffd_file_document_read_positions(document, 0, 0, faces->vertex_count, faces->positions);
-    status = read_faces(d, faces, error);
-    if (status)
-        ffd_mesh_faces_free(faces);
+    faces->face_count = (d->face ? (size_t)d->face->count : 0) + triangles;
+    return read_faces(d, faces, error);
+}
+
+ffd_status ffd_ply_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
+                               ffd_error *error)
+{
+    const ply_document *d = ffd_ply_of(document);
+    face_list list = {0};
+    face_reader r = {.document = d, .mixed = &list, .marks = marks, .error = error};
+    *faces = (mesh_faces){.vertex_count = marks->vertices};
+    ffd_status status = look_at_faces(&r);
+    if (status == FFD_OK)
+        status = ffd_face_lists_join(document, &list, 1, faces, error);
+    if (status == FFD_OK)
+        ffd_file_document_fill_positions(&d->file, faces);
+    ffd_free(list.words);
     return status;
+}
+
+/* Marks the ends of the lines. Returns false if a row names a vertex that does not exist. */
+static bool mark_edges(const ply_document *d, const ply_element *edges, uint8_t *used)
+{
+    const ply_property *const ends[2] = {ffd_ply_find_property(edges, "vertex1"),
+                                         ffd_ply_find_property(edges, "vertex2")};
+    ply_walk walk;
+    text_word word;
+    size_t vertex;
+    bool valid = true;
+    ffd_ply_document_walk(d, edges, &walk);
+    for (uint64_t row = 0; row < edges->count && valid; row++) {
+        ffd_ply_walk_row(&walk);
+        for (size_t i = 0; i < edges->property_count && valid; i++) {
+            const ply_property *const property = &edges->properties[i];
+            if (property->is_list || (property != ends[0] && property != ends[1])) {
+                ffd_ply_walk_skip(&walk, property);
+                continue;
+            }
+            ffd_ply_walk_value(&walk, property->type, &word);
+            valid = ffd_ply_load_count(d->header.encoding, property->type, word, &vertex) &&
+                    vertex < d->file.part.vertex_count;
+            if (valid)
+                used[vertex] = 1;
+        }
+    }
+    return valid;
+}
+
+ffd_status ffd_ply_mark_used(mesh_document *document, ffd_error *error)
+{
+    ply_document *const d = (ply_document *)document;
+    const size_t count = d->file.part.vertex_count;
+    const ply_element *const edges = ffd_ply_find_edges(d);
+    const ffd_status status = ffd_used_make(document, count, &d->file.used, error);
+    if (status)
+        return status;
+    face_reader r = {.document = d, .used = d->file.used};
+    const bool known = !look_at_faces(&r) && (!edges || mark_edges(d, edges, d->file.used));
+    if (ffd_used_keep(document, count, &d->file.used) && known)
+        d->file.part.used = d->file.used;
+    return FFD_OK;
 }

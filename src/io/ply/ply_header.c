@@ -1,5 +1,6 @@
 #include "io/ply/ply_header.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include <inttypes.h>
 #include <string.h>
 
@@ -260,9 +261,11 @@ static ffd_status check_sizes(const header_reader *r)
         const ply_element *e = &h->elements[i];
         if (e->least > 0 && e->count > left / e->least)
             return FAIL(r, e->line,
-                        "element %.*s: %" PRIu64 " rows of %zu bytes or more do not fit in the %zu bytes "
-                        "after the header",
-                        ffd_text_display_size(e->name), e->name.first, e->count, e->least, there);
+                        "element %.*s: %" PRIu64 " %s of %zu %s or more do not fit in the %zu %s after the "
+                        "header",
+                        ffd_text_display_size(e->name), e->name.first, e->count,
+                        ffd_plural(e->count, "row", "rows"), e->least, ffd_plural(e->least, "byte", "bytes"),
+                        there, ffd_plural(there, "byte", "bytes"));
         left -= e->least * (size_t)(e->least > 0 ? e->count : 0);
     }
     return FFD_OK;
@@ -275,6 +278,8 @@ ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_he
     header_reader r = {
         .header = header, .at = first, .last = first + input->size, .name = name, .error = error};
     *header = (ply_header){0};
+    if (ffd_text_has_mark(input->data, input->size))
+        r.at += TEXT_MARK_SIZE;
     ffd_status status = read_magic(&r);
     if (status == FFD_OK)
         status = read_lines(&r);
@@ -282,6 +287,7 @@ ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_he
         return status;
     header->body = (size_t)(r.at - first);
     header->body_line = r.line + 1;
+    header->end = header->encoding == PLY_ASCII ? ffd_text_size(input->data, input->size) : input->size;
     size_t first_property = 0;
     for (size_t i = 0; i < header->element_count; i++) {
         ply_element *element = &header->elements[i];

@@ -1,7 +1,8 @@
 /* ply_header.h - the header of a PLY file, and what it says about the rest.
 
    Header lines end as the first one does: with LF, CRLF or CR. In a binary file data starts right after the
-   line end of "end_header", so that a file of CR lines may go on with a byte that is an LF. */
+   line end of "end_header", so that a file of CR lines may go on with a byte that is an LF. A byte order mark
+   before the header is passed over. */
 #ifndef FFD_IO_PLY_PLY_HEADER_H
 #define FFD_IO_PLY_PLY_HEADER_H
 
@@ -32,6 +33,7 @@ typedef struct ply_element {
     size_t property_count;
     bool has_lists;
     size_t least; /* bytes of a row at least (ascii: with its line end); binary without lists: exactly */
+    size_t begin, begin_line; /* offset and (ascii) line where its rows begin; ffd_ply_walk_check sets them */
 } ply_element;
 
 typedef struct ply_header {
@@ -46,6 +48,7 @@ typedef struct ply_header {
     const char *line_end; /* "LF", "CRLF", "CR" */
     size_t body;          /* offset after the header */
     size_t body_line;     /* the first line after it */
+    size_t end;           /* offset where the rows must end: that of the file's end, or of its Ctrl-Z */
 } ply_header;
 
 /* Reads the header and checks that the counts fit the file's size. name is for messages. header must be freed
@@ -55,9 +58,9 @@ ffd_status ffd_ply_header_read(const file_input *input, const char *name, ply_he
 /* Frees the elements and properties. */
 void ffd_ply_header_free(ply_header *header);
 
-/* The element of this name; NULL where there is none. */
+/* The element of this name; NULL if there is none. */
 const ply_element *ffd_ply_find_element(const ply_header *header, const char *name);
-/* The property of this name; NULL where there is none. */
+/* The property of this name; NULL if there is none. */
 const ply_property *ffd_ply_find_property(const ply_element *element, const char *name);
 
 #endif

@@ -154,7 +154,7 @@ static ffd_status take_faces(extractor *e)
         ffd_ply_document_walk(e->document, e->document->face, &walk);
     for (size_t face = 0; face < e->faces.face_count && status == FFD_OK; face++) {
         const size_t first = e->faces.start[face], count = e->faces.start[face + 1] - first;
-        const bool own = e->face_texcoords && walk_face(e, &walk, face);
+        const bool own = e->face_texcoords && face < e->document->face->count && walk_face(e, &walk, face);
         const bool texcoords = own || (!e->face_texcoords && e->model->texcoord_count > 0);
         if (!ffd_grow((void **)&corners, &capacity, count, sizeof *corners))
             status = ffd_fail_memory(e->error);
@@ -171,7 +171,7 @@ static ffd_status take_faces(extractor *e)
     return status;
 }
 
-/* Takes a row's vertex1 and vertex2. False where one is not the number of a vertex. */
+/* Takes a row's vertex1 and vertex2. Returns false if one is not the number of a vertex. */
 static bool take_ends(const extractor *e, ply_walk *walk, const ply_element *edges, model_corner ends[2])
 {
     const ply_property *named[2] = {find_scalar(edges, "vertex1"), find_scalar(edges, "vertex2")};
@@ -247,7 +247,8 @@ static uint32_t features_of(const extractor *e)
     }
     for (size_t i = 0; i < d->header.element_count; i++) {
         const ply_element *element = &d->header.elements[i];
-        if (element != d->vertex && element != d->face && element != edges && element->count > 0)
+        if (element != d->vertex && element != d->face && element != d->strips && element != edges &&
+            element->count > 0)
             found |= MODEL_HAS_MORE;
     }
     for (size_t i = 0; i < d->header.note_count; i++)

@@ -3,7 +3,8 @@
 
 ffd_status ffd_ply_begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
 {
-    const ply_document *d = ffd_ply_of(document);
+    ply_document *const d = (ply_document *)document;
+    d->renew_normals = normals;
     if (normals && d->has_whole_normals)
         return ffd_fail_line(error, FFD_E_UNSUPPORTED, d->file.name, d->vertex->line,
                              "nx ny nz are not all float or double: such normals can only be kept");

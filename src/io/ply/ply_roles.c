@@ -6,8 +6,8 @@ static const char *const slot_names[PLY_SLOT_COUNT] = {"x", "y", "z", "nx", "ny"
 const char *const ffd_ply_texcoord_names[PLY_TEXCOORD_NAMES][2] = {
     {"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}};
 
-/* Marks and returns the property of the vertices that has a slot's name; NULL where there is none with one
-   value a vertex. */
+/* Marks and returns the property of the vertices that has a slot's name; NULL if there is none
+   with one value a vertex. */
 static ply_property *fill_slot(ply_document *d, size_t slot)
 {
     const ply_property *found = ffd_ply_find_property(d->vertex, slot_names[slot]);
@@ -45,16 +45,51 @@ static void find_normals(ply_document *d)
             properties[i]->slot = PLY_NO_SLOT;
 }
 
-static void find_faces(ply_document *d)
+/* The list of an element's vertices; NULL if it has none, or there is no element. */
+static const ply_property *find_corners(const ply_element *element)
 {
     static const char *const names[] = {"vertex_indices", "vertex_index"};
-    const ply_element *face = ffd_ply_find_element(&d->header, "face");
-    for (size_t i = 0; face && i < sizeof names / sizeof *names && !d->face_corners; i++) {
-        d->face_corners = ffd_ply_find_property(face, names[i]);
-        if (d->face_corners && !d->face_corners->is_list)
-            d->face_corners = NULL;
+    const ply_property *found = NULL;
+    for (size_t i = 0; element && i < sizeof names / sizeof *names && !found; i++) {
+        found = ffd_ply_find_property(element, names[i]);
+        if (found && !found->is_list)
+            found = NULL;
     }
+    return found;
+}
+
+static void find_faces(ply_document *d)
+{
+    const ply_element *const face = ffd_ply_find_element(&d->header, "face");
+    d->face_corners = find_corners(face);
     d->face = d->face_corners ? face : NULL;
+    d->strips = ffd_ply_find_element(&d->header, "tristrips");
+    d->strip_corners = find_corners(d->strips);
+}
+
+/* As for vertices, all three must be there. */
+static void find_face_normals(ply_document *d)
+{
+    const ply_property *found[3] = {NULL, NULL, NULL};
+    bool there = d->face, whole = false;
+    for (size_t a = 0; a < 3 && there; a++) {
+        found[a] = ffd_ply_find_property(d->face, slot_names[PLY_NORMAL_SLOT + a]);
+        there = found[a] && !found[a]->is_list;
+        whole = whole || (there && ply_is_whole(found[a]->type));
+    }
+    d->has_whole_face_normals = there && whole;
+    for (size_t a = 0; a < 3; a++)
+        d->face_normals[a] = there && !whole ? found[a] : NULL;
+}
+
+/* The properties of 3D Gaussian splatting: a splat is longest along one of its own axes, and turned. */
+static bool has_splats(const ply_document *d)
+{
+    static const char *const names[] = {"rot_0", "rot_1", "rot_2", "rot_3", "scale_0", "scale_1"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!ffd_ply_find_property(d->vertex, names[i]))
+            return false;
+    return true;
 }
 
 ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
@@ -70,6 +105,9 @@ ffd_status ffd_ply_find_roles(ply_document *d, ffd_error *error)
         return status;
     find_normals(d);
     find_faces(d);
+    find_face_normals(d);
+    d->file.part.splats = has_splats(d);
+    d->file.part.place = MESH_NO_PLACE;
     return FFD_OK;
 }
 

@@ -1,6 +1,5 @@
 /* ply_save.c - writes a PLY file with its results. */
-#include "io/ply/ply_document.h"
-#include "io/text/splice.h"
+#include "io/ply/ply_save.h"
 #include <string.h>
 
 /* Replaces a number whose bits have changed. */
@@ -37,14 +36,27 @@ static void write_vertices(const ply_document *d, file_splice *splice)
     }
 }
 
+/* What changes, in the order of the file. */
+static void write_elements(const ply_document *d, file_splice *splice)
+{
+    for (size_t i = 0; i < d->header.element_count && splice->status == FFD_OK; i++) {
+        const ply_element *const element = &d->header.elements[i];
+        if (element == d->vertex)
+            write_vertices(d, splice);
+        else if (element == d->face && d->face_normals[0] && d->renew_normals)
+            ffd_ply_write_face_normals(d, splice);
+    }
+}
+
 ffd_status ffd_ply_save(mesh_document *document, const mesh_save_options *options, file_output *output,
                         const mesh_log *log, ffd_error *error)
 {
     const ply_document *d = ffd_ply_of(document);
     file_splice splice;
-    (void)log;
     ffd_splice_begin(&splice, &d->file.input, options, output, error);
     if (d->file.new_positions)
-        write_vertices(d, &splice);
+        write_elements(d, &splice);
+    if (d->file.new_positions && d->renew_normals && d->has_whole_face_normals)
+        ffd_log_line(log, FFD_LOG_WARNING, "nx ny nz of the faces are not all float or double: they stay");
     return ffd_splice_end(&splice);
 }

@@ -51,6 +51,8 @@ static uint64_t load_bits(ply_encoding encoding, text_word word)
 {
     uint64_t bits = 0;
     const size_t size = (size_t)(word.last - word.first);
+    if (encoding == PLY_LITTLE_ENDIAN && size == sizeof(uint32_t))
+        return load_u32((const unsigned char *)word.first);
     for (size_t i = 0; i < size; i++) {
         const unsigned char byte = (unsigned char)word.first[i];
         bits |= (uint64_t)byte << (8 * (encoding == PLY_BIG_ENDIAN ? size - 1 - i : i));
@@ -58,11 +60,17 @@ static uint64_t load_bits(ply_encoding encoding, text_word word)
     return bits;
 }
 
-static double load_whole(ply_type type, uint64_t bits)
+/* Whether the bits of a whole number are those of a negative one. */
+static bool is_negative(ply_type type, text_word word, uint64_t bits)
 {
-    const uint64_t range = (uint64_t)1 << (8 * types[type].size);
     const bool is_signed = type == PLY_CHAR || type == PLY_SHORT || type == PLY_INT;
-    return is_signed && bits >= range / 2 ? (double)bits - (double)range : (double)bits;
+    return is_signed && bits >> (8 * (word.last - word.first) - 1);
+}
+
+static double load_whole(ply_type type, text_word word, uint64_t bits)
+{
+    const uint64_t range = (uint64_t)1 << (8 * (word.last - word.first));
+    return is_negative(type, word, bits) ? (double)bits - (double)range : (double)bits;
 }
 
 bool ffd_ply_load(ply_encoding encoding, ply_type type, text_word word, double *value)
@@ -78,13 +86,18 @@ bool ffd_ply_load(ply_encoding encoding, ply_type type, text_word word, double *
     } else if (type == PLY_DOUBLE)
         memcpy(value, &bits, sizeof *value);
     else
-        *value = load_whole(type, bits);
+        *value = load_whole(type, word, bits);
     return true;
 }
 
 bool ffd_ply_load_count(ply_encoding encoding, ply_type type, text_word word, size_t *count)
 {
     double value;
+    if (encoding != PLY_ASCII && ply_is_whole(type)) {
+        const uint64_t bits = load_bits(encoding, word);
+        *count = (size_t)bits;
+        return !is_negative(type, word, bits);
+    }
     if (!ffd_ply_load(encoding, type, word, &value) || !(value >= 0 && value < WHOLE_MAX))
         return false;
     const uint64_t whole = (uint64_t)value;

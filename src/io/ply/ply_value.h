@@ -35,7 +35,7 @@ static inline bool ply_is_whole(ply_type type)
 }
 
 /* Reads a number as its type holds it (the text of a float means the nearest float). A text of a whole type
-   may be any number. False where a text is not a number; binary values always are. */
+   may be any number. Returns false if a text is not a number; binary values always are. */
 bool ffd_ply_load(ply_encoding encoding, ply_type type, text_word word, double *value);
 
 /* A list's count or an index: a whole number that is not negative. */

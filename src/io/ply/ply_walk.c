@@ -12,23 +12,15 @@ static bool is_line_end(char c)
     return c == '\n' || c == '\r';
 }
 
-void ffd_ply_walk_begin(const ply_header *header, const file_input *input, ply_walk *walk)
+/* Whether c is one of a word. Nearly all are above the space. */
+static bool is_of_word(char c)
 {
-    const char *first = (const char *)input->data;
-    *walk = (ply_walk){
-        .header = header, .at = first + header->body, .last = first + input->size, .line = header->body_line};
+    return (unsigned char)c > ' ' || (!is_blank(c) && !is_line_end(c));
 }
 
 static void skip_blanks(ply_walk *walk)
 {
     while (walk->at < walk->last && is_blank(*walk->at))
-        walk->at++;
-}
-
-/* Moves to the end of the line. */
-static void skip_line(ply_walk *walk)
-{
-    while (walk->at < walk->last && !is_line_end(*walk->at))
         walk->at++;
 }
 
@@ -47,22 +39,42 @@ bool ffd_ply_walk_row(ply_walk *walk)
     }
 }
 
+static bool take_bytes(ply_walk *walk, ply_type type, text_word *word)
+{
+    const size_t size = ffd_ply_type_size(type);
+    const bool there = (size_t)(walk->last - walk->at) >= size;
+    word->first = walk->at;
+    walk->at += there ? size : 0;
+    word->last = walk->at;
+    return there;
+}
+
 bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word)
 {
-    word->first = word->last = walk->at;
-    if (walk->header->encoding != PLY_ASCII) {
-        const size_t size = ffd_ply_type_size(type);
-        if ((size_t)(walk->last - walk->at) < size)
-            return false;
-        word->last = walk->at += size;
-        return true;
-    }
-    skip_blanks(walk);
-    word->first = walk->at;
-    while (walk->at < walk->last && !is_blank(*walk->at) && !is_line_end(*walk->at))
-        walk->at++;
-    word->last = walk->at;
+    if (walk->header->encoding != PLY_ASCII)
+        return take_bytes(walk, type, word);
+    const char *at = walk->at;
+    while (at < walk->last && is_blank(*at))
+        at++;
+    word->first = at;
+    while (at < walk->last && is_of_word(*at))
+        at++;
+    word->last = walk->at = at;
     return word->first < word->last;
+}
+
+bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *count)
+{
+    text_scan scan = {.at = walk->at, .last = walk->last};
+    uint64_t whole;
+    if (walk->header->encoding == PLY_ASCII && ply_is_whole(type) &&
+        ffd_text_short_whole(&scan, word, &whole)) {
+        *count = (size_t)whole;
+        walk->at = scan.at;
+        return *count == whole;
+    }
+    return ffd_ply_walk_value(walk, type, word) &&
+           ffd_ply_load_count(walk->header->encoding, type, *word, count);
 }
 
 /* Moves past count values. */
@@ -86,28 +98,9 @@ bool ffd_ply_walk_skip(ply_walk *walk, const ply_property *property)
 {
     text_word word;
     size_t count = 1;
-    if (property->is_list &&
-        (!ffd_ply_walk_value(walk, property->count_type, &word) ||
-         !ffd_ply_load_count(walk->header->encoding, property->count_type, word, &count)))
+    if (property->is_list && !ffd_ply_walk_count(walk, property->count_type, &word, &count))
         return false;
     return skip_values(walk, property->type, count);
-}
-
-void ffd_ply_walk_skip_rows(ply_walk *walk, const ply_element *element)
-{
-    if (element->property_count == 0)
-        return;
-    if (walk->header->encoding != PLY_ASCII && !element->has_lists) {
-        walk->at += element->count * element->least;
-        return;
-    }
-    for (uint64_t row = 0; row < element->count; row++) {
-        ffd_ply_walk_row(walk);
-        if (walk->header->encoding == PLY_ASCII)
-            skip_line(walk);
-        for (size_t i = 0; i < element->property_count && walk->header->encoding != PLY_ASCII; i++)
-            ffd_ply_walk_skip(walk, &element->properties[i]);
-    }
 }
 
 typedef struct row_checker {
@@ -175,25 +168,43 @@ static ffd_status check_row(row_checker *c)
                : FFD_OK;
 }
 
-ffd_status ffd_ply_walk_check(const ply_header *header, const file_input *input, const char *name,
-                              size_t *behind, ffd_error *error)
+/* Rows of a fixed size were found to fit the file, unless lists are before them. */
+static bool is_fixed(const row_checker *c)
 {
+    const size_t left = (size_t)(c->walk.last - c->walk.at);
+    return c->walk.header->encoding != PLY_ASCII && !c->element->has_lists &&
+           c->element->count <= left / c->element->least;
+}
+
+static ffd_status check_rows(row_checker *c)
+{
+    ffd_status status = FFD_OK;
+    if (c->element->property_count == 0)
+        return FFD_OK;
+    if (is_fixed(c)) {
+        c->walk.at += c->element->count * c->element->least;
+        return FFD_OK;
+    }
+    for (c->row = 0; status == FFD_OK && c->row < c->element->count; c->row++)
+        status = check_row(c);
+    return status;
+}
+
+ffd_status ffd_ply_walk_check(ply_header *header, const file_input *input, const char *name, size_t *behind,
+                              ffd_error *error)
+{
+    const char *const first = (const char *)input->data;
     row_checker c = {.name = name, .error = error};
     ffd_status status = FFD_OK;
-    ffd_ply_walk_begin(header, input, &c.walk);
+    c.walk = (ply_walk){
+        .header = header, .at = first + header->body, .last = first + header->end, .line = header->body_line};
     for (size_t i = 0; status == FFD_OK && i < header->element_count; i++) {
         c.element = &header->elements[i];
-        /* Rows of a fixed size were found to fit the file, unless lists are before them. */
-        const size_t left = (size_t)(c.walk.last - c.walk.at);
-        const bool fixed = header->encoding != PLY_ASCII && !c.element->has_lists;
-        if (c.element->property_count == 0 || (fixed && c.element->count <= left / c.element->least)) {
-            ffd_ply_walk_skip_rows(&c.walk, c.element);
-            continue;
-        }
-        for (c.row = 0; status == FFD_OK && c.row < c.element->count; c.row++)
-            status = check_row(&c);
+        header->elements[i].begin = (size_t)(c.walk.at - first);
+        header->elements[i].begin_line = c.walk.line;
+        status = check_rows(&c);
     }
     ffd_ply_walk_row(&c.walk); /* empty lines are not counted as bytes behind */
-    *behind = (size_t)(c.walk.at - (const char *)input->data);
+    *behind = (size_t)(c.walk.at - first);
     return status;
 }

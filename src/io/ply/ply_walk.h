@@ -13,26 +13,22 @@ typedef struct ply_walk {
     size_t line; /* ascii: of at */
 } ply_walk;
 
-/* Begins a walk at the first row after the header. */
-void ffd_ply_walk_begin(const ply_header *header, const file_input *input, ply_walk *walk);
-
-/* For each element: its rows, each begun and ended; in a row, the properties. The following return false
+/* For an element: its rows, each begun and ended; in a row, the properties. The following return false
    where the file is not as the header says, which does not happen in one that ffd_ply_walk_check passed. */
 
 /* Goes to the next row. */
 bool ffd_ply_walk_row(ply_walk *walk);
-/* Takes the next value: a scalar, a list's count or one of its items. False (and *word is empty): it is not
-   there. */
+/* Takes the next value: a scalar, a list's count or one of its items. False (and *word is
+   empty): it is not there. */
 bool ffd_ply_walk_value(ply_walk *walk, ply_type type, text_word *word);
+/* Takes the next value as a list's count or an index. False: it is not one, and *word is what is there. */
+bool ffd_ply_walk_count(ply_walk *walk, ply_type type, text_word *word, size_t *count);
 /* Moves past a property, a list with all of its items. */
 bool ffd_ply_walk_skip(ply_walk *walk, const ply_property *property);
 
-/* Moves past all rows of an element of a file that was checked. */
-void ffd_ply_walk_skip_rows(ply_walk *walk, const ply_element *element);
-
-/* Goes through all rows and refuses what is not as the header says. *behind: the offset after the last row.
- */
-ffd_status ffd_ply_walk_check(const ply_header *header, const file_input *input, const char *name,
-                              size_t *behind, ffd_error *error);
+/* Goes through all rows, refuses what is not as the header says, and sets where the rows of each element
+   begin. *behind: the offset after the last row. */
+ffd_status ffd_ply_walk_check(ply_header *header, const file_input *input, const char *name, size_t *behind,
+                              ffd_error *error);
 
 #endif

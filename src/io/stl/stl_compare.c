@@ -1,8 +1,8 @@
-/* stl_compare.c - compares two STL files. Two STL files are the same mesh when their facets are the same one
-   by one. Corners and normals may differ by their tolerances; not so the two bytes after a binary file's
-   facet (0 for text), nor, where both files are text or both are binary, the solids with their names or the
-   header. How numbers are written, lines and blanks, and what follows a binary file's last facet are not
-   compared. */
+/* stl_compare.c - compares two STL files. Two STL files are the same mesh when their facets are the same
+   one by one. Corners and normals may differ by their tolerances; not so the two bytes after a binary
+   file's facet (0 for text), nor, where both files are text or both are binary, the solids with their
+   names or the header. How numbers are written, lines and blanks, and what follows a binary file's last
+   facet are not compared. */
 #include "io/stl/stl_document.h"
 #include "mesh/difference.h"
 #include <stdio.h>
@@ -27,7 +27,7 @@ typedef struct comparer {
 static void begin_side(stl_side *side, const stl_document *document)
 {
     *side = (stl_side){.document = document};
-    ffd_stl_text_begin(&side->text, document->file.input.data, document->file.input.size);
+    ffd_stl_text_begin(&side->text, document->file.input.data, document->file.input.size, NULL);
 }
 
 static void next_text_facet(stl_side *side)
@@ -57,8 +57,8 @@ static bool both_text(const comparer *c)
     return !c->a.document->binary && !c->b.document->binary;
 }
 
-/* "facet 3 counted from 0 (lines 20 and 21), corner 1"; lines where both files have them. A
-   difference_label. */
+/* "facet 3 counted from 0 (lines 20 and 21), corner 1"; lines where both files have
+   them. A difference_label. */
 static void format_place(const void *context, char *text, size_t capacity)
 {
     const comparer *c = context;
@@ -119,7 +119,7 @@ static void compare_facet(comparer *c)
     c->result->positions_compared += 3;
 }
 
-/* What is said before the facets. False: they cannot be matched. */
+/* Compares what is before the facets. Returns false if the facets cannot be matched. */
 static bool same_frame(comparer *c)
 {
     const stl_document *a = c->a.document, *b = c->b.document;

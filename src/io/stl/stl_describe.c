@@ -2,7 +2,7 @@
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
 
-/* Text of the file may have zeros in it, which become '?'. False when memory ran out. */
+/* Text of the file may have zeros in it, which become '?'. Returns false if memory ran out. */
 static bool write_text(json_text *json, const char *key, text_word text)
 {
     byte_buffer buffer = {0};
@@ -57,7 +57,7 @@ static bool describe_text(const stl_document *d, json_text *json)
     stl_facet facet;
     stl_event event;
     bool done = true;
-    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, NULL);
     ffd_json_array(json, "names", true);
     do {
         ffd_stl_text_step(&text, d->file.name, &facet, &event, NULL);

@@ -1,6 +1,8 @@
 #include "io/stl/stl_document.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "io/text/content.h"
 #include <float.h>
 #include <inttypes.h>
 #include <string.h>
@@ -36,21 +38,30 @@ static ffd_status refuse_facets(const stl_document *d, ffd_error *error)
                          STL_FACETS_MAX);
 }
 
+/* Bytes may be behind the facets, but not after a header by which other programs know their files. */
+static bool is_other_file(const file_input *input)
+{
+    const content_kind *const kind = ffd_content_kind(input->data, input->size);
+    return stated_size(input) < input->size && kind && kind->is_binary;
+}
+
 static ffd_status read_binary(stl_document *d, ffd_error *error)
 {
     if (d->file.input.size < STL_START)
-        return ffd_fail_file(
-            error, FFD_E_INVALID, d->file.name,
-            "is not an STL file: it neither begins with \"solid\" nor has, with %zu bytes, the "
-            "%d of a binary file's header",
-            d->file.input.size, STL_START);
+        return ffd_fail_file(error, FFD_E_INVALID, d->file.name,
+                             "is not an STL file: it neither begins with \"solid\" nor has, with %zu %s, the "
+                             "%d of a binary file's header",
+                             d->file.input.size, ffd_plural(d->file.input.size, "byte", "bytes"), STL_START);
     const uint32_t facets = load_u32(d->file.input.data + STL_HEADER);
     if (stated_size(&d->file.input) > d->file.input.size)
-        return ffd_fail_file(error, FFD_E_INVALID, d->file.name,
-                             "%" PRIu32 " facets are stated, which take %" PRIu64 " bytes: the file has %zu",
-                             facets, stated_size(&d->file.input), d->file.input.size);
+        return ffd_fail_file(
+            error, FFD_E_INVALID, d->file.name, "%" PRIu32 " %s %" PRIu64 " bytes: the file has %zu", facets,
+            ffd_plural(facets, "facet is stated, which takes", "facets are stated, which take"),
+            stated_size(&d->file.input), d->file.input.size);
     if (facets > STL_FACETS_MAX)
         return refuse_facets(d, error);
+    if (is_other_file(&d->file.input))
+        return ffd_fail_file(error, FFD_E_INVALID, d->file.name, "is not an STL file");
     d->facets = facets;
     return FFD_OK;
 }
@@ -73,14 +84,15 @@ static ffd_status read_text(stl_document *d, ffd_error *error)
     stl_facet facet;
     size_t capacity = 0;
     bool found = true;
-    ffd_status status = FFD_OK;
-    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
+    ffd_status status =
+        ffd_file_document_note_mark(&d->file, ffd_text_size(d->file.input.data, d->file.input.size), error);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, &d->file.base.flaws);
     while (status == FFD_OK && found) {
         status = ffd_stl_text_next(&text, d->file.name, &facet, &found, error);
         if (status == FFD_OK && found)
             status = add_facet(d, &facet, &capacity, error);
     }
-    /* Gives back what growing has reserved too much; where that fails the larger block is kept. */
+    /* Releases what growing has reserved too much; where that fails the larger block is kept. */
     double *block = ffd_realloc(d->file.positions, d->facets, 9 * sizeof *d->file.positions);
     d->file.positions = block ? block : d->file.positions;
     return status;
@@ -99,6 +111,8 @@ ffd_status ffd_stl_open(file_input *input, const ffd_source *source, mesh_docume
         return status;
     }
     d->file.part.vertex_count = 3 * d->facets;
+    for (size_t a = 0; a < 3; a++)
+        d->file.part.rounding.is_float[a] = d->binary;
     d->file.base.largest_coordinate = d->binary ? FLT_MAX : DBL_MAX;
     *document = ffd_file_document_ready(&d->file, !d->binary, source);
     return FFD_OK;

@@ -1,4 +1,5 @@
 /* stl_document.h - an STL file, ascii or binary, as a mesh document: one part, in the lattice's space.
+   Declares stl_document.c, stl_results.c, stl_normal.c.
 
    Each corner of each facet is a vertex, in the order of the file. A facet's normal is not the normal of a
    vertex: saving computes it anew from the corners. */
@@ -41,8 +42,8 @@ void ffd_stl_load(const unsigned char *bytes, double xyz[3]);
 /* Stores count numbers as floats of a binary file. */
 void ffd_stl_store(unsigned char *bytes, const double *values, size_t count);
 
-/* The right-hand normal of a facet with 9 coordinates, of length 1. False where they have no area beyond what
-   their rounding can make. */
+/* The right-hand normal of a facet with 9 coordinates, of length 1. Returns false if they have no area beyond
+   what their rounding can make. */
 bool ffd_stl_normal(const double corners[9], double normal[3]);
 
 /* The entries of the format's table. */
@@ -52,6 +53,7 @@ mesh_begin_results_function ffd_stl_begin_results;
 mesh_write_function ffd_stl_write_positions;
 mesh_save_function ffd_stl_save;
 mesh_faces_function ffd_stl_faces;
+mesh_mixed_faces_function ffd_stl_mixed_faces;
 mesh_model_function ffd_stl_model;
 mesh_describe_function ffd_stl_describe;
 mesh_compare_function ffd_stl_compare;

@@ -2,6 +2,8 @@
    would otherwise be separate triangles: the first of them represents all. */
 #include "base/memory/memory.h"
 #include "io/stl/stl_document.h"
+#include "mesh/mixed_faces.h"
+#include "mesh/positions.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -70,4 +72,71 @@ ffd_status ffd_stl_faces(const mesh_document *document, mesh_faces *faces, ffd_e
     join_corners(faces, keys);
     ffd_free(keys);
     return FFD_OK;
+}
+
+/* Whether some mark of the vertex is set. */
+static bool is_marked(const vertex_marks *marks, size_t vertex)
+{
+    unsigned any = 0;
+    for (size_t p = 0; p < marks->planes; p++)
+        any |= marks->bytes[p * marks->vertices + vertex];
+    return any != 0;
+}
+
+/* Lets the first vertices at their positions represent marked corners, as they do among all faces. The edges
+   go by the corners that are marked. */
+static ffd_status join_marked(const stl_document *d, const vertex_marks *marks, mesh_faces *faces,
+                              ffd_error *error)
+{
+    const size_t corners = faces->start[faces->face_count];
+    position_table table;
+    ffd_status status = ffd_budget_check(&d->file.base.budget, corners, POSITION_TABLE_BYTES, error);
+    if (!status)
+        status = ffd_positions_begin(&table, faces->positions, corners, error);
+    if (status)
+        return status;
+    for (size_t c = 0; c < corners; c++)
+        if (is_marked(marks, faces->corners[c]))
+            ffd_positions_add(&table, faces->corners[c]);
+    for (size_t v = 0; v < marks->vertices; v++) {
+        double position[3];
+        if (!is_marked(marks, v))
+            continue;
+        ffd_stl_read_positions(&d->file.base, 0, v, 1, position);
+        uint32_t *const first = ffd_positions_at(&table, position);
+        if (*first == UINT32_MAX || *first <= v)
+            continue;
+        memcpy(faces->positions + 3 * v, position, sizeof position);
+        *first = (uint32_t)v;
+    }
+    for (size_t c = 0; c < corners; c++)
+        if (is_marked(marks, faces->corners[c]))
+            faces->corners[c] = ffd_positions_add(&table, faces->corners[c]);
+    ffd_positions_end(&table);
+    return FFD_OK;
+}
+
+ffd_status ffd_stl_mixed_faces(const mesh_document *document, const vertex_marks *marks, mesh_faces *faces,
+                               ffd_error *error)
+{
+    const stl_document *d = ffd_stl_of(document);
+    face_list list = {0};
+    *faces = (mesh_faces){.vertex_count = marks->vertices};
+    for (uint32_t first = 0; first < marks->vertices; first += 3) {
+        const uint32_t corners[3] = {first, first + 1, first + 2};
+        if (!ffd_marks_differ(marks, corners, 3))
+            continue;
+        for (size_t c = 0; c < 3; c++)
+            ffd_face_list_corner(&list, corners[c]);
+        ffd_face_list_end(&list, marks);
+    }
+    ffd_status status = ffd_face_lists_join(document, &list, 1, faces, error);
+    ffd_free(list.words);
+    if (status)
+        return status;
+    ffd_file_document_fill_positions(&d->file, faces);
+    status = join_marked(d, marks, faces, error);
+    if (status)
+        ffd_mesh_faces_free(faces);
+    return status;
 }

@@ -14,6 +14,7 @@ const mesh_format ffd_stl_format = {
     .write_positions = ffd_stl_write_positions,
     .save = ffd_stl_save,
     .faces = ffd_stl_faces,
+    .mixed_faces = ffd_stl_mixed_faces,
     .model = ffd_stl_model,
     .describe = ffd_stl_describe,
     .compare = ffd_stl_compare,

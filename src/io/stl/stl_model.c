@@ -3,11 +3,12 @@
 #include "io/stl/stl_document.h"
 #include <string.h>
 
-/* Facets share no vertices in the file: corners at one position become one vertex. */
+/* Facets share no vertices in the file: corners at one position become one vertex. It is the file's position
+   that counts, so that a deformation that brings corners together changes no number of vertices. */
 typedef struct extractor {
     const stl_document *document;
     mesh_model *model;
-    intern_table positions; /* keys: 3 doubles */
+    intern_table positions; /* of the file. Keys: 3 doubles */
     char *name;             /* of the current solid */
     ffd_error *error;
 } extractor;
@@ -25,10 +26,7 @@ static ffd_status add_facet(extractor *e, size_t facet)
     double positions[9];
     model_corner corners[3];
     ffd_status status = FFD_OK;
-    if (e->document->file.new_positions)
-        memcpy(positions, e->document->file.new_positions + 9 * facet, sizeof positions);
-    else
-        ffd_stl_read_positions(&e->document->file.base, 0, 3 * facet, 3, positions);
+    ffd_stl_read_positions(&e->document->file.base, 0, 3 * facet, 3, positions);
     for (size_t c = 0; c < 3 && status == FFD_OK; c++) {
         corners[c] = (model_corner){0, MODEL_NONE, MODEL_NONE};
         status = find_vertex(e, positions + 3 * c, &corners[c].position);
@@ -53,7 +51,7 @@ static ffd_status take_text(extractor *e)
     stl_event event = STL_AT_SOLID;
     size_t seen = 0;
     ffd_status status = FFD_OK;
-    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, NULL);
     while (status == FFD_OK && event != STL_AT_END) {
         status = ffd_stl_text_step(&text, d->file.name, &facet, &event, e->error);
         if (status == FFD_OK && event == STL_AT_SOLID)
@@ -76,13 +74,28 @@ static ffd_status take_binary(extractor *e)
     return status;
 }
 
-static ffd_status copy_places(extractor *e)
+/* Gives each vertex the result of its first corner; those of the others are equal. The model's corners are
+   those of the file. */
+static void copy_results(extractor *e)
+{
+    const double *results = e->document->file.new_positions;
+    const model_list *faces = &e->model->lists[MODEL_FACES];
+    for (size_t i = faces->corner_count; i-- > 0;)
+        for (size_t a = 0; a < 3; a++)
+            e->model->positions[3 * (size_t)faces->corners[i].position + a] = results[3 * i + a] + 0.0;
+}
+
+static ffd_status fill_positions(extractor *e)
 {
     const size_t count = e->positions.count;
     const ffd_status status = ffd_model_make_values(e->model, count, 0, 0, e->error);
-    for (size_t i = 0; i < count && status == FFD_OK; i++)
+    if (status)
+        return status;
+    for (size_t i = 0; i < count; i++)
         memcpy(e->model->positions + 3 * i, ffd_intern_key(&e->positions, (uint32_t)i), 3 * sizeof(double));
-    return status;
+    if (e->document->file.new_positions)
+        copy_results(e);
+    return FFD_OK;
 }
 
 ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_error *error)
@@ -90,7 +103,7 @@ ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_e
     extractor e = {.document = ffd_stl_of(document), .model = model, .error = error};
     ffd_status status = e.document->binary ? take_binary(&e) : take_text(&e);
     if (status == FFD_OK)
-        status = copy_places(&e);
+        status = fill_positions(&e);
     ffd_intern_free(&e.positions);
     ffd_free(e.name);
     return status ? status : ffd_model_finish(model, error);

@@ -17,8 +17,8 @@ static void corners_before(const stl_document *d, size_t facet, double corners[9
 
 /* The normal of a moved facet, from its corners as they are written. It points to the side of the facet that
    the file's normal does: where the order of the corners says otherwise, the side of the file's normal is
-   kept. False where the normal is kept as it is: the corners give none, or it is zero, by which many programs
-   mean the normal of the corners. */
+   kept. Returns false if the normal is kept as it is: the corners give none, or it is zero, by which many
+   programs mean the normal of the corners. */
 static bool renew_normal(const stl_document *d, const double before[9], const double after[9],
                          const double old[3], double normal[3])
 {
@@ -62,7 +62,7 @@ static void write_facets(stl_saver *s)
     stl_text text;
     stl_facet facet;
     bool found;
-    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size);
+    ffd_stl_text_begin(&text, d->file.input.data, d->file.input.size, NULL);
     for (size_t i = 0; s->splice.status == FFD_OK && i < d->facets; i++) {
         const double *after = d->file.new_positions + 9 * i;
         double before[9];

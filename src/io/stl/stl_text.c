@@ -8,10 +8,10 @@ typedef struct text_reader {
     ffd_error *error;
 } text_reader;
 
-void ffd_stl_text_begin(stl_text *text, const void *data, size_t size)
+void ffd_stl_text_begin(stl_text *text, const void *data, size_t size, mesh_flaws *flaws)
 {
-    *text = (stl_text){0};
-    ffd_text_begin(&text->scan, data, size, false);
+    *text = (stl_text){.flaws = flaws};
+    ffd_text_begin(&text->scan, data, ffd_text_size(data, size), false);
 }
 
 bool ffd_stl_text_normal(text_word word, double *value)
@@ -116,11 +116,60 @@ static ffd_status begin_solid(text_reader *r, stl_text *text)
     return FFD_OK;
 }
 
+#define NOTE(reader, text, ...)                                                                              \
+    ((text)->flaws                                                                                           \
+         ? ffd_flaw_line((text)->flaws, (reader)->name, (text)->scan.line, (reader)->error, __VA_ARGS__)     \
+         : FFD_OK)
+
+/* Passes "color" and the numbers after it, if they are next. *passed: whether they were. */
+static ffd_status pass_colour(text_reader *r, stl_text *text, bool *passed)
+{
+    text_word word;
+    double value;
+    text_scan ahead = text->scan;
+    *passed = ffd_text_find(&ahead) && ffd_text_word(&ahead, &word) && ffd_text_is_any_case(word, "color");
+    if (!*passed)
+        return FFD_OK;
+    do
+        text->scan = ahead;
+    while (ffd_text_word(&ahead, &word) && ffd_text_number(word, &value));
+    return NOTE(r, text, "a line \"color\", which STL does not have, is kept as it is");
+}
+
+/* Takes "solid" where it follows "end", in two words. Returns whether it does. */
+static bool takes_second_word(text_scan *scan)
+{
+    text_scan ahead = *scan;
+    text_word word;
+    if (!ffd_text_word(&ahead, &word) || !ffd_text_is_any_case(word, "solid"))
+        return false;
+    *scan = ahead;
+    return true;
+}
+
+/* The word is not "facet": it must end the solid. */
+static ffd_status end_solid(text_reader *r, stl_text *text, text_word word)
+{
+    ffd_status status = FFD_OK;
+    if (ffd_text_is_any_case(word, "end") && takes_second_word(&text->scan))
+        status = NOTE(r, text, "\"endsolid\" is written as two words");
+    else if (!ffd_text_is_any_case(word, "endsolid"))
+        return refuse_word(r, "facet or endsolid", word);
+    take_name(&text->scan);
+    text->inside = false;
+    return status;
+}
+
 /* What follows the beginning of a solid or a facet of it. */
 static ffd_status step_inside(text_reader *r, stl_text *text, stl_facet *facet, stl_event *event)
 {
     text_word word;
-    const ffd_status status = take_word(r, "facet or endsolid", &word);
+    bool passed = true;
+    ffd_status status = FFD_OK;
+    while (status == FFD_OK && passed)
+        status = pass_colour(r, text, &passed);
+    if (status == FFD_OK)
+        status = take_word(r, "facet or endsolid", &word);
     if (status)
         return status;
     facet->line = text->scan.line;
@@ -128,11 +177,7 @@ static ffd_status step_inside(text_reader *r, stl_text *text, stl_facet *facet, 
         *event = STL_AT_FACET;
         return take_facet(r, facet);
     }
-    if (!ffd_text_is_any_case(word, "endsolid"))
-        return refuse_word(r, "facet or endsolid", word);
-    take_name(&text->scan);
-    text->inside = false;
-    return FFD_OK;
+    return end_solid(r, text, word);
 }
 
 ffd_status ffd_stl_text_step(stl_text *text, const char *name, stl_facet *facet, stl_event *event,

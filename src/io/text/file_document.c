@@ -15,7 +15,16 @@ void *ffd_file_document_make(size_t size, const file_input *input, const ffd_sou
     }
     d->input = *input;
     d->name = name;
+    d->base.flaws.strict = source->strict;
     return d;
+}
+
+ffd_status ffd_file_document_note_mark(file_document *d, size_t text_size, ffd_error *error)
+{
+    if (text_size == d->input.size)
+        return FFD_OK;
+    return ffd_flaw_line(&d->base.flaws, d->name, 0, error,
+                         "a Ctrl-Z, the end mark of old texts, ends the file");
 }
 
 mesh_document *ffd_file_document_ready(file_document *d, bool text, const ffd_source *source)
@@ -34,6 +43,7 @@ void ffd_file_document_free(file_document *d)
     ffd_free(d->directions);
     ffd_free(d->new_positions);
     ffd_free(d->new_directions);
+    ffd_free(d->used);
     ffd_free(d);
 }
 
@@ -120,4 +130,12 @@ ffd_status ffd_file_document_model(const file_document *d, size_t texcoords, mes
     ffd_vectors_read(positions, 0, count, model->positions);
     ffd_vectors_read(normals, 0, model->normal_count, model->normals);
     return FFD_OK;
+}
+
+void ffd_file_document_fill_positions(const file_document *d, mesh_faces *faces)
+{
+    for (size_t c = 0; c < faces->start[faces->face_count]; c++) {
+        const size_t vertex = faces->corners[c];
+        d->base.format->read_positions(&d->base, 0, vertex, 1, faces->positions + 3 * vertex);
+    }
 }

@@ -15,12 +15,15 @@ typedef struct file_document {
     double *directions;     /* normals; NULL: there are none, or they are not held */
     double *new_positions;  /* results; NULL before begin_results */
     double *new_directions; /* NULL: normals are kept */
+    uint8_t *used;          /* what part.used lends; or NULL */
 } file_document;
 
 /* Makes a document of size bytes, zeroed apart from its input and its name. The input is the caller's until
    opening has succeeded. Returns NULL after a failure. Errors: FFD_E_MEMORY. */
 void *ffd_file_document_make(size_t size, const file_input *input, const ffd_source *source,
                              ffd_error *error);
+/* Notes a Ctrl-Z that ends a text of text_size bytes (ffd_text_size), or refuses it. */
+ffd_status ffd_file_document_note_mark(file_document *document, size_t text_size, ffd_error *error);
 /* Ends opening: the document shows its part, whose counts are set, and gets its memory budget. Returns what
    the caller of mesh_open_function gets. */
 mesh_document *ffd_file_document_ready(file_document *document, bool text, const ffd_source *source);
@@ -28,9 +31,12 @@ mesh_document *ffd_file_document_ready(file_document *document, bool text, const
 void ffd_file_document_free(file_document *document);
 
 /* Makes the values of an empty model: the part's vertices and normals, with the results where there are some,
-   and so many texture coordinates, all 0. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+   and this many texture coordinates, all 0. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_file_document_model(const file_document *document, size_t texcoords, mesh_model *model,
                                    ffd_error *error);
+
+/* Fills in the positions of the faces' vertices; of others there are none. */
+void ffd_file_document_fill_positions(const file_document *document, mesh_faces *faces);
 
 /* Entries of the formats' tables, for formats whose vectors are in the four arrays. */
 mesh_close_function ffd_file_document_close;

@@ -15,7 +15,7 @@ typedef struct file_splice {
     ffd_error *error;
     ffd_status status;         /* the first failure; nothing is written after it */
     const char *copied, *last; /* the file is copied up to here, and ends there */
-    size_t released;           /* bytes of the file whose memory is given back (ffd_file_release_until) */
+    size_t released;           /* bytes of the file whose pages are released (ffd_file_release_until) */
     byte_buffer *text;         /* of a part: the buffer for its bytes; NULL: they go to output */
 } file_splice;
 
@@ -38,7 +38,7 @@ void ffd_splice_replace(file_splice *splice, text_word word, const void *bytes, 
    array of the numbers, or NULL. */
 void ffd_splice_numbers(file_splice *splice, const text_word *words, const double *numbers, unsigned changes,
                         size_t count, decimal_run *run);
-/* Copies the rest of the file and gives back its memory. Returns the first failure, if any. */
+/* Copies the rest of the file and releases its pages. Returns the first failure, if any. */
 ffd_status ffd_splice_end(file_splice *splice);
 
 #endif

@@ -18,12 +18,33 @@ static int class_of(const text_scan *scan, const char *at)
     return class == HASH && !scan->comments ? ORDINARY : class;
 }
 
+bool ffd_text_has_mark(const void *data, size_t size)
+{
+    return size >= TEXT_MARK_SIZE && memcmp(data, "\xEF\xBB\xBF", TEXT_MARK_SIZE) == 0;
+}
+
+#define CTRL_Z '\x1a'
+
+size_t ffd_text_size(const void *data, size_t size)
+{
+    const char *const first = data, *at = first + size;
+    size_t text = size;
+    for (; at > first; at--) {
+        const int class = classes[(unsigned char)at[-1]];
+        if (at[-1] == CTRL_Z)
+            text = (size_t)(at - 1 - first);
+        else if (class != BLANK && class != LINE_END)
+            break;
+    }
+    return text;
+}
+
 void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comments)
 {
     const char *first = data;
     *scan = (text_scan){.at = first, .last = first + size, .line = 1, .comments = comments};
-    if (size >= 3 && memcmp(first, "\xEF\xBB\xBF", 3) == 0)
-        scan->at += 3;
+    if (ffd_text_has_mark(data, size))
+        scan->at += TEXT_MARK_SIZE;
 }
 
 bool ffd_text_word(text_scan *scan, text_word *word)
@@ -36,6 +57,24 @@ bool ffd_text_word(text_scan *scan, text_word *word)
         at++;
     word->last = scan->at = at;
     return word->first < word->last;
+}
+
+bool ffd_text_short_whole(text_scan *scan, text_word *word, uint64_t *value)
+{
+    const char *at = scan->at;
+    uint64_t number = 0;
+    while (at < scan->last && class_of(scan, at) == BLANK)
+        at++;
+    const char *const first = at;
+    for (unsigned digit; at < scan->last && (digit = (unsigned)(*at - '0')) < 10; at++)
+        number = number * 10 + digit;
+    const ptrdiff_t digits = at - first;
+    if (digits == 0 || digits > TEXT_SHORT_DIGITS || (at < scan->last && class_of(scan, at) == ORDINARY))
+        return false;
+    *word = (text_word){first, at};
+    scan->at = at;
+    *value = number;
+    return true;
 }
 
 bool ffd_text_next_line(text_scan *scan)

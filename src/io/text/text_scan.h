@@ -18,11 +18,22 @@ typedef struct text_scan {
     bool comments; /* # starts a comment to the end of its line, also right after a word */
 } text_scan;
 
+/* Whether a text begins with a byte order mark (UTF-8). */
+bool ffd_text_has_mark(const void *data, size_t size);
+#define TEXT_MARK_SIZE 3
+/* The size of a text without the mark by which old programs of DOS end one (Ctrl-Z, which may follow the last
+   word at once), and without what is behind it, if these are blanks and line ends. */
+size_t ffd_text_size(const void *data, size_t size);
 /* Begins a scan of these bytes, which must stay as long as it is used. */
 void ffd_text_begin(text_scan *scan, const void *data, size_t size, bool comments);
 /* Takes the next word of the current line. False (and *word is empty) where there is none left. */
 bool ffd_text_word(text_scan *scan, text_word *word);
-/* Moves past the end of the current line. False where the file ends with it. */
+/* Digits of whole numbers that are all below 2^53. */
+#define TEXT_SHORT_DIGITS 15
+/* Takes the next word of the current line where it is a whole number of so few digits, as nearly all are: it
+   is gone over once. False: nothing is taken. */
+bool ffd_text_short_whole(text_scan *scan, text_word *word, uint64_t *value);
+/* Moves past the end of the current line. Returns false if the file ends with it. */
 bool ffd_text_next_line(text_scan *scan);
 /* Moves to the next word, in this line or a later one. False at the end of the file. */
 bool ffd_text_find(text_scan *scan);

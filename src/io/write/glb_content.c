@@ -1,8 +1,9 @@
 /* glb_content.c - the binary content of a new glTF file. */
 #include "base/little_endian.h"
 #include "io/gltf/file/base64.h"
-#include "io/gltf/file/glb.h"
+#include "io/write/glb_values.h"
 #include "io/write/glb_writer.h"
+#include "mesh/srgb.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -44,16 +45,32 @@ static void put_floats(gltf_writer *w, const float *values, size_t count)
     }
 }
 
+static void put_u16(gltf_writer *w, uint16_t value)
+{
+    const unsigned char bytes[2] = {value & 255, (unsigned char)(value >> 8)};
+    put_bytes(w, bytes, sizeof bytes);
+}
+
+/* Alpha is linear in all formats. */
+static void put_byte_colour(gltf_writer *w, const double colour[4])
+{
+    for (size_t c = 0; c < 4; c++) {
+        const unsigned char byte = (unsigned char)floor(255 * colour[c] + 0.5);
+        put_u16(w, c < 3 ? w->linear_of_bytes[byte] : (uint16_t)(257 * byte));
+    }
+}
+
 static void put_colour(gltf_writer *w, const model_corner *vertex)
 {
     const double *colour = w->model->colours + 4 * (size_t)vertex->position;
+    if (w->byte_colours) {
+        put_byte_colour(w, colour);
+        return;
+    }
     for (size_t c = 0; c < 4; c++) {
-        const unsigned char byte = w->byte_colours ? (unsigned char)floor(255 * colour[c] + 0.5) : 0;
-        const float value = fabs(colour[c]) <= (double)FLT_MAX ? (float)colour[c] : 1;
-        if (w->byte_colours)
-            put_bytes(w, &byte, 1);
-        else
-            put_floats(w, &value, 1);
+        const double linear = c < 3 ? ffd_srgb_to_linear(colour[c]) : colour[c];
+        const float value = fabs(linear) <= (double)FLT_MAX ? (float)linear : 1;
+        put_floats(w, &value, 1);
     }
 }
 
@@ -62,7 +79,7 @@ static void put_vertex(gltf_writer *w, const model_corner *vertex, int view)
     float values[3] = {0, 0, 0};
     switch (view) {
     case VIEW_POSITIONS:
-        ffd_glb_position(w->model, vertex->position, values);
+        ffd_glb_position(w->model, w->origin, vertex->position, values);
         break;
     case VIEW_NORMALS:
         ffd_glb_normal(w->model, vertex->normal, values);

@@ -1,11 +1,12 @@
 /* glb_json.c - the JSON of a new glTF file. */
 #include "base/memory/memory.h"
+#include "io/write/glb_values.h"
 #include "io/write/glb_writer.h"
 #include <ffd/version.h>
 #include <math.h>
 #include <string.h>
 
-enum { TYPE_U8 = 5121, TYPE_U16 = 5123, TYPE_U32 = 5125, TYPE_FLOAT = 5126 };
+enum { TYPE_U16 = 5123, TYPE_U32 = 5125, TYPE_FLOAT = 5126 };
 enum { TARGET_VERTICES = 34962, TARGET_INDICES = 34963 };
 
 static void add_views(gltf_writer *w)
@@ -39,14 +40,17 @@ static void begin_accessor(gltf_writer *w, int view, size_t element, int compone
     w->filled[view] += element * count;
 }
 
-typedef void value_of_position(const mesh_model *model, uint32_t number, float values[3]);
-
-static void add_bounds(gltf_writer *w, const glb_primitive *primitive, value_of_position *read)
+/* Of positions, or of their offsets. */
+static void add_bounds(gltf_writer *w, const glb_primitive *primitive, int view)
 {
     double least[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, largest[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (size_t i = 0; i < primitive->vertex_count; i++) {
+        const uint32_t position = w->plan.vertices[primitive->first_vertex + i].position;
         float values[3];
-        read(w->model, w->plan.vertices[primitive->first_vertex + i].position, values);
+        if (view == VIEW_POSITIONS)
+            ffd_glb_position(w->model, w->origin, position, values);
+        else
+            ffd_glb_position_offset(w->model, position, values);
         for (size_t a = 0; a < 3; a++) {
             const double value = values[a];
             least[a] = value < least[a] ? value : least[a];
@@ -60,7 +64,7 @@ static void add_bounds(gltf_writer *w, const glb_primitive *primitive, value_of_
 static void add_offsets_of(gltf_writer *w, const glb_primitive *primitive)
 {
     begin_accessor(w, VIEW_POSITION_OFFSETS, 12, TYPE_FLOAT, primitive->vertex_count, "VEC3");
-    add_bounds(w, primitive, ffd_glb_position_offset);
+    add_bounds(w, primitive, VIEW_POSITION_OFFSETS);
     ffd_json_end(&w->json, '}');
     if (!primitive->normals)
         return;
@@ -72,7 +76,7 @@ static void add_accessors_of(gltf_writer *w, const glb_primitive *primitive)
 {
     const size_t count = primitive->vertex_count;
     begin_accessor(w, VIEW_POSITIONS, 12, TYPE_FLOAT, count, "VEC3");
-    add_bounds(w, primitive, ffd_glb_position);
+    add_bounds(w, primitive, VIEW_POSITIONS);
     ffd_json_end(&w->json, '}');
     if (primitive->normals) {
         begin_accessor(w, VIEW_NORMALS, 12, TYPE_FLOAT, count, "VEC3");
@@ -83,7 +87,7 @@ static void add_accessors_of(gltf_writer *w, const glb_primitive *primitive)
         ffd_json_end(&w->json, '}');
     }
     if (w->model->colours) {
-        begin_accessor(w, VIEW_COLOURS, glb_colour_size(w), w->byte_colours ? TYPE_U8 : TYPE_FLOAT, count,
+        begin_accessor(w, VIEW_COLOURS, glb_colour_size(w), w->byte_colours ? TYPE_U16 : TYPE_FLOAT, count,
                        "VEC4");
         if (w->byte_colours)
             ffd_json_bool(&w->json, "normalized", true);
@@ -204,6 +208,8 @@ static void add_nodes(gltf_writer *w)
         ffd_json_object(&w->json, NULL, true);
         add_name(w, m);
         ffd_json_count(&w->json, "mesh", m);
+        if (w->is_far)
+            ffd_json_vector(&w->json, "translation", w->origin, 3);
         ffd_json_end(&w->json, '}');
     }
     ffd_json_end(&w->json, ']');

@@ -1,7 +1,7 @@
 #include "io/write/glb_plan.h"
 #include "base/memory/memory.h"
+#include "io/write/glb_values.h"
 #include "io/write/triangles.h"
-#include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -276,7 +276,7 @@ static ffd_status number_vertices(planner *p, glb_primitive *primitive, size_t d
     return FFD_OK;
 }
 
-/* At most as many vertices as corners are drawn; what is left over is given back. */
+/* At most as many vertices as corners are drawn; the rest is released. */
 static ffd_status make_room(planner *p)
 {
     glb_plan *plan = p->plan;
@@ -337,17 +337,21 @@ static bool is_moved(const glb_plan *plan, const glb_primitive *primitive)
     return false;
 }
 
-/* A mesh has the target where something in it moves: then all its primitives have it. */
+/* A mesh has the target where something in it moves: then all its primitives have it. Where nothing moves at
+   all every mesh has it. */
 static ffd_status mark_morphs(glb_plan *plan, ffd_error *error)
 {
     bool *meshes = ffd_alloc_zero(plan->meshes.count, sizeof *meshes);
     if (!meshes)
         return ffd_fail_memory(error);
+    bool any = false;
+    for (size_t i = 0; i < plan->primitive_count; i++) {
+        bool *const moved = &meshes[plan->primitives[i].mesh];
+        *moved = *moved || is_moved(plan, &plan->primitives[i]);
+        any = any || *moved;
+    }
     for (size_t i = 0; i < plan->primitive_count; i++)
-        meshes[plan->primitives[i].mesh] =
-            meshes[plan->primitives[i].mesh] || is_moved(plan, &plan->primitives[i]);
-    for (size_t i = 0; i < plan->primitive_count; i++)
-        plan->primitives[i].morphs = meshes[plan->primitives[i].mesh];
+        plan->primitives[i].morphs = !any || meshes[plan->primitives[i].mesh];
     ffd_free(meshes);
     return FFD_OK;
 }

@@ -33,15 +33,4 @@ ffd_status ffd_glb_make_plan(const mesh_model *model, glb_plan *plan, ffd_error 
 /* Frees the arrays of a plan. */
 void ffd_glb_free_plan(glb_plan *plan);
 
-/* The values of a vertex as the file has them. */
-void ffd_glb_texcoord(const mesh_model *model, uint32_t number, float values[2]);
-/* A unit vector; false where the model's normal has no direction. */
-bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3]);
-/* The position of a vertex, as the file has it. */
-void ffd_glb_position(const mesh_model *model, uint32_t number, float values[3]);
-/* What the morph target adds to it. */
-void ffd_glb_position_offset(const mesh_model *model, uint32_t number, float values[3]);
-/* What it adds to the normal. */
-void ffd_glb_normal_offset(const mesh_model *model, uint32_t number, float values[3]);
-
 #endif

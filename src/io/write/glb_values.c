@@ -1,6 +1,5 @@
-/* glb_values.c - the numbers of a vertex as a new glTF file holds them. */
+#include "io/write/glb_values.h"
 #include "base/vector/vec.h"
-#include "io/write/glb_plan.h"
 #include <float.h>
 #include <math.h>
 
@@ -30,10 +29,10 @@ bool ffd_glb_normal(const mesh_model *model, uint32_t number, float values[3])
     return direction(model->normals + 3 * (size_t)number, values);
 }
 
-void ffd_glb_position(const mesh_model *model, uint32_t number, float values[3])
+void ffd_glb_position(const mesh_model *model, const double origin[3], uint32_t number, float values[3])
 {
     for (size_t a = 0; a < 3; a++)
-        values[a] = (float)model->positions[3 * (size_t)number + a];
+        values[a] = (float)(model->positions[3 * (size_t)number + a] - origin[a]);
 }
 
 void ffd_glb_position_offset(const mesh_model *model, uint32_t number, float values[3])

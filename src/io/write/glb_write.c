@@ -1,10 +1,13 @@
 /* glb_write.c - writes a model as a new .glb or .gltf file. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/number.h"
 #include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
+#include "io/write/glb_origin.h"
 #include "io/write/glb_writer.h"
 #include "io/write/write.h"
+#include "mesh/srgb.h"
 #include <float.h>
 #include <string.h>
 
@@ -38,10 +41,14 @@ static ffd_status begin(gltf_writer *w, const mesh_model *model, ffd_error *erro
     w->model = model;
     w->error = error;
     w->byte_colours = ffd_model_colours_fit_bytes(model);
+    for (unsigned byte = 0; byte < 256 && model->colours && w->byte_colours; byte++)
+        w->linear_of_bytes[byte] = ffd_srgb_byte_to_linear(byte);
     const ffd_status status = ffd_glb_make_plan(model, &w->plan, error);
-    if (status == FFD_OK)
-        measure(w);
-    return status;
+    if (status)
+        return status;
+    w->is_far = ffd_glb_origin(&w->plan, w->origin);
+    measure(w);
+    return FFD_OK;
 }
 
 static void end(gltf_writer *w)
@@ -105,11 +112,9 @@ static char *bin_name(const char *path)
     return ffd_buffer_finish(&name);
 }
 
-static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options, const char *name,
-                               bool *replaces)
+static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options, const char *name)
 {
     char *folder = ffd_path_folder(options->path), *path = folder ? ffd_path_join(folder, name) : NULL;
-    *replaces = path && ffd_file_exists(path);
     if (!path)
         w->sink.status = ffd_fail_memory(w->error);
     else if (options->input && ffd_file_same(options->input, path))
@@ -125,7 +130,6 @@ static ffd_status put_bin_file(gltf_writer *w, const mesh_save_options *options,
 
 static ffd_status put_files(gltf_writer *w, const mesh_save_options *options)
 {
-    bool replaces = false;
     char *name = bin_name(options->path), *uri = name ? ffd_uri_encode(name) : NULL;
     ffd_status status = uri ? FFD_OK : ffd_fail_memory(w->error);
     if (status == FFD_OK)
@@ -133,11 +137,9 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options)
     if (status == FFD_OK && w->text.failed)
         status = ffd_fail_memory(w->error);
     if (status == FFD_OK && w->total > 0)
-        status = put_bin_file(w, options, name, &replaces);
+        status = put_bin_file(w, options, name);
     if (status == FFD_OK)
         status = ffd_output_begin(w->sink.output, options->path, options->force, w->error);
-    if (status == FFD_OK && replaces)
-        ffd_output_remove_first(w->sink.output);
     if (status == FFD_OK)
         status = ffd_output_write(w->sink.output, w->text.data, w->text.size, w->error);
     ffd_free(name);
@@ -145,8 +147,18 @@ static ffd_status put_files(gltf_writer *w, const mesh_save_options *options)
     return status;
 }
 
+static void tell_origin(const gltf_writer *w, const mesh_log *log)
+{
+    char texts[3][FFD_NUMBER_CAPACITY];
+    for (int a = 0; a < 3; a++)
+        texts[a][ffd_number_format(w->origin[a], texts[a])] = 0;
+    ffd_log_line(log, FFD_LOG_INFO,
+                 "details are too far from the origin for floats: the nodes have a translation, (%s, %s, %s)",
+                 texts[0], texts[1], texts[2]);
+}
+
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                        bool binary, ffd_error *error)
+                        const mesh_log *log, bool binary, ffd_error *error)
 {
     const bool files = !binary && !ffd_output_is_stream(options->path);
     gltf_writer *w = ffd_alloc_zero(1, sizeof *w);
@@ -158,26 +170,28 @@ static ffd_status write(const mesh_model *model, const mesh_save_options *option
     w->sink = (model_sink){output, error, status};
     if (status == FFD_OK)
         status = files ? put_files(w, options) : binary ? put_glb(w, options->path) : put_stream(w);
+    if (status == FFD_OK && w->is_far)
+        tell_origin(w, log);
     end(w);
     return status;
 }
 
 static ffd_status write_glb(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                            ffd_error *error)
+                            const mesh_log *log, ffd_error *error)
 {
-    return write(model, options, output, true, error);
+    return write(model, options, output, log, true, error);
 }
 
 static ffd_status write_gltf(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                             ffd_error *error)
+                             const mesh_log *log, ffd_error *error)
 {
-    return write(model, options, output, false, error);
+    return write(model, options, output, log, false, error);
 }
 
 #define HOLDS                                                                                                \
-    (MODEL_HAS_NORMALS | MODEL_HAS_CORNER_NORMALS | MODEL_HAS_POINT_NORMALS | MODEL_HAS_TEXCOORDS |          \
-     MODEL_HAS_CORNER_TEXCOORDS | MODEL_HAS_COLOURS | MODEL_HAS_ALPHA | MODEL_HAS_LINES | MODEL_HAS_POINTS | \
-     MODEL_HAS_OBJECTS | MODEL_HAS_GROUPS | MODEL_HAS_MATERIAL_NAMES)
+    (MODEL_HAS_FINE_POSITIONS | MODEL_HAS_NORMALS | MODEL_HAS_CORNER_NORMALS | MODEL_HAS_POINT_NORMALS |     \
+     MODEL_HAS_TEXCOORDS | MODEL_HAS_CORNER_TEXCOORDS | MODEL_HAS_COLOURS | MODEL_HAS_ALPHA |                \
+     MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_OBJECTS | MODEL_HAS_GROUPS | MODEL_HAS_MATERIAL_NAMES)
 
 const model_target ffd_glb_target = {
     .name = "glTF", .holds = HOLDS, .largest_coordinate = FLT_MAX, .write = write_glb};

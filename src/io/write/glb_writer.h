@@ -29,7 +29,10 @@ enum {
 typedef struct gltf_writer {
     const mesh_model *model;
     glb_plan plan;
-    bool byte_colours;
+    bool is_far;                   /* the nodes do not stand at the origin, but at this place */
+    double origin[3];              /* else zeros */
+    bool byte_colours;             /* colours are bytes of sRGB, which 16 linear bits tell apart */
+    uint16_t linear_of_bytes[256]; /* what these are */
     size_t sizes[VIEW_COUNT], begins[VIEW_COUNT], numbers[VIEW_COUNT], filled[VIEW_COUNT], total;
     byte_buffer text;
     json_text json;
@@ -48,7 +51,7 @@ static inline bool glb_has_short_indices(const glb_primitive *primitive)
 
 static inline size_t glb_colour_size(const gltf_writer *w)
 {
-    return w->byte_colours ? 4 : 16;
+    return w->byte_colours ? 8 : 16;
 }
 
 /* Makes the JSON in text; w->text.failed: memory ran out. uri is that of the buffer, NULL: it is the BIN

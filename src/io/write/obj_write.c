@@ -2,7 +2,6 @@
 #include "io/write/sink.h"
 #include "io/write/write.h"
 #include <float.h>
-#include <string.h>
 
 static void write_values(model_sink *sink, const mesh_model *model)
 {
@@ -26,7 +25,7 @@ static void write_values(model_sink *sink, const mesh_model *model)
 }
 
 /* A name is one line: line ends and other controls in it become '_', and so does a backslash at its end,
-   which would join the next line. Where names end there is no word for "none": "default" is written, the name
+   which would join the next line. OBJ has no statement that ends a name: "default" is written, the name
    that a file begins with. */
 static void write_name(model_sink *sink, const char *keyword, const char *name)
 {
@@ -84,10 +83,14 @@ static void write_elements(model_sink *sink, const mesh_model *model, size_t run
 }
 
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                        ffd_error *error)
+                        const mesh_log *log, ffd_error *error)
 {
     model_sink sink = {output, error, ffd_output_begin(output, options->path, options->force, error)};
+    (void)log;
     write_values(&sink, model);
+    /* A file without one statement is no OBJ file. */
+    if (model->position_count == 0 && (model->run_count == 0 || model->runs[0].object == MODEL_NONE))
+        write_name(&sink, "o", NULL);
     for (size_t run = 0; run < model->run_count && sink.status == FFD_OK; run++) {
         write_names(&sink, model, run);
         for (int k = 0; k < MODEL_KINDS; k++)

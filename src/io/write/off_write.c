@@ -42,8 +42,8 @@ static void write_named(model_sink *sink, const double *values, size_t numbers, 
     ffd_sink_numbers(sink, number == MODEL_NONE ? zeros : values + numbers * number, numbers);
 }
 
-/* Whole numbers up to 255, as most files have them; else numbers with a decimal point, which marks the other
-   scale. */
+/* Writes whole numbers up to 255, as in most files, or numbers with a decimal point, which tells readers
+   that the scale is 0 to 1. */
 static void write_colour(model_sink *sink, const off_plan *plan, size_t vertex)
 {
     for (size_t c = 0; c < 4; c++) {
@@ -108,10 +108,11 @@ static void write_lines(model_sink *sink, const model_list *list)
 }
 
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                        ffd_error *error)
+                        const mesh_log *log, ffd_error *error)
 {
     off_plan plan;
     model_sink sink = {output, error, make_plan(model, &plan, error)};
+    (void)log;
     if (sink.status == FFD_OK)
         sink.status = ffd_output_begin(output, options->path, options->force, error);
     write_header(&sink, &plan);

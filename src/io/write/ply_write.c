@@ -52,7 +52,7 @@ static void write_header(model_sink *sink, const ply_plan *plan)
     if (plan->values.normals)
         ffd_sink_text(sink, "property double nx\nproperty double ny\nproperty double nz\n");
     if (plan->values.texcoords)
-        ffd_sink_text(sink, "property double s\nproperty double t\n");
+        ffd_sink_text(sink, "property float s\nproperty float t\n");
     if (model->colours)
         ffd_sink_text(sink, plan->byte_colours
                                 ? "property uchar red\nproperty uchar green\nproperty uchar blue\n"
@@ -65,8 +65,8 @@ static void write_header(model_sink *sink, const ply_plan *plan)
         ffd_sink_text(sink, index);
         ffd_sink_text(sink, " vertex_indices\n");
         if (plan->corner_texcoords)
-            ffd_sink_text(sink, 2 * plan->longest > LARGEST_UCHAR ? "property list int double texcoord\n"
-                                                                  : "property list uchar double texcoord\n");
+            ffd_sink_text(sink, 2 * plan->longest > LARGEST_UCHAR ? "property list int float texcoord\n"
+                                                                  : "property list uchar float texcoord\n");
     }
     if (plan->edges > 0) {
         write_element(sink, "edge", plan->edges);
@@ -84,6 +84,13 @@ static void write_values(model_sink *sink, const double *values, size_t numbers,
 {
     for (size_t i = 0; i < numbers; i++)
         ffd_sink_double(sink, number == MODEL_NONE ? 0 : values[numbers * number + i]);
+}
+
+/* Many programs pass over texture coordinates that are doubles. */
+static void write_texcoord(model_sink *sink, const ply_plan *plan, uint32_t number)
+{
+    for (size_t i = 0; i < 2; i++)
+        ffd_sink_float(sink, number == MODEL_NONE ? 0 : plan->model->texcoords[2 * (size_t)number + i]);
 }
 
 static void write_colour(model_sink *sink, const ply_plan *plan, size_t vertex)
@@ -106,7 +113,7 @@ static void write_vertices(model_sink *sink, const ply_plan *plan)
         if (plan->values.normals)
             write_values(sink, model->normals, 3, plan->values.normals[i]);
         if (plan->values.texcoords)
-            write_values(sink, model->texcoords, 2, plan->values.texcoords[i]);
+            write_texcoord(sink, plan, plan->values.texcoords[i]);
         if (model->colours)
             write_colour(sink, plan, i);
     }
@@ -134,7 +141,7 @@ static void write_faces(model_sink *sink, const ply_plan *plan)
             continue;
         write_list_count(sink, 2 * plan->longest, 2 * count);
         for (size_t c = 0; c < count; c++)
-            write_values(sink, plan->model->texcoords, 2, corners[c].texcoord);
+            write_texcoord(sink, plan, corners[c].texcoord);
     }
 }
 
@@ -152,10 +159,11 @@ static void write_edges(model_sink *sink, const ply_plan *plan)
 }
 
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                        ffd_error *error)
+                        const mesh_log *log, ffd_error *error)
 {
     ply_plan plan;
     model_sink sink = {output, error, make_plan(model, &plan, error)};
+    (void)log;
     if (sink.status == FFD_OK && plan.longest > INT32_MAX / 2)
         sink.status = ffd_fail_file(error, FFD_E_LIMIT, options->path,
                                     "a face has %zu corners, more than a PLY list can hold", plan.longest);
@@ -176,5 +184,6 @@ const model_target ffd_ply_target = {
              MODEL_HAS_CORNER_TEXCOORDS | MODEL_HAS_COLOURS | MODEL_HAS_ALPHA | MODEL_HAS_POLYGONS |
              MODEL_HAS_LINES | MODEL_HAS_POINTS | MODEL_HAS_LOOSE,
     .largest_coordinate = DBL_MAX,
+    .takes_not_finite = true, /* organized scans have NaN where nothing was measured */
     .write = write,
 };

@@ -36,13 +36,14 @@ static ffd_status write_face(model_sink *sink, const mesh_model *model, face_tri
 }
 
 static ffd_status write(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                        ffd_error *error)
+                        const mesh_log *log, ffd_error *error)
 {
     /* Readers take a file that begins with "solid" for text. */
     static const char header[STL_HEADER] = "binary STL";
     const model_list *faces = &model->lists[MODEL_FACES];
     const size_t triangles = model_triangle_count(model);
     face_triangles scratch = {0};
+    (void)log;
     if (triangles > UINT32_MAX)
         return ffd_fail_file(error, FFD_E_LIMIT, options->path,
                              "would have %zu triangles, more than an STL's %" PRIu32, triangles, UINT32_MAX);

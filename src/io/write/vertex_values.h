@@ -1,5 +1,5 @@
-/* vertex_values.h - the normals and texture coordinates of a model for formats that hold one of each per
-   vertex. */
+/* vertex_values.h - the normals and texture coordinates of a model for formats that hold
+   one of each per vertex. */
 #ifndef FFD_IO_WRITE_VERTEX_VALUES_H
 #define FFD_IO_WRITE_VERTEX_VALUES_H
 

@@ -1,4 +1,4 @@
-/* write.h - writes a model as a file of a format. */
+/* write.h - writes a model as a file of a format. target.c finds the writer; each X_write.c is one. */
 #ifndef FFD_IO_WRITE_WRITE_H
 #define FFD_IO_WRITE_WRITE_H
 
@@ -10,10 +10,13 @@ typedef struct model_target {
     const char *name;          /* "OBJ" */
     uint32_t holds;            /* of model_feature */
     double largest_coordinate; /* that its numbers can hold */
-    /* Writes the file (and what belongs to it) into output. Positions are finite and not larger than
-       largest_coordinate. Errors: FFD_E_LIMIT, FFD_E_MEMORY and those of output. */
+    bool takes_not_finite;     /* readers of the format take NaN and infinity */
+    /* Writes the file (and what belongs to it) into output, and tells what is not lost but otherwise than in
+       the model. The positions that are written are not larger than largest_coordinate, and finite unless
+       takes_not_finite. Errors: FFD_E_LIMIT,
+       FFD_E_MEMORY and those of output. */
     ffd_status (*write)(const mesh_model *model, const mesh_save_options *options, file_output *output,
-                        ffd_error *error);
+                        const mesh_log *log, ffd_error *error);
 } model_target;
 
 /* NULL for FFD_FORMAT_AUTO. */

@@ -1,10 +1,19 @@
 #include "job/chain/chain_load.h"
 #include "base/memory/memory.h"
-#include "embed/frame/frame.h"
 #include "embed/locator.h"
+#include "embed/locator_border.h"
 #include "job/chain/job_cache.h"
+#include "job/chain/lattice_memory.h"
+#include "job/chain/mesh_boxes.h"
 #include "job/input/embedding_file.h"
+#include "job/input/shown_box.h"
 #include "lattice/lattice.h"
+#include "lattice/spec_set.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Lattices of a job. */
+#define MOST_LATTICES 1024
 
 /* The lattice of a job before, if it is this one. */
 static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_t i)
@@ -17,40 +26,135 @@ static void borrow_lattice(const chain_files *files, lattice_chain *chain, size_
     ffd_cache_lend_lattice(chain->share, link);
 }
 
+/* Fits the lattice, unless its box goes round the mesh of the job. */
+static ffd_status fit(const chain_files *files, ffd_share *share, chain_link *link, bool *fitted,
+                      ffd_error *error)
+{
+    const bool names_meshes = ffd_lattice_get_mesh_count(link->lattice) > 0;
+    mesh_boxes own = {0};
+    ffd_bounds box;
+    ffd_status status = FFD_OK;
+    *fitted = !ffd_lattice_needs_bounds(link->lattice);
+    if (*fitted || (!names_meshes && !files->shared))
+        return FFD_OK;
+    *fitted = true;
+    if (names_meshes)
+        status = ffd_mesh_box_find(share ? ffd_cache_mesh_boxes(share) : &own, link->lattice, files->mesh,
+                                   &box, &link->box_files, files->log, error);
+    else
+        box = ffd_shown_box_bounds(&files->shared->box);
+    ffd_mesh_boxes_free(&own);
+    return status ? status : ffd_lattice_fit(link->lattice, box.min, box.max, error);
+}
+
+/* Makes a failure to load lattice i that is for want of values name the placeholders of all lattices. */
+static void tell_open(const chain_files *files, size_t i, bool *used, ffd_error *error)
+{
+    intern_table own = {0}, all = {0};
+    const bool is_open =
+        !ffd_file_is_stream(files->paths[i]) &&
+        !ffd_lattice_list_open(files->paths[i], files->set, files->set_count, used, &own, NULL) && own.count;
+    for (size_t k = 0; k < files->count && is_open; k++)
+        if (!ffd_file_is_stream(files->paths[k]))
+            ffd_lattice_list_open(files->paths[k], files->set, files->set_count, used, &all, NULL);
+    if (all.count > own.count)
+        ffd_spec_describe_open(&all, error->message, sizeof error->message);
+    ffd_intern_free(&own);
+    ffd_intern_free(&all);
+}
+
+/* file_size: of a lattice that is there, from a job before. */
+static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, uint64_t file_size,
+                               memory_budget *memory, ffd_lattice **lattice, ffd_error *error)
+{
+    const spec_settings settings = {files->set, used, files->set_count, files->rest_only};
+    const ffd_status status =
+        *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
+                 : ffd_lattice_memory_load(files->paths[i], &settings, memory, lattice, error);
+    if (status == FFD_E_INVALID && !files->rest_only && error)
+        tell_open(files, i, used, error);
+    if (status)
+        ffd_fail_name_file(error, files->paths[i]);
+    return status;
+}
+
 static ffd_status load_link(const chain_files *files, bool *used, lattice_chain *chain, size_t i,
                             ffd_error *error)
 {
     chain_link *link = &chain->links[i];
-    ffd_status status = FFD_OK;
-    if (!link->lattice)
-        status =
-            ffd_lattice_load_set(files->paths[i], files->set, files->set_count, used, &link->lattice, error);
-    if (!status && !ffd_lattice_needs_bounds(link->lattice))
+    bool fitted = false;
+    ffd_status status = load_lattice(files, used, i, link->stamp.size, &chain->memory, &link->lattice, error);
+    if (!status)
+        status = fit(files, chain->share, link, &fitted, error);
+    if (!status && fitted)
         status = ffd_chain_prepare(chain, i, error);
     if (status)
         ffd_fail_name_file(error, files->paths[i]);
     return status;
 }
 
-static ffd_status refuse_unused(const chain_files *files, const bool *used, ffd_error *error)
+/* All that no lattice has a placeholder for, at once. Only the jobs of a batch can come from a table. */
+static ffd_status refuse_unused(const chain_files *files, const bool *used, bool in_batch, ffd_error *error)
 {
-    for (size_t i = 0; i < files->set_count; i++)
-        if (!used[i])
-            return ffd_fail_file(error, FFD_E_INVALID, files->paths[0],
-                                 "no lattice has the placeholder {\"$\": \"%.60s\"} (--set)",
-                                 files->set[i].name);
+    char names[300] = "";
+    size_t count = 0, length = 0;
+    for (size_t i = 0; i < files->set_count; i++) {
+        if (used[i])
+            continue;
+        if (length < sizeof names - 80)
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s{\"$\": \"%.50s\"}",
+                                       count ? ", " : "", files->set[i].name);
+        else
+            memcpy(names + length, ", ...", sizeof ", ...");
+        count++;
+    }
+    return count == 0 ? FFD_OK
+                      : ffd_fail_file(error, FFD_E_INVALID, files->paths[0],
+                                      "no lattice has the placeholder%s %s (--set%s)", count == 1 ? "" : "s",
+                                      names, in_batch ? "; --csv-ignore leaves columns of a table out" : "");
+}
+
+void ffd_chain_free(lattice_chain *chain)
+{
+    for (size_t i = 0; i < chain->count; i++) {
+        if (!chain->links[i].locator_is_lent)
+            ffd_locator_destroy(&chain->links[i].locator);
+        if (!chain->links[i].lattice_is_lent)
+            ffd_lattice_destroy(&chain->links[i].lattice);
+        ffd_paths_free(&chain->links[i].box_files);
+    }
+    ffd_free(chain->links);
+    ffd_free(chain->boxes);
+    ffd_free(chain->seams);
+    ffd_box_tree_free(&chain->tree);
+    *chain = (lattice_chain){0};
+}
+
+static memory_budget budget_of(const chain_files *files)
+{
+    return ffd_budget_make(files->mesh ? files->mesh->memory : 0);
+}
+
+static ffd_status check_count(const chain_files *files, ffd_error *error)
+{
+    if (files->count == 0)
+        return ffd_fail(error, FFD_E_ARGUMENT, "no lattice is given");
+    if (files->count > MOST_LATTICES)
+        return ffd_fail(error, FFD_E_LIMIT, "a job has at most %d lattices, not %zu", MOST_LATTICES,
+                        files->count);
     return FFD_OK;
 }
 
 ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside, ffd_isa isa,
                           ffd_share *share, lattice_chain *chain, ffd_error *error)
 {
-    *chain = (lattice_chain){.outside = *outside, .isa = isa, .share = share};
-    if (files->count == 0)
-        return ffd_fail(error, FFD_E_ARGUMENT, "no lattice is given");
+    *chain = (lattice_chain){.memory = budget_of(files), .outside = *outside, .isa = isa, .share = share};
+    ffd_status status = check_count(files, error);
+    if (status)
+        return status;
     bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
     chain->links = ffd_alloc_zero(files->count, sizeof *chain->links);
-    ffd_status status = used && chain->links ? FFD_OK : ffd_fail_memory(error);
+    status = used && chain->links ? FFD_OK : ffd_fail_memory(error);
     chain->count = status ? 0 : files->count;
     for (size_t i = 0; i < chain->count; i++)
         borrow_lattice(files, chain, i);
@@ -58,14 +162,30 @@ ffd_status ffd_chain_load(const chain_files *files, const chain_outside *outside
     for (size_t i = 0; i < chain->count && !status; i++)
         status = load_link(files, used, chain, i, error);
     if (!status)
-        status = refuse_unused(files, used, error);
+        status = refuse_unused(files, used, share != NULL, error);
     ffd_free(used);
     if (status)
         ffd_chain_free(chain);
     return status;
 }
 
-/* Of the rest volume and of how it is searched: one volume may be known as a box or by its points, with
+ffd_status ffd_chain_check(const chain_files *files, ffd_error *error)
+{
+    memory_budget memory = budget_of(files);
+    bool *const used = ffd_alloc_zero(files->set_count, sizeof *used);
+    ffd_status status = used ? check_count(files, error) : ffd_fail_memory(error);
+    for (size_t i = 0; i < files->count && !status; i++) {
+        ffd_lattice *lattice = NULL;
+        status = load_lattice(files, used, i, 0, &memory, &lattice, error);
+        ffd_lattice_destroy(&lattice);
+    }
+    if (!status)
+        status = refuse_unused(files, used, true, error);
+    ffd_free(used);
+    return status;
+}
+
+/* Hashes the rest volume and how it is searched: one volume may be known as a box or by its points, with
    weights of 1 or with none, and u,v,w differs in the last bits. */
 static hash128 hash_rest(const ffd_lattice *lattice)
 {
@@ -84,13 +204,13 @@ ffd_status ffd_chain_prepare(lattice_chain *chain, size_t link, ffd_error *error
     if (chain->share) {
         if (!made->lattice_is_lent)
             made->rest = hash_rest(made->lattice);
-        ffd_cache_lend_locator(chain->share, chain, made);
+        ffd_cache_lend_locator(chain->share, chain->isa, made);
     }
+    made->snap = chain->outside.snap * (chain->outside.snap_is_relative ? made->lattice->diagonal : 1);
     if (!made->locator)
         status = ffd_locator_create_for(made->lattice, chain->isa, &made->locator, error);
     if (status || !chain->outside.extend)
         return status;
     made->falloff = chain->outside.falloff;
-    /* Of the lattice that the locator looks at, whose rest volume is the same: both are kept together. */
-    return made->border ? FFD_OK : ffd_boundary_create(made->locator->lattice, &made->border, error);
+    return ffd_locator_border(made->locator, &made->border, error);
 }

@@ -20,9 +20,8 @@ typedef struct kept_lattice {
 typedef struct kept_rest {
     hash128 hash;
     ffd_isa isa;
-    const ffd_lattice *lattice; /* which both look at: one that is kept */
+    const ffd_lattice *lattice; /* which it looks at: one that is kept */
     ffd_locator *locator;
-    boundary *border; /* NULL: no job has needed it so far */
     bool used;
 } kept_rest;
 
@@ -30,7 +29,8 @@ struct ffd_share {
     bool only_lattices;
     mesh_document *document; /* NULL: none, or in a job's hands */
     bool is_noted;           /* what follows is known of it */
-    ffd_source source;       /* its path is owned */
+    ffd_source source;       /* its path is owned; of the extensions that it allows only rules knows */
+    hash128 rules;
     bool only_positions;
     char **only; /* only_count */
     size_t only_count;
@@ -41,9 +41,18 @@ struct ffd_share {
     kept_rest *rests;
     size_t lattice_count, lattice_room, rest_count, rest_room;
 
+    mesh_boxes boxes;
+
     ffd_location *locations; /* of the vertices of the mesh that is kept, or was last */
     hash128 located;         /* in the rest volume with this hash */
     bool is_located;
+
+    bool hashes_output, has_output;
+    hash128 output;  /* its hash */
+    bool has_state;  /* of the mesh of the job under way: */
+    hash128 state;   /* of that which is noted, or was last */
+    bool is_stamped; /* it is known */
+    share_counts counts;
 };
 
 ffd_status ffd_share_create(ffd_share **share, ffd_error *error)
@@ -88,12 +97,6 @@ static void forget_locations(ffd_share *share)
     share->is_located = false;
 }
 
-static void free_rest(kept_rest *kept)
-{
-    ffd_locator_destroy(&kept->locator);
-    ffd_boundary_destroy(&kept->border);
-}
-
 static void free_lattice(kept_lattice *kept)
 {
     ffd_lattice_destroy(&kept->lattice);
@@ -107,9 +110,10 @@ void ffd_share_destroy(ffd_share **share)
     forget_mesh(*share);
     forget_locations(*share);
     for (size_t i = 0; i < (*share)->rest_count; i++)
-        free_rest(&(*share)->rests[i]);
+        ffd_locator_destroy(&(*share)->rests[i].locator);
     for (size_t i = 0; i < (*share)->lattice_count; i++)
         free_lattice(&(*share)->lattices[i]);
+    ffd_mesh_boxes_free(&(*share)->boxes);
     ffd_free((*share)->rests);
     ffd_free((*share)->lattices);
     ffd_free(*share);
@@ -121,9 +125,10 @@ void ffd_share_destroy(ffd_share **share)
 static bool same_source(const ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
 {
     const ffd_source *const a = &share->source, *const b = &desc->input;
+    const hash128 rules = ffd_source_rules(b);
     if (strcmp(a->path, b->path) != 0 || a->format != b->format || a->space != b->space ||
-        a->memory != b->memory || share->only_positions != only_positions ||
-        share->only_count != desc->only_count)
+        a->memory != b->memory || !ffd_hash_equal(&share->rules, &rules) ||
+        share->only_positions != only_positions || share->only_count != desc->only_count)
         return false;
     for (size_t i = 0; i < desc->only_count; i++)
         if (strcmp(share->only[i], desc->only[i]) != 0)
@@ -131,17 +136,7 @@ static bool same_source(const ffd_share *share, const ffd_deform_desc *desc, boo
     return true;
 }
 
-static bool is_unchanged(const ffd_share *share)
-{
-    for (size_t i = 0; i < share->files.count; i++) {
-        file_stamp now;
-        if (!ffd_file_stamp(share->files.paths[i], &now) || !ffd_stamp_equal(&now, &share->stamps[i]))
-            return false;
-    }
-    return true;
-}
-
-/* What changes the document itself, or its file, leaves nothing for the next job. */
+/* A job that changes the document itself, or its file, leaves nothing for the next one. */
 static bool leaves_mesh(const ffd_deform_desc *desc)
 {
     return !desc->as_morph && !desc->in_place && !ffd_file_is_stream(desc->input.path);
@@ -152,9 +147,10 @@ mesh_document *ffd_cache_take_mesh(ffd_share *share, const ffd_deform_desc *desc
     if (!share)
         return NULL;
     if (share->document && leaves_mesh(desc) && same_source(share, desc, only_positions) &&
-        is_unchanged(share)) {
+        ffd_stamps_hold(share->files.paths, share->stamps, share->files.count)) {
         mesh_document *const document = share->document;
         share->document = NULL;
+        share->has_state = share->is_stamped;
         return document;
     }
     forget_mesh(share);
@@ -165,6 +161,8 @@ mesh_document *ffd_cache_take_mesh(ffd_share *share, const ffd_deform_desc *desc
 static bool note_source(ffd_share *share, const ffd_deform_desc *desc, bool only_positions)
 {
     share->source = desc->input;
+    share->source.allow_extensions = NULL;
+    share->rules = ffd_source_rules(&desc->input);
     share->source.path = ffd_text_copy(desc->input.path);
     share->only_positions = only_positions;
     share->only = ffd_alloc_zero(desc->only_count, sizeof *share->only);
@@ -201,8 +199,12 @@ void ffd_cache_describe_mesh(ffd_share *share, const ffd_deform_desc *desc, bool
     if (!ffd_cache_holds_meshes(share))
         return;
     forget_mesh(share);
-    share->is_noted = leaves_mesh(desc) && note_source(share, desc, only_positions) &&
-                      note_files(share, &desc->input, stamp, document);
+    share->counts.reads++;
+    share->is_stamped = note_files(share, &desc->input, stamp, document);
+    if (share->is_stamped)
+        share->state = ffd_hash(share->stamps, share->files.count * sizeof *share->stamps);
+    share->has_state = share->is_stamped && !desc->in_place;
+    share->is_noted = share->is_stamped && leaves_mesh(desc) && note_source(share, desc, only_positions);
 }
 
 void ffd_cache_put_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_document *document)
@@ -211,6 +213,57 @@ void ffd_cache_put_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_docu
         share->document = document;
     else
         ffd_source_close(&document);
+}
+
+void ffd_cache_begin_job(ffd_share *share, bool hash_output)
+{
+    share->hashes_output = hash_output;
+    share->has_output = false;
+    share->has_state = false;
+}
+
+bool ffd_cache_hashes_output(const ffd_share *share)
+{
+    return share && share->hashes_output;
+}
+
+void ffd_cache_put_output(ffd_share *share, const hash128 *hash)
+{
+    share->has_output = true;
+    share->output = *hash;
+}
+
+bool ffd_cache_find_output(const ffd_share *share, hash128 *hash)
+{
+    if (share->has_output)
+        *hash = share->output;
+    return share->has_output;
+}
+
+bool ffd_cache_find_state(const ffd_share *share, hash128 *state)
+{
+    if (!share->has_state)
+        return false;
+    *state = share->state;
+    if (!ffd_stamps_hold(share->files.paths, share->stamps, share->files.count))
+        state->bytes[0] ^= 0xff; /* the job may have read some of both */
+    return true;
+}
+
+share_counts ffd_cache_counts(const ffd_share *share)
+{
+    return share->counts;
+}
+
+void ffd_cache_count_search(ffd_share *share)
+{
+    if (share)
+        share->counts.searches++;
+}
+
+mesh_boxes *ffd_cache_mesh_boxes(ffd_share *share)
+{
+    return &share->boxes;
 }
 
 /* Lattices and their rest volumes */
@@ -246,41 +299,25 @@ static kept_rest *find_rest(const ffd_share *share, const hash128 *rest, ffd_isa
     return NULL;
 }
 
-void ffd_cache_lend_locator(const ffd_share *share, const lattice_chain *chain, chain_link *link)
+void ffd_cache_lend_locator(const ffd_share *share, ffd_isa isa, chain_link *link)
 {
-    kept_rest *const found = find_rest(share, &link->rest, chain->isa);
+    kept_rest *const found = find_rest(share, &link->rest, isa);
     if (!found)
         return;
     found->used = true;
     link->locator = found->locator;
     link->locator_is_lent = true;
-    if (!chain->outside.extend || !found->border)
-        return;
-    link->border = found->border;
-    link->border_is_lent = true;
 }
 
-/* Takes the border, which looks at the lattice that the locator looks at. */
-static void keep_border(kept_rest *rest, chain_link *link)
-{
-    if (rest->border || link->border_is_lent)
-        return;
-    rest->border = link->border;
-    link->border = NULL;
-}
-
-/* Takes locator and border, if there are none yet for such a rest volume. Returns whether they look at the
-   link's own lattice. There is memory for one more. */
+/* Takes the locator, if there is none yet for such a rest volume. Returns whether it looks at the link's own
+   lattice. There is memory for one more. */
 static bool keep_rest(ffd_share *share, chain_link *link, ffd_isa isa)
 {
-    if (link->locator_is_lent)
-        keep_border(find_rest(share, &link->rest, isa), link);
     if (!link->locator || link->locator_is_lent || find_rest(share, &link->rest, isa))
         return false;
     kept_rest *const rest = &share->rests[share->rest_count++];
-    *rest = (kept_rest){link->rest, isa, link->lattice, link->locator, NULL, true};
+    *rest = (kept_rest){link->rest, isa, link->lattice, link->locator, true};
     link->locator = NULL;
-    keep_border(rest, link);
     return true;
 }
 
@@ -328,8 +365,8 @@ void ffd_cache_evict_lattices(ffd_share *share)
         share->lattice_count = count;
 }
 
-/* Those that the job did not use. Without meshes nobody runs a job again that has met a limit with what is
-   kept: what is nearer to it for the jobs before goes too. */
+/* Frees those that the job did not use. If no meshes are cached, a job that reaches a limit because of what
+   is kept is not run again: a locator that is nearer to its limit because of earlier jobs is freed too. */
 static void forget_rests(ffd_share *share)
 {
     size_t count = 0;
@@ -338,7 +375,7 @@ static void forget_rests(ffd_share *share)
             !(share->only_lattices && ffd_locator_is_strained(share->rests[i].locator)))
             share->rests[count++] = share->rests[i];
         else
-            free_rest(&share->rests[i]);
+            ffd_locator_destroy(&share->rests[i].locator);
     }
     share->rest_count = count;
 }

@@ -3,6 +3,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "base/text/words.h"
 #include "base/vector/vec.h"
 #include "io/npy/npy.h"
 #include "job/input/source.h"
@@ -48,29 +49,52 @@ static size_t tiles_of(const mesh_part *part)
     return part->repeats_positions ? 0 : part->vertex_count / TILE + (part->vertex_count % TILE != 0);
 }
 
-ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
-                                        ffd_error *error)
+static hash128 hash_rounding(const mesh_rounding *rounding)
 {
-    size_t tiles = 0, done = 0;
-    uint64_t vertices = 0;
-    for (size_t i = 0; i < document->part_count; i++)
-        tiles += tiles_of(&document->parts[i]);
-    hash128 *list = ffd_alloc(tiles, sizeof *list);
-    if (!list)
-        return ffd_fail_memory(error);
+    double numbers[6];
+    for (int a = 0; a < 3; a++) {
+        numbers[a] = rounding->is_float[a];
+        numbers[3 + a] = rounding->step[a];
+    }
+    return ffd_hash_doubles(numbers, 6);
+}
+
+/* Hashes the parts' positions into list and returns the number of the hashes, then what they stand for. */
+static size_t hash_parts(const mesh_document *document, int threads, hash128 *list, size_t *roundings)
+{
+    size_t count = 0;
+    bool any = false;
+    *roundings = 0;
     for (size_t i = 0; i < document->part_count; i++) {
         const mesh_part *part = &document->parts[i];
-        part_hashes work = {document, i, list + done};
+        part_hashes work = {document, i, list + count};
         if (part->repeats_positions)
             continue;
         ffd_parallel_tiles(part->vertex_count, TILE, threads, hash_tile, &work);
-        done += tiles_of(part);
-        vertices += part->vertex_count;
+        count += tiles_of(part);
+        any = any || !ffd_rounding_is_none(&part->rounding);
     }
+    for (size_t i = 0; any && i < document->part_count; i++)
+        if (!document->parts[i].repeats_positions)
+            list[count + (*roundings)++] = hash_rounding(&document->parts[i].rounding);
+    return count;
+}
+
+ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
+                                        ffd_error *error)
+{
+    size_t most = document->part_count, roundings;
+    for (size_t i = 0; i < document->part_count; i++)
+        most += tiles_of(&document->parts[i]);
+    hash128 *list = ffd_alloc(most, sizeof *list);
+    if (!list)
+        return ffd_fail_memory(error);
+    const size_t tiles = hash_parts(document, threads, list, &roundings);
     unsigned char count[8];
-    store_u64(count, vertices);
-    const hash_block blocks[] = {{list, tiles * sizeof *list}, {count, sizeof count}};
-    *hash = ffd_hash_blocks(blocks, 2);
+    store_u64(count, ffd_mesh_vertex_count(document));
+    const hash_block blocks[] = {
+        {list, tiles * sizeof *list}, {count, sizeof count}, {list + tiles, roundings * sizeof *list}};
+    *hash = ffd_hash_blocks(blocks, 3);
     ffd_free(list);
     return FFD_OK;
 }
@@ -109,6 +133,12 @@ hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice)
         blocks[count++] = (hash_block){&weights, sizeof weights};
     }
     return ffd_hash_blocks(blocks, count);
+}
+
+hash128 ffd_embedding_hash_rest(const ffd_lattice *lattice, double snap)
+{
+    const hash128 parts[] = {ffd_embedding_hash_lattice(lattice), ffd_hash_doubles(&snap, 1)};
+    return snap > 0 ? ffd_hash(parts, sizeof parts) : parts[0];
 }
 
 /* Writing */
@@ -199,13 +229,14 @@ static ffd_status check_origin(const file_content *content, size_t count, const 
 {
     if (content->count != count)
         return ffd_fail_file(error, FFD_E_INVALID, content->name,
-                             "was made for another mesh: it is of %" PRIu64 " vertices, not %zu",
-                             content->count, count);
+                             "was made for another mesh: it is of %" PRIu64 " %s, not %zu", content->count,
+                             ffd_plural(content->count, "vertex", "vertices"), count);
     if (memcmp(positions, content->footer + POSITIONS, sizeof *positions) != 0)
         return ffd_fail_file(error, FFD_E_INVALID, content->name,
-                             "was made for another mesh: its positions differ");
+                             "was made for another mesh: its positions, or their number type, differ");
     if (memcmp(lattice, content->footer + LATTICE, sizeof *lattice) != 0)
-        return ffd_fail_file(error, FFD_E_INVALID, content->name, "was made for another rest lattice");
+        return ffd_fail_file(error, FFD_E_INVALID, content->name,
+                             "was made for another rest lattice, or with another --snap");
     return FFD_OK;
 }
 
@@ -281,10 +312,10 @@ ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *pos
 }
 
 ffd_status ffd_embedding_reuse(const char *path, const mesh_document *document, const ffd_lattice *lattice,
-                               int threads, embedding_file *file, ffd_error *error)
+                               double snap, int threads, embedding_file *file, ffd_error *error)
 {
     hash128 positions;
-    const hash128 rest = ffd_embedding_hash_lattice(lattice);
+    const hash128 rest = ffd_embedding_hash_rest(lattice, snap);
     const ffd_status status = ffd_embedding_hash_positions(document, threads, &positions, error);
     if (status)
         return status;

@@ -11,7 +11,7 @@
      H + 24 N     N     statuses, one byte a vertex: 0 inside 1 outside 2 multiple 3 singular 4 invalid
      F = H + 25 N       the footer, 72 bytes:
      F            16    hash of the mesh's positions (ffd_embedding_hash_positions)
-     F + 16       16    hash of the rest lattice (ffd_embedding_hash_lattice)
+     F + 16       16    hash of the rest lattice (ffd_embedding_hash_rest)
      F + 32       16    hash of the bytes 0 .. F-1
      F + 48       8     N
      F + 56       4     format version, 1
@@ -30,16 +30,21 @@
 
 /* Hashes the positions in the lattice's space: each run of 1024 vertices of each part (the last may be
    shorter; parts that repeat positions are left out) for itself; then the list of these hashes with the
-   number of vertices after it. The same for any number of threads. Errors: FFD_E_MEMORY. */
+   number of vertices after it. Where numbers do not stand for themselves there follows, for each of these
+   parts, the hash of six: whether x, y, z are float32 (1 or 0), and their steps (mesh/rounding.h). The same
+   for any number of threads. Errors: FFD_E_MEMORY. */
 ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
                                         ffd_error *error);
 
-/* Hashes what decides u,v,w, and nothing else of what is moved. For each direction: degree, number of control
-   points, 1 if closed or else 0, 1 if its first and last face are a seam (lattice/border.h; this also depends
-   on what is moved) or else 0, number of knots (8 bytes each) and the hash of the knots; then the hash of the
-   rest points; then, where a rest weight is not 1, the hash of the weights. The lattice must be fitted
-   to its mesh. */
+/* Hashes what decides u,v,w, and nothing of what is moved. For each direction: degree, number of control
+   points, 1 if closed or else 0, 1 if its first and last face are a seam (lattice/border.h) or else 0, number
+   of knots (8 bytes each) and the hash of the knots; then the hash of the rest points; then, where a rest
+   weight is not 1, the hash of the weights. The lattice must be fitted to its mesh. */
 hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice);
+
+/* ffd_embedding_hash_lattice, or, with a snap (world units), the hash of that hash and the hash of the snap.
+ */
+hash128 ffd_embedding_hash_rest(const ffd_lattice *lattice, double snap);
 
 /* Appends an embedding of count vertices to the file that output began last. */
 ffd_status ffd_embedding_write(file_output *output, const double *uvw, const uint8_t *statuses, size_t count,
@@ -56,19 +61,19 @@ typedef struct embedding_file {
 /* Opens an embedding of the mesh with count vertices and these hashes. A file that ends early, was changed,
    is of another version, or belongs to another mesh or rest lattice is refused (FFD_E_INVALID); every byte is
    looked at. Values are lent by file, which is to be closed; empty on failure. u,v,w of a forged file may lie
-   outside the domain. Errors also: FFD_E_IO, FFD_E_MEMORY. */
+   outside the domain, or miss the vertex: the pass over the vertices looks at that. Errors also: FFD_E_IO,
+   FFD_E_MEMORY. */
 ffd_status ffd_embedding_open(const char *path, size_t count, const hash128 *positions,
                               const hash128 *lattice, embedding_file *file, ffd_error *error);
 /* Closes the file and frees its values. */
 void ffd_embedding_close(embedding_file *file);
 
-/* Opens the embedding that `ffd embed` made of this document and lattice, as ffd_embedding_open. The lattice
-   must be fitted to its mesh. Errors: the same. */
+/* Opens the embedding that `ffd embed` made of this document and lattice with this snap (world units), as
+   ffd_embedding_open. The lattice must be fitted to its mesh. Errors: the same. */
 ffd_status ffd_embedding_reuse(const char *path, const mesh_document *document, const ffd_lattice *lattice,
-                               int threads, embedding_file *file, ffd_error *error);
+                               double snap, int threads, embedding_file *file, ffd_error *error);
 
-/* What a search has found for a vertex at p: u,v,w taken to the domain, the residual anew, no
-   evaluations. */
+/* What a search has found for a vertex at p: u,v,w taken to the domain, the residual anew, no evaluations. */
 void ffd_embedding_locate(const embedding_file *file, size_t vertex, const ffd_lattice *lattice,
                           const double p[3], ffd_location *location);
 

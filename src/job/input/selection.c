@@ -7,22 +7,22 @@ ffd_status ffd_selector_check(const char *text, ffd_error *error)
     return ffd_selector_parse(text, &selector, error);
 }
 
-ffd_status ffd_selection_apply(const ffd_deform_desc *desc, const char *name, mesh_document *document,
-                               ffd_error *error)
+ffd_status ffd_selection_apply(const char *const *only, size_t count, const char *name,
+                               mesh_document *document, ffd_error *error)
 {
     const mesh_format *format = document->format;
-    if (desc->only_count == 0)
+    if (count == 0)
         return FFD_OK;
-    mesh_selector *selectors = ffd_alloc(desc->only_count, sizeof *selectors);
+    mesh_selector *selectors = ffd_alloc(count, sizeof *selectors);
     ffd_status status = selectors ? FFD_OK : ffd_fail_memory(error);
-    for (size_t i = 0; i < desc->only_count && status == FFD_OK; i++) {
-        status = ffd_selector_parse(desc->only[i], &selectors[i], error);
+    for (size_t i = 0; i < count && status == FFD_OK; i++) {
+        status = ffd_selector_parse(only[i], &selectors[i], error);
         if (status == FFD_OK)
             status =
                 ffd_selector_check_kind(&selectors[i], format->selector_kinds, format->name, name, error);
     }
     if (status == FFD_OK)
-        status = format->select(document, selectors, desc->only_count, error);
+        status = format->select(document, selectors, count, error);
     ffd_free(selectors);
     return status;
 }

@@ -1,5 +1,7 @@
 #include "job/input/source.h"
+#include "base/file/file_set_record.h"
 #include "base/file/path.h"
+#include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "io/formats.h"
 #include "mesh/bounds.h"
@@ -11,6 +13,17 @@
 const char *ffd_source_name(const ffd_source *source)
 {
     return ffd_path_display_name(source->path);
+}
+
+hash128 ffd_source_rules(const ffd_source *source)
+{
+    hash128 rules = ffd_hash(&source->strict, sizeof source->strict);
+    for (size_t i = 0; i < source->allow_extension_count; i++) {
+        const char *const name = source->allow_extensions[i];
+        const hash_block blocks[] = {{rules.bytes, sizeof rules.bytes}, {name, strlen(name)}};
+        rules = ffd_hash_blocks(blocks, 2);
+    }
+    return rules;
 }
 
 ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_error *error)
@@ -25,6 +38,16 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
                          ffd_path_ending(source->path));
 }
 
+/* Where a file is away because a run has set it aside, it is not lost. */
+static void tell_of_set_aside(const char *path, ffd_error *error)
+{
+    if (error && !ffd_file_is_stream(path) && !ffd_file_exists(path) && ffd_record_exists(path))
+        ffd_fail_file(error, error->status, path,
+                      "%s (a run that replaces it is at work, or was killed: the next one that writes it "
+                      "brings it back)",
+                      error->message);
+}
+
 ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document **document, ffd_error *error)
 {
     file_input input;
@@ -35,8 +58,10 @@ ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document 
     if (status)
         return status;
     status = ffd_file_load(source->path, &input, error);
-    if (status)
+    if (status) {
+        tell_of_set_aside(source->path, error);
         return status;
+    }
     status = ffd_format_open(ffd_format_table(typed.format), &input, &typed, document, error);
     if (status) {
         ffd_file_unload(&input);
@@ -54,6 +79,20 @@ ffd_status ffd_source_files(const ffd_source *source, const mesh_document *docum
     if (!status && document->format->list_files)
         status = document->format->list_files(document, files, error);
     return status;
+}
+
+bool ffd_source_is_alone(const mesh_document *document)
+{
+    const mesh_format *const format = document->format;
+    path_list others = {0};
+    ffd_status status = FFD_OK;
+    if (format->list_files)
+        status = format->list_files(document, &others, NULL);
+    if (!status && format->list_images)
+        status = format->list_images(document, &others, NULL);
+    const bool is_alone = !status && others.count == 0;
+    ffd_paths_free(&others);
+    return is_alone;
 }
 
 void ffd_source_close(mesh_document **document)
@@ -84,4 +123,56 @@ size_t ffd_source_widen(const mesh_document *document, size_t part, ffd_bounds *
                 not_finite++;
     }
     return not_finite;
+}
+
+/* A walk over the places of a part. */
+typedef struct place_walk {
+    const mesh_document *document;
+    size_t part;
+    place_visitor *visit;
+    void *context;
+} place_walk;
+
+/* Visits positions from first on that the offsets of a target, if there are any, move. */
+static bool visit_block(const place_walk *walk, const size_t *shape, size_t first, size_t count)
+{
+    const mesh_format *const format = walk->document->format;
+    double xyz[3 * BLOCK], offsets[3 * BLOCK];
+    format->read_positions(walk->document, walk->part, first, count, xyz);
+    if (shape)
+        format->read_offsets(walk->document, walk->part, *shape, MESH_POSITIONS, first, count, offsets);
+    for (size_t i = 0; i < 3 * count; i++)
+        xyz[i] += shape ? offsets[i] : 0;
+    ffd_part_transform(walk->document, walk->part, first, count, xyz);
+    for (size_t i = 0; i < count; i++) {
+        const double *const m = offsets + 3 * i;
+        const bool moves = !shape || m[0] != 0 || m[1] != 0 || m[2] != 0;
+        if (moves && !walk->visit(walk->context, first + i, xyz + 3 * i))
+            return false;
+    }
+    return true;
+}
+
+static bool visit_all(const place_walk *walk, const size_t *shape)
+{
+    const size_t vertices = walk->document->parts[walk->part].vertex_count;
+    bool goes_on = true;
+    for (size_t first = 0; first < vertices && goes_on; first += BLOCK)
+        goes_on = visit_block(walk, shape, first, vertices - first < BLOCK ? vertices - first : BLOCK);
+    return goes_on;
+}
+
+bool ffd_source_visit_places(mesh_document *document, size_t part, place_visitor *visit, void *context)
+{
+    const mesh_part *const p = &document->parts[part];
+    const place_walk walk = {document, part, visit, context};
+    bool goes_on = visit_all(&walk, NULL);
+    for (size_t s = 0; s < p->shape_count && goes_on; s++)
+        goes_on = !p->shapes[s].has[MESH_POSITIONS] || visit_all(&walk, &s);
+    if (goes_on && p->shows_shapes) {
+        document->shown = true;
+        goes_on = visit_all(&walk, NULL);
+        document->shown = false;
+    }
+    return goes_on;
 }

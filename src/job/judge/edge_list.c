@@ -54,21 +54,28 @@ static size_t drop_repeats(uint64_t *keys, size_t count)
     return kept;
 }
 
+ffd_status ffd_edges_sort(edge_list *edges, ffd_error *error)
+{
+    uint64_t *const scratch = ffd_alloc(edges->count, sizeof *scratch);
+    if (!scratch)
+        return ffd_fail_memory(error);
+    uint64_t *const sorted = radix_sort(edges->keys, scratch, edges->count);
+    ffd_free(sorted == edges->keys ? scratch : edges->keys);
+    *edges = (edge_list){sorted, drop_repeats(sorted, edges->count)};
+    return FFD_OK;
+}
+
 ffd_status ffd_edges_collect(const mesh_faces *faces, edge_list *edges, ffd_error *error)
 {
     const size_t corners = faces->face_count ? faces->start[faces->face_count] : 0;
-    uint64_t *keys = ffd_alloc(corners, sizeof *keys), *scratch = ffd_alloc(corners, sizeof *scratch);
-    *edges = (edge_list){NULL, 0};
-    if (!keys || !scratch) {
-        ffd_free(keys);
-        ffd_free(scratch);
+    *edges = (edge_list){ffd_alloc(corners, sizeof *edges->keys), 0};
+    if (!edges->keys)
         return ffd_fail_memory(error);
-    }
-    const size_t sides = list_sides(faces, keys);
-    uint64_t *const sorted = radix_sort(keys, scratch, sides);
-    ffd_free(sorted == keys ? scratch : keys);
-    *edges = (edge_list){sorted, drop_repeats(sorted, sides)};
-    return FFD_OK;
+    edges->count = list_sides(faces, edges->keys);
+    const ffd_status status = ffd_edges_sort(edges, error);
+    if (status)
+        ffd_edges_free(edges);
+    return status;
 }
 
 void ffd_edges_free(edge_list *edges)

@@ -16,6 +16,8 @@ typedef struct edge_list {
 
 /* Errors: FFD_E_MEMORY; *edges is then empty. */
 ffd_status ffd_edges_collect(const mesh_faces *faces, edge_list *edges, ffd_error *error);
+/* Sorts the keys and drops repeats. Needs 8 bytes more for each. Errors: FFD_E_MEMORY. */
+ffd_status ffd_edges_sort(edge_list *edges, ffd_error *error);
 /* Frees the list. */
 void ffd_edges_free(edge_list *edges);
 

@@ -1,18 +1,22 @@
 #include "job/judge/figures.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "io/openmesh/half_edges.h"
 #include "job/input/selection.h"
-#include "job/input/source.h"
 #include "job/judge/edge_list.h"
 #include "job/judge/quality.h"
+#include "job/judge/quality_edges.h"
 #include "job/pass/normal_groups.h"
 #include <inttypes.h>
 #include <stdio.h>
 
-/* Of a vertex, in the arrays. */
+/* Bytes of a vertex in the arrays. */
 #define ARRAY_BYTES (12 * sizeof(double))
 
-/* What normals from faces take while they are made. */
+/* Gates that faces are needed for. */
+#define NEED_FACES (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)
+
+/* Checks that the budget suffices for making normals from faces. */
 static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, memory_budget budget,
                                 ffd_error *error)
 {
@@ -22,10 +26,15 @@ static ffd_status check_normals(const deform_job *job, const mesh_faces *faces, 
     return status ? status : ffd_budget_check(&budget, ffd_half_edge_bytes(faces), 1, error);
 }
 
-/* Takes the memory that figures need, with the faces that are there, and looks whether that suffices for
-   normals before. */
-static ffd_status take_room(const deform_job *job, const mesh_faces *faces, memory_budget *budget,
-                            ffd_error *error)
+static bool wants_edges(const deform_job *job)
+{
+    return job->check || job->desc->fail_on & FFD_GATE_EDGES;
+}
+
+/* Takes the memory for the figures of these faces from the budget, and checks that it suffices for the
+   normals, which are made before. */
+static ffd_status take_memory(const deform_job *job, const mesh_faces *faces, memory_budget *budget,
+                              ffd_error *error)
 {
     const size_t corners = faces->start[faces->face_count];
     ffd_status status = ffd_budget_take(budget, ffd_mesh_vertex_count(job->document), ARRAY_BYTES, error);
@@ -33,7 +42,7 @@ static ffd_status take_room(const deform_job *job, const mesh_faces *faces, memo
         status = ffd_mesh_faces_take(faces, corners, budget, error);
     if (status == FFD_OK && job->recomputes)
         status = check_normals(job, faces, *budget, error);
-    if (status == FFD_OK && job->check)
+    if (status == FFD_OK && wants_edges(job))
         status = ffd_budget_take(budget, corners, EDGE_LIST_BYTES, error);
     return status;
 }
@@ -45,14 +54,14 @@ static ffd_status read_faces(const deform_job *job, figure_arrays *arrays, ffd_e
     memory_budget budget = arrays->budget;
     ffd_status status = job->document->format->faces(job->document, &arrays->faces, &own);
     if (status == FFD_OK)
-        status = take_room(job, &arrays->faces, &budget, &own);
+        status = take_memory(job, &arrays->faces, &budget, &own);
     arrays->has_faces = status == FFD_OK;
     if (!status) {
         arrays->budget = budget;
         return FFD_OK;
     }
     ffd_mesh_faces_free(&arrays->faces);
-    if (job->check || job->recomputes || status == FFD_E_MEMORY) {
+    if (job->check || job->recomputes || status == FFD_E_MEMORY || job->desc->fail_on & NEED_FACES) {
         if (error)
             *error = own;
         return status;
@@ -135,9 +144,10 @@ ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_j
     result->has_flipped = true;
     result->faces = arrays->faces.face_count;
     result->flipped_faces = ffd_quality_flipped(&arrays->faces, arrays->deformed, arrays->gradients);
-    if (!job->check)
+    if (!wants_edges(job))
         return FFD_OK;
-    status = ffd_quality_edges(&arrays->faces, arrays->deformed, &job->chain, job->threads, &edges, error);
+    status = ffd_quality_edges(job->document, &arrays->faces, arrays->deformed, &job->chain, job->threads,
+                               &edges, error);
     if (status)
         return status;
     result->has_edges = true;
@@ -152,18 +162,18 @@ void ffd_figures_describe_folds(const ffd_deform_desc *desc, const ffd_job_resul
 {
     const ffd_folds *folds = &result->folds;
     const double *uvw = folds->witness_uvw, *xyz = folds->witness_xyz;
+    const char *const cells = ffd_plural(folds->cells, "cell", "cells");
     if (folds->verdict != FFD_FOLDS_SOME)
         snprintf(text, capacity,
-                 "is not proven to be free of folds in %" PRIu64 " of %" PRIu64 " cells (least det J %g)",
-                 folds->unknown_cells, folds->cells, folds->min_det);
+                 "is not proven to be free of folds in %" PRIu64 " of %" PRIu64 " %s (least det J %g)",
+                 folds->unknown_cells, folds->cells, cells, folds->min_det);
     else if (!folds->has_witness)
-        snprintf(text, capacity, "folds in %" PRIu64 " of %" PRIu64 " cells", folds->folded_cells,
-                 folds->cells);
+        snprintf(text, capacity, "folds in %" PRIu64 " of %" PRIu64 " %s", folds->folded_cells, folds->cells,
+                 cells);
     else
         snprintf(text, capacity,
-                 "folds in %" PRIu64 " of %" PRIu64
-                 " cells, as at u,v,w = %g %g %g of %.100s, x,y,z = %g %g %g",
-                 folds->folded_cells, folds->cells, uvw[0], uvw[1], uvw[2],
+                 "folds in %" PRIu64 " of %" PRIu64 " %s, as at u,v,w = %g %g %g of %.100s, x,y,z = %g %g %g",
+                 folds->folded_cells, folds->cells, cells, uvw[0], uvw[1], uvw[2],
                  desc->lattices[result->folds_lattice], xyz[0], xyz[1], xyz[2]);
 }
 
@@ -174,4 +184,9 @@ void ffd_figures_warn(const deform_job *job, const ffd_job_result *result)
         ffd_figures_describe_folds(job->desc, result, text, sizeof text);
         ffd_log_line(&job->log, FFD_LOG_WARNING, "the deformed volume %s", text);
     }
+    if (result->det_outside <= 0)
+        ffd_log_line(&job->log, FFD_LOG_WARNING,
+                     "outside the lattice det F falls to %g, at vertex %" PRIu64
+                     ": the mesh turns inside out there (see --falloff, a larger lattice)",
+                     result->det_outside, result->det_outside_vertex);
 }

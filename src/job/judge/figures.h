@@ -29,7 +29,7 @@ ffd_status ffd_figures_folds(lattice_chain *chain, int threads, ffd_job_result *
 ffd_status ffd_figures_faces(const deform_job *job, figure_arrays *arrays, ffd_job_result *result,
                              ffd_error *error);
 
-/* Says what a deformation's user should know though no gate asked. */
+/* Warns of what the user of a deformation should know although no gate asks for it. */
 void ffd_figures_warn(const deform_job *job, const ffd_job_result *result);
 
 /* "folds in 3 of 27 cells, at u,v,w = (0.5, 0.5, 0.5), x,y,z = (1, 2, 3) of b.json"; "may fold in 2 of 27

@@ -1,36 +1,58 @@
 #include "job/judge/gates.h"
+#include "base/text/words.h"
 #include "job/chain/coverage.h"
 #include "job/judge/figures.h"
+#include "job/judge/tear_figures.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
 
-ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, bool check,
-                              const lattice_chain *chain, const pass_totals *totals, ffd_error *error)
+static const char *what_moves(const pass_totals *totals)
 {
-    if (totals->first_invalid != UINT64_MAX && !check)
-        return ffd_fail_file(error, FFD_E_INVALID, name,
-                             "vertex %" PRIu64 " (counted from 0) has a coordinate that is not finite",
-                             totals->first_invalid);
-    if (totals->first_shape_invalid != UINT64_MAX && !check)
-        return ffd_fail_file(error, FFD_E_INVALID, name,
-                             "a morph target moves vertex %" PRIu64
-                             " (counted from 0) to a coordinate that is not finite",
-                             totals->first_shape_invalid);
-    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_any) {
-        char coverage[600];
-        ffd_chain_coverage(chain, coverage, sizeof coverage);
-        return ffd_fail_file(
-            error, FFD_E_EMBEDDING, name,
-            "%" PRIu64 " of %" PRIu64 " vertices are outside the lattice, the first is vertex %" PRIu64
-            " (counted from 0)%s%s",
-            totals->outside_any, totals->vertices, totals->first_outside, *coverage ? "; " : "", coverage);
-    }
-    if (desc->outside == FFD_OUTSIDE_ERROR && totals->shapes_outside)
+    return totals->shapes_outside ? "morph targets move" : "the default weights of morph targets move";
+}
+
+/* No vertex may stay outside, whether it is shown or not. */
+static ffd_status fail_outside(const char *name, const lattice_chain *chain, const pass_totals *totals,
+                               ffd_error *error)
+{
+    const uint64_t shown = totals->first_outside, other = totals->first_unshown_outside;
+    const uint64_t count = totals->outside_all + totals->unshown_outside;
+    char coverage[600], unshown[80] = "";
+    ffd_chain_coverage(chain, coverage, sizeof coverage);
+    if (totals->unshown_outside)
+        snprintf(unshown, sizeof unshown, ", %" PRIu64 " of them %s unused or hidden",
+                 totals->unshown_outside, ffd_plural(totals->unshown_outside, "is", "are"));
+    return ffd_fail_file(error, FFD_E_EMBEDDING, name,
+                         "%" PRIu64 " of %" PRIu64
+                         " %s %s outside the lattice%s, the first is vertex %" PRIu64 " (counted from 0)%s%s",
+                         count, totals->vertices, ffd_plural(totals->vertices, "vertex", "vertices"),
+                         ffd_plural(count, "is", "are"), unshown, shown < other ? shown : other,
+                         *coverage ? "; " : "", coverage);
+}
+
+/* Its hashes may have been made anew with its content. */
+static ffd_status fail_missed(const char *embedding, const pass_totals *totals, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_INVALID, embedding,
+                         "u,v,w of vertex %" PRIu64
+                         " (counted from 0) lead to a place %.3g away from it: they "
+                         "are not what ffd embed wrote",
+                         totals->first_missed, totals->missed_by);
+}
+
+ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, const lattice_chain *chain,
+                              const pass_totals *totals, ffd_error *error)
+{
+    if (totals->first_missed != UINT64_MAX)
+        return fail_missed(desc->embedding, totals, error);
+    if (desc->outside == FFD_OUTSIDE_ERROR && totals->outside_all + totals->unshown_outside > 0)
+        return fail_outside(name, chain, totals, error);
+    if (desc->outside == FFD_OUTSIDE_ERROR && (totals->shapes_outside || totals->shown_outside))
         return ffd_fail_file(error, FFD_E_EMBEDDING, name,
-                             "morph targets move vertices outside the lattice, the first is vertex %" PRIu64
+                             "%s vertices outside the lattice, the first is vertex %" PRIu64
                              " (counted from 0)",
-                             totals->first_shape_outside);
+                             what_moves(totals), totals->first_shape_outside);
     if (totals->first_overflow != UINT64_MAX)
         return ffd_fail_file(error, FFD_E_INVALID, name,
                              "the deformed position of vertex %" PRIu64
@@ -53,13 +75,44 @@ static void add(complaint *line, const char *text, const char *gate)
     line->length += length < 0 ? 0 : (size_t)length < space ? (size_t)length : space - 1;
 }
 
-static void add_count(complaint *line, uint64_t count, const pass_totals *totals, const char *what,
-                      const char *gate)
+/* one, many: what is said of one vertex and of several. */
+static void add_count(complaint *line, uint64_t count, const pass_totals *totals, const char *one,
+                      const char *many, const char *gate)
 {
     char text[200];
-    snprintf(text, sizeof text, "%" PRIu64 " of %" PRIu64 " vertices %s", count, totals->vertices, what);
+    snprintf(text, sizeof text, "%" PRIu64 " of %" PRIu64 " %s %s", count, totals->vertices,
+             ffd_plural(totals->vertices, "vertex", "vertices"), ffd_plural(count, one, many));
     if (count)
         add(line, text, gate);
+}
+
+/* A figure that is the limit to this part of it keeps it: the limit may be a figure of another machine's
+   report, or one worked out. */
+#define KEEPS_LIMIT 1e-12
+
+static bool is_above(double figure, double limit)
+{
+    return figure > limit + KEEPS_LIMIT * limit;
+}
+
+/* The gates with a value. */
+static void add_values(complaint *line, const ffd_deform_desc *desc, const ffd_job_result *result)
+{
+    char text[400];
+    const double step = result->tear_largest;
+    if (desc->fail_on & FFD_GATE_TEAR && result->tear_edges && is_above(step, desc->tear_most)) {
+        ffd_tear_figures_describe(result, text, sizeof text);
+        add(line, text, "tear");
+    }
+    snprintf(text, sizeof text, "%" PRIu64 " of %" PRIu64 " %s %s flipped", result->flipped_faces,
+             result->faces, ffd_plural(result->faces, "face", "faces"),
+             ffd_plural(result->flipped_faces, "is", "are"));
+    if (desc->fail_on & FFD_GATE_FLIPPED && result->flipped_faces > desc->flipped_most)
+        add(line, text, "flipped");
+    snprintf(text, sizeof text, "straight edges lie as far as %g from the deformed surface",
+             result->deviation_max);
+    if (desc->fail_on & FFD_GATE_EDGES && is_above(result->deviation_max, desc->edges_most))
+        add(line, text, "edges");
 }
 
 ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const pass_totals *totals,
@@ -72,14 +125,32 @@ ffd_status ffd_gates_judge(const ffd_deform_desc *desc, const char *name, const 
         ffd_figures_describe_folds(desc, result, text + begun, sizeof text - begun);
         add(&line, text, "folds");
     }
+    if (desc->fail_on & FFD_GATE_FOLDS && result->det_outside <= 0) {
+        char text[200];
+        snprintf(text, sizeof text, "outside the lattice det F falls to %g, at vertex %" PRIu64,
+                 result->det_outside, result->det_outside_vertex);
+        add(&line, text, "folds");
+    }
+    if (desc->fail_on & FFD_GATE_OUTSIDE && totals->vertices == 0)
+        add(&line, "there are no vertices", "outside");
     if (desc->fail_on & FFD_GATE_OUTSIDE)
-        add_count(&line, totals->outside_any, totals, "are outside the lattice", "outside");
-    if (desc->fail_on & FFD_GATE_OUTSIDE && totals->shapes_outside)
-        add(&line, "morph targets move vertices outside the lattice", "outside");
+        add_count(&line, totals->outside_all, totals, "is outside the lattice", "are outside the lattice",
+                  "outside");
+    if (desc->fail_on & FFD_GATE_OUTSIDE && (totals->shapes_outside || totals->shown_outside)) {
+        char text[100];
+        snprintf(text, sizeof text, "%s vertices outside the lattice", what_moves(totals));
+        add(&line, text, "outside");
+    }
     if (desc->fail_on & FFD_GATE_MULTIPLE)
-        add_count(&line, totals->multiple_any, totals, "have several u,v,w", "multiple");
+        add_count(&line, totals->multiple_any, totals, "has several u,v,w", "have several u,v,w", "multiple");
     if (desc->fail_on & FFD_GATE_SINGULAR)
-        add_count(&line, totals->counts[FFD_SINGULAR], totals, "are where the lattice has no inverse",
-                  "singular");
+        add_count(&line, totals->counts[FFD_SINGULAR], totals, "is where the lattice has no inverse",
+                  "are where the lattice has no inverse", "singular");
+    if (desc->fail_on & FFD_GATE_INVALID)
+        add_count(&line, totals->counts[FFD_POINT_INVALID], totals, "has a coordinate that is not finite",
+                  "have a coordinate that is not finite", "invalid");
+    if (desc->fail_on & FFD_GATE_INVALID && totals->shapes_invalid)
+        add(&line, "morph targets move vertices to coordinates that are not finite", "invalid");
+    add_values(&line, desc, result);
     return line.length ? ffd_fail_file(error, FFD_E_GATE, name, "%s", line.text) : FFD_OK;
 }

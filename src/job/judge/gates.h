@@ -1,14 +1,14 @@
-/* gates.h - what may not come out of a job: policies, and the quality gates of --fail-on. */
+/* gates.h - what makes a job fail: policies, and the quality gates of --fail-on. */
 #ifndef FFD_JOB_JUDGE_GATES_H
 #define FFD_JOB_JUDGE_GATES_H
 
 #include "job/chain/chain.h"
 #include "job/pass/pass_totals.h"
 
-/* What a deformation refuses of the vertices; name is the mesh's. A check counts those that are not finite.
-   Errors: FFD_E_INVALID, FFD_E_EMBEDDING. */
-ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, bool check,
-                              const lattice_chain *chain, const pass_totals *totals, ffd_error *error);
+/* What a deformation refuses of the vertices, and of an embedding that misses them; name is the mesh's.
+ * Errors: FFD_E_INVALID, FFD_E_EMBEDDING. */
+ffd_status ffd_policies_judge(const ffd_deform_desc *desc, const char *name, const lattice_chain *chain,
+                              const pass_totals *totals, ffd_error *error);
 
 /* One line about all gates that are violated, in the order of ffd_gate. result has the folds where their gate
    is set. Errors: FFD_E_GATE. */

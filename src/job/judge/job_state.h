@@ -13,6 +13,7 @@ typedef struct deform_job {
     bool check;          /* nothing will be written; all figures are wanted */
     bool recomputes;     /* there are normals, and they are to be those of the deformed faces */
     bool only_positions; /* set before opening: nothing asked for looks at normals */
+    unsigned losses;     /* of inputs, before this job (base/file/mapping.h) */
     int threads;
     mesh_log log;
     lattice_chain chain;
@@ -20,6 +21,7 @@ typedef struct deform_job {
     bool document_is_shared;  /* it is the last job's */
     embedding_file embedding; /* where one is named */
     pass_totals totals;
+    uint8_t *kept;   /* marks of the pass (job/chain/chain.h); NULL: no vertices */
     mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
 } deform_job;
 

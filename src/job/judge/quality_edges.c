@@ -1,11 +1,13 @@
-/* quality_edges.c - how far straight edges are from the deformed surface (quality.h). */
+#include "job/judge/quality_edges.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
 #include "base/vector/vec.h"
 #include "embed/frame/box_tree.h"
+#include "job/chain/chain_apply.h"
+#include "job/chain/chain_boxes.h"
 #include "job/judge/edge_list.h"
-#include "job/judge/quality.h"
 #include "job/pass/pass.h"
+#include "job/pass/vertex_rounding.h"
 #include "lattice/lattice.h"
 #include <float.h>
 #include <string.h>
@@ -20,13 +22,13 @@
 #define TILE ((size_t)256)   /* edges */
 #define BATCH ((size_t)1024) /* points sent through the chain at once */
 
-/* The rule of quality.h. Extents are in span cells, or in parts of 1/4 of a diagonal. */
+/* The rule of quality_edges.h. Extents are in span cells, or in parts of 1/4 of a diagonal. */
 #define LONG_QUARTER (1.0 / 16)
 #define WIDEST_PIECE (1.0 / 2)
 #define DIAGONAL_EXTENT 4.0
 #define OVERSHOOT (1 + 1.0 / 64)
-/* Deviations that are less than this part of the coordinates may be rounding: they are no reason to look
-   closer. */
+/* Deviations that are less than this part of the coordinates may be rounding: they are no
+   reason to look closer. */
 #define ROUNDING (256 * DBL_EPSILON)
 
 typedef struct sampled_edge {
@@ -50,7 +52,9 @@ typedef struct sample_request {
 typedef struct edge_scratch {
     sampled_edge edges[TILE];
     double offset[TILE][SLOTS][3]; /* from the nearest point of the straight deformed edge */
-    double *cells; /* TILE x SLOTS x links x 3: u,v,w counted in span cells; NaN: none, or not asked for */
+    double *cells; /* TILE x SLOTS x layers x 3: u,v,w counted in span cells; NaN: none, or not asked for */
+    uint32_t owners[TILE * SLOTS]; /* the blocks that these are of */
+    size_t first;                  /* number of the tile's first edge */
     size_t requested;
     sample_request requests[BATCH];
     double x[3 * BATCH], delta[3 * BATCH]; /* delta: of all links */
@@ -68,9 +72,11 @@ typedef struct edge_tile {
 
 typedef struct edge_work {
     const mesh_faces *faces;
+    vertex_owners owners; /* of the vertices; document NULL: their rounding is not known */
     const double *deformed;
     const lattice_chain *chain;
-    bounds *reach; /* of each link: no point beyond moves */
+    size_t layers;
+    bounds *reach; /* of each layer: no point beyond moves */
     edge_list list;
     edge_scratch *scratch; /* one a worker */
     edge_tile *tiles;
@@ -78,7 +84,7 @@ typedef struct edge_work {
 
 static double *cells_of(const edge_work *work, edge_scratch *scratch, size_t edge, size_t slot)
 {
-    return scratch->cells + (edge * SLOTS + slot) * work->chain->count * 3;
+    return scratch->cells + (edge * SLOTS + slot) * work->layers * 3;
 }
 
 /* u as the number of the non-empty span that holds it, and how far in it u is. */
@@ -106,18 +112,40 @@ static double cells_between(const knot_vector *knots, double a, double b)
     return ffd_knots_closed(knots) && round < distance ? round : distance;
 }
 
+/* The extent from slot l to r in one lattice, given the u,v,w there. */
+static double lattice_extent(const ffd_lattice *lattice, double length, const double left[3],
+                             const double right[3])
+{
+    double result = DIAGONAL_EXTENT * length / lattice->diagonal;
+    for (int a = 0; a < 3; a++)
+        result = fmax(result, cells_between(&lattice->knots[a], left[a], right[a]));
+    return result;
+}
+
+/* The extent from slot l to r in the block that has both: from one block to another the displacement may
+   jump. */
+static double block_extent(const edge_work *work, const edge_scratch *scratch, double length, size_t l,
+                           size_t r)
+{
+    const uint32_t owner = scratch->owners[l];
+    if (owner != scratch->owners[r])
+        return HUGE_VAL;
+    return owner == BLOCK_NONE ? 0
+                               : lattice_extent(work->chain->links[owner].lattice, length,
+                                                scratch->cells + 3 * l, scratch->cells + 3 * r);
+}
+
 /* The extent of the edge from slot l to r in the lattice where it is the largest. */
 static double extent(const edge_work *work, edge_scratch *scratch, size_t edge, size_t l, size_t r)
 {
     const double *left = cells_of(work, scratch, edge, l), *right = cells_of(work, scratch, edge, r);
     const double length = scratch->edges[edge].length * ((double)(r - l) / PIECES);
     double result = 0;
-    for (size_t k = 0; k < work->chain->count; k++) {
-        const ffd_lattice *lattice = work->chain->links[k].lattice;
-        result = fmax(result, DIAGONAL_EXTENT * length / lattice->diagonal);
-        for (size_t a = 0; a < 3; a++)
-            result = fmax(result, cells_between(&lattice->knots[a], left[3 * k + a], right[3 * k + a]));
-    }
+    if (work->chain->blocks)
+        return block_extent(work, scratch, length, edge * SLOTS + l, edge * SLOTS + r);
+    for (size_t k = 0; k < work->chain->count; k++)
+        result =
+            fmax(result, lattice_extent(work->chain->links[k].lattice, length, left + 3 * k, right + 3 * k));
     return result;
 }
 
@@ -137,14 +165,30 @@ static void clip(const bounds *box, const double start[3], const double along[3]
     }
 }
 
+/* What the points of an edge stand for: in each coordinate the more of what its ends do. x: where lattices
+   have brought a point; NULL: it is at rest. */
+static void edge_rounding(const edge_work *work, uint64_t key, const double x[3], double half[3])
+{
+    double other[3];
+    ffd_vertex_rounding(&work->owners, (size_t)(key >> 32), x, half);
+    ffd_vertex_rounding(&work->owners, (size_t)(key & UINT32_MAX), x, other);
+    for (int a = 0; a < 3; a++)
+        half[a] = larger_of(half[a], other[a]);
+}
+
 /* An edge that is long against the lattices is looked at only where it passes them: what is in none of them
    before the first link stays for all links. */
-static void find_window(const edge_work *work, sampled_edge *edge)
+static void find_window(const edge_work *work, const double half[3], sampled_edge *edge)
 {
     double first = 2, last = -1;
-    for (size_t k = 0; k < work->chain->count; k++) {
+    for (size_t k = 0; k < work->layers; k++) {
+        bounds reach = work->reach[k];
         double from, to;
-        clip(&work->reach[k], edge->start, edge->along, &from, &to);
+        for (int a = 0; a < 3; a++) {
+            reach.lo[a] -= half[a];
+            reach.hi[a] += half[a];
+        }
+        clip(&reach, edge->start, edge->along, &from, &to);
         if (from <= to) {
             first = fmin(first, from);
             last = fmax(last, to);
@@ -171,7 +215,8 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
     const size_t a = (size_t)(key >> 32), b = (size_t)(key & UINT32_MAX);
     const double *rest[2] = {work->faces->positions + 3 * a, work->faces->positions + 3 * b};
     const double *after[2] = {work->deformed + 3 * a, work->deformed + 3 * b};
-    double size = 0;
+    static const double none[3] = {0, 0, 0};
+    double size = 0, half[3];
     memset(edge, 0, sizeof *edge);
     for (int c = 0; c < 3; c++) {
         edge->start[c] = rest[0][c];
@@ -183,7 +228,11 @@ static void begin_edge(const edge_work *work, uint64_t key, sampled_edge *edge)
             size = fmax(size, fmax(fabs(rest[i][c]), fabs(after[i][c])));
     }
     edge->rounding = ROUNDING * size;
-    find_window(work, edge);
+    find_window(work, none, edge);
+    if (work->owners.document && edge->share < 1) { /* it ends where what its points stand for does */
+        edge_rounding(work, key, NULL, half);
+        find_window(work, half, edge);
+    }
     edge->length = vec_length(edge->along) * edge->share;
     edge->chord_square = vec_dot(edge->chord, edge->chord);
     edge->left_out = !isfinite(edge->length) || !isfinite(edge->chord_square) ||
@@ -217,29 +266,74 @@ static void keep_sample(const sample_request *request, const double delta[3], ed
     edge->largest = fmax(edge->largest, deviation);
 }
 
+static void count_cells(const ffd_lattice *lattice, const double uvw[3], double cell[3])
+{
+    for (int a = 0; a < 3; a++)
+        cell[a] = isfinite(uvw[a]) ? cell_coordinate(&lattice->knots[a], uvw[a]) : NAN;
+}
+
 static void keep_cells(const edge_work *work, edge_scratch *scratch, size_t link)
 {
-    const ffd_lattice *lattice = work->chain->links[link].lattice;
     for (size_t i = 0; i < scratch->requested; i++) {
         const sample_request *request = &scratch->requests[i];
-        const double *uvw = scratch->chain.locations[i].uvw;
-        double *cell = cells_of(work, scratch, request->edge, request->slot) + 3 * link;
-        for (int a = 0; a < 3; a++)
-            cell[a] = isfinite(uvw[a]) ? cell_coordinate(&lattice->knots[a], uvw[a]) : NAN;
+        count_cells(work->chain->links[link].lattice, scratch->chain.locations[i].uvw,
+                    cells_of(work, scratch, request->edge, request->slot) + 3 * link);
     }
 }
 
-/* Sends the requested points through the chain, link by link to see the u,v,w in each. */
-static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
+/* A tile whose samples' rounding is asked for, on their way to a link. */
+typedef struct tile_rounding {
+    const edge_work *work;
+    const edge_scratch *scratch;
+    size_t link;
+} tile_rounding;
+
+static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
 {
+    const tile_rounding *tile = context;
+    const size_t edge = tile->scratch->first + tile->scratch->requests[point].edge;
+    (void)is_first; /* there is one link at a time */
+    edge_rounding(tile->work, tile->work->list.keys[edge], tile->link == 0 ? NULL : x, half);
+}
+
+/* Sends the requested points through the blocks. */
+static ffd_status take_blocks(const edge_work *work, edge_scratch *scratch)
+{
+    const tile_rounding tile = {work, scratch, 0};
+    const chain_rounding rounding = {find_rounding, &tile};
+    chain_run run = {.x = scratch->x,
+                     .count = scratch->requested,
+                     .scratch = &scratch->chain,
+                     .delta = scratch->delta,
+                     .outcomes = scratch->point_outcomes,
+                     .rounding = work->owners.document ? &rounding : NULL};
+    const ffd_status status = ffd_chain_apply(work->chain, work->chain->count, &run, NULL);
+    for (size_t i = 0; i < scratch->requested && !status; i++) {
+        const sample_request *request = &scratch->requests[i];
+        const uint32_t owner = scratch->chain.owners[i];
+        scratch->owners[request->edge * SLOTS + request->slot] = owner;
+        if (owner != BLOCK_NONE)
+            count_cells(work->chain->links[owner].lattice, scratch->chain.locations[i].uvw,
+                        cells_of(work, scratch, request->edge, request->slot));
+    }
+    return status;
+}
+
+/* Sends the requested points through the chain, link by link to see the u,v,w in each. */
+static ffd_status take_links(const edge_work *work, edge_scratch *scratch)
+{
+    tile_rounding tile = {work, scratch, 0};
+    const chain_rounding rounding = {find_rounding, &tile};
     memset(scratch->delta, 0, 3 * scratch->requested * sizeof(double));
     for (size_t k = 0; k < work->chain->count; k++) {
+        tile.link = k;
         const lattice_chain link = {.links = &work->chain->links[k],
                                     .count = 1,
                                     .outside = work->chain->outside,
                                     .isa = work->chain->isa};
         chain_run run = {.x = scratch->x,
                          .count = scratch->requested,
+                         .rounding = work->owners.document ? &rounding : NULL,
                          .scratch = &scratch->chain,
                          .delta = scratch->link_delta,
                          .outcomes = scratch->point_outcomes};
@@ -250,10 +344,16 @@ static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
         for (size_t i = 0; i < 3 * scratch->requested; i++)
             scratch->delta[i] += scratch->link_delta[i];
     }
-    for (size_t i = 0; i < scratch->requested; i++)
+    return FFD_OK;
+}
+
+static ffd_status take_samples(const edge_work *work, edge_scratch *scratch)
+{
+    const ffd_status status = work->chain->blocks ? take_blocks(work, scratch) : take_links(work, scratch);
+    for (size_t i = 0; i < scratch->requested && !status; i++)
         keep_sample(&scratch->requests[i], scratch->delta + 3 * i, scratch);
     scratch->requested = 0;
-    return FFD_OK;
+    return status;
 }
 
 static ffd_status request_sample(const edge_work *work, edge_scratch *scratch, size_t number, size_t slot)
@@ -387,6 +487,7 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     edge_tile *result = &work->tiles[tile];
     const size_t count = last - first;
     scratch->requested = 0;
+    scratch->first = first;
     for (size_t i = 0; i < count; i++)
         begin_edge(work, work->list.keys[first + i], &scratch->edges[i]);
     ffd_status status = begin_samples(work, scratch, count);
@@ -429,11 +530,19 @@ static ffd_status join_tiles(const edge_work *work, size_t tiles, edge_quality *
     return FFD_OK;
 }
 
+/* Of blocks: one box round all. */
 static bool find_reach(edge_work *work)
 {
-    work->reach = ffd_alloc(work->chain->count, sizeof *work->reach);
-    for (size_t k = 0; work->reach && k < work->chain->count; k++)
-        work->reach[k] = ffd_chain_reach(work->chain, k);
+    work->reach = ffd_alloc(work->layers, sizeof *work->reach);
+    for (size_t k = 0; work->reach && k < work->chain->count; k++) {
+        const bounds reach = ffd_chain_reach(work->chain, k);
+        if (k < work->layers) {
+            work->reach[k] = reach;
+            continue;
+        }
+        bounds_add(&work->reach[0], reach.lo);
+        bounds_add(&work->reach[0], reach.hi);
+    }
     return work->reach;
 }
 
@@ -448,12 +557,12 @@ _Static_assert(sizeof(edge_scratch) - sizeof(kept_cells) < THREAD_BYTES &&
                    TILE * SLOTS * 3 * sizeof(double) <= THREAD_LINK_BYTES,
                "a thread takes more than is counted");
 
-static edge_scratch *make_scratch(size_t workers, size_t links)
+static edge_scratch *make_scratch(size_t workers, size_t layers)
 {
     edge_scratch *scratch = ffd_alloc_zero(workers, sizeof *scratch);
     for (size_t i = 0; scratch && i < workers; i++) {
         scratch[i].chain.displacement.kept.threads = (int)workers;
-        scratch[i].cells = ffd_alloc(links, TILE * SLOTS * 3 * sizeof(double));
+        scratch[i].cells = ffd_alloc(layers, TILE * SLOTS * 3 * sizeof(double));
         if (!scratch[i].cells) {
             free_scratch(scratch, workers);
             return NULL;
@@ -462,10 +571,11 @@ static edge_scratch *make_scratch(size_t workers, size_t links)
     return scratch;
 }
 
-ffd_status ffd_quality_edges(const mesh_faces *faces, const double *deformed, const lattice_chain *chain,
-                             int threads, edge_quality *result, ffd_error *error)
+ffd_status ffd_quality_edges(const mesh_document *document, const mesh_faces *faces, const double *deformed,
+                             const lattice_chain *chain, int threads, edge_quality *result, ffd_error *error)
 {
-    edge_work work = {.faces = faces, .deformed = deformed, .chain = chain};
+    edge_work work = {
+        .faces = faces, .deformed = deformed, .chain = chain, .layers = ffd_chain_layers(chain)};
     size_t workers = (size_t)(threads > 0 ? threads : ffd_processor_count()), tiles = 0;
     *result = (edge_quality){0};
     ffd_status status = ffd_edges_collect(faces, &work.list, error);
@@ -473,15 +583,17 @@ ffd_status ffd_quality_edges(const mesh_faces *faces, const double *deformed, co
         return status;
     tiles = work.list.count / TILE + (work.list.count % TILE != 0);
     workers = tiles && tiles < workers ? tiles : workers;
-    work.scratch = make_scratch(workers, chain->count);
+    work.scratch = make_scratch(workers, work.layers);
     work.tiles = ffd_alloc_zero(tiles, sizeof *work.tiles);
-    if (!work.scratch || !work.tiles || !find_reach(&work)) {
-        status = ffd_fail_memory(error);
+    status = work.scratch && work.tiles && find_reach(&work) ? FFD_OK : ffd_fail_memory(error);
+    if (!status && document)
+        status = ffd_vertex_owners_list(document, &work.owners, error);
+    if (status)
         goto done;
-    }
     ffd_parallel_tiles(work.list.count, TILE, (int)workers, run_tile, &work);
     status = join_tiles(&work, tiles, result, error);
 done:
+    ffd_vertex_owners_free(&work.owners);
     ffd_free(work.tiles);
     ffd_free(work.reach);
     free_scratch(work.scratch, workers);

@@ -1,6 +1,6 @@
 #include "job/judge/result.h"
+#include "base/text/words.h"
 #include "job/chain/coverage.h"
-#include "job/input/source.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,6 +13,7 @@ void ffd_result_clear(ffd_job_result *result)
         result->before.min[a] = result->after.min[a] = 1; /* nothing yet: min > max */
         result->before.max[a] = result->after.max[a] = -1;
     }
+    result->det_outside = HUGE_VAL;
     result->det_min = 1;
     result->det_max = -1;
 }
@@ -22,6 +23,11 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
     result->vertices = totals->vertices;
     for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
         result->counts[s] = totals->counts[s];
+    result->unused = totals->unused;
+    result->hidden = totals->hidden;
+    result->targets_outside = totals->shapes_outside;
+    result->targets_invalid = totals->shapes_invalid;
+    result->shown_outside = totals->shown_outside;
     result->moved = totals->moved;
     result->residual_max = sqrt(totals->residual_square_max);
     result->residual_rms = totals->located ? sqrt(totals->residual_square_sum / (double)totals->located) : 0;
@@ -35,74 +41,210 @@ void ffd_result_fill(ffd_job_result *result, const pass_totals *totals, double s
         result->after.min[a] += 0.0;
         result->after.max[a] += 0.0;
     }
+    result->det_outside = totals->det_outside;
+    result->det_outside_vertex = totals->first_det_outside;
     result->displacement_max = sqrt(totals->displacement_square_max);
     result->displacement_rms =
         totals->vertices ? sqrt(totals->displacement_square_sum / (double)totals->vertices) : 0;
+    result->moved_twice = totals->moved_twice;
+    result->disagreeing = totals->disagreeing;
+    result->disagreement = totals->disagreement;
     result->normals_collapsed = totals->normals_collapsed;
     result->normals_carried = totals->normals_carried;
     result->transforms_singular = totals->transforms_singular;
+    result->weights_off = totals->weights.off;
+    result->weights_farthest = totals->weights.farthest;
+    result->weights_none = totals->weights.none;
     const double own = totals->embed_seconds + totals->deform_seconds;
     result->seconds_embed = own > 0 ? seconds * totals->embed_seconds / own : 0;
     result->seconds_deform = seconds - result->seconds_embed;
 }
 
-/* What has become of the vertices outside. */
+static const char *vertices(uint64_t count)
+{
+    return ffd_plural(count, "vertex", "vertices");
+}
+
+static const char *are(uint64_t count)
+{
+    return ffd_plural(count, "is", "are");
+}
+
+static const char *left_alone(uint64_t count)
+{
+    return ffd_plural(count, "left where it is", "left where they are");
+}
+
+void ffd_result_note_flaws(ffd_job_result *result, const mesh_flaws *flaws)
+{
+    memcpy(result->flaws, flaws->list, sizeof result->flaws);
+    result->flaw_count = flaws->count;
+}
+
+/* "2 moved with the nearest boundary point, 1 left where it is beyond the falloff"; without numbers where
+   there is one kind only. */
+static void tell_kinds(const pass_totals *totals, const chain_outside *outside, char *text, size_t capacity)
+{
+    const uint64_t count = totals->counts[FFD_OUTSIDE], followed = totals->extended_moved;
+    const uint64_t still = totals->extended - followed, beyond = count - totals->extended;
+    const struct {
+        uint64_t count;
+        const char *what, *why;
+    } kinds[] = {
+        {followed, "moved with the nearest boundary point", ""},
+        {still, left_alone(still), ", as the nearest boundary point is"},
+        {beyond, left_alone(beyond), outside->extend && outside->falloff > 0 ? " beyond the falloff" : ""}};
+    size_t length = 0;
+    *text = 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        if (kinds[k].count == 0)
+            continue;
+        if (kinds[k].count < count)
+            length += (size_t)snprintf(text + length, capacity - length, "%s%" PRIu64 " ", length ? ", " : "",
+                                       kinds[k].count);
+        length += (size_t)snprintf(text + length, capacity - length, "%s%s", kinds[k].what, kinds[k].why);
+    }
+}
+
+/* Says in words what was done with the vertices outside. */
 static void tell_outside(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
                          size_t capacity)
 {
-    static const char moved[] = "moved with the nearest boundary point", stay[] = "left where they are";
-    const uint64_t count = totals->counts[FFD_OUTSIDE], kept = count - totals->extended;
-    const char *why = outside->extend && outside->falloff > 0 ? " beyond the falloff" : "";
-    if (!deformed)
-        snprintf(text, capacity, "%" PRIu64 " outside (no u,v,w)", count);
-    else if (kept == 0)
-        snprintf(text, capacity, "%" PRIu64 " outside (%s)", count, moved);
-    else if (totals->extended == 0)
-        snprintf(text, capacity, "%" PRIu64 " outside (%s%s)", count, stay, why);
-    else
-        snprintf(text, capacity, "%" PRIu64 " outside (%" PRIu64 " %s, %" PRIu64 " %s%s)", count,
-                 totals->extended, moved, kept, stay, why);
+    char kinds[300] = "no u,v,w";
+    if (deformed)
+        tell_kinds(totals, outside, kinds, sizeof kinds);
+    snprintf(text, capacity, "%" PRIu64 " outside (%s)", totals->counts[FFD_OUTSIDE], kinds);
+}
+
+/* Adds why vertices are singular, where that is not the search's end, which has a line of its own. */
+static void tell_degenerate(const pass_totals *totals, char *text, size_t capacity)
+{
+    const size_t length = strlen(text);
+    if (totals->degenerate && totals->degenerate == totals->counts[FFD_SINGULAR])
+        snprintf(text + length, capacity - length, " (where the lattice folds or collapses)");
+    else if (totals->degenerate)
+        snprintf(text + length, capacity - length, " (%" PRIu64 " where the lattice folds or collapses)",
+                 totals->degenerate);
+}
+
+/* Lists how many vertices have each status but inside, and what was done with them. */
+static void tell_others(const pass_totals *totals, const chain_outside *outside, bool deformed, char *text,
+                        size_t capacity)
+{
+    static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
+    *text = 0;
+    if (totals->counts[FFD_OUTSIDE])
+        tell_outside(totals, outside, deformed, text, capacity);
+    for (int s = FFD_OUTSIDE + 1; s < FFD_VERTEX_STATUS_COUNT; s++) {
+        const size_t length = strlen(text);
+        const uint64_t count = totals->counts[s];
+        const bool invalid = s == FFD_POINT_INVALID, stay = deformed && invalid;
+        if (count)
+            snprintf(text + length, capacity - length, "%s%" PRIu64 " %s%s%s%s%s", length ? ", " : "", count,
+                     names[s], invalid ? " (not finite" : "", stay ? "; " : "", stay ? left_alone(count) : "",
+                     invalid ? ")" : "");
+        if (s == FFD_SINGULAR)
+            tell_degenerate(totals, text, capacity);
+    }
+}
+
+/* A sum that is this far from 1 shows another shape in viewers that take weights as they are. */
+#define WEIGHTS_FAR 0.01
+
+static void tell_weights(const skin_weights *weights, const mesh_log *log)
+{
+    if (weights->off)
+        ffd_log_line(log, weights->farthest > WEIGHTS_FAR ? FFD_LOG_WARNING : FFD_LOG_INFO,
+                     "the skin weights of %" PRIu64
+                     " %s do not add up to 1 (off by up to %g): they are divided by their sum",
+                     weights->off, vertices(weights->off), weights->farthest);
+    if (weights->none)
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s no skin weights: %s first joint", weights->none,
+                     ffd_plural(weights->none, "vertex has", "vertices have"),
+                     ffd_plural(weights->none, "it follows its", "they follow their"));
+}
+
+/* What there is to say of faces that lattices share. */
+static void warn_of_faces(const pass_totals *totals, const mesh_log *log)
+{
+    if (totals->moved_twice)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " %s on a face common to two lattices %s moved by both: see --blocks",
+                     totals->moved_twice, vertices(totals->moved_twice), are(totals->moved_twice));
+}
+
+static void warn_of_unshown(const pass_totals *totals, const mesh_log *log)
+{
+    if (totals->unused)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " %s that no face, line or point uses %s not inside: no gate counts %s",
+                     totals->unused, vertices(totals->unused), are(totals->unused),
+                     ffd_plural(totals->unused, "it", "them"));
+    if (totals->hidden)
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s of hidden nodes %s not inside: no gate counts %s",
+                     totals->hidden, vertices(totals->hidden), are(totals->hidden),
+                     ffd_plural(totals->hidden, "it", "them"));
+}
+
+/* What there is to say of morph targets, and of the shape that their default weights show. */
+static void warn_of_shapes(const pass_totals *totals, const lattice_chain *chain, const mesh_log *log)
+{
+    if (totals->shapes_outside)
+        ffd_log_line(log, FFD_LOG_WARNING, "morph targets move %" PRIu64 " %s outside the lattice (%s)",
+                     totals->shapes_outside, vertices(totals->shapes_outside),
+                     !chain->outside.extend
+                         ? left_alone(totals->shapes_outside)
+                         : ffd_plural(totals->shapes_outside, "it goes with the nearest boundary point",
+                                      "they go with the nearest boundary point"));
+    if (totals->shown_outside && !totals->shapes_outside) /* else the reason is said already */
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " %s %s outside the lattice as the default weights of morph targets show %s",
+                     totals->shown_outside, vertices(totals->shown_outside), are(totals->shown_outside),
+                     ffd_plural(totals->shown_outside, "it", "them"));
+    if (totals->shapes_invalid)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "morph targets move %" PRIu64 " %s to coordinates that are not finite (left as %s)",
+                     totals->shapes_invalid, vertices(totals->shapes_invalid),
+                     ffd_plural(totals->shapes_invalid, "it is", "they are"));
 }
 
 void ffd_result_warn(const pass_totals *totals, const lattice_chain *chain, bool deformed,
                      const mesh_log *log)
 {
-    static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
-    const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE];
+    const uint64_t others = totals->vertices - totals->counts[FFD_INSIDE] - totals->unused - totals->hidden;
     if (others) {
-        char list[400] = "", coverage[600] = "";
-        if (totals->counts[FFD_OUTSIDE])
-            tell_outside(totals, &chain->outside, deformed, list, sizeof list);
-        for (int s = FFD_OUTSIDE + 1; s < FFD_VERTEX_STATUS_COUNT; s++)
-            if (totals->counts[s]) {
-                const size_t length = strlen(list);
-                snprintf(list + length, sizeof list - length, "%s%" PRIu64 " %s", length ? ", " : "",
-                         totals->counts[s], names[s]);
-            }
-        if (totals->outside_any)
+        char list[600], coverage[600] = "";
+        tell_others(totals, &chain->outside, deformed, list, sizeof list);
+        if (totals->outside_all)
             ffd_chain_coverage(chain, coverage, sizeof coverage);
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " vertices are not inside: %s%s%s",
-                     others, totals->vertices, list, *coverage ? "; " : "", coverage);
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " of %" PRIu64 " %s %s not inside: %s%s%s", others,
+                     totals->vertices, vertices(totals->vertices), are(others), list, *coverage ? "; " : "",
+                     coverage);
     }
-    if (totals->shapes_outside)
-        ffd_log_line(log, FFD_LOG_WARNING, "morph targets move %" PRIu64 " vertices outside the lattice (%s)",
-                     totals->shapes_outside,
-                     chain->outside.extend ? "moved with the nearest boundary point" : "left where they are");
+    warn_of_faces(totals, log);
+    warn_of_unshown(totals, log);
+    warn_of_shapes(totals, chain, log);
     if (totals->unresolved)
         ffd_log_line(log, FFD_LOG_WARNING,
                      "for %" PRIu64
-                     " vertices the search ended at its limits: the lattice folds or collapses there",
-                     totals->unresolved);
+                     " %s the search ended at its limits: there may be u,v,w that it did not find",
+                     totals->unresolved, vertices(totals->unresolved));
     if (totals->transforms_singular)
         ffd_log_line(log, FFD_LOG_WARNING,
-                     "%" PRIu64 " vertices do not move: the matrix of their node or skin has no inverse",
-                     totals->transforms_singular);
+                     "%" PRIu64 " %s not move: the matrix of %s node or skin has no inverse",
+                     totals->transforms_singular,
+                     ffd_plural(totals->transforms_singular, "vertex does", "vertices do"),
+                     ffd_plural(totals->transforms_singular, "its", "their"));
+    tell_weights(&totals->weights, log);
     if (totals->normals_carried)
         ffd_log_line(log, FFD_LOG_WARNING,
-                     "%" PRIu64 " normals have no face with an area to be computed from: they follow the "
-                     "deformation",
-                     totals->normals_carried);
+                     "%" PRIu64 " %s no face with an area to be computed from: %s the deformation",
+                     totals->normals_carried,
+                     ffd_plural(totals->normals_carried, "normal has", "normals have"),
+                     ffd_plural(totals->normals_carried, "it follows", "they follow"));
     if (totals->normals_collapsed)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " normals are kept: the deformation collapses them",
-                     totals->normals_collapsed);
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s kept: the deformation collapses %s",
+                     totals->normals_collapsed,
+                     ffd_plural(totals->normals_collapsed, "normal is", "normals are"),
+                     ffd_plural(totals->normals_collapsed, "it", "them"));
 }

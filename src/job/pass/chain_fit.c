@@ -1,8 +1,11 @@
 #include "job/pass/chain_fit.h"
+#include "job/chain/chain_boxes.h"
 #include "job/chain/chain_load.h"
+#include "job/chain/seams.h"
 #include "job/pass/pass.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
+#include "mesh/bounds.h"
 #include <math.h>
 #include <string.h>
 
@@ -22,6 +25,47 @@ static ffd_status check_reach(const lattice_chain *chain, size_t link, const mes
     return document->format->check_reach(document, &box, error);
 }
 
+static bool is_empty(const ffd_bounds *box)
+{
+    for (int a = 0; a < 3; a++)
+        if (!(box->min[a] <= box->max[a]))
+            return true;
+    return false;
+}
+
+/* The box of what is selected and shown, after the links before this one; of all that is selected, where
+   nothing of it is shown. */
+static ffd_status find_box(const lattice_chain *chain, size_t links, mesh_document *document, int threads,
+                           ffd_bounds *box, ffd_error *error)
+{
+    mesh_pass pass = {.document = document,
+                      .chain = chain,
+                      .links = links,
+                      .threads = threads,
+                      .bounds_shapes = true,
+                      .bounds_of = PASS_BOUNDS_SHOWN};
+    pass_totals totals;
+    ffd_status status = ffd_mesh_mark_used(document, error);
+    if (!status)
+        status = ffd_pass_run(&pass, &totals, error);
+    pass.bounds_of = PASS_BOUNDS_ALL;
+    if (!status && is_empty(&totals.after) && is_empty(&totals.shapes))
+        status = ffd_pass_run(&pass, &totals, error);
+    if (status)
+        return status;
+    *box = totals.after;
+    if (!is_empty(&totals.shapes)) {
+        ffd_bounds_widen(box, totals.shapes.min);
+        ffd_bounds_widen(box, totals.shapes.max);
+    }
+    /* Of a mesh without vertices nothing will be asked. */
+    for (int a = 0; a < 3 && is_empty(box); a++) {
+        box->min[a] = 0;
+        box->max[a] = 1;
+    }
+    return FFD_OK;
+}
+
 ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int threads, ffd_error *error)
 {
     const int usable = ffd_pass_threads(&document->budget, 0, threads);
@@ -29,20 +73,12 @@ ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int thre
         chain_link *link = &chain->links[l];
         if (link->locator)
             continue;
-        const mesh_pass pass = {.document = document, .chain = chain, .links = l, .threads = usable};
-        pass_totals totals;
+        ffd_bounds box;
         ffd_status status = check_reach(NULL, l, document, error);
         if (!status)
-            status = ffd_pass_run(&pass, &totals, error);
+            status = find_box(chain, chain->blocks ? 0 : l, document, usable, &box, error);
         if (status)
             return status;
-        /* Of a mesh without vertices nothing will be asked. */
-        ffd_bounds box = totals.after;
-        for (int a = 0; a < 3; a++)
-            if (!(box.min[a] <= box.max[a])) {
-                box.min[a] = 0;
-                box.max[a] = 1;
-            }
         status = ffd_lattice_fit(link->lattice, box.min, box.max, error);
         if (!status)
             status = ffd_chain_prepare(chain, l, error);
@@ -51,7 +87,9 @@ ffd_status ffd_chain_fit(lattice_chain *chain, mesh_document *document, int thre
             return status;
         }
     }
-    ffd_status status = FFD_OK;
+    ffd_status status = ffd_chain_boxes(chain, error);
+    if (!status)
+        status = ffd_seams_find(chain, error);
     for (size_t l = 0; l < chain->count && !status; l++)
         status = check_reach(chain, l, document, error);
     return status;

@@ -72,7 +72,7 @@ static ffd_status read_corners(grouping *g, ffd_error *error)
     return FFD_OK;
 }
 
-/* As the normal of the side that is shown: M^-T n, whatever the sign of det M. */
+/* Transforms n as the normal of the side that is shown: M^-T n, whatever the sign of det M. */
 static void show(const vertex_transform *transform, double n[3])
 {
     if (transform->identity || transform->singular)
@@ -93,7 +93,7 @@ static uint8_t side_of(const vertex_transform *transform)
 static void read_block(grouping *g, size_t part, size_t first, size_t count, uint8_t *sides, double *values)
 {
     const mesh_part *p = &g->document->parts[part];
-    ffd_vertex_transforms_read(g->document, part, first, count, g->transforms);
+    ffd_vertex_transforms_read(g->document, part, first, count, g->transforms, NULL);
     const size_t from = p->normal_start ? p->normal_start[first] : first;
     const size_t end = p->normal_start ? p->normal_start[first + count] : first + count;
     g->document->format->read_normals(g->document, part, from, end - from, values + 3 * from);
@@ -200,7 +200,7 @@ static void touch_groups(grouping *g)
     }
 }
 
-/* Lets only corners of changed groups take part; false where there is none. */
+/* Lets only corners of changed groups take part; false if there is none. */
 static bool drop_kept(grouping *g)
 {
     const size_t corners = g->faces->start[g->faces->face_count];

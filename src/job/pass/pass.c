@@ -4,18 +4,24 @@
 #include "base/vector/array_kernel.h"
 #include "base/vector/vec.h"
 #include "deform/attribute.h"
+#include "job/chain/chain_apply.h"
+#include "job/chain/recalled.h"
+#include "job/chain/seams.h"
 #include "job/pass/pass_shapes.h"
 #include "job/pass/tile_totals.h"
+#include "job/pass/vertex_rounding.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <string.h>
 
 /* Takes the points (positions as the file has them) of a tile to the lattice's space. */
 static void place_points(const part_work *work, tile_scratch *scratch, size_t first, size_t count,
-                         double *points)
+                         double *points, pass_totals *totals)
 {
     const mesh_document *document = work->pass->document;
-    ffd_vertex_transforms_read(document, work->part_number, first, count, &scratch->transforms);
+    const bool is_counted = !work->part->repeats_positions && !work->part->skipped;
+    ffd_vertex_transforms_read(document, work->part_number, first, count, &scratch->transforms,
+                               is_counted ? &totals->weights : NULL);
     if (work->part->skinned)
         ffd_points_transform(scratch->transforms.transforms, count, points);
     else
@@ -28,7 +34,7 @@ static void fill_nan(double *values, size_t count)
         values[i] = NAN;
 }
 
-static void note_determinant(const double gradient[9], pass_totals *totals)
+static void note_determinant(const double gradient[9], bool outside, size_t number, pass_totals *totals)
 {
     double f[9];
     for (int i = 0; i < 9; i++)
@@ -36,9 +42,13 @@ static void note_determinant(const double gradient[9], pass_totals *totals)
     const double det = mat_determinant(f);
     totals->det_min = fmin(totals->det_min, det);
     totals->det_max = fmax(totals->det_max, det);
+    if (outside && det < totals->det_outside) {
+        totals->det_outside = det;
+        totals->first_det_outside = number;
+    }
 }
 
-/* What the caller wants to have of the tile's vertices, which are spread. */
+/* Fills the caller's arrays from the tile's vertices, which are spread. */
 static void fill_arrays(const part_work *work, const tile_scratch *scratch, size_t first, size_t count,
                         pass_totals *totals)
 {
@@ -64,7 +74,7 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
         }
         if (pass->determinants && !singular && outcome->status != FFD_SINGULAR &&
             (outcome->located || outcome->extended))
-            note_determinant(gradient, totals);
+            note_determinant(gradient, outcome->extended, number, totals);
     }
 }
 
@@ -180,9 +190,24 @@ static void finish_attributes(const part_work *work, tile_scratch *scratch, size
         deform_tangents(work, scratch, first, count);
 }
 
+/* Takes the location of a chosen vertex of the tile from the embedding. */
+static void recall_vertex(const part_work *work, tile_scratch *scratch, size_t i, size_t vertex,
+                          const chain_rounding *rounding, pass_totals *totals)
+{
+    const chain_link *const link = &work->pass->chain->links[0];
+    ffd_location *const location = &scratch->chain.locations[i];
+    const double *const x = scratch->position + 3 * i;
+    ffd_embedding_locate(work->pass->embedding, vertex, link->lattice, x, location);
+    if (totals->first_missed == UINT64_MAX && !ffd_recalled_meets(link, rounding, i, x, location)) {
+        totals->first_missed = vertex;
+        totals->missed_by = location->residual;
+    }
+}
+
 /* Takes the first link's locations from the embedding, or from those that are there, in which a
    position that is repeated is not listed again. Returns whether it did. */
-static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
+static bool recall(const part_work *work, tile_scratch *scratch, size_t first, const chain_rounding *rounding,
+                   pass_totals *totals)
 {
     const mesh_pass *pass = work->pass;
     if (work->part->repeats_positions || (!pass->embedding && !pass->is_located))
@@ -193,13 +218,12 @@ static bool recall(const part_work *work, tile_scratch *scratch, size_t first)
         if (pass->is_located)
             scratch->chain.locations[i] = pass->locations[vertex];
         else
-            ffd_embedding_locate(pass->embedding, vertex, pass->chain->links[0].lattice,
-                                 scratch->position + 3 * i, &scratch->chain.locations[i]);
+            recall_vertex(work, scratch, i, vertex, rounding, totals);
     }
     return true;
 }
 
-/* Locations in the last link, and its u,v,w, to where the caller wants to have them. */
+/* Copies the locations in the last link, and its u,v,w, to the caller's arrays. */
 static void keep_locations(const part_work *work, const tile_scratch *scratch, size_t first, size_t count)
 {
     const mesh_pass *pass = work->pass;
@@ -214,6 +238,25 @@ static void keep_locations(const part_work *work, const tile_scratch *scratch, s
     for (size_t i = 0; i < scratch->chosen_count; i++)
         memcpy(pass->uvw + 3 * (before + ffd_tile_chosen(scratch, i)), scratch->chain.locations[i].uvw,
                3 * sizeof *pass->uvw);
+}
+
+/* A tile whose vertices' rounding is asked for. */
+typedef struct tile_rounding {
+    const part_work *work;
+    const tile_scratch *scratch;
+} tile_rounding;
+
+static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
+{
+    const tile_rounding *tile = context;
+    const size_t i = ffd_tile_chosen(tile->scratch, point);
+    const vertex_transform transform = ffd_vertex_transform_of(&tile->scratch->transforms, i);
+    double position[3];
+    memcpy(position, tile->scratch->raw + 3 * i, sizeof position);
+    if (!is_first)
+        ffd_vertex_in_file(&transform, x, position);
+    ffd_rounding_cell(&tile->work->part->rounding, position, half);
+    ffd_vertex_rounding_place(&transform, half);
 }
 
 /* Moves the positions of the selected vertices to the front. */
@@ -232,6 +275,40 @@ static void choose(const part_work *work, tile_scratch *scratch, size_t first, s
             scratch->chosen[chosen++] = (uint32_t)i;
         }
     scratch->chosen_count = chosen;
+}
+
+/* Marks a vertex that no link may move. */
+static void mark_always(const mesh_pass *pass, size_t vertex, pass_totals *totals)
+{
+    pass->kept[vertex] |= KEPT_ALWAYS;
+    totals->kept++;
+}
+
+/* Marks the vertices of a tile that are not selected, or that cannot be brought back, and copies the marks of
+   the chain (keeps: there are some), which are cleared. */
+static void mark_kept(const part_work *work, tile_scratch *scratch, size_t first, size_t count, bool keeps,
+                      pass_totals *totals)
+{
+    const mesh_pass *const pass = work->pass;
+    const size_t before = (size_t)work->first_vertex + first;
+    const size_t planes = ffd_kept_planes(ffd_chain_marked(pass->chain));
+    if (work->part->singular || work->part->skinned)
+        for (size_t i = 0; i < count; i++)
+            if (ffd_vertex_transform_of(&scratch->transforms, i).singular)
+                mark_always(pass, before + i, totals);
+    for (size_t i = 0; i < count && !scratch->all_chosen; i++)
+        if (!ffd_part_selects(work->part, first + i))
+            mark_always(pass, before + i, totals);
+    for (size_t i = 0; i < scratch->chosen_count && keeps; i++) {
+        unsigned any = 0;
+        for (size_t p = 0; p < planes; p++) {
+            uint8_t *const mark = &scratch->kept[p * CHAIN_RUN + i];
+            pass->kept[p * pass->kept_stride + before + ffd_tile_chosen(scratch, i)] |= *mark;
+            any |= *mark;
+            *mark = 0;
+        }
+        totals->kept += any != 0;
+    }
 }
 
 /* Spreads the results of the selected vertices to their slots in the tile; the others stay. */
@@ -258,6 +335,53 @@ static void spread(tile_scratch *scratch, size_t count)
     }
 }
 
+/* Reads the tile's points, takes them to the lattice's space, and chooses those that lattices may reach. */
+static void take_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                        pass_totals *totals)
+{
+    const mesh_document *document = work->pass->document;
+    document->format->read_positions(document, work->part_number, first, count, scratch->raw);
+    memcpy(scratch->position, scratch->raw, 3 * count * sizeof(double));
+    place_points(work, scratch, first, count, scratch->position, totals);
+    choose(work, scratch, first, count);
+    if (!work->part->repeats_positions)
+        ffd_totals_count_rest(work, scratch, first, totals);
+}
+
+/* Sends the chosen points through the lattices. */
+static ffd_status deform_points(part_work *work, tile_scratch *scratch, size_t first, size_t count,
+                                bool gradients, pass_totals *totals)
+{
+    const mesh_pass *pass = work->pass;
+    const bool counts = !work->part->repeats_positions;
+    const tile_rounding tile_of = {work, scratch};
+    const chain_rounding cells = {find_rounding, &tile_of};
+    const chain_rounding *const rounding = ffd_rounding_is_none(&work->part->rounding) ? NULL : &cells;
+    chain_run run = {.x = scratch->position,
+                     .count = scratch->chosen_count,
+                     .located = recall(work, scratch, first, rounding, totals),
+                     .rounding = rounding,
+                     .scratch = &scratch->chain,
+                     .delta = scratch->delta,
+                     .gradient = gradients ? scratch->gradient : NULL,
+                     .outcomes = scratch->point_outcomes,
+                     .kept = counts ? scratch->kept : NULL};
+    const ffd_status status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
+    totals->embed_seconds = run.embed_seconds;
+    totals->deform_seconds = run.deform_seconds;
+    if (counts) {
+        totals->moved_twice = run.moved_twice;
+        totals->disagreeing = run.disagreeing;
+        totals->disagreement = run.disagreement;
+    }
+    if (status)
+        return status;
+    keep_locations(work, scratch, first, count);
+    if (run.kept)
+        mark_kept(work, scratch, first, count, run.keeps, totals);
+    return counts ? ffd_totals_count_deformed(work, scratch, first, totals, &scratch->error) : FFD_OK;
+}
+
 static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
 {
     part_work *work = context;
@@ -266,7 +390,8 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     tile_scratch *scratch = &work->scratch[worker];
     pass_totals *totals = &work->tiles[tile];
     const size_t count = last - first;
-    const bool wanted = pass->attributes && (!pass->only_offsets || part->shape_count);
+    const bool shapes = ffd_pass_takes_shapes(pass, part);
+    const bool wanted = pass->attributes && (!pass->only_offsets || shapes);
     const bool attributes = wanted && !part->singular && (part->normal_count || part->has_tangents);
     const bool gradients =
         attributes || ((pass->gradients || pass->determinants) && !part->repeats_positions);
@@ -274,29 +399,12 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     ffd_totals_clear(totals);
     if (atomic_load(&work->stopped))
         return;
-    pass->document->format->read_positions(pass->document, work->part_number, first, count, scratch->raw);
-    memcpy(scratch->position, scratch->raw, 3 * count * sizeof(double));
-    place_points(work, scratch, first, count, scratch->position);
-    choose(work, scratch, first, count);
-    if (!part->repeats_positions)
-        ffd_totals_count_rest(work, scratch, first, totals);
-    chain_run run = {.x = scratch->position,
-                     .count = scratch->chosen_count,
-                     .located = recall(work, scratch, first),
-                     .scratch = &scratch->chain,
-                     .delta = scratch->delta,
-                     .gradient = gradients ? scratch->gradient : NULL,
-                     .outcomes = scratch->point_outcomes};
-    scratch->status = ffd_chain_apply(pass->chain, pass->links, &run, &scratch->error);
-    totals->embed_seconds = run.embed_seconds;
-    totals->deform_seconds = run.deform_seconds;
+    take_points(work, scratch, first, count, totals);
+    scratch->status = deform_points(work, scratch, first, count, gradients, totals);
     if (scratch->status) {
         atomic_store(&work->stopped, true);
         return;
     }
-    keep_locations(work, scratch, first, count);
-    if (!part->repeats_positions)
-        ffd_totals_count_deformed(work, scratch, first, totals);
     spread(scratch, count);
     bring_back(work, scratch, count);
     if (!part->repeats_positions) {
@@ -305,17 +413,31 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
     }
     if (attributes)
         finish_attributes(work, scratch, first, count, totals);
-    if (pass->write && part->shape_count > 0)
+    if (shapes)
         ffd_tile_shapes(work, scratch, first, count, totals);
 }
 
-/* So few tiles of the largest size would leave some of many threads without any: then they are smaller. */
+/* With fewer tiles than this, some of many threads would have none: tiles are then smaller. */
 #define FEW_TILES ((size_t)16)
 
-/* By the count alone: the sums of tiles are joined, and must not depend on the number of threads. */
+/* Depends on the count alone: the sums of tiles are joined, and must not depend on the number of threads. */
 static size_t tile_size(size_t count)
 {
     return count < FEW_TILES * PASS_TILE ? MESH_RANGE_STEP : PASS_TILE;
+}
+
+/* Which vertices are used is looked up only for a part that has some which are not simply inside. */
+static ffd_status count_others(const part_work *work, size_t tiles, size_t size, ffd_error *error)
+{
+    bool any = false;
+    for (size_t i = 0; i < tiles; i++)
+        any = any || work->tiles[i].others;
+    const ffd_status status = any ? ffd_mesh_mark_used(work->pass->document, error) : FFD_OK;
+    for (size_t i = 0; i < tiles; i++) {
+        const size_t first = i * size, left = work->part->vertex_count - first;
+        ffd_totals_count_others(work, first, left < size ? left : size, &work->tiles[i]);
+    }
+    return status;
 }
 
 static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *error)
@@ -326,9 +448,12 @@ static ffd_status run_part(part_work *work, pass_totals *totals, ffd_error *erro
     if (!work->tiles)
         return ffd_fail_memory(error);
     ffd_parallel_tiles(count, size, work->pass->threads, run_tile, work);
+    const ffd_status status = count_others(work, tiles, size, error);
     for (size_t i = 0; i < tiles; i++)
         ffd_totals_join(&work->tiles[i], totals);
     ffd_free(work->tiles);
+    if (status)
+        return status;
     for (int i = 0; i < work->pass->threads; i++)
         if (work->scratch[i].status) {
             if (error)
@@ -348,28 +473,34 @@ _Static_assert(sizeof(tile_scratch) - sizeof(kept_cells) + sizeof(shape_scratch)
 
 static void free_scratch(tile_scratch *scratch, int workers)
 {
-    for (int i = 0; scratch && i < workers; i++)
+    for (int i = 0; scratch && i < workers; i++) {
         ffd_free(scratch[i].shape);
+        ffd_free(scratch[i].kept);
+    }
     ffd_free(scratch);
 }
 
-/* NULL when there is no memory. */
+/* NULL if memory runs out. */
 static tile_scratch *make_scratch(const mesh_pass *pass)
 {
     bool shapes = false;
     for (size_t i = 0; i < pass->document->part_count; i++)
-        shapes = shapes || (pass->write && pass->document->parts[i].shape_count > 0);
-    /* Megabytes, of which a small mesh needs little: what need not be cleared is not. */
+        shapes = shapes || ffd_pass_takes_shapes(pass, &pass->document->parts[i]);
+    /* Megabytes, of which a small mesh needs little: only what must be cleared is. */
     tile_scratch *scratch = ffd_alloc((size_t)pass->threads, sizeof *scratch);
     for (int i = 0; scratch && i < pass->threads; i++) {
         ffd_displacement_scratch_clear(&scratch[i].chain.displacement);
         scratch[i].chain.displacement.kept.threads = pass->threads;
         scratch[i].shape = NULL;
+        scratch[i].kept = NULL;
         scratch[i].status = FFD_OK;
     }
-    for (int i = 0; shapes && scratch && i < pass->threads; i++) {
-        scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
-        if (!scratch[i].shape) {
+    for (int i = 0; scratch && i < pass->threads; i++) {
+        if (shapes)
+            scratch[i].shape = ffd_alloc(1, sizeof *scratch[i].shape);
+        if (pass->kept)
+            scratch[i].kept = ffd_alloc_zero(ffd_kept_planes(ffd_chain_marked(pass->chain)), CHAIN_RUN);
+        if ((shapes && !scratch[i].shape) || (pass->kept && !scratch[i].kept)) {
             free_scratch(scratch, pass->threads);
             return NULL;
         }
@@ -389,7 +520,10 @@ ffd_status ffd_pass_run(const mesh_pass *pass, pass_totals *totals, ffd_error *e
     for (size_t i = 0; i < pass->document->part_count && !status; i++) {
         work.part = &pass->document->parts[i];
         work.part_number = i;
+        const uint64_t moved = totals->moved;
         status = run_part(&work, totals, error);
+        if (work.part->splats)
+            ffd_totals_note_splats(totals, i, totals->moved - moved);
         if (!work.part->repeats_positions)
             work.first_vertex += work.part->vertex_count;
     }

@@ -7,13 +7,13 @@
 #include "job/pass/mesh_pass.h"
 #include "job/pass/pass_totals.h"
 
-/* What a thread of a pass may take, and of what looks at edges after it (quality.h): the latter for each
-   lattice too. */
+/* Bytes that a thread of a pass may take, and one that measures edges after it (quality_edges.h), the latter
+   for each lattice too. */
 #define THREAD_BYTES ((size_t)5 << 20)
 #define THREAD_LINK_BYTES ((size_t)400 << 10)
 
-/* How many of the threads there is memory for, beside what is taken of the budget. edge_links: the lattices
-   through which they will look at edges; 0: they will not. */
+/* Returns for how many of the threads the rest of the memory budget suffices. edge_links: the number of
+   lattices through which they will measure edges; 0: none. */
 int ffd_pass_threads(const memory_budget *budget, size_t edge_links, int threads);
 
 /* Sends all vertices of the document through the chain, and counts. Errors: FFD_E_MEMORY, and those of a

@@ -3,15 +3,22 @@
    tangents likewise (src/maths.md 9.3). */
 #include "job/pass/pass_shapes.h"
 #include "base/vector/vec.h"
+#include "job/chain/chain_apply.h"
+#include "job/pass/vertex_rounding.h"
+#include "mesh/bounds.h"
 #include <ffd/deform.h>
 #include <math.h>
 #include <string.h>
+
+/* The number of what the weights of all targets show together. */
+#define SHOWN SIZE_MAX
 
 typedef struct shape_work {
     part_work *part;
     tile_scratch *tile;
     shape_scratch *scratch;
     size_t shape, first, count;
+    bool is_shown; /* it is what the weights of all targets show */
     pass_totals *totals;
 } shape_work;
 
@@ -48,6 +55,28 @@ static void write_offsets(const shape_work *work, mesh_stream stream)
                                     work->count, work->scratch->offsets, work->scratch->changed);
 }
 
+/* The offsets to the positions: of the target, or of all with their weights. */
+static void read_position_offsets(const shape_work *work)
+{
+    const mesh_part *const part = work->part->part;
+    double *const sum = work->scratch->offsets, *const one = work->scratch->normals;
+    if (work->shape != SHOWN) {
+        read_offsets(work, MESH_POSITIONS);
+        return;
+    }
+    const mesh_document *const document = work->part->pass->document;
+    memset(sum, 0, 3 * work->count * sizeof *sum);
+    for (size_t k = 0; k < part->shape_count; k++) {
+        const double weight = part->shapes[k].weight;
+        if (weight == 0 || !part->shapes[k].has[MESH_POSITIONS])
+            continue;
+        document->format->read_offsets(document, work->part->part_number, k, MESH_POSITIONS, work->first,
+                                       work->count, one);
+        for (size_t i = 0; i < 3 * work->count; i++)
+            sum[i] += weight * one[i];
+    }
+}
+
 /* Lists the vertices that the target moves, with their positions in the lattice's space. */
 static void place_moved(const shape_work *work)
 {
@@ -63,20 +92,53 @@ static void place_moved(const shape_work *work)
         for (size_t a = 0; a < 3; a++)
             x[a] = s->base[3 * i + a] + m[a];
         ffd_vertex_transform_point(&transform, x);
-        if (!vec_is_finite(x))
-            note_first(&work->totals->first_shape_invalid, number_of(work, i));
+        if (work->shape != SHOWN && !vec_is_finite(x))
+            work->totals->shapes_invalid += vec_is_finite(s->base + 3 * i);
         s->moved[s->moved_count++] = i;
     }
 }
 
-/* The base's gradients are there where it has normals; they then are in the file's own space, and so are
-   these. */
+/* Adds what the offsets of moved vertex i stand for: of what is shown, those of all targets by their weights.
+ */
+static void add_offset_rounding(const shape_work *work, size_t i, double half[3])
+{
+    const mesh_part *const part = work->part->part;
+    const bool shown = work->shape == SHOWN;
+    for (size_t k = shown ? 0 : work->shape; k < (shown ? part->shape_count : work->shape + 1); k++) {
+        const double weight = shown ? fabs(part->shapes[k].weight) : 1;
+        double of_offset[3];
+        ffd_rounding_cell(&part->shapes[k].rounding, work->scratch->offsets + 3 * i, of_offset);
+        for (int a = 0; a < 3; a++)
+            half[a] += weight * of_offset[a];
+    }
+}
+
+/* A vertex in the target stands for the sum of what its position and its offset stand for. */
+static void find_rounding(const void *context, size_t point, bool is_first, const double x[3], double half[3])
+{
+    const shape_work *work = context;
+    const shape_scratch *s = work->scratch;
+    const size_t i = s->moved[point];
+    const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
+    double position[3];
+    memcpy(position, s->base + 3 * i, sizeof position);
+    if (!is_first)
+        ffd_vertex_in_file(&transform, x, position);
+    ffd_rounding_cell(&work->part->part->rounding, position, half);
+    add_offset_rounding(work, i, half);
+    ffd_vertex_rounding_place(&transform, half);
+}
+
+/* The base's gradients are there where it has normals; they then are in the file's own
+   space, and so are these. */
 static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *error)
 {
     shape_scratch *s = work->scratch;
     const mesh_pass *pass = work->part->pass;
+    const chain_rounding rounding = {find_rounding, work};
     chain_run run = {.x = s->position,
                      .count = s->moved_count,
+                     .rounding = &rounding,
                      .scratch = &work->tile->chain,
                      .delta = s->moved_delta,
                      .gradient = gradients ? s->moved_gradient : NULL,
@@ -90,15 +152,16 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
         if (gradients)
             ffd_gradient_to_file(&transform, s->moved_gradient + 9 * k);
         s->gradients[i] = s->moved_gradient + 9 * k;
-        if (s->moved_outcomes[k].outside) {
-            work->totals->shapes_outside++;
+        if (s->moved_outcomes[k].outside && ffd_part_shows(work->part->part, work->first + i)) {
+            work->totals->shapes_outside += work->shape != SHOWN;
+            work->totals->shown_outside += work->is_shown;
             note_first(&work->totals->first_shape_outside, number_of(work, i));
         }
     }
     return status;
 }
 
-/* Takes value for a coordinate of an offset; one that it equals keeps its bits. */
+/* Sets a coordinate of an offset; one that equals value already keeps its bits. */
 static void take(double value, double *offset, uint8_t *changed)
 {
     if (value < *offset || value > *offset) {
@@ -120,6 +183,8 @@ static void deform_positions(const shape_work *work)
     memset(s->changed, 0, work->count);
     for (size_t k = 0; k < s->moved_count; k++) {
         const size_t i = s->moved[k];
+        if (s->moved_outcomes[k].status == FFD_POINT_INVALID) /* as a vertex that is not finite */
+            continue;
         const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
         const double *const base = work->tile->delta + 3 * i;
         double *const moved = s->moved_delta + 3 * k, *const m = s->offsets + 3 * i;
@@ -189,20 +254,73 @@ static void deform_tangents(const shape_work *work)
     write_offsets(work, MESH_TANGENTS);
 }
 
+/* Those of the moved vertices that the totals' bounds are of widen the box of the shapes. */
+static void widen_shapes(const shape_work *work)
+{
+    const shape_scratch *const s = work->scratch;
+    const mesh_part *const part = work->part->part;
+    const pass_bounds of = work->part->pass->bounds_of;
+    for (size_t k = 0; k < s->moved_count; k++)
+        if (vec_is_finite(s->position + 3 * k) &&
+            (of == PASS_BOUNDS_ALL || ffd_part_shows(part, work->first + s->moved[k])))
+            ffd_bounds_widen(&work->totals->shapes, s->position + 3 * k);
+}
+
+/* Widens the box by the selected vertices, as the shape has them: where those that it moves are now, and the
+   others at rest or deformed. */
+static void widen_shown(const shape_work *work, bool deformed, ffd_bounds *box)
+{
+    const shape_scratch *const s = work->scratch;
+    const mesh_part *const part = work->part->part;
+    size_t k = 0;
+    for (size_t i = 0; i < work->count && !part->hidden; i++) {
+        const bool moved = k < s->moved_count && s->moved[k] == i;
+        const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
+        double place[3];
+        memcpy(place,
+               moved      ? s->position + 3 * k
+               : deformed ? work->tile->position + 3 * i
+                          : s->base + 3 * i,
+               sizeof place);
+        if (!moved && !deformed)
+            ffd_vertex_transform_point(&transform, place);
+        if (ffd_part_selects(part, work->first + i) && vec_is_finite(place))
+            ffd_bounds_widen(box, place);
+        k += moved;
+    }
+}
+
+/* Sends the vertices that the shape moves through the chain, and counts them. */
+static ffd_status place_shape(const shape_work *work, bool gradients, ffd_error *error)
+{
+    const mesh_pass *const pass = work->part->pass;
+    const mesh_document *document = pass->document;
+    const bool widens = work->is_shown && ffd_pass_bounds_shown(pass, work->part->part);
+    read_position_offsets(work);
+    document->format->read_positions(document, work->part->part_number, work->first, work->count,
+                                     work->scratch->base);
+    place_moved(work);
+    if (widens)
+        widen_shown(work, false, &work->totals->before);
+    const ffd_status status = send_moved(work, gradients, error);
+    if (!status && widens)
+        widen_shown(work, true, &work->totals->after);
+    if (!status && pass->bounds_shapes)
+        widen_shapes(work);
+    return status;
+}
+
 static ffd_status deform_shape(const shape_work *work, ffd_error *error)
 {
-    shape_scratch *s = work->scratch;
     const mesh_part *part = work->part->part;
-    const mesh_document *document = work->part->pass->document;
+    if (!work->part->pass->write || work->shape == SHOWN)
+        return place_shape(work, false, error);
     /* As for the base: what cannot be carried out and back stays. */
     const bool attributes = work->part->pass->attributes && !part->singular;
     const bool normals =
         attributes && part->normal_count > 0 && (has(work, MESH_NORMALS) || has(work, MESH_TANGENTS));
     const bool tangents = attributes && part->has_tangents && has(work, MESH_TANGENTS);
-    read_offsets(work, MESH_POSITIONS);
-    document->format->read_positions(document, work->part->part_number, work->first, work->count, s->base);
-    place_moved(work);
-    const ffd_status status = send_moved(work, normals || tangents, error);
+    const ffd_status status = place_shape(work, normals || tangents, error);
     if (status)
         return status;
     deform_positions(work);
@@ -213,10 +331,28 @@ static ffd_status deform_shape(const shape_work *work, ffd_error *error)
     return FFD_OK;
 }
 
+/* What the weights show, where it is not the part itself: one target in full, or SHOWN. */
+static size_t find_shown(const mesh_part *part)
+{
+    size_t shown = 0, last = 0;
+    for (size_t k = 0; k < part->shape_count; k++)
+        if (part->shapes[k].weight != 0) {
+            shown++;
+            last = k;
+        }
+    return shown == 1 && part->shapes[last].weight == 1 ? last : SHOWN;
+}
+
 void ffd_tile_shapes(part_work *part, tile_scratch *scratch, size_t first, size_t count, pass_totals *totals)
 {
+    const bool shows = part->part->shows_shapes;
+    const size_t shown = find_shown(part->part);
     for (size_t k = 0; k < part->part->shape_count && !scratch->status; k++) {
-        const shape_work work = {part, scratch, scratch->shape, k, first, count, totals};
+        const shape_work work = {part, scratch, scratch->shape, k, first, count, shows && shown == k, totals};
+        scratch->status = deform_shape(&work, &scratch->error);
+    }
+    if (!scratch->status && shows && shown == SHOWN) {
+        const shape_work work = {part, scratch, scratch->shape, SHOWN, first, count, true, totals};
         scratch->status = deform_shape(&work, &scratch->error);
     }
     if (scratch->status)

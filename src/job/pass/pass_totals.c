@@ -6,10 +6,13 @@
 void ffd_totals_clear(pass_totals *totals)
 {
     memset(totals, 0, sizeof *totals);
-    totals->before = totals->after = ffd_bounds_empty();
+    totals->before = totals->after = totals->shapes = ffd_bounds_empty();
     totals->first_outside = totals->first_invalid = totals->first_overflow = UINT64_MAX;
-    totals->first_shape_outside = totals->first_shape_invalid = UINT64_MAX;
-    totals->det_min = HUGE_VAL;
+    totals->first_shape_outside = UINT64_MAX;
+    totals->first_missed = UINT64_MAX;
+    totals->first_unshown_outside = UINT64_MAX;
+    totals->first_det_outside = UINT64_MAX;
+    totals->det_min = totals->det_outside = HUGE_VAL;
     totals->det_max = -HUGE_VAL;
 }
 
@@ -38,20 +41,55 @@ void ffd_totals_join(const pass_totals *tile, pass_totals *all)
         ffd_bounds_widen(&all->after, tile->after.min);
         ffd_bounds_widen(&all->after, tile->after.max);
     }
-    all->outside_any += tile->outside_any;
+    if (tile->shapes.min[0] <= tile->shapes.max[0]) {
+        ffd_bounds_widen(&all->shapes, tile->shapes.min);
+        ffd_bounds_widen(&all->shapes, tile->shapes.max);
+    }
+    all->outside_all += tile->outside_all;
     all->multiple_any += tile->multiple_any;
+    all->moved_twice += tile->moved_twice;
+    all->disagreeing += tile->disagreeing;
+    all->disagreement = fmax(all->disagreement, tile->disagreement);
     all->unresolved += tile->unresolved;
+    all->degenerate += tile->degenerate;
+    all->unused += tile->unused;
+    all->hidden += tile->hidden;
+    all->unshown_outside += tile->unshown_outside;
+    all->first_unshown_outside = least(all->first_unshown_outside, tile->first_unshown_outside);
     all->extended += tile->extended;
+    all->extended_moved += tile->extended_moved;
     all->first_outside = least(all->first_outside, tile->first_outside);
     all->first_invalid = least(all->first_invalid, tile->first_invalid);
     all->first_overflow = least(all->first_overflow, tile->first_overflow);
+    if (tile->first_missed < all->first_missed) {
+        all->first_missed = tile->first_missed;
+        all->missed_by = tile->missed_by;
+    }
     all->shapes_outside += tile->shapes_outside;
+    all->shown_outside += tile->shown_outside;
     all->first_shape_outside = least(all->first_shape_outside, tile->first_shape_outside);
-    all->first_shape_invalid = least(all->first_shape_invalid, tile->first_shape_invalid);
+    all->shapes_invalid += tile->shapes_invalid;
     all->normals_collapsed += tile->normals_collapsed;
     all->transforms_singular += tile->transforms_singular;
+    all->weights.off += tile->weights.off;
+    all->weights.none += tile->weights.none;
+    all->weights.farthest = fmax(all->weights.farthest, tile->weights.farthest);
+    all->kept += tile->kept;
+    if (tile->det_outside < all->det_outside) { /* of equals the first */
+        all->det_outside = tile->det_outside;
+        all->first_det_outside = tile->first_det_outside;
+    }
     all->det_min = fmin(all->det_min, tile->det_min);
     all->det_max = fmax(all->det_max, tile->det_max);
     all->embed_seconds += tile->embed_seconds;
     all->deform_seconds += tile->deform_seconds;
+}
+
+void ffd_totals_note_splats(pass_totals *totals, size_t part, uint64_t moved)
+{
+    if (moved == 0)
+        return;
+    totals->splats_moved += moved;
+    if (totals->splat_part_count < FFD_BEHIND_NAMES)
+        totals->splat_parts[totals->splat_part_count++] = part;
 }

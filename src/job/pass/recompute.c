@@ -114,7 +114,7 @@ static void recompute_part(recomputing *r)
         const size_t last = part->vertex_count - first < BLOCK ? part->vertex_count : first + BLOCK;
         size_t from = part->normal_start ? part->normal_start[first] : first, vertex = first;
         const size_t end = part->normal_start ? part->normal_start[last] : last;
-        ffd_vertex_transforms_read(r->document, r->part, first, last - first, &r->transforms);
+        ffd_vertex_transforms_read(r->document, r->part, first, last - first, &r->transforms, NULL);
         for (size_t to; from < end; from = to) {
             to = end - from > BLOCK ? from + BLOCK : end;
             recompute_run(r, first, from, to, &vertex);

@@ -1,4 +1,4 @@
-/* tile.h - a tile of a pass: the vertices that one worker has in hand at a time (inside pass). */
+/* tile.h - a tile of a pass: the vertices that one thread processes at a time. Used within pass only. */
 #ifndef FFD_JOB_PASS_TILE_H
 #define FFD_JOB_PASS_TILE_H
 
@@ -32,7 +32,8 @@ typedef struct tile_scratch {
     uint32_t chosen[PASS_TILE];
     size_t chosen_count;
     chain_scratch chain; /* its locations: of the chosen ones, then of those that a morph target moves */
-    /* Of the chosen ones, one after the other, until they are spread to their slots in the tile. */
+    /* Values of the chosen vertices, one after the other, until they are spread to
+       their slots in the tile. */
     double position[3 * PASS_TILE]; /* in the lattice's space, from rest to deformed */
     double delta[3 * PASS_TILE], gradient[9 * PASS_TILE];
     point_outcome point_outcomes[PASS_TILE];
@@ -42,6 +43,7 @@ typedef struct tile_scratch {
     uint8_t normals_changed[PASS_TILE], tangents_changed[PASS_TILE];
     uint32_t of_points[PASS_TILE]; /* the points that normals belong to, where they are not one a vertex */
     uint8_t outcomes[PASS_TILE];   /* what became of these */
+    uint8_t *kept;                 /* marks of the chain, all 0 between tiles; NULL where none are wanted */
     shape_scratch *shape;          /* NULL where the document has no morph targets */
     ffd_status status;             /* of the first tile of this worker that failed, and what it said */
     ffd_error error;
@@ -56,6 +58,19 @@ typedef struct part_work {
     pass_totals *tiles;    /* what each tile adds */
     atomic_bool stopped;   /* a tile failed: the others need not be looked at */
 } part_work;
+
+/* Whether the pass looks at the morph targets of a part. */
+static inline bool ffd_pass_takes_shapes(const mesh_pass *pass, const mesh_part *part)
+{
+    const bool deforms = (pass->write || pass->counts_shapes) && !pass->document->keeps_base;
+    return part->shape_count > 0 && !pass->document->shown && (deforms || pass->bounds_shapes);
+}
+
+/* Whether the totals' bounds are of another shape of the part than its own vertices. */
+static inline bool ffd_pass_bounds_shown(const mesh_pass *pass, const mesh_part *part)
+{
+    return pass->bounds_shown && part->shows_shapes && ffd_pass_takes_shapes(pass, part);
+}
 
 /* The vertex of the tile that the chosen one with this number is. */
 static inline size_t ffd_tile_chosen(const tile_scratch *scratch, size_t i)

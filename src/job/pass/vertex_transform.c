@@ -3,12 +3,12 @@
 #include <string.h>
 
 void ffd_vertex_transforms_read(const mesh_document *document, size_t part, size_t first, size_t count,
-                                vertex_transforms *transforms)
+                                vertex_transforms *transforms, skin_weights *found)
 {
     transforms->part = &document->parts[part];
     if (!transforms->part->skinned)
         return;
-    document->format->read_transforms(document, part, first, count, transforms->transforms);
+    document->format->read_transforms(document, part, first, count, transforms->transforms, found);
     for (size_t i = 0; i < count; i++)
         transforms->singular[i] = !mat_invert(transforms->transforms + 12 * i, transforms->inverses + 9 * i);
 }

@@ -22,10 +22,11 @@ typedef struct vertex_transforms {
     bool singular[VERTEX_TRANSFORMS];
 } vertex_transforms;
 
-/* Those of a part's vertices [first, first + count), count being VERTEX_TRANSFORMS at most. */
+/* Reads the transforms of a part's vertices [first, first + count); count is at most VERTEX_TRANSFORMS.
+   found: NULL, or gets what their weights are like added. */
 void ffd_vertex_transforms_read(const mesh_document *document, size_t part, size_t first, size_t count,
-                                vertex_transforms *transforms);
-/* That of vertex first + i. Lent by transforms and the part. */
+                                vertex_transforms *transforms, skin_weights *found);
+/* Returns the transform of vertex first + i. Lent by transforms and the part. */
 vertex_transform ffd_vertex_transform_of(const vertex_transforms *transforms, size_t i);
 
 /* Takes a point from the file's space to the lattice's. */
@@ -35,8 +36,8 @@ static inline void ffd_vertex_transform_point(const vertex_transform *transform,
         ffd_point_transform(transform->linear, transform->offset, p);
 }
 
-/* Takes a displacement from the lattice's space to the file's own: linear^{-1} delta; zeros where there is no
-   inverse. */
+/* Takes a displacement from the lattice's space to the file's own: linear^{-1} delta; zeros
+   where there is no inverse. */
 static inline void ffd_displacement_to_file(const vertex_transform *transform, double delta[3])
 {
     const bool moves = !transform->singular && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
@@ -46,8 +47,8 @@ static inline void ffd_displacement_to_file(const vertex_transform *transform, d
         mat_apply(transform->inverse, delta, delta);
 }
 
-/* Takes a gradient E from the lattice's space to the file's own: linear^{-1} E linear. 0 where there is no
-   inverse. */
+/* Takes a gradient E from the lattice's space to the file's own: linear^{-1} E linear. 0
+   where there is no inverse. */
 void ffd_gradient_to_file(const vertex_transform *transform, double gradient[9]);
 
 #endif

@@ -1,5 +1,6 @@
 #include "job/report/depfile.h"
 #include "base/file/output.h"
+#include "base/memory/intern.h"
 #include "base/memory/memory.h"
 #include "job/report/replace.h"
 #include <string.h>
@@ -52,7 +53,7 @@ void ffd_depfile_destroy(ffd_depfile **depfile)
     *depfile = NULL;
 }
 
-/* Backslashes are themselves but before what a backslash quotes, where they are doubled. */
+/* Backslashes stay as they are, except before a character that a backslash quotes: there they are doubled. */
 static void put_name(byte_buffer *rules, const char *name)
 {
     size_t backslashes = 0;
@@ -77,25 +78,48 @@ bool ffd_depfile_troubles(const char *name)
     return name[strcspn(name, "\"%&'*;<=>?^`|\t")] != 0;
 }
 
-static ffd_status refuse_line_break(const char *name, ffd_error *error)
+/* once: names that are equal are put once. */
+static ffd_status put_names(byte_buffer *rules, const path_list *names, bool once, ffd_error *error)
 {
-    if (!name[strcspn(name, "\r\n")])
-        return FFD_OK;
-    return ffd_fail_file(error, FFD_E_IO, name, "cannot be written in a depfile: its name has a line break");
+    intern_table known = {0};
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < names->count && !status; i++) {
+        const char *const name = names->paths[i];
+        const size_t before = known.count;
+        uint32_t number;
+        if (name[strcspn(name, "\r\n")])
+            status = ffd_fail_file(error, FFD_E_IO, name,
+                                   "cannot be written in a depfile: its name has a line break");
+        else if (once && !ffd_intern(&known, name, strlen(name), &number))
+            status = ffd_fail_memory(error);
+        if (status || (once && known.count == before))
+            continue;
+        ffd_buffer_text(rules, i ? " " : "");
+        put_name(rules, name);
+    }
+    ffd_intern_free(&known);
+    return status;
+}
+
+ffd_status ffd_depfile_common_rule(const path_list *outputs, const path_list *inputs, byte_buffer *rules,
+                                   ffd_error *error)
+{
+    ffd_status status = put_names(rules, outputs, false, error);
+    ffd_buffer_text(rules, inputs->count ? ": " : ":");
+    if (!status)
+        status = put_names(rules, inputs, true, error);
+    ffd_buffer_text(rules, "\n");
+    return status || !rules->failed ? status : ffd_fail_memory(error);
 }
 
 ffd_status ffd_depfile_rule(const char *output, const path_list *inputs, byte_buffer *rules, ffd_error *error)
 {
-    ffd_status status = refuse_line_break(output, error);
-    put_name(rules, output);
-    ffd_buffer_text(rules, ":");
-    for (size_t i = 0; i < inputs->count && !status; i++) {
-        status = refuse_line_break(inputs->paths[i], error);
-        ffd_buffer_text(rules, " ");
-        put_name(rules, inputs->paths[i]);
-    }
-    ffd_buffer_text(rules, "\n");
-    return status || !rules->failed ? status : ffd_fail_memory(error);
+    path_list outputs = {0};
+    ffd_status status = ffd_paths_add(&outputs, output, error);
+    if (!status)
+        status = ffd_depfile_common_rule(&outputs, inputs, rules, error);
+    ffd_paths_free(&outputs);
+    return status;
 }
 
 void ffd_depfile_add(ffd_depfile *depfile, const byte_buffer *rules)

@@ -1,69 +1,9 @@
 #include "job/report/report.h"
-#include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "job/report/output_set.h"
-#include "job/report/replace.h"
-#include "mesh/mesh.h"
+#include "json/json_parse.h"
+#include "json/json_text.h"
+#include <math.h>
 #include <string.h>
-
-struct ffd_report {
-    bool stable;
-    file_output *output; /* begun when the report is created */
-    byte_buffer text;    /* what has not gone there yet */
-    json_text json;      /* writes into it */
-};
-
-static bool is_report(const file_input *old)
-{
-    static const char mark[] = "\"ffd-report\"";
-    for (size_t i = 0; i + sizeof mark <= old->size && i < 64; i++)
-        if (memcmp(old->data + i, mark, sizeof mark - 1) == 0)
-            return true;
-    return false;
-}
-
-static void begin_text(ffd_report *report)
-{
-    ffd_json_begin(&report->json, &report->text);
-    ffd_json_object(&report->json, NULL, false);
-    ffd_json_string(&report->json, "format", "ffd-report");
-    ffd_json_count(&report->json, "version", 1);
-    ffd_json_array(&report->json, "jobs", false);
-}
-
-ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
-                             ffd_error *error)
-{
-    *report = NULL;
-    ffd_status status = ffd_replace_check(path, is_report, "report", error);
-    if (status)
-        return status;
-    ffd_report *made = ffd_alloc_zero(1, sizeof *made);
-    if (!made)
-        return ffd_fail_memory(error);
-    made->stable = stable;
-    status = ffd_output_create(&made->output, error);
-    if (!status) {
-        ffd_output_record(made->output, ffd_written_list(written));
-        status = ffd_output_begin(made->output, path, true, error);
-    }
-    if (status)
-        ffd_report_destroy(&made);
-    else
-        begin_text(made);
-    *report = made;
-    return status;
-}
-
-void ffd_report_destroy(ffd_report **report)
-{
-    if (!report || !*report)
-        return;
-    ffd_output_destroy(&(*report)->output);
-    ffd_buffer_free(&(*report)->text);
-    ffd_free(*report);
-    *report = NULL;
-}
 
 static void write_outcome(json_text *json, const report_entry *entry)
 {
@@ -135,6 +75,30 @@ static void write_determinants(json_text *json, const ffd_job_result *result)
     ffd_json_object(json, "det", true);
     ffd_json_number(json, "min", result->det_min);
     ffd_json_number(json, "max", result->det_max);
+    if (isfinite(result->det_outside))
+        ffd_json_number(json, "outside", result->det_outside);
+    else
+        ffd_json_null(json, "outside");
+    ffd_json_end(json, '}');
+}
+
+static void write_tear(json_text *json, const ffd_job_result *result)
+{
+    if (!result->has_tear) {
+        ffd_json_null(json, "tear");
+        return;
+    }
+    ffd_json_object(json, "tear", true);
+    ffd_json_count(json, "edges", result->tear_edges);
+    ffd_json_number(json, "largest", result->tear_largest);
+    if (result->tear_edges)
+        ffd_json_count(json, "vertex", result->tear_vertex);
+    else
+        ffd_json_null(json, "vertex");
+    if (*result->tear_part)
+        ffd_json_string(json, "part", result->tear_part);
+    else
+        ffd_json_null(json, "part");
     ffd_json_end(json, '}');
 }
 
@@ -153,13 +117,100 @@ static void write_edges(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
+static void write_behind(json_text *json, const ffd_job_result *result)
+{
+    static const char *const kinds[FFD_BEHIND_KIND_COUNT] = {
+        [FFD_BEHIND_SOCKET] = "socket", [FFD_BEHIND_CAMERA] = "camera",
+        [FFD_BEHIND_LIGHT] = "light",   [FFD_BEHIND_JOINT] = "joint",
+        [FFD_BEHIND_PIVOT] = "pivot",   [FFD_BEHIND_PHYSICS_SHAPE] = "physics_shape",
+        [FFD_BEHIND_SPLAT] = "splat"};
+    ffd_json_array(json, "behind", false);
+    for (int k = 0; k < FFD_BEHIND_KIND_COUNT; k++) {
+        const ffd_behind *behind = &result->behind[k];
+        if (behind->count == 0)
+            continue;
+        ffd_json_object(json, NULL, true);
+        ffd_json_string(json, "kind", kinds[k]);
+        ffd_json_count(json, "count", behind->count);
+        ffd_json_array(json, "names", true);
+        for (int i = 0; i < FFD_BEHIND_NAMES && behind->names[i][0]; i++)
+            ffd_json_string(json, NULL, behind->names[i]);
+        ffd_json_end(json, ']');
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+/* Only where there is something to say. */
+static void write_weights(json_text *json, const ffd_job_result *result)
+{
+    if (result->weights_off == 0 && result->weights_none == 0)
+        return;
+    ffd_json_object(json, "skin_weights", true);
+    ffd_json_count(json, "off", result->weights_off);
+    ffd_json_number(json, "farthest", result->weights_farthest);
+    ffd_json_count(json, "none", result->weights_none);
+    ffd_json_end(json, '}');
+}
+
+/* Only where there are some. */
+static void write_flaws(json_text *json, const ffd_job_result *result)
+{
+    if (result->flaw_count == 0)
+        return;
+    ffd_json_array(json, "flaws", false);
+    for (size_t i = 0; i < result->flaw_count; i++) {
+        const ffd_flaw *const flaw = &result->flaws[i];
+        ffd_json_object(json, NULL, true);
+        ffd_json_string(json, "message", flaw->message);
+        if (*flaw->pointer)
+            ffd_json_string(json, "pointer", flaw->pointer);
+        if (flaw->line)
+            ffd_json_count(json, "line", flaw->line);
+        ffd_json_count(json, "count", flaw->count);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+/* Only where there are some. */
+static void write_indices_left(json_text *json, const ffd_job_result *result)
+{
+    if (result->indices_left)
+        ffd_json_count(json, "indices_left", result->indices_left);
+}
+
+/* Vertices on faces that two lattices share. */
+static void write_shared_faces(json_text *json, const ffd_job_result *result)
+{
+    ffd_json_object(json, "shared_faces", true);
+    ffd_json_count(json, "moved_twice", result->moved_twice);
+    ffd_json_count(json, "disagreeing", result->disagreeing);
+    ffd_json_number(json, "largest", result->disagreement);
+    ffd_json_end(json, '}');
+}
+
+/* What gates count beside the vertices' own places. */
+static void write_targets(json_text *json, const ffd_job_result *result)
+{
+    ffd_json_object(json, "morph_targets", true);
+    ffd_json_count(json, "outside", result->targets_outside);
+    ffd_json_count(json, "shown_outside", result->shown_outside);
+    ffd_json_count(json, "invalid", result->targets_invalid);
+    ffd_json_end(json, '}');
+}
+
 static void write_figures(json_text *json, const ffd_job_result *result)
 {
     static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
     ffd_json_count(json, "vertices", result->vertices);
     for (int s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
         ffd_json_count(json, names[s], result->counts[s]);
+    ffd_json_count(json, "unused", result->unused);
+    ffd_json_count(json, "hidden", result->hidden);
+    write_targets(json, result);
     ffd_json_count(json, "moved", result->moved);
+    write_shared_faces(json, result);
     ffd_json_object(json, "residual", true);
     ffd_json_number(json, "max", result->residual_max);
     ffd_json_number(json, "rms", result->residual_rms);
@@ -173,8 +224,10 @@ static void write_figures(json_text *json, const ffd_job_result *result)
         ffd_json_count(json, "flipped_faces", result->flipped_faces);
     else
         ffd_json_null(json, "flipped_faces");
+    write_tear(json, result);
     write_determinants(json, result);
     write_edges(json, result);
+    write_weights(json, result);
     ffd_json_object(json, "bounds", false);
     write_bounds(json, "before", &result->before);
     write_bounds(json, "after", &result->after);
@@ -183,52 +236,70 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     ffd_json_number(json, "max", result->displacement_max);
     ffd_json_number(json, "rms", result->displacement_rms);
     ffd_json_end(json, '}');
+    write_behind(json, result);
+    write_indices_left(json, result);
+    write_flaws(json, result);
+}
+
+static void write_seconds(json_text *json, const ffd_job_result *result)
+{
+    ffd_json_object(json, "seconds", true);
+    ffd_json_number(json, "read", result->seconds_read);
+    ffd_json_number(json, "embed", result->seconds_embed);
+    ffd_json_number(json, "deform", result->seconds_deform);
+    ffd_json_number(json, "judge", result->seconds_judge);
+    ffd_json_number(json, "write", result->seconds_write);
+    ffd_json_end(json, '}');
+}
+
+/* The members of write_figures that every entry has. */
+static void write_unknown(json_text *json)
+{
+    static const char *const names[] = {
+        "vertices",      "inside",        "outside", "multiple",     "singular", "invalid",      "unused",
+        "hidden",        "morph_targets", "moved",   "shared_faces", "residual", "iterations",   "folds",
+        "flipped_faces", "tear",          "det",     "edges",        "bounds",   "displacement", "behind"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        ffd_json_null(json, names[i]);
+}
+
+/* Writes the members of a text that ffd_report_figures has made. Returns false if it is none. */
+static bool copy_figures(json_text *json, const char *figures, bool stable)
+{
+    const json_input input = {.text = figures, .size = strlen(figures), .name = ""};
+    json_span tree;
+    if (ffd_json_parse(&input, &tree, NULL))
+        return false;
+    for (uint32_t v = ffd_json_span_first(&tree, 0); v != JSON_NONE; v = ffd_json_span_after(&tree, v)) {
+        char *const key = ffd_json_span_key(&tree, v);
+        json->out->failed = json->out->failed || !key;
+        if (key && !(stable && strcmp(key, "seconds") == 0))
+            ffd_json_raw(json, key, tree.text + tree.values[v].begin,
+                         tree.values[v].end - tree.values[v].begin);
+        ffd_free(key);
+    }
+    ffd_json_span_free(&tree);
+    return true;
 }
 
 static void write_entry(json_text *json, const report_entry *entry)
 {
-    const ffd_job_result *result = entry->result;
     ffd_json_object(json, NULL, false);
     if (entry->line)
         ffd_json_count(json, "line", entry->line);
     ffd_json_string(json, "input", entry->input);
     ffd_json_string(json, "output", entry->output);
+    if (entry->set)
+        ffd_json_raw(json, "set", entry->set, strlen(entry->set));
     write_outcome(json, entry);
-    write_figures(json, result);
-    if (!entry->stable) {
-        ffd_json_object(json, "seconds", true);
-        ffd_json_number(json, "read", result->seconds_read);
-        ffd_json_number(json, "embed", result->seconds_embed);
-        ffd_json_number(json, "deform", result->seconds_deform);
-        ffd_json_number(json, "judge", result->seconds_judge);
-        ffd_json_number(json, "write", result->seconds_write);
-        ffd_json_end(json, '}');
+    if (entry->planned) {
+        write_unknown(json);
+    } else if (!entry->figures || !copy_figures(json, entry->figures, entry->stable)) {
+        write_figures(json, entry->result);
+        if (!entry->stable)
+            write_seconds(json, entry->result);
     }
     ffd_json_end(json, '}');
-}
-
-/* Hands over what is there. */
-static ffd_status flush(ffd_report *report, ffd_error *error)
-{
-    if (report->text.failed)
-        return ffd_fail_memory(error);
-    const ffd_status status = ffd_output_write(report->output, report->text.data, report->text.size, error);
-    report->text.size = 0;
-    return status;
-}
-
-ffd_status ffd_report_add_text(ffd_report *report, const char *text, size_t size, ffd_error *error)
-{
-    ffd_json_raw(&report->json, NULL, text, size);
-    return flush(report, error);
-}
-
-ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
-                          const ffd_job_result *result, ffd_error *error)
-{
-    const report_entry entry = {.input = input, .output = output, .result = result, .stable = report->stable};
-    write_entry(&report->json, &entry);
-    return flush(report, error);
 }
 
 void ffd_report_entry_text(const report_entry *entry, byte_buffer *text)
@@ -247,10 +318,17 @@ void ffd_report_entry_text(const report_entry *entry, byte_buffer *text)
     ffd_buffer_free(&whole);
 }
 
-ffd_status ffd_report_write(ffd_report *report, ffd_error *error)
+void ffd_report_figures(const ffd_job_result *result, byte_buffer *text)
 {
-    ffd_json_end(&report->json, ']');
-    ffd_json_end(&report->json, '}');
-    const ffd_status status = flush(report, error);
-    return status ? status : ffd_output_commit(report->output, error);
+    byte_buffer whole = {0};
+    json_text json;
+    ffd_json_begin(&json, &whole);
+    ffd_json_object(&json, NULL, false);
+    write_figures(&json, result);
+    write_seconds(&json, result);
+    ffd_json_end(&json, '}');
+    if (!whole.failed)
+        ffd_json_join_lines(whole.data, whole.size, text);
+    text->failed = text->failed || whole.failed;
+    ffd_buffer_free(&whole);
 }

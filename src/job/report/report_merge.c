@@ -2,11 +2,12 @@
 #include "base/file/input.h"
 #include "base/file/output.h"
 #include "base/memory/memory.h"
+#include "job/report/report_file.h"
 #include "job/report/report_reader.h"
 #include <ffd/job.h>
 #include <string.h>
 
-/* A report to be joined. What is mapped of it is memory only as long as the system has some to spare. */
+/* A report to be merged. It is read by mmap: the system drops its pages when memory is short. */
 typedef struct part {
     file_input file;
     report_reader reader;
@@ -17,61 +18,103 @@ static ffd_status open_part(part *p, const char *path, ffd_error *error)
     const ffd_status status = ffd_file_map(path, &p->file, error);
     if (status)
         return status;
-    return ffd_report_reader_open(&p->reader, strcmp(path, "-") == 0 ? "standard input" : path, p->file.data,
-                                  p->file.size, error);
+    return ffd_report_reader_open(&p->reader, strcmp(path, "-") == 0 ? "standard input" : path,
+                                  ffd_report_has_lines(path), p->file.data, p->file.size, error);
 }
 
-/* Its bytes as they are. Counts it in *written; there may be none left. */
-static ffd_status write_next(part *p, file_output *output, uint64_t *written, ffd_error *error)
+/* The report that comes out. */
+typedef struct merged_report {
+    file_output *output;
+    bool lines;
+    uint64_t count; /* of entries */
+    byte_buffer buffer;
+} merged_report;
+
+/* Writes what is in the buffer. */
+static ffd_status flush(merged_report *merged, ffd_error *error)
+{
+    if (merged->buffer.failed)
+        return ffd_fail_memory(error);
+    const ffd_status status =
+        ffd_output_write(merged->output, merged->buffer.data, merged->buffer.size, error);
+    merged->buffer.size = 0;
+    return status;
+}
+
+/* Copies the next entry. Does nothing if there is none left. */
+static ffd_status write_next(part *p, merged_report *merged, ffd_error *error)
 {
     report_entry_text entry;
     if (!ffd_report_reader_next(&p->reader, &entry))
         return FFD_OK;
-    const char *const lead = *written > 0 ? ",\n    " : "\n    ";
-    ++*written;
-    const ffd_status status = ffd_output_write(output, lead, strlen(lead), error);
-    return status ? status : ffd_output_write(output, entry.bytes, entry.size, error);
+    ffd_report_put_entry(merged->lines, merged->count == 0, entry.bytes, entry.size, &merged->buffer);
+    merged->count++;
+    return flush(merged, error);
 }
 
-/* Goes through the parts in groups: of each in a group one entry in turn, until there is none left. */
-static ffd_status write_entries(part *parts, size_t count, size_t group, file_output *output,
-                                uint64_t *written, ffd_error *error)
+static ffd_status write_in_order(part *parts, size_t count, merged_report *merged, ffd_error *error)
 {
     ffd_status status = FFD_OK;
-    for (size_t first = 0; !status && first < count; first += group) {
+    for (size_t i = 0; !status && i < count; i++) {
         uint64_t before;
         do {
-            before = *written;
-            for (size_t i = 0; !status && i < group; i++)
-                status = write_next(&parts[first + i], output, written, error);
-        } while (!status && *written > before);
+            before = merged->count;
+            status = write_next(&parts[i], merged, error);
+        } while (!status && merged->count > before);
     }
     return status;
 }
 
-static ffd_status write_report(part *parts, size_t count, size_t group, file_output *output, ffd_error *error)
+/* Takes one entry of each part in turn. Shards of one run end one after the other: where one has an entry
+   after an earlier one had none, the report of the earlier one was cut off. */
+static ffd_status write_in_turn(part *parts, size_t count, merged_report *merged, ffd_error *error)
 {
-    static const char head[] = "{\n  \"format\": \"ffd-report\",\n  \"version\": 1,\n  \"jobs\": [";
-    uint64_t written = 0;
-    ffd_status status = ffd_output_write(output, head, sizeof head - 1, error);
-    if (!status)
-        status = write_entries(parts, count, group, output, &written, error);
-    const char *const tail = written > 0 ? "\n  ]\n}\n" : "]\n}\n";
-    return status ? status : ffd_output_write(output, tail, strlen(tail), error);
+    const part *ended = NULL;
+    ffd_status status = FFD_OK;
+    uint64_t before;
+    do {
+        before = merged->count;
+        for (size_t i = 0; !status && i < count; i++) {
+            const uint64_t entries = merged->count;
+            status = write_next(&parts[i], merged, error);
+            if (merged->count > entries && ended)
+                return ffd_fail_file(
+                    error, FFD_E_INVALID, ended->reader.name,
+                    "has too few entries for a shard of one run with the others: its run was "
+                    "cut off, or had other jobs (without --interleave they can be joined)");
+            if (merged->count == entries && !ended)
+                ended = &parts[i];
+        }
+    } while (!status && merged->count > before);
+    return status;
 }
 
-static ffd_status write_file(part *parts, size_t count, size_t group, const char *path, bool force,
-                             ffd_error *error)
+static ffd_status write_report(part *parts, size_t count, bool interleave, merged_report *merged,
+                               ffd_error *error)
 {
-    file_output *output = NULL;
-    ffd_status status = ffd_output_create(&output, error);
+    ffd_report_begin_text(merged->lines, &merged->buffer);
+    ffd_status status = flush(merged, error);
     if (!status)
-        status = ffd_output_begin(output, path, force, error);
+        status = (interleave ? write_in_turn : write_in_order)(parts, count, merged, error);
+    ffd_report_end_text(merged->lines, merged->count == 0, &merged->buffer);
+    return status ? status : flush(merged, error);
+}
+
+/* losses: of inputs, before they were opened. */
+static ffd_status write_file(part *parts, size_t count, bool interleave, unsigned losses, const char *path,
+                             bool force, ffd_error *error)
+{
+    merged_report merged = {.lines = ffd_report_has_lines(path)};
+    ffd_status status = ffd_output_create(&merged.output, error);
     if (!status)
-        status = write_report(parts, count, group, output, error);
+        status = ffd_output_begin(merged.output, path, force, error);
     if (!status)
-        status = ffd_output_commit(output, error);
-    ffd_output_destroy(&output);
+        status = write_report(parts, count, interleave, &merged, error);
+    status = ffd_mapping_judge(losses, status, error);
+    if (!status)
+        status = ffd_output_commit(merged.output, error);
+    ffd_output_destroy(&merged.output);
+    ffd_buffer_free(&merged.buffer);
     return status;
 }
 
@@ -83,15 +126,17 @@ ffd_status ffd_report_merge_run(const char *const *reports, size_t count, bool i
     ffd_status status = ffd_output_check(output, force, error);
     if (status)
         return status;
+    const unsigned losses = ffd_mapping_losses();
     part *const parts = ffd_alloc_zero(count, sizeof *parts);
     if (!parts)
         return ffd_fail_memory(error);
     for (size_t i = 0; !status && i < count; i++)
         status = open_part(&parts[i], reports[i], error);
     if (!status)
-        status = write_file(parts, count, interleave ? count : 1, output, force, error);
+        status = write_file(parts, count, interleave, losses, output, force, error);
     for (size_t i = 0; i < count; i++)
         ffd_file_unload(&parts[i].file);
     ffd_free(parts);
-    return status;
+    /* A report that was written was judged before that. */
+    return status ? ffd_mapping_judge(losses, status, error) : FFD_OK;
 }

@@ -73,11 +73,12 @@ static const char *object_end(const char *c, const char *end)
 static ffd_status take_entry(report_reader *reader, report_entry_text *entry, ffd_error *error)
 {
     if (reader->at == reader->end || *reader->at != '{')
-        return refuse(reader, "an entry of \"jobs\" is expected", error);
+        return refuse(reader, reader->lines ? "an entry is expected" : "an entry of \"jobs\" is expected",
+                      error);
     const char *const end = object_end(reader->at, reader->end);
     if (!end)
         return ffd_fail_line(error, FFD_E_INVALID, reader->name, line_of(reader, reader->at),
-                             "not a report: this entry of \"jobs\" has no end");
+                             "not a report: this entry has no end");
     *entry = (report_entry_text){reader->at, (size_t)(end - reader->at)};
     reader->at = end;
     reader->jobs++;
@@ -143,9 +144,14 @@ static ffd_status check_members(const json_span *tree, const char *name, ffd_err
     return FFD_OK;
 }
 
-/* Makes a pointer into an entry one into the report. */
-static void extend_pointer(const report_reader *reader, ffd_error *error)
+/* Makes a pointer into an entry one into the report; of JSON Lines, its line. */
+static void extend_pointer(const report_reader *reader, const report_entry_text *entry, ffd_error *error)
 {
+    if (reader->lines) {
+        error->pointer[0] = 0;
+        error->line = line_of(reader, entry->bytes);
+        return;
+    }
     char pointer[sizeof error->pointer];
     snprintf(pointer, sizeof pointer, "/jobs/%llu%s", (unsigned long long)(reader->jobs - 1), error->pointer);
     memcpy(error->pointer, pointer, sizeof pointer);
@@ -161,7 +167,7 @@ static ffd_status check_entry(const report_reader *reader, const report_entry_te
     if (!status)
         status = check_members(&tree, reader->name, error);
     if (status == FFD_E_INVALID && error && (parsed || error->pointer[0]))
-        extend_pointer(reader, error);
+        extend_pointer(reader, entry, error);
     ffd_json_span_free(&tree);
     return status;
 }
@@ -212,18 +218,37 @@ static ffd_status read_member(report_reader *reader, unsigned *seen, const char 
                    : refuse(reader, i == 0 ? "\"format\" must be \"ffd-report\"" : "\"version\" must be 1",
                             error);
     }
-    /* What else a report might say would be lost. */
+    /* Other members would be lost in a merged report. */
     return refuse(reader, "\"format\", \"version\" or \"jobs\" is expected", error);
 }
 
-ffd_status ffd_report_reader_open(report_reader *reader, const char *name, const void *text, size_t size,
-                                  ffd_error *error)
+static ffd_status read_lines(report_reader *reader, ffd_error *error)
+{
+    report_entry_text entry;
+    const char *const first = reader->at;
+    while (reader->at < reader->end) {
+        ffd_status status = take_entry(reader, &entry, error);
+        if (!status)
+            status = check_entry(reader, &entry, error);
+        if (status)
+            return status;
+    }
+    reader->at = first;
+    reader->jobs = 0;
+    return FFD_OK;
+}
+
+ffd_status ffd_report_reader_open(report_reader *reader, const char *name, bool lines, const void *text,
+                                  size_t size, ffd_error *error)
 {
     const char *jobs = NULL;
     unsigned seen = 0;
-    *reader = (report_reader){.name = name, .begin = text, .at = text, .end = (const char *)text + size};
+    *reader = (report_reader){
+        .name = name, .begin = text, .at = text, .end = (const char *)text + size, .lines = lines};
     take_text(reader, "\xef\xbb\xbf"); /* RFC 8259, 8.1: a byte order mark may be ignored */
     skip_space(reader);
+    if (lines)
+        return read_lines(reader, error);
     if (!take(reader, '{'))
         return refuse(reader, "'{' is expected", error);
     do {
@@ -246,6 +271,8 @@ ffd_status ffd_report_reader_open(report_reader *reader, const char *name, const
 
 bool ffd_report_reader_next(report_reader *reader, report_entry_text *entry)
 {
+    if (reader->lines)
+        return reader->at < reader->end && take_entry(reader, entry, NULL) == FFD_OK;
     return *reader->at != ']' && take_entry(reader, entry, NULL) == FFD_OK &&
            take_comma(reader, NULL) == FFD_OK;
 }

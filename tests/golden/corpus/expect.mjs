@@ -15,11 +15,19 @@ export function placementOf({ linear, offset }) {
         magnified: back ? Math.max(...back.map(matrix.length)) : 0, key: `${linear} ${offset}` };
 }
 
-// The field at p under the placement M. moved: false where all bits have to stay.
-export function fieldAt(volume, placement, p) {
-    const { back, magnified } = placement;
+// Half the distance from x to the next float away from 0.
+const halfFloat = (x) => 2 ** (Math.max(Math.floor(Math.log2(Math.abs(x) || Number.MIN_VALUE)), -126) - 24);
+
+// How far the place that a file's number stands for may be from it: of floats that were made from steps, the more.
+export const cellOf = ({ step, grid, precision }, p) =>
+    p.map((x, c) => Math.max(step || precision === 'double' ? step / 2 : halfFloat(x), (grid?.[c] ?? 0) / 2));
+
+// The field at p, which stands for what is no farther than half along each axis, under the placement M. moved: false
+// where all bits have to stay.
+export function fieldAt(volume, placement, p, half) {
+    const { back, magnified, linear } = placement;
     const x = matrix.apply(placement, p);
-    const at = volume.at(x);
+    const at = volume.at(x, matrix.times(linear.map((row) => row.map(Math.abs)), half));
     if (!back || !at.touched)
         return { moved: false, border: at.border, placement, slack: 0, delta: [0, 0, 0], gradient: UNIT };
     const size = matrix.largest(x) + matrix.largest(volume.low) + matrix.largest(volume.high);

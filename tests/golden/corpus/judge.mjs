@@ -10,7 +10,7 @@
 import { readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
 import { createInterface } from 'node:readline';
-import { fieldAt, normalAt, placementOf, tangentAt } from './expect.mjs';
+import { cellOf, fieldAt, normalAt, placementOf, tangentAt } from './expect.mjs';
 import { latticesOf } from './lattices.mjs';
 import * as matrix from './matrix.mjs';
 import { readGltf } from './reader.mjs';
@@ -105,7 +105,9 @@ const NONE = [0, 0, 0];
 function judgeTarget(tally, where, v, volume, base, { field, placement }, before, after) {
     const offset = (name) => before[name]?.values[v] ?? NONE;
     const m = offset('POSITION');
-    const there = matrix.largest(m) ? fieldAt(volume, placement, matrix.add(base.POSITION.values[v], m)) : field;
+    const p = base.POSITION.values[v];
+    const there = matrix.largest(m) ? fieldAt(volume, placement, matrix.add(p, m),
+        matrix.add(cellOf(base.POSITION, p), cellOf(before.POSITION, m))) : field;
     if (there.border) return tally.skip('border');
     const moved = field.moved || there.moved;
     const judge = (kind, name, expected, slack) => before[name] && judgeValue(tally, kind, where, v, moved,
@@ -132,7 +134,7 @@ function judgePrimitive({ open, volume, tally, groups, across: remember }, part,
     const targets = before.targets.map((_, t) => `${name} target ${t} vertex`);
     for (let v = 0; v < values.length; v++) {
         const placement = at(v);
-        const field = fieldAt(volume, placement, values[v]);
+        const field = fieldAt(volume, placement, values[v], cellOf(before.POSITION, values[v]));
         const found = after.POSITION.values[v];
         groups.add(part.numbers[v], found, vertex, v);
         if (remember && !step) across.add(inputs.of(`float ${part.key(v)}`), found, `${open.name} ${vertex}`, v);
@@ -182,12 +184,12 @@ async function judgePoints({ open, volume, tally, groups, across: remember }, fi
     if (after.positions.length !== positions.length || after.corners.length !== corners.length)
         return tally.fail('vertices or normals were added or lost');
     open.numbers ??= positions.map((p) => open.inputs.of(`${p}`));
-    const fields = positions.map((p) => fieldAt(volume, STILL, p));
+    const fields = positions.map((p) => fieldAt(volume, STILL, p, cellOf({ step: 0, precision }, p)));
     positions.forEach((p, v) => {
         const field = fields[v];
         const found = after.positions[v];
         groups.add(open.numbers[v], found, 'vertex', v);
-        if (remember) rememberPoint(open.name, p, found, precision, v);
+        if (remember) rememberPoint(open.name, volume, p, field, found, precision, v);
         if (field.border) tally.skip('border');
         else if (!field.moved) tally.kept('position', 'vertex', v, found, p);
         else tally.near('position', 'vertex', v, found, matrix.add(p, field.delta), 0, precision, field.slack);
@@ -203,12 +205,16 @@ async function judgePoints({ open, volume, tally, groups, across: remember }, fi
 
 const rounded = (p) => [Math.fround(p[0]), Math.fround(p[1]), Math.fround(p[2])];
 
-// A double result, rounded once, is the float result of the same position.
-function rememberPoint(name, p, found, precision, v) {
+// A double result, rounded once, is the float result of the same position, but where only a float's cell reaches the
+// volume.
+function rememberPoint(name, volume, p, field, found, precision, v) {
     const key = `${placements.of(STILL.key)} at ${p}`;
     const where = `${name} vertex`;
     if (precision === 'double') across.add(inputs.of(`double ${key}`), found, where, v);
-    if (p.every((x) => Math.fround(x) === x)) across.add(inputs.of(`float ${key}`), rounded(found), where, v);
+    const isFloat = p.every((x) => Math.fround(x) === x);
+    const reaches = () => precision === 'double' && !field.moved &&
+        fieldAt(volume, STILL, p, cellOf({ step: 0 }, p)).moved;
+    if (isFloat && !reaches()) across.add(inputs.of(`float ${key}`), rounded(found), where, v);
 }
 
 // ---- requests -------------------------------------------------------------------------------------------------

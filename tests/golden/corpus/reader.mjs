@@ -103,6 +103,62 @@ function streams(owner) {
     return found;
 }
 
+// ---- what floats were made from -------------------------------------------------------------------------------
+
+const bytesOf = (json, resources, { buffer, byteOffset = 0, byteLength }) =>
+    resources[json.buffers[buffer].uri ?? '@glb.bin'].subarray(byteOffset, byteOffset + byteLength);
+
+// The step of an attribute that Draco has quantized, with what floats lose on the way back; 0: it has not.
+function dracoStep(bytes, id) {
+    const decoder = new draco.Decoder(), mesh = new draco.Mesh(), transform = new draco.AttributeQuantizationTransform();
+    decoder.SkipAttributeTransform(draco.POSITION);
+    decoder.DecodeArrayToMesh(new Int8Array(bytes), bytes.length, mesh);
+    let step = 0;
+    if (transform.InitFromAttribute(decoder.GetAttributeByUniqueId(mesh, id))) {
+        const range = transform.range(), ends = [0, 1, 2].map((c) => transform.min_value(c)).flatMap((x) => [x, x + range]);
+        step = range / (2 ** transform.quantization_bits() - 1) + Math.max(...ends.map(Math.abs)) * 2 ** -21;
+    }
+    for (const used of [decoder, mesh, transform]) draco.destroy(used);
+    return step;
+}
+
+// The filter EXPONENTIAL: the exponent is the highest byte of a number, the other three are a factor.
+function exponentialSteps(json, resources, accessor) {
+    const { extensions } = json.bufferViews[accessor.bufferView] ?? {};
+    const packed = extensions?.EXT_meshopt_compression ?? extensions?.KHR_meshopt_compression;
+    if (packed?.filter !== 'EXPONENTIAL' || accessor.sparse) return null;
+    const { count, byteStride } = packed;
+    const raw = new Uint8Array(count * byteStride);
+    MeshoptDecoder.decodeVertexBuffer(raw, count, byteStride, bytesOf(json, resources, packed));
+    const view = new DataView(raw.buffer), first = (accessor.byteOffset ?? 0) % byteStride;
+    return [0, 4, 8].map((c) => {
+        let least = 127;
+        for (let at = first + c; at < raw.length; at += byteStride)
+            if (view.getUint32(at, true) << 8) least = Math.min(least, view.getInt8(at + 3));
+        return least === 127 ? 0 : 2 ** least;
+    });
+}
+
+// Of the positions of a primitive, or of one of its targets: the steps along x, y, z.
+function gridOf(json, resources, attributes, compressed) {
+    const accessor = json.accessors?.[attributes?.POSITION];
+    if (accessor?.componentType !== 5126) return null;
+    const packed = compressed?.KHR_draco_mesh_compression;
+    if (packed?.attributes.POSITION === undefined) return exponentialSteps(json, resources, accessor);
+    const bytes = bytesOf(json, resources, json.bufferViews[packed.bufferView]);
+    return new Array(3).fill(dracoStep(bytes, packed.attributes.POSITION));
+}
+
+function addGrids(meshes, json, resources) {
+    meshes.forEach((primitives, m) => primitives.forEach((primitive, p) => {
+        const { attributes, extensions, targets } = json.meshes[m].primitives[p];
+        if (primitive.POSITION) primitive.POSITION.grid = gridOf(json, resources, attributes, extensions);
+        primitive.targets.forEach((target, t) => {
+            if (target.POSITION) target.POSITION.grid = gridOf(json, resources, targets[t]);
+        });
+    }));
+}
+
 // What must come through unchanged: mode, other attributes and indices, as names with bytes.
 function rest(primitive) {
     const bytes = (accessor) => {
@@ -159,6 +215,7 @@ export async function readGltf(file) {
     const { json, resources } = await load(file);
     const document = await io.readJSON({ json: onlyGeometry(json), resources });
     const meshes = document.getRoot().listMeshes().map((mesh) => mesh.listPrimitives().map(primitiveOf));
+    addGrids(meshes, json, resources);
     const skins = document.getRoot().listSkins().map((skin) => decoded(skin.getInverseBindMatrices())?.values);
     const { world, shown } = placed(json);
     const jointsOf = (skin) => json.skins[skin].joints.map((joint, i) =>

@@ -53,16 +53,21 @@ export class Volume {
             this.low[a] + greville(this.t[a], this.degree[a], i) * (this.high[a] - this.low[a]));
     }
 
-    // The displacement C_Q - C_P at x and its derivative E (rows), so that F = I + E. touched: a moved control
-    // point has x in its support; border: x lies on the border of the box, as far as doubles can tell.
-    at(x) {
+    // The displacement C_Q - C_P at x and its derivative E (rows), so that F = I + E. half: how far from x the place
+    // may be that it stands for, along each axis; beside the box by no more it is at the nearest point of the border.
+    // touched: a moved control point has it in its support; border: whether it is beside by more cannot be told with
+    // doubles.
+    at(x, half) {
         const { low, high, u } = this;
         let near = false, reached = true, inside = true;
         for (let a = 0; a < 3; a++) {
-            const value = u[a] = (x[a] - low[a]) / (high[a] - low[a]);
-            near ||= Math.abs(value) < BORDER || Math.abs(value - 1) < BORDER;
-            reached &&= value > -BORDER && value < 1 + BORDER;
-            inside &&= value >= 0 && value <= 1;
+            const side = high[a] - low[a], value = (x[a] - low[a]) / side, room = half[a] / side;
+            const doubt = BORDER + 1e-6 * room;
+            const beside = Math.max(-value, value - 1);
+            near ||= Math.abs(beside - room) < doubt;
+            reached &&= beside < room + doubt;
+            inside &&= beside <= room;
+            u[a] = Math.min(Math.max(value, 0), 1);
         }
         const border = near && reached;
         return inside ? this.#sum(border) : { border, inside, touched: false };

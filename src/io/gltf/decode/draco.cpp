@@ -2,9 +2,14 @@
    numbers in the data's headers and allocates memory for them at once; classes derived from its decoders
    check these numbers first. */
 #include "io/gltf/decode/draco.h"
+#include "io/gltf/decode/draco_floats.h"
 #include "io/gltf/decode/draco_orientations.h"
 #include "io/gltf/model/gltf_model.h"
+#include <cfloat>
+#include <cmath>
 #include <cstring>
+#include <draco/attributes/attribute_octahedron_transform.h>
+#include <draco/attributes/attribute_quantization_transform.h>
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
@@ -14,6 +19,7 @@
 
 struct draco_mesh {
     draco::Mesh mesh;
+    std::vector<double> steps; /* of quantized attributes, by their number; 0: not quantized */
 };
 
 namespace
@@ -82,9 +88,9 @@ template <class Decoder> class careful : public Decoder
         if (!Decoder::InitializeDecoder() || !read_head(*this, *this->buffer(), counts))
             return false;
         if (claim.corners != UINT64_MAX && uint64_t(3) * counts.triangles != claim.corners)
-            return refuse(FFD_E_INVALID, "the Draco data has %lu triangles, its indices have %llu elements",
-                          static_cast<unsigned long>(counts.triangles),
-                          static_cast<unsigned long long>(claim.corners));
+            return refuse(
+                FFD_E_INVALID, "the Draco data's count of triangles is %lu, that of its indices %llu",
+                static_cast<unsigned long>(counts.triangles), static_cast<unsigned long long>(claim.corners));
         if (counts.points > claim.points)
             return refuse_points(counts.points);
         return fits(counts.triangles, TRIANGLE_MEMORY + SEAMS_MEMORY * counts.seams);
@@ -123,7 +129,7 @@ template <class Decoder> class careful : public Decoder
 
     bool refuse_points(uint64_t points)
     {
-        return refuse(FFD_E_INVALID, "the Draco data has %llu points, its accessors have %llu elements",
+        return refuse(FFD_E_INVALID, "the Draco data's count of points is %llu, that of its accessors %llu",
                       static_cast<unsigned long long>(points), static_cast<unsigned long long>(claim.points));
     }
 
@@ -159,8 +165,7 @@ bool skip_entries(draco::DecoderBuffer &buffer)
     return true;
 }
 
-/* Skips a tree of metadata: each node follows its parent and its earlier siblings; the root has no
-   name. */
+/* Skips a tree of metadata: each node follows its parent and its earlier siblings; the root has no name. */
 bool skip_tree(draco::DecoderBuffer &buffer)
 {
     uint32_t children;
@@ -198,9 +203,68 @@ std::vector<char> without_metadata(const unsigned char *bytes, size_t size, uint
     return kept;
 }
 
+/* What the decoder knows of the quantization of an attribute. Dequantizing multiplies and adds floats: the
+   greatest of them is rounded to a few times its epsilon. */
+double step_of(draco::PointCloudDecoder &decoder, int32_t attribute)
+{
+    const draco::PointAttribute *portable = decoder.GetPortableAttribute(attribute);
+    const draco::AttributeTransformData *data = portable ? portable->GetAttributeTransformData() : nullptr;
+    draco::AttributeQuantizationTransform transform;
+    if (!data || data->transform_type() != draco::ATTRIBUTE_QUANTIZATION_TRANSFORM ||
+        !transform.InitFromAttribute(*portable))
+        return 0;
+    double greatest = 0;
+    for (const float least : transform.min_values())
+        greatest = std::fmax(greatest, std::fmax(std::fabs(least), std::fabs(least + transform.range())));
+    const double step = transform.range() / (std::ldexp(1.0, transform.quantization_bits()) - 1);
+    return step >= 0 && std::isfinite(greatest) ? step + 4 * greatest * FLT_EPSILON : 0;
+}
+
+/* The integers that an attribute was decoded to, and the floats that the library made of them. */
+struct two_forms {
+    const int32_t *integers = nullptr;
+    float *floats = nullptr;
+    size_t count = 0;
+};
+
+/* count: 0 where the attribute has not as many of both as it has values. */
+two_forms forms_of(const draco::PointAttribute &portable, draco::PointAttribute &attribute)
+{
+    two_forms forms;
+    const size_t count = attribute.size(), integers = portable.num_components(),
+                 floats = attribute.num_components();
+    if (count == 0 || attribute.data_type() != draco::DT_FLOAT32 || !portable.buffer() ||
+        !attribute.buffer() || portable.buffer()->data_size() < count * integers * sizeof(int32_t) ||
+        attribute.buffer()->data_size() < count * floats * sizeof(float))
+        return forms;
+    forms.integers = reinterpret_cast<const int32_t *>(portable.GetAddress(draco::AttributeValueIndex(0)));
+    forms.floats = reinterpret_cast<float *>(attribute.GetAddress(draco::AttributeValueIndex(0)));
+    forms.count = count;
+    return forms;
+}
+
+/* Makes the floats of an attribute in our own code, whatever processor the library was compiled for. */
+void make_floats(draco::PointCloudDecoder &decoder, int32_t id, draco::PointAttribute &attribute)
+{
+    const draco::PointAttribute *portable = decoder.GetPortableAttribute(id);
+    if (!portable || !portable->GetAttributeTransformData())
+        return;
+    const two_forms forms = forms_of(*portable, attribute);
+    draco::AttributeQuantizationTransform quantized;
+    draco::AttributeOctahedronTransform octahedral;
+    if (quantized.InitFromAttribute(*portable) && portable->num_components() == attribute.num_components()) {
+        const draco_quantization quantization = {attribute.num_components(), quantized.min_values().data(),
+                                                 quantized.range(), quantized.quantization_bits()};
+        ffd_draco_dequantize(&quantization, forms.integers, forms.count, forms.floats);
+    } else if (octahedral.InitFromAttribute(*portable) && portable->num_components() == 2 &&
+               attribute.num_components() == 3) {
+        ffd_draco_unfold_normals(octahedral.quantization_bits(), forms.integers, forms.count, forms.floats);
+    }
+}
+
 template <class Decoder>
 ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const draco_claim &claim,
-               const memory_budget &budget, draco::Mesh &mesh, ffd_error *error)
+               const memory_budget &budget, draco_mesh &decoded, ffd_error *error)
 {
     std::vector<char> kept;
     draco::DecoderBuffer buffer;
@@ -213,16 +277,20 @@ ffd_status run(const unsigned char *bytes, size_t size, uint16_t version, const 
     }
     const draco::DecoderOptions options;
     careful<Decoder> decoder(claim, budget);
-    const draco::Status status = decoder.Decode(options, &buffer, &mesh);
+    const draco::Status status = decoder.Decode(options, &buffer, &decoded.mesh);
     if (decoder.found.status)
         return ffd_fail(error, decoder.found.status, "%s", decoder.found.error.message);
+    for (int32_t i = 0; status.ok() && i < decoded.mesh.num_attributes(); i++) {
+        make_floats(decoder, i, *decoded.mesh.attribute(i));
+        decoded.steps.push_back(step_of(decoder, i));
+    }
     if (status.ok())
         return FFD_OK;
     return ffd_fail(error, FFD_E_INVALID, "the Draco data is broken: %s", status.error_msg());
 }
 
 ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &claim,
-                  const memory_budget &budget, draco::Mesh &mesh, ffd_error *error)
+                  const memory_budget &budget, draco_mesh &decoded, ffd_error *error)
 {
     draco::DecoderBuffer buffer;
     draco::DracoHeader header;
@@ -242,9 +310,9 @@ ffd_status decode(const unsigned char *bytes, size_t size, const draco_claim &cl
                         header.version_minor, draco::kDracoMeshBitstreamVersionMajor,
                         draco::kDracoMeshBitstreamVersionMinor);
     if (header.encoder_method == draco::MESH_SEQUENTIAL_ENCODING)
-        return run<draco::MeshSequentialDecoder>(bytes, size, version, claim, budget, mesh, error);
+        return run<draco::MeshSequentialDecoder>(bytes, size, version, claim, budget, decoded, error);
     if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING)
-        return run<draco::MeshEdgebreakerDecoder>(bytes, size, version, claim, budget, mesh, error);
+        return run<draco::MeshEdgebreakerDecoder>(bytes, size, version, claim, budget, decoded, error);
     return ffd_fail(error, FFD_E_UNSUPPORTED, "Draco encoding method %d is not known", header.encoder_method);
 }
 
@@ -338,7 +406,7 @@ extern "C" ffd_status ffd_draco_decode(const unsigned char *bytes, size_t size, 
     ffd_status status;
     try {
         std::unique_ptr<draco_mesh> decoded(new draco_mesh);
-        status = decode(bytes, size, *claim, *budget, decoded->mesh, error);
+        status = decode(bytes, size, *claim, *budget, *decoded, error);
         if (status == FFD_OK)
             *mesh = decoded.release();
     } catch (const std::bad_alloc &) {
@@ -347,6 +415,12 @@ extern "C" ffd_status ffd_draco_decode(const unsigned char *bytes, size_t size, 
         status = ffd_fail(error, FFD_E_INVALID, "the Draco data is broken");
     }
     return status;
+}
+
+extern "C" double ffd_draco_step(const draco_mesh *mesh, uint32_t id)
+{
+    const int32_t attribute = mesh->mesh.GetAttributeIdByUniqueId(id);
+    return attribute >= 0 ? mesh->steps[static_cast<size_t>(attribute)] : 0;
 }
 
 extern "C" void ffd_draco_free(draco_mesh *mesh)
@@ -386,8 +460,8 @@ extern "C" ffd_status ffd_draco_indices(const draco_mesh *mesh, int component, u
         if (corner >= points || corner > most)
             return ffd_fail(
                 error, FFD_E_INVALID,
-                "index %zu of the Draco data is %lu: there are %lu points, and the component type "
-                "holds up to %lu",
+                "index %zu of the Draco data is %lu: the count of points is %lu, and the component "
+                "type holds up to %lu",
                 i, static_cast<unsigned long>(corner), static_cast<unsigned long>(points),
                 static_cast<unsigned long>(most));
         for (size_t b = 0; b < size; b++)

@@ -1,11 +1,11 @@
 /* draco.h - decodes the mesh of KHR_draco_mesh_compression, by the Draco library. The functions are C++
-   inside; none throws an exception. */
+   inside; none throws an exception. Declares draco_load.c too, which a program that loads them has instead.
+ */
 #ifndef FFD_IO_GLTF_DECODE_DRACO_H
 #define FFD_IO_GLTF_DECODE_DRACO_H
 
 #include "base/fail.h"
 #include "mesh/memory_budget.h"
-#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -24,7 +24,7 @@ typedef struct draco_mesh draco_mesh;
 
 /* Decodes size bytes into a mesh that ffd_draco_free frees. Working memory must fit into the memory
    budget, from which nothing is taken. Errors, without a file's name: FFD_E_INVALID, FFD_E_UNSUPPORTED
-   (another version, not a mesh), FFD_E_LIMIT, FFD_E_MEMORY. */
+   (another version, not a mesh; no library), FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_draco_decode(const unsigned char *bytes, size_t size, const draco_claim *claim,
                             const memory_budget *budget, draco_mesh **mesh, ffd_error *error);
 
@@ -43,6 +43,10 @@ size_t ffd_draco_corner_count(const draco_mesh *mesh);
    number that the type cannot represent), FFD_E_UNSUPPORTED. */
 ffd_status ffd_draco_attribute(const draco_mesh *mesh, uint32_t id, int component, int components,
                                size_t stride, unsigned char *bytes, ffd_error *error);
+
+/* Returns the step that the attribute of this unique id was quantized with, and what its way back to floats
+   may have rounded; 0: it was not quantized. */
+double ffd_draco_step(const draco_mesh *mesh, uint32_t id);
 
 /* Writes the corners of the triangles as contiguous indices of type GLTF_U8, GLTF_U16 or GLTF_U32.
    Errors: FFD_E_INVALID (a corner that is not a point, or that the type cannot represent). */

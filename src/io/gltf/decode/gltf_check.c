@@ -1,13 +1,22 @@
 #include "io/gltf/decode/gltf_check.h"
+#include "base/text/words.h"
 #include "io/gltf/decode/gltf_draco.h"
+#include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/decode/gltf_views.h"
-#include <stdarg.h>
+#include <math.h>
 #include <stdio.h>
 
 /* What an element without bytes counts in the memory budget: without a limit, a few characters of the file
    could ask for any amount of zeros. */
 #define ZERO_BYTES 4
+
+/* Returns a member of a value, or the value if it is absent. */
+static uint32_t place_of(const gltf_document *d, uint32_t value, const char *key)
+{
+    const uint32_t member = ffd_json_span_member(&d->tree, value, key);
+    return member == JSON_NONE ? value : member;
+}
 
 /* Fails at a member of a value, or at the value if the member is absent. */
 static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key, ffd_error *error,
@@ -20,9 +29,8 @@ static ffd_status refuse(const gltf_document *d, uint32_t value, const char *key
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    const uint32_t member = ffd_json_span_member(&d->tree, value, key);
-    return ffd_json_span_fail(&d->tree, member == JSON_NONE ? value : member, d->name, FFD_E_INVALID, error,
-                              "%s", message);
+    return ffd_json_span_fail(&d->tree, place_of(d, value, key), d->name, FFD_E_INVALID, error, "%s",
+                              message);
 }
 
 static ffd_status check_index(const gltf_document *d, uint32_t value, const char *key, int index,
@@ -33,19 +41,40 @@ static ffd_status check_index(const gltf_document *d, uint32_t value, const char
     return refuse(d, value, key, error, "there is no %s %d, only %zu", what, index, count);
 }
 
-static ffd_status check_view(const gltf_document *d, size_t i, ffd_error *error)
+/* Takes a view's stride from the JSON: tinygltf was not shown it. 0 is written by programs that mean none. */
+static ffd_status read_stride(gltf_document *d, size_t i, ffd_error *error)
+{
+    const uint32_t value = ffd_json_span_member(&d->tree, d->view_values.values[i], "byteStride");
+    double number;
+    if (!ffd_json_span_number(&d->tree, value, &number))
+        return FFD_OK;
+    d->model.views[i].stride = (uint64_t)number;
+    if (d->model.views[i].stride > 0 && d->model.views[i].stride % 4 == 0)
+        return FFD_OK;
+    return ffd_gltf_flaw(d, value, error, "a byteStride is a multiple of 4 from 4 to 252, not %g", number);
+}
+
+static ffd_status check_view(gltf_document *d, size_t i, ffd_error *error)
 {
     const gltf_view *view = &d->model.views[i];
     const uint32_t value = d->view_values.values[i];
-    const ffd_status status =
+    ffd_status status =
         check_index(d, value, "buffer", view->buffer, d->buffer_values.count, "buffer", error);
+    if (status == FFD_OK)
+        status = read_stride(d, i, error);
     if (status)
         return status;
-    const uint64_t length = d->buffers[view->buffer].length;
-    if (view->offset > length || view->length > length - view->offset)
-        return refuse(d, value, "byteLength", error, "bytes %llu to %llu are outside buffer %d of %llu bytes",
+    const gltf_buffer *const buffer = &d->buffers[view->buffer];
+    const uint64_t length = buffer->length;
+    const bool is_outside = view->offset > length || view->length > length - view->offset;
+    if (is_outside && buffer->flaws & BUFFER_SHORT)
+        return ffd_json_span_fail(&d->tree, d->buffer_values.values[view->buffer], d->name, FFD_E_INVALID,
+                                  error, "the buffer has %zu %s, less than its byteLength %zu", buffer->size,
+                                  ffd_plural(buffer->size, "byte", "bytes"), buffer->stated);
+    if (is_outside)
+        return refuse(d, value, "byteLength", error, "bytes %llu to %llu are outside buffer %d of %llu %s",
                       (unsigned long long)view->offset, (unsigned long long)(view->offset + view->length),
-                      view->buffer, (unsigned long long)length);
+                      view->buffer, (unsigned long long)length, ffd_plural(length, "byte", "bytes"));
     return FFD_OK;
 }
 
@@ -58,7 +87,18 @@ static void measure(const gltf_accessor *accessor, gltf_layout *layout)
     layout->stride = padded * (size_t)accessor->columns;
 }
 
-static ffd_status check_range(const gltf_document *d, size_t i, const gltf_view *view, ffd_error *error)
+/* Bytes are read one by one, wherever they are. */
+static ffd_status check_alignment(gltf_document *d, uint32_t value, uint64_t offset, uint64_t view_offset,
+                                  size_t size, ffd_error *error)
+{
+    if (offset % size == 0 && (view_offset + offset) % size == 0)
+        return FFD_OK;
+    return ffd_gltf_flaw(d, place_of(d, value, "byteOffset"), error,
+                         "byteOffset %llu (in a view at %llu) is not a multiple of the component's %zu bytes",
+                         (unsigned long long)offset, (unsigned long long)view_offset, size);
+}
+
+static ffd_status check_range(gltf_document *d, size_t i, const gltf_view *view, ffd_error *error)
 {
     const gltf_accessor *accessor = &d->model.accessors[i];
     const gltf_layout *layout = &d->layouts[i];
@@ -68,36 +108,36 @@ static ffd_status check_range(const gltf_document *d, size_t i, const gltf_view 
         return refuse(d, value, "bufferView", error,
                       "its elements have %zu bytes, more than the byteStride %zu", layout->element_size,
                       layout->stride);
-    if (accessor->offset % size || (view->offset + accessor->offset) % size)
-        return refuse(d, value, "byteOffset", error,
-                      "byteOffset %llu (in a view at %llu) is not a multiple of the component's %zu bytes",
-                      (unsigned long long)accessor->offset, (unsigned long long)view->offset, size);
+    const ffd_status status = check_alignment(d, value, accessor->offset, view->offset, size, error);
+    if (status)
+        return status;
     const uint64_t needed =
         accessor->count ? accessor->offset + (accessor->count - 1) * layout->stride + layout->element_size
                         : accessor->offset;
     if (needed > view->length)
-        return refuse(d, value, "count", error,
-                      "%llu elements need %llu bytes of bufferView %d, which has %llu",
-                      (unsigned long long)accessor->count, (unsigned long long)needed, accessor->view,
+        return refuse(d, value, "count", error, "%llu %s %llu %s of bufferView %d, which has %llu",
+                      (unsigned long long)accessor->count,
+                      ffd_plural(accessor->count, "element needs", "elements need"),
+                      (unsigned long long)needed, ffd_plural(needed, "byte", "bytes"), accessor->view,
                       (unsigned long long)view->length);
     return FFD_OK;
 }
 
-static ffd_status check_sparse_view(const gltf_document *d, uint32_t value, int index, uint64_t offset,
+static ffd_status check_sparse_view(gltf_document *d, uint32_t value, int index, uint64_t offset,
                                     uint64_t bytes, size_t alignment, ffd_error *error)
 {
-    const ffd_status status =
-        check_index(d, value, "bufferView", index, d->model.view_count, "bufferView", error);
+    ffd_status status = check_index(d, value, "bufferView", index, d->model.view_count, "bufferView", error);
     if (status)
         return status;
     const gltf_view *view = &d->model.views[index];
-    if ((view->offset + offset) % alignment)
-        return refuse(d, value, "byteOffset", error,
-                      "byteOffset %llu is not a multiple of the component's %zu bytes",
-                      (unsigned long long)offset, alignment);
+    status = check_alignment(d, value, offset, view->offset, alignment, error);
+    if (status)
+        return status;
     if (offset > view->length || bytes > view->length - offset)
-        return refuse(d, value, "bufferView", error, "%llu bytes are needed of bufferView %d, which has %llu",
-                      (unsigned long long)(offset + bytes), index, (unsigned long long)view->length);
+        return refuse(d, value, "bufferView", error, "%llu %s needed of bufferView %d, which has %llu",
+                      (unsigned long long)(offset + bytes),
+                      ffd_plural(offset + bytes, "byte is", "bytes are"), index,
+                      (unsigned long long)view->length);
     return FFD_OK;
 }
 
@@ -131,7 +171,7 @@ static ffd_status check_sparse(gltf_document *d, size_t i, ffd_error *error)
     const uint32_t indices = ffd_json_span_member(&d->tree, value, "indices");
     const uint32_t values = ffd_json_span_member(&d->tree, value, "values");
     if (sparse->count > accessor->count)
-        return refuse(d, value, "count", error, "%llu sparse elements are more than the accessor's %llu",
+        return refuse(d, value, "count", error, "the sparse count %llu is more than the accessor's %llu",
                       (unsigned long long)sparse->count, (unsigned long long)accessor->count);
     if (sparse->indices_type != GLTF_U8 && sparse->indices_type != GLTF_U16 &&
         sparse->indices_type != GLTF_U32)
@@ -217,14 +257,36 @@ static ffd_status check_attributes(const gltf_document *d, uint32_t object, cons
         if (*vertices == UINT64_MAX)
             *vertices = count;
         if (count != *vertices)
-            return refuse(d, object, key, error, "accessor %d has %llu elements, another attribute has %llu",
-                          attributes[i].accessor, (unsigned long long)count, (unsigned long long)*vertices);
+            return refuse(d, object, key, error, "accessor %d has %llu %s, another attribute has %llu",
+                          attributes[i].accessor, (unsigned long long)count,
+                          ffd_plural(count, "element", "elements"), (unsigned long long)*vertices);
     }
     return FFD_OK;
 }
 
-static ffd_status check_primitive(const gltf_document *d, size_t mesh, size_t p, uint32_t value,
-                                  ffd_error *error)
+/* Checks where the indices of a primitive are. */
+static ffd_status check_indices(gltf_document *d, size_t mesh, size_t p, uint32_t value, ffd_error *error)
+{
+    const int number = d->model.meshes[mesh].primitives[p].indices;
+    const uint32_t place = place_of(d, value, "indices");
+    if (number < 0)
+        return FFD_OK;
+    if ((size_t)number >= d->model.accessor_count)
+        return ffd_gltf_drop_drawing(
+            d, mesh, p, place, error,
+            "there is no accessor %d, only %zu: what the primitive draws is not known", number,
+            d->model.accessor_count);
+    const gltf_accessor *indices = &d->model.accessors[number];
+    if (indices->columns * indices->rows == 1 && !indices->normalized &&
+        (indices->component == GLTF_U8 || indices->component == GLTF_U16 || indices->component == GLTF_U32))
+        return FFD_OK;
+    return ffd_gltf_drop_drawing(d, mesh, p, place, error,
+                                 "accessor %d does not hold indices (SCALAR of component type 5121, 5123 or "
+                                 "5125): what the primitive draws is not known",
+                                 number);
+}
+
+static ffd_status check_primitive(gltf_document *d, size_t mesh, size_t p, uint32_t value, ffd_error *error)
 {
     const gltf_primitive *primitive = &d->model.meshes[mesh].primitives[p];
     const uint32_t attributes = ffd_json_span_member(&d->tree, value, "attributes");
@@ -241,18 +303,7 @@ static ffd_status check_primitive(const gltf_document *d, size_t mesh, size_t p,
     for (uint32_t v = ffd_json_span_first(&d->tree, targets); v != JSON_NONE && status == FFD_OK;
          v = ffd_json_span_after(&d->tree, v), accessors += GLTF_DEFORMED)
         status = check_shapes(d, v, 3, accessors, error);
-    if (status || ffd_json_span_member(&d->tree, value, "indices") == JSON_NONE)
-        return status;
-    status = check_index(d, value, "indices", primitive->indices, d->model.accessor_count, "accessor", error);
-    if (status)
-        return status;
-    const gltf_accessor *indices = &d->model.accessors[primitive->indices];
-    if (indices->columns * indices->rows != 1 || indices->normalized ||
-        (indices->component != GLTF_U8 && indices->component != GLTF_U16 && indices->component != GLTF_U32))
-        return refuse(d, value, "indices", error,
-                      "accessor %d does not hold indices (SCALAR of component type 5121, 5123 or 5125)",
-                      primitive->indices);
-    return FFD_OK;
+    return status ? status : check_indices(d, mesh, p, value, error);
 }
 
 /* In a primitive compressed by Draco, accessors without a bufferView are in the compressed data. */
@@ -270,8 +321,7 @@ static void mark_compressed(gltf_document *d, size_t mesh, size_t p, uint32_t va
         d->layouts[primitive->indices].readable = false;
 }
 
-/* A few bytes can state any number of elements without bytes of their own, and visiting them takes
-   time. */
+/* A few bytes can state any number of elements without bytes of their own, and visiting them takes time. */
 static ffd_status limit_zeros(const gltf_document *d, ffd_error *error)
 {
     memory_budget budget = d->base.budget;
@@ -303,7 +353,22 @@ static ffd_status check_mesh(gltf_document *d, size_t m, ffd_error *error)
     return status;
 }
 
-static ffd_status check_node(const gltf_document *d, size_t n, size_t skins, ffd_error *error)
+static ffd_status check_matrix(gltf_document *d, uint32_t value, const double *m, ffd_error *error)
+{
+    const double row[4] = {m[3], m[7], m[11], m[15] - 1};
+    double largest = 0;
+    for (int i = 0; i < 4; i++)
+        largest = fmax(largest, fabs(row[i]));
+    if (largest <= 0)
+        return FFD_OK;
+    if (largest <= LAST_ROW_TOLERANCE)
+        return ffd_gltf_flaw(d, place_of(d, value, "matrix"), error,
+                             "the matrix's last row differs from 0 0 0 1 by %.3g", largest);
+    return refuse(d, value, "matrix", error, "the matrix's last row is %g %g %g %g, not 0 0 0 1", m[3], m[7],
+                  m[11], m[15]);
+}
+
+static ffd_status check_node(gltf_document *d, size_t n, size_t skins, ffd_error *error)
 {
     const gltf_node *node = &d->model.nodes[n];
     const uint32_t value = d->node_values.values[n];
@@ -314,11 +379,8 @@ static ffd_status check_node(const gltf_document *d, size_t n, size_t skins, ffd
         status = check_index(d, value, "skin", node->skin, skins, "skin", error);
     for (size_t i = 0; i < node->child_count && status == FFD_OK; i++)
         status = check_index(d, value, "children", node->children[i], d->model.node_count, "node", error);
-    const double *m = node->matrix;
-    if (status == FFD_OK && node->has_matrix &&
-        (m[3] < 0 || m[3] > 0 || m[7] < 0 || m[7] > 0 || m[11] < 0 || m[11] > 0 || m[15] < 1 || m[15] > 1))
-        status = refuse(d, value, "matrix", error, "the matrix's last row is %g %g %g %g, not 0 0 0 1", m[3],
-                        m[7], m[11], m[15]);
+    if (status == FFD_OK && node->has_matrix)
+        status = check_matrix(d, value, node->matrix, error);
     return status;
 }
 

@@ -4,6 +4,9 @@
 
 #include "io/gltf/document/gltf_document.h"
 
+/* The last row of an exporter's matrix may have rounding errors of floats. */
+#define LAST_ROW_TOLERANCE 1e-5
+
 /* Checks every index, offset, count and stride of the model, decodes what is compressed, and fills
    document->layouts. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_check(gltf_document *document, ffd_error *error);

@@ -106,11 +106,12 @@ static ffd_status unpack_accessor(const unpacker *u, uint32_t value, size_t a, u
         return fail(d, value, status, u->error, problem.message);
     }
     give_elements(d, a, stride, source, u->view, bytes);
+    if (source != INDICES_SOURCE)
+        d->unpacked[a].step = ffd_draco_step(u->mesh, (uint32_t)source);
     return FFD_OK;
 }
 
-/* Returns the accessor that a primitive's attributes have under the key of `attribute`; GLTF_NONE:
-   none. */
+/* Returns the accessor that a primitive's attributes have under the key of `attribute`; GLTF_NONE: none. */
 static size_t find_accessor(const gltf_document *d, uint32_t attributes, uint32_t attribute)
 {
     for (uint32_t v = ffd_json_span_first(&d->tree, attributes); v != JSON_NONE;
@@ -185,8 +186,8 @@ static bool same_claim(const draco_claim *a, const draco_claim *b)
     return a->points == b->points && a->corners == b->corners;
 }
 
-/* Decodes a primitive. *mesh is the previous primitive's if that has the same bufferView and claim, else
-   NULL. */
+/* Decodes a primitive. *mesh is the previous primitive's if that has the same bufferView
+   and claim, else NULL. */
 static ffd_status decode_primitive(gltf_document *d, const packed_primitive *packed, const draco_claim *claim,
                                    draco_mesh **mesh, ffd_error *error)
 {

@@ -27,6 +27,11 @@ static double scale_of(const gltf_accessor *accessor)
     return accessor->normalized ? range_of(accessor->component).largest : 1;
 }
 
+double ffd_gltf_step(const gltf_accessor *accessor)
+{
+    return 1 / scale_of(accessor);
+}
+
 float ffd_gltf_round(const gltf_accessor *accessor, double value)
 {
     if (accessor->component == GLTF_FLOAT)

@@ -2,6 +2,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
+#include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_read.h"
 
 /* Elements that are read at once. */
@@ -89,8 +90,7 @@ static uint32_t largest_of(const gltf_document *d, size_t a)
     return largest;
 }
 
-static ffd_status check_primitive(const gltf_document *d, size_t m, size_t p, uint64_t *largest,
-                                  ffd_error *error)
+static ffd_status check_primitive(gltf_document *d, size_t m, size_t p, uint64_t *largest, ffd_error *error)
 {
     const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
     const int position = primitive->accessor[GLTF_POSITION], indices = primitive->indices;
@@ -102,12 +102,14 @@ static ffd_status check_primitive(const gltf_document *d, size_t m, size_t p, ui
     const uint64_t vertices = d->model.accessors[position].count;
     if (largest[indices] < vertices)
         return FFD_OK;
-    return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID, error,
-                              "there is an index %llu, but there are only %llu vertices",
-                              (unsigned long long)largest[indices], (unsigned long long)vertices);
+    return ffd_gltf_drop_drawing(
+        d, m, p, ffd_gltf_primitive_value(d, m, p), error,
+        "there is an index %llu, but the count of vertices is %llu: what the primitive "
+        "draws is not known",
+        (unsigned long long)largest[indices], (unsigned long long)vertices);
 }
 
-ffd_status ffd_gltf_check_indices(const gltf_document *d, ffd_error *error)
+ffd_status ffd_gltf_check_indices(gltf_document *d, ffd_error *error)
 {
     ffd_status status = FFD_OK;
     uint64_t *largest = ffd_alloc(d->model.accessor_count, sizeof *largest);

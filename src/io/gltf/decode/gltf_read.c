@@ -4,7 +4,8 @@
 #include "io/gltf/decode/gltf_views.h"
 #include <string.h>
 
-#define LARGEST_ELEMENT 64 /* MAT4 of floats */
+#define LARGEST_ELEMENT 64     /* MAT4 of floats */
+#define INDICES ((size_t)1024) /* that are read at a time */
 
 size_t ffd_gltf_component_size(int component)
 {
@@ -191,4 +192,41 @@ void ffd_gltf_read(const gltf_document *d, size_t a, size_t first, size_t count,
     }
     if (accessor->sparse.present)
         read_sparse(d, accessor, layout->element_size, first, count, components, values);
+}
+
+static void read_indices(const gltf_document *d, size_t a, size_t first, size_t count, uint32_t *indices)
+{
+    double values[INDICES];
+    for (size_t done = 0; done < count; done += INDICES) {
+        const size_t size = count - done < INDICES ? count - done : INDICES;
+        ffd_gltf_read(d, a, first + done, size, 1, values);
+        for (size_t i = 0; i < size; i++)
+            indices[done + i] = values[i] >= 0 && values[i] < UINT32_MAX ? (uint32_t)values[i] : UINT32_MAX;
+    }
+}
+
+/* Contiguous numbers of 32 bits, in a loop that compilers turn into SIMD. */
+static uint32_t copy_indices(const unsigned char *restrict at, size_t count, uint32_t *restrict indices)
+{
+    uint32_t largest = 0;
+    for (size_t i = 0; i < count; i++) {
+        indices[i] = load_u32(at + 4 * i);
+        largest = indices[i] > largest ? indices[i] : largest;
+    }
+    return largest;
+}
+
+uint32_t ffd_gltf_read_indices(const gltf_document *d, size_t a, size_t first, size_t count,
+                               uint32_t *indices)
+{
+    const gltf_layout *layout = &d->layouts[a];
+    const gltf_accessor *accessor = &d->model.accessors[a];
+    if (layout->data && !accessor->sparse.present && accessor->component == GLTF_U32 &&
+        layout->stride == sizeof *indices)
+        return copy_indices(layout->data + sizeof *indices * first, count, indices);
+    uint32_t largest = 0;
+    read_indices(d, a, first, count, indices);
+    for (size_t i = 0; i < count; i++)
+        largest = indices[i] > largest ? indices[i] : largest;
+    return largest;
 }

@@ -9,8 +9,12 @@
 void ffd_gltf_read(const gltf_document *document, size_t accessor, size_t first, size_t count,
                    size_t components, double *values);
 
-/* Returns the bytes of element i of a readable accessor: of its sparse value, of its bufferView, or
-   zeros. */
+/* Reads indices [first, first + count) of a readable accessor. What is no index becomes UINT32_MAX. Returns
+   the largest; 0 if there are none. */
+uint32_t ffd_gltf_read_indices(const gltf_document *document, size_t accessor, size_t first, size_t count,
+                               uint32_t *indices);
+
+/* Returns the bytes of element i of a readable accessor: of its sparse value, of its bufferView, or zeros. */
 const unsigned char *ffd_gltf_element(const gltf_document *document, size_t accessor, size_t i);
 
 /* Reads the first 3 components of an element as results hold them (gltf_stream): floats bit for bit. */

@@ -106,12 +106,14 @@ static ffd_status read_compression(const gltf_document *d, size_t i, meshopt_vie
         return status;
     ffd_error problem;
     status = ffd_meshopt_check(view, &problem);
+    if (status == FFD_OK)
+        status = ffd_meshopt_ready(&problem);
     if (status)
         return ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message);
     const uint64_t size = view->count * view->stride;
     if (size > length || length - size >= ALIGNMENT)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "%llu elements of %llu bytes do not fill the %llu bytes of the bufferView",
+                                  "count %llu times byteStride %llu is not the bufferView's byteLength %llu",
                                   (unsigned long long)view->count, (unsigned long long)view->stride,
                                   (unsigned long long)length);
     return FFD_OK;
@@ -131,6 +133,13 @@ static ffd_status decode_view(gltf_document *d, size_t i, ffd_error *error)
     d->decoded_views[i] = ffd_alloc_zero((size_t)d->model.views[i].length, 1);
     if (!d->decoded_views[i])
         return ffd_fail_memory(error);
+    if (view.filter == MESHOPT_EXPONENTIAL) {
+        d->view_exponents[i] = ffd_alloc(MESHOPT_COLUMNS, sizeof *view.exponents);
+        if (!d->view_exponents[i])
+            return ffd_fail_memory(error);
+        memset(d->view_exponents[i], INT8_MIN, MESHOPT_COLUMNS);
+        view.exponents = d->view_exponents[i];
+    }
     status = ffd_meshopt_decode(&view, d->decoded_views[i], &problem);
     return status ? ffd_json_span_fail(&d->tree, value, d->name, status, error, "%s", problem.message)
                   : FFD_OK;
@@ -139,7 +148,8 @@ static ffd_status decode_view(gltf_document *d, size_t i, ffd_error *error)
 ffd_status ffd_gltf_decode_views(gltf_document *d, ffd_error *error)
 {
     d->decoded_views = ffd_alloc_zero(d->model.view_count, sizeof *d->decoded_views);
-    if (!d->decoded_views)
+    d->view_exponents = ffd_alloc_zero(d->model.view_count, sizeof *d->view_exponents);
+    if (!d->decoded_views || !d->view_exponents)
         return ffd_fail_memory(error);
     for (size_t i = 0; i < d->model.view_count; i++) {
         if (ffd_gltf_meshopt_value(d, i) == JSON_NONE)

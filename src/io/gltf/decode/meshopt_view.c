@@ -1,5 +1,5 @@
 #include "io/gltf/decode/meshopt_view.h"
-#include <meshoptimizer.h>
+#include "base/text/words.h"
 #include <stdbool.h>
 
 /* The first byte of a stream: its kind in the high half, the version of the kind in the low half. */
@@ -75,47 +75,13 @@ ffd_status ffd_meshopt_check(const meshopt_view *view, ffd_error *error)
                         "version %u of the meshopt codec for %s is not known, only up to %u",
                         view->bytes[0] & VERSION_MASK, mode->name, mode->newest);
     if (least_size(view) > view->size)
-        return ffd_fail(error, FFD_E_INVALID, "%zu bytes cannot hold %llu elements of mode %s", view->size,
-                        (unsigned long long)view->count, mode->name);
+        return ffd_fail(error, FFD_E_INVALID, "%zu %s cannot hold %llu %s of mode %s", view->size,
+                        ffd_plural(view->size, "byte", "bytes"), (unsigned long long)view->count,
+                        ffd_plural(view->count, "element", "elements"), mode->name);
     return FFD_OK;
 }
 
-static int decode(const meshopt_view *view, size_t count, size_t stride, unsigned char *bytes)
+const char *ffd_meshopt_mode_name(meshopt_mode mode)
 {
-    switch (view->mode) {
-    case MESHOPT_ATTRIBUTES:
-        return meshopt_decodeVertexBuffer(bytes, count, stride, view->bytes, view->size);
-    case MESHOPT_TRIANGLES:
-        return meshopt_decodeIndexBuffer(bytes, count, stride, view->bytes, view->size);
-    default:
-        return meshopt_decodeIndexSequence(bytes, count, stride, view->bytes, view->size);
-    }
-}
-
-static void apply_filter(const meshopt_view *view, size_t count, size_t stride, unsigned char *bytes)
-{
-    switch (view->filter) {
-    case MESHOPT_OCTAHEDRAL:
-        meshopt_decodeFilterOct(bytes, count, stride);
-        break;
-    case MESHOPT_QUATERNION:
-        meshopt_decodeFilterQuat(bytes, count, stride);
-        break;
-    case MESHOPT_EXPONENTIAL:
-        meshopt_decodeFilterExp(bytes, count, stride);
-        break;
-    default:
-        break;
-    }
-}
-
-ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
-{
-    const size_t count = (size_t)view->count, stride = (size_t)view->stride;
-    const int result = decode(view, count, stride, bytes);
-    if (result != 0)
-        return ffd_fail(error, FFD_E_INVALID, "the compressed data of mode %s is broken (%d)",
-                        facts[view->mode].name, result);
-    apply_filter(view, count, stride, bytes);
-    return FFD_OK;
+    return facts[mode].name;
 }

@@ -7,6 +7,7 @@
 #include "io/gltf/model/gltf_model.h"
 #include "mesh/mesh.h"
 #include "json/json_span.h"
+#include <stdarg.h>
 
 #define GLTF_NONE SIZE_MAX
 
@@ -24,6 +25,7 @@ typedef struct gltf_unpacked {
     unsigned char *bytes; /* owned; NULL: the accessor is not compressed by it */
     size_t size, view;    /* view: the compressed data */
     uint64_t source;      /* the attribute's id, UINT64_MAX: the indices */
+    double step;          /* of floats that were quantized; 0: they were not, or it is not known */
     /* The accessor's own elements, for readers that do not know Draco; NULL: none. */
     const unsigned char *fallback;
     size_t fallback_stride;
@@ -70,6 +72,8 @@ typedef struct gltf_part {
     size_t influence_count;
     gltf_stream streams[GLTF_DEFORMED];
     uint8_t *selected;  /* the mesh_part's selected */
+    uint8_t *used;      /* and used */
+    bool is_all_used;   /* a primitive without indices draws all vertices */
     size_t first_shape; /* document->shapes holds the part's morph targets from here */
 } gltf_part;
 
@@ -106,7 +110,9 @@ typedef struct gltf_document {
     const char *name; /* for messages */
     ffd_space space;
     file_input input;
-    int threads; /* for reading and writing */
+    int threads;      /* for reading and writing */
+    bool keeps_pages; /* of its files, which are small: nothing is released */
+    bool is_present;  /* it keeps them, and was saved before: all that a saving reads is in memory */
     bool binary;
     glb_layout glb;
     json_span tree;
@@ -124,17 +130,29 @@ typedef struct gltf_document {
 
     /* Decoded data. */
     unsigned char **decoded_views; /* model.view_count; NULL: not compressed, or not supported */
+    int8_t **view_exponents;       /* likewise: of the numbers in an element (meshopt_view.h); NULL: none */
     gltf_unpacked *unpacked;       /* model.accessor_count */
     char **draco_problems;         /* primitive_values.count; NULL: none */
     uint64_t draco_decoded;        /* points and corners of all decodings */
 
     double *world;  /* world matrices, 12 per node: linear row by row, offset */
-    bool *in_scene; /* per node: it is in the scene that is displayed */
+    bool *in_scene; /* per node: it is in the scene that is displayed, or stands in for such a node */
+    /* Per node in the scene: how many come before it, parents before their children, both in the order that
+       the file lists them; those that stand in come last. */
+    size_t *scene_ranks;
+    size_t nodes_in_scene;
+    /* Per node: it, or a node above it, is shown in place of a node of the scene at a distance (MSFT_lod). */
+    bool *stands_in;
+    size_t details_shared; /* uses of such a node for another node, at another place, than the first */
+    bool *selected_nodes;  /* per node: a selector of nodes names it, or one above; NULL: there is none */
+    bool *hidden;          /* per node: it or a node above it is not visible; NULL: none of them */
     size_t *scene_nodes;
     size_t nodes_outside_scene; /* nodes with a mesh */
-    /* A node with two parents, which is not valid but is described as if it had the first only; GLTF_NONE:
-       none. */
+    /* A node with two parents, which is not valid but is described as if it had the first
+       only; GLTF_NONE: none. */
     size_t shared_child, shared_by[2];
+    /* In the JSON: a required extension for which the vertices cannot be deformed; JSON_NONE: none. */
+    uint32_t refused_extension;
     gltf_mesh_uses *mesh_uses; /* model.mesh_count */
     gltf_instance *instances;
     /* base.part_count, then one for each shape, whose streams are its offsets: the results of both are
@@ -151,16 +169,23 @@ typedef struct gltf_document {
     /* Why their transforms are unknown, if they are: such a document can only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
-    size_t *targets; /* per morph target of an instance: the part that holds its offsets; GLTF_NONE: none is
-                        deformed */
+    size_t *targets; /* per morph target of an instance: the part that holds its offsets;
+                        GLTF_NONE: none is deformed */
 } gltf_document;
 
-/* Releases the pages of the files' mmap; they are read again when they are needed. */
+/* Decides whether the document keeps the pages of its files, once they are open. */
+void ffd_gltf_choose_pages(gltf_document *document);
+
+/* Releases the pages of the files' mmap, unless it keeps them; they are read again when they are needed. */
 void ffd_gltf_forget(const gltf_document *document);
 
 /* Releases only those of bytes [offset, offset + size) of one buffer, as far as it has them. */
 void ffd_gltf_forget_bytes(const gltf_document *document, const gltf_buffer *buffer, size_t offset,
                            size_t size);
+
+/* Releases those of elements [first, first + count) of an accessor, where they are in the file as they are.
+ */
+void ffd_gltf_forget_elements(const gltf_document *document, size_t accessor, size_t first, size_t count);
 
 /* Returns the document as what it is; it must be of glTF. */
 static inline const gltf_document *ffd_gltf_of(const mesh_document *document)
@@ -181,14 +206,37 @@ static inline gltf_instance *ffd_gltf_instances(const gltf_document *document, s
     return document->instances + uses->first_instance + primitive * uses->node_count;
 }
 
+/* Whether a viewer does not show a node (GLTF_NONE: none) of the scene. */
+static inline bool ffd_gltf_is_hidden(const gltf_document *document, size_t node)
+{
+    return document->hidden && node != GLTF_NONE && document->hidden[node];
+}
+
 /* Returns the JSON value of a primitive of a mesh. */
 uint32_t ffd_gltf_primitive_value(const gltf_document *document, size_t mesh, size_t primitive);
+
+/* Notes what is wrong at a value but has a plain meaning, or fails with it, as the document's flaws say (see
+   mesh/flaws.h). */
+ffd_status ffd_gltf_flaw(gltf_document *document, uint32_t value, ffd_error *error, const char *format, ...)
+    FFD_PRINTF(4, 5);
+/* The same with the arguments of a caller. */
+ffd_status ffd_gltf_note_flaw(gltf_document *document, uint32_t value, ffd_error *error, const char *format,
+                              va_list arguments);
 
 /* Returns a value's extension of this name; JSON_NONE if it has none. */
 uint32_t ffd_gltf_extension(const gltf_document *document, uint32_t value, const char *extension);
 
 /* Whether a value has an extension of this name. */
 bool ffd_gltf_has_extension(const gltf_document *document, uint32_t value, const char *extension);
+
+/* Returns the whole number below count that a value is; GLTF_NONE if it is none. */
+size_t ffd_gltf_index(const gltf_document *document, uint32_t value, size_t count);
+
+/* Returns the node whose number a value is; GLTF_NONE if it is none. */
+size_t ffd_gltf_node(const gltf_document *document, uint32_t value);
+
+/* Returns the first element of an array that is a member of an object; JSON_NONE if there is none. */
+uint32_t ffd_gltf_first(const gltf_document *document, uint32_t object, const char *key);
 
 /* The names of the deformed attributes: "POSITION" and so on. */
 extern const char *const ffd_gltf_semantic_names[GLTF_DEFORMED];

@@ -11,9 +11,8 @@ static inline size_t ffd_base64_capacity(size_t size)
     return size / 4 * 3 + 3;
 }
 
-/* Decodes size characters into bytes (of ffd_base64_capacity) and sets *count to their number. The
-   final '=' may be missing. Returns false at any other character, and where the text ends within a
-   byte. */
+/* Decodes size characters into bytes (of ffd_base64_capacity) and sets *count to their number. The final '='
+   may be missing. Returns false at any other character, and where the text ends within a byte. */
 bool ffd_base64_decode(const char *text, size_t size, unsigned char *bytes, size_t *count);
 
 /* Returns the number of characters that count bytes take, with the final '='. */

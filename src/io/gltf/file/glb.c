@@ -1,5 +1,6 @@
 #include "io/gltf/file/glb.h"
 #include "base/little_endian.h"
+#include "base/text/words.h"
 
 bool ffd_glb_is(const unsigned char *data, size_t size)
 {
@@ -23,8 +24,9 @@ static ffd_status read_chunk(const unsigned char *data, size_t end, const char *
     chunk->type = load_u32(data + *at + 4);
     if (chunk->size > end - chunk->begin)
         return ffd_fail_file(error, FFD_E_INVALID, name,
-                             "GLB: the chunk at byte %zu states %zu bytes, but only %zu follow", *at,
-                             chunk->size, end - chunk->begin);
+                             "GLB: the chunk at byte %zu states a size of %zu, but only %zu %s", *at,
+                             chunk->size, end - chunk->begin,
+                             ffd_plural(end - chunk->begin, "byte follows", "bytes follow"));
     *at = chunk->begin + chunk->size;
     return FFD_OK;
 }
@@ -45,8 +47,9 @@ ffd_status ffd_glb_parse(const unsigned char *data, size_t size, const char *nam
                              (unsigned long)version);
     layout->end = load_u32(data + 8);
     if (layout->end > size || layout->end < GLB_HEADER_SIZE)
-        return ffd_fail_file(error, FFD_E_INVALID, name, "GLB: the header states %zu bytes, the file has %zu",
-                             layout->end, size);
+        return ffd_fail_file(error, FFD_E_INVALID, name,
+                             "GLB: the header states a size of %zu, the file has %zu bytes", layout->end,
+                             size);
 
     glb_chunk chunk = {0};
     size_t at = GLB_HEADER_SIZE;

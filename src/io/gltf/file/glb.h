@@ -5,7 +5,6 @@
 #include "base/fail.h"
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 #define GLB_HEADER_SIZE 12
 #define GLB_CHUNK_HEADER_SIZE 8

@@ -1,4 +1,5 @@
 #include "io/gltf/file/gltf_buffer.h"
+#include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/file/base64.h"
@@ -10,41 +11,78 @@ typedef struct loader {
     uint32_t value, uri; /* of the JSON: the buffer, its uri */
     const char *model;   /* its path */
     const char *name;    /* for messages */
+    size_t *most_read;
     ffd_error *error;
 } loader;
 
-size_t ffd_data_uri_payload(const char *uri, size_t size, bool *base64)
+static bool is_blank(char c)
 {
-    static const char marker[] = ";base64";
-    const size_t marker_size = sizeof marker - 1;
+    return c == ' ' || c == '\t' || c == '\n' || c == '\f' || c == '\r';
+}
+
+static bool is_separator(char c)
+{
+    return c == ';' || c == ',' || is_blank(c);
+}
+
+/* Whether a word at uri[i] that ends before uri[end] is a whole parameter; blanks round it may be escaped. */
+static bool is_parameter(const char *uri, size_t i, size_t end)
+{
+    const bool begins = i > 0 && (is_separator(uri[i - 1]) || (i >= 3 && memcmp(uri + i - 3, "%20", 3) == 0));
+    return begins && (is_separator(uri[end]) || strncmp(uri + end, "%20", 3) == 0);
+}
+
+size_t ffd_data_uri_payload(const char *uri, size_t size, data_uri_coding *coding)
+{
+    static const char word[] = "base64";
+    const size_t length = sizeof word - 1;
     const char *comma = memchr(uri, ',', size);
+    *coding = DATA_PLAIN;
     if (!comma)
         return SIZE_MAX;
     const size_t head = (size_t)(comma - uri);
-    *base64 = head >= marker_size && memcmp(comma - marker_size, marker, marker_size) == 0;
+    for (size_t i = 0; i + length <= head && *coding == DATA_PLAIN; i++)
+        if (ffd_uri_starts_with(uri + i, word) && is_parameter(uri, i, i + length)) {
+            const bool exact = uri[i - 1] == ';' && i + length == head && memcmp(uri + i, word, length) == 0;
+            *coding = exact ? DATA_BASE64 : DATA_BASE64_ODD;
+        }
     return head + 1;
+}
+
+/* Takes out blanks, which browsers skip in base64; returns the new size. */
+static size_t take_blanks(char *text, size_t size)
+{
+    size_t blanks = 0, kept = 0;
+    for (size_t i = 0; i < size; i++)
+        blanks += is_blank(text[i]);
+    for (size_t i = 0; i < size && blanks > 0; i++)
+        if (!is_blank(text[i]))
+            text[kept++] = text[i];
+    return size - blanks;
 }
 
 static ffd_status load_data_uri(const loader *l, char *uri, size_t size, gltf_buffer *buffer)
 {
-    bool base64 = false;
-    const size_t head = ffd_data_uri_payload(uri, size, &base64);
+    data_uri_coding coding;
+    const size_t head = ffd_data_uri_payload(uri, size, &coding);
     if (head == SIZE_MAX)
         return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
                                   "the data URI has no comma");
+    if (coding == DATA_PLAIN)
+        return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
+                                  "the data URI of a buffer must say \";base64\" before its comma");
     size = ffd_uri_decode(uri + head, size - head);
+    const size_t digits = take_blanks(uri + head, size);
+    buffer->flaws = (coding == DATA_BASE64_ODD ? BUFFER_ODD_MARKER : 0) | (digits < size ? BUFFER_BLANKS : 0);
+    size = digits;
     buffer->kind = BUFFER_DATA;
-    buffer->decoded = ffd_alloc(base64 ? ffd_base64_capacity(size) : size, 1);
+    buffer->decoded = ffd_alloc(ffd_base64_capacity(size), 1);
     buffer->data = buffer->decoded;
     if (!buffer->decoded)
         return ffd_fail_memory(l->error);
-    if (!base64) {
-        memcpy(buffer->decoded, uri + head, size);
-        buffer->size = size;
-    } else if (!ffd_base64_decode(uri + head, size, buffer->decoded, &buffer->size)) {
+    if (!ffd_base64_decode(uri + head, size, buffer->decoded, &buffer->size))
         return ffd_json_span_fail(l->tree, l->uri, l->name, FFD_E_INVALID, l->error,
                                   "the data URI is not valid base64");
-    }
     return FFD_OK;
 }
 
@@ -63,9 +101,13 @@ static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer
                                   "the buffer's name holds a NUL character");
     buffer->path = ffd_text_copy(uri);
     char *folder = ffd_path_folder(l->model);
+    bool turned = false;
     ffd_status status = buffer->path && folder ? FFD_OK : ffd_fail_memory(l->error);
     if (status == FFD_OK)
-        status = ffd_file_load_within(folder, buffer->path, l->name, &buffer->file, l->error);
+        status = ffd_path_turn_slashes(buffer->path, folder, &turned, l->error);
+    buffer->flaws = turned ? BUFFER_BACKSLASH : 0;
+    if (status == FFD_OK)
+        status = ffd_file_load_within(folder, buffer->path, l->name, l->most_read, &buffer->file, l->error);
     ffd_free(folder);
     if (status)
         return status;
@@ -88,14 +130,14 @@ static ffd_status load_uri(const loader *l, gltf_buffer *buffer)
 }
 
 ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const unsigned char *bin,
-                                size_t bin_size, const char *model, const char *name, gltf_buffer *buffer,
-                                ffd_error *error)
+                                size_t bin_size, const char *model, const char *name, size_t *most_read,
+                                gltf_buffer *buffer, ffd_error *error)
 {
     *buffer = (gltf_buffer){.kind = BUFFER_EMPTY};
-    const loader l = {tree, value, ffd_json_span_member(tree, value, "uri"), model, name, error};
+    const loader l = {tree, value, ffd_json_span_member(tree, value, "uri"), model, name, most_read, error};
     double length = 0;
     ffd_json_span_number(tree, ffd_json_span_member(tree, value, "byteLength"), &length);
-    buffer->length = (size_t)length;
+    buffer->length = buffer->stated = (size_t)length;
     ffd_status status = FFD_OK;
     if (l.uri != JSON_NONE) {
         status = load_uri(&l, buffer);
@@ -104,10 +146,10 @@ ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const uns
         buffer->data = bin;
         buffer->size = bin_size;
     }
-    if (status == FFD_OK && buffer->kind != BUFFER_EMPTY && buffer->size < buffer->length)
-        status = ffd_json_span_fail(tree, value, name, FFD_E_INVALID, error,
-                                    "the buffer has %zu bytes, less than its byteLength %zu", buffer->size,
-                                    buffer->length);
+    if (status == FFD_OK && buffer->kind != BUFFER_EMPTY && buffer->size < buffer->length) {
+        buffer->flaws |= BUFFER_SHORT;
+        buffer->length = buffer->size;
+    }
     if (status)
         ffd_gltf_free_buffer(buffer);
     return status;

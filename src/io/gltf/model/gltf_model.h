@@ -1,4 +1,5 @@
-/* gltf_model.h - what we use of a glTF file, in plain C. Filled by gltf_tinygltf.cpp; indices are -1
+/* gltf_model.h - what we use of a glTF file, in plain C. Filled by gltf_tinygltf.cpp, or
+   tinygltf_load.c; indices are -1
    where absent. */
 #ifndef FFD_IO_GLTF_MODEL_GLTF_MODEL_H
 #define FFD_IO_GLTF_MODEL_GLTF_MODEL_H
@@ -21,8 +22,17 @@ typedef enum gltf_component {
 typedef enum gltf_semantic { GLTF_POSITION, GLTF_NORMAL, GLTF_TANGENT, GLTF_OTHER } gltf_semantic;
 #define GLTF_DEFORMED 3 /* of them */
 
-/* What a primitive draws. */
-enum { MODE_POINTS, MODE_LINES, MODE_LINE_LOOP, MODE_LINE_STRIP, MODE_TRIANGLES, MODE_STRIP, MODE_FAN };
+/* What a primitive draws; MODE_UNKNOWN: its mode or its indices are not valid (then there are no indices). */
+enum {
+    MODE_POINTS,
+    MODE_LINES,
+    MODE_LINE_LOOP,
+    MODE_LINE_STRIP,
+    MODE_TRIANGLES,
+    MODE_STRIP,
+    MODE_FAN,
+    MODE_UNKNOWN
+};
 
 typedef struct gltf_view {
     int buffer;
@@ -119,9 +129,9 @@ typedef struct gltf_model {
 extern "C" {
 #endif
 
-/* Parses JSON text (with stubs for buffers, without images) by tinygltf, which opens no file. On
-   failure the model is empty. Errors: FFD_E_INVALID with tinygltf's message, FFD_E_MEMORY. Throws no
-   exception. */
+/* Parses JSON text (with stubs for buffers, without images) by tinygltf, which opens no file. On failure the
+   model is empty. Errors: FFD_E_INVALID with tinygltf's message, FFD_E_UNSUPPORTED (no library),
+   FFD_E_MEMORY. Throws no exception. */
 ffd_status ffd_gltf_parse_model(const char *text, size_t size, const char *name, gltf_model *model,
                                 ffd_error *error);
 

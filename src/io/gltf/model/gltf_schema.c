@@ -6,10 +6,10 @@
 typedef enum rule_kind {
     RULE_INDEX,     /* an integer from 0 to 2^31-1 */
     RULE_SIZE,      /* an integer from 0 to 2^53 */
-    RULE_STRIDE,    /* 4, 8, .. 252 */
+    RULE_STRIDE,    /* 0 to 252; glTF: 4, 8, .. 252 */
     RULE_COMPONENT, /* a componentType */
     RULE_SHAPE,     /* an accessor's type */
-    RULE_MODE,      /* a primitive's mode */
+    RULE_MODE,      /* a primitive's mode: any number here; glTF: 0 to 6 */
     RULE_BOOL,
     RULE_STRING,
     RULE_STRINGS,
@@ -132,6 +132,25 @@ static bool is_kind(const checker *c, uint32_t value, json_kind kind)
     return c->tree->values[value].kind == kind;
 }
 
+/* tinygltf refuses what is not a multiple of 4. Whoever uses the stride reads it from the JSON. */
+static ffd_status check_stride(const checker *c, uint32_t value)
+{
+    double number;
+    if (!ffd_json_span_number(c->tree, value, &number) || !(number >= 0 && number <= 252) ||
+        floor(number) != number)
+        return refuse(c, value, "a multiple of 4 from 4 to 252");
+    ffd_edits_format(c->plain, c->tree->values[value].begin, c->tree->values[value].end, "4");
+    return FFD_OK;
+}
+
+static ffd_status check_mode(const checker *c, uint32_t value)
+{
+    if (!is_kind(c, value, JSON_NUMBER))
+        return refuse(c, value, "a mode from 0 to 6");
+    ffd_edits_format(c->plain, c->tree->values[value].begin, c->tree->values[value].end, "4");
+    return FFD_OK;
+}
+
 /* Reads an integer of [0, largest]. One that is not written as plain digits is rewritten in c->plain. */
 static bool read_integer(const checker *c, uint32_t value, double largest, double *number)
 {
@@ -147,6 +166,31 @@ static bool read_integer(const checker *c, uint32_t value, double largest, doubl
     return true;
 }
 
+/* Whether the file says that it uses an extension. */
+static bool is_used(const json_span *tree, const char *extension)
+{
+    const uint32_t used = ffd_json_span_member(tree, 0, "extensionsUsed");
+    for (uint32_t v = ffd_json_span_first(tree, used); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+        if (ffd_json_span_string_is(tree, v, extension))
+            return true;
+    return false;
+}
+
+/* The component type that KHR_accessor_float64 adds. */
+#define COMPONENT_DOUBLE 5130
+
+static ffd_status check_component(const checker *c, uint32_t value, bool known, double number)
+{
+    if (known && number >= 5120 && number <= 5126 && (number < 5124 || number > 5124))
+        return FFD_OK;
+    if (!(known && number >= COMPONENT_DOUBLE && number <= COMPONENT_DOUBLE) ||
+        !is_used(c->tree, "KHR_accessor_float64"))
+        return refuse(c, value, "a component type (5120 to 5123, 5125, 5126)");
+    return ffd_json_span_fail(c->tree, value, c->name, FFD_E_UNSUPPORTED, c->error,
+                              "component type %d, double precision, of KHR_accessor_float64 is not supported",
+                              COMPONENT_DOUBLE);
+}
+
 static ffd_status check_integer(const checker *c, uint32_t value, rule_kind kind)
 {
     double number = 0;
@@ -156,16 +200,8 @@ static ffd_status check_integer(const checker *c, uint32_t value, rule_kind kind
         return known ? FFD_OK : refuse(c, value, "an integer from 0 to 2147483647");
     case RULE_SIZE:
         return known ? FFD_OK : refuse(c, value, "an integer from 0 to 2^53");
-    case RULE_STRIDE:
-        if (known && number >= 4 && number <= 252 && fmod(number, 4) <= 0)
-            return FFD_OK;
-        return refuse(c, value, "a multiple of 4 from 4 to 252");
-    case RULE_COMPONENT:
-        if (known && number >= 5120 && number <= 5126 && (number < 5124 || number > 5124))
-            return FFD_OK;
-        return refuse(c, value, "a component type (5120 to 5123, 5125, 5126)");
     default:
-        return known && number <= 6 ? FFD_OK : refuse(c, value, "a mode from 0 to 6");
+        return check_component(c, value, known, number);
     }
 }
 
@@ -234,10 +270,12 @@ static ffd_status check_value(const checker *c, uint32_t value, const rule *r)
     switch (r->kind) {
     case RULE_INDEX:
     case RULE_SIZE:
-    case RULE_STRIDE:
     case RULE_COMPONENT:
-    case RULE_MODE:
         return check_integer(c, value, r->kind);
+    case RULE_STRIDE:
+        return check_stride(c, value);
+    case RULE_MODE:
+        return check_mode(c, value);
     case RULE_SHAPE:
         return check_shape(c, value);
     case RULE_BOOL:

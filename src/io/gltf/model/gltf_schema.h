@@ -8,7 +8,8 @@
 #include "json/json_span.h"
 
 /* Checks them. For an integer that is not written as plain digits ("12.0" is allowed), an edit to plain
-   digits is added to plain. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED (another version of glTF). */
+   digits is added to plain; byteStride and mode, which the caller reads itself, become 4 in it. Errors:
+   FFD_E_INVALID, FFD_E_UNSUPPORTED (another version of glTF). */
 ffd_status ffd_gltf_check_schema(const json_span *tree, const char *name, json_edits *plain,
                                  ffd_error *error);
 

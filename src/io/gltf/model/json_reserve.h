@@ -54,7 +54,9 @@ class json_reserve
   private:
     static json_reserve *&current()
     {
-        static thread_local json_reserve *reserve = nullptr;
+        /* Memory that a module's threads get with it: of any other the C library ends the program where
+           memory runs out. */
+        static thread_local json_reserve *reserve __attribute__((tls_model("initial-exec"))) = nullptr;
         return reserve;
     }
     void *take(size_t bytes)

@@ -1,14 +1,13 @@
 #include "io/gltf/save/gltf_announce.h"
+#include "base/text/words.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_unpack.h"
 
 /* Logs one line with a count. The single cases are logged as FFD_LOG_INFO where they are handled. */
 static void warn(const gltf_saver *saver, size_t count, const char *one, const char *many)
 {
-    if (count == 1)
-        ffd_log_line(saver->log, FFD_LOG_WARNING, "1 %s", one);
-    else if (count > 1)
-        ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s", count, many);
+    if (count > 0)
+        ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s", count, ffd_plural(count, one, many));
 }
 
 /* Logs what no part covers. */
@@ -23,6 +22,9 @@ static void warn_of_rest(const gltf_saver *saver)
          "nodes with EXT_mesh_gpu_instancing are out of the lattice's reach: left as they are");
     warn(saver, d->nodes_outside_scene, "node with a mesh is not in the displayed scene: left as it is",
          "nodes with a mesh are not in the displayed scene: left as they are");
+    warn(saver, d->details_shared,
+         "use of a node by MSFT_lod is at another place than the first: the node is deformed for that one",
+         "uses of nodes by MSFT_lod are at other places than the first: the nodes are deformed for that one");
     warn(saver, unused, "mesh is not used by any node: left as it is",
          "meshes are not used by any node: left as they are");
 }

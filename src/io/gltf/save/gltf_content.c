@@ -328,8 +328,7 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, siz
     apply_overwrites(saver->document, made, offset, size, bytes);
 }
 
-/* Returns the values of an overwrite if they are in memory exactly as they are to be written, else
-   NULL. */
+/* Returns the values of an overwrite if they are in memory exactly as they are to be written, else NULL. */
 static const unsigned char *values_in_place(const gltf_document *d, const gltf_overwrite *overwrite)
 {
     const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];

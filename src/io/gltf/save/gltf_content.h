@@ -4,8 +4,8 @@
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Makes saver->buffers with their overwrites, appends and lengths from the plan. Errors: FFD_E_LIMIT,
-   FFD_E_MEMORY. */
+/* Makes saver->buffers with their overwrites, appends and lengths from the plan. Errors:
+   FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_content(gltf_saver *saver, ffd_error *error);
 
 /* Frees saver->buffers. */

@@ -17,12 +17,20 @@
    data may be anywhere in them. */
 #define MOST_WRITTEN ((size_t)3 << 21)
 
+/* Stretches of a piece that lie apart in memory; one that has more is put together. */
+#define MOST_STRETCHES 4
+
+typedef struct content_stretch {
+    const void *bytes;
+    size_t size;
+} content_stretch;
+
 /* A piece until it is written. */
 typedef struct content_piece {
     unsigned char *block; /* bytes that had to be put together; NULL until a piece needs it */
     char *text;           /* base64; NULL until a piece needs it */
-    const void *bytes;    /* to be written; NULL: memory ran out */
-    size_t size;
+    content_stretch stretches[MOST_STRETCHES]; /* to be written */
+    size_t count;                              /* 0: memory ran out */
 } content_piece;
 
 typedef struct content_writer {
@@ -36,28 +44,46 @@ typedef struct content_writer {
     atomic_bool is_over; /* after a failure */
 } content_writer;
 
-/* Bytes that are in memory as they are to be written are not copied. */
-static const unsigned char *find_content(const content_writer *w, size_t offset, size_t size,
-                                         content_piece *piece)
+/* Lists the bytes of a piece, if they are in memory as they are to be written, in `most` stretches at most.
+ */
+static bool list_stretches(const content_writer *w, size_t offset, size_t size, size_t most,
+                           content_piece *piece)
 {
-    const unsigned char *bytes;
-    if (ffd_gltf_content_at(w->saver, w->buffer, offset, &bytes) >= size)
-        return bytes;
+    piece->count = 0;
+    for (size_t done = 0; done < size;) {
+        const unsigned char *bytes;
+        const size_t there = ffd_gltf_content_at(w->saver, w->buffer, offset + done, &bytes);
+        const size_t length = there < size - done ? there : size - done;
+        if (length == 0 || piece->count == most)
+            return false;
+        piece->stretches[piece->count++] = (content_stretch){bytes, length};
+        done += length;
+    }
+    return true;
+}
+
+/* Bytes that are in memory as they are to be written are not copied. */
+static void find_content(const content_writer *w, size_t offset, size_t size, content_piece *piece)
+{
+    if (list_stretches(w, offset, size, w->base64 ? 1 : MOST_STRETCHES, piece))
+        return;
     if (!piece->block)
         piece->block = ffd_alloc(w->piece_size, 1);
     if (piece->block)
         ffd_gltf_content_read(w->saver, w->buffer, offset, size, piece->block);
-    return piece->block;
+    piece->stretches[0] = (content_stretch){piece->block, size};
+    piece->count = piece->block != NULL;
 }
 
 static void encode(const content_writer *w, content_piece *piece)
 {
+    content_stretch *const all = &piece->stretches[0];
     if (!piece->text)
         piece->text = ffd_alloc(ffd_base64_length(w->piece_size), 1);
     if (piece->text)
-        ffd_base64_encode(piece->bytes, piece->size, piece->text);
-    piece->bytes = piece->text;
-    piece->size = ffd_base64_length(piece->size);
+        ffd_base64_encode(all->bytes, all->size, piece->text);
+    *all = (content_stretch){piece->text, ffd_base64_length(all->size)};
+    piece->count = piece->text != NULL;
 }
 
 static void make_piece(void *context, size_t tile, size_t first, size_t last, int slot)
@@ -67,12 +93,11 @@ static void make_piece(void *context, size_t tile, size_t first, size_t last, in
     (void)tile;
     if (atomic_load(&w->is_over))
         return;
-    piece.size = last - first;
-    piece.bytes = find_content(w, first, piece.size, &piece);
-    if (piece.bytes && w->base64)
+    find_content(w, first, last - first, &piece);
+    if (piece.count > 0 && w->base64)
         encode(w, &piece);
-    else if (piece.bytes)
-        ffd_file_prefault(piece.bytes, piece.size);
+    for (size_t i = 0; i < piece.count && !w->base64 && !w->saver->document->is_present; i++)
+        ffd_file_prefault(piece.stretches[i].bytes, piece.stretches[i].size);
     w->pieces[slot] = piece;
 }
 
@@ -83,8 +108,10 @@ static void write_piece(void *context, size_t tile, size_t first, size_t last, i
     const gltf_new_buffer *buffer = &w->saver->buffers[w->buffer];
     if (atomic_load(&w->is_over))
         return;
-    w->status = piece->bytes ? ffd_output_write(w->saver->output, piece->bytes, piece->size, w->error)
-                             : ffd_fail_memory(w->error);
+    w->status = piece->count > 0 ? FFD_OK : ffd_fail_memory(w->error);
+    for (size_t i = 0; i < piece->count && !w->status; i++)
+        w->status =
+            ffd_output_write(w->saver->output, piece->stretches[i].bytes, piece->stretches[i].size, w->error);
     if (w->status)
         atomic_store(&w->is_over, true);
     ffd_gltf_forget_bytes(w->saver->document, buffer->old, first, last - first);

@@ -2,7 +2,8 @@
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
-#include "io/gltf/save/gltf_accessor_users.h"
+#include "io/gltf/refer/gltf_accessor_users.h"
+#include "io/gltf/save/gltf_join_uses.h"
 #include "io/gltf/save/gltf_overlap.h"
 #include "io/gltf/save/gltf_plan.h"
 #include <stdlib.h>
@@ -234,18 +235,23 @@ static ffd_status split_meshes(const gltf_document *d, gltf_plan *plan, ffd_erro
         most = d->mesh_uses[m].node_count > most ? d->mesh_uses[m].node_count : most;
     }
     variant *variants = ffd_alloc(most, sizeof *variants);
+    gltf_use_group *groups = ffd_alloc(most + 1, sizeof *groups);
+    size_t *order = ffd_alloc(most + 1, sizeof *order);
     plan->base_uses = ffd_alloc(d->model.mesh_count, sizeof *plan->base_uses);
     plan->copies = ffd_alloc(nodes, sizeof *plan->copies);
     plan->changes = ffd_alloc(nodes, sizeof *plan->changes);
     ffd_status status = FFD_OK;
-    if (!variants || !plan->base_uses || !plan->copies || !plan->changes)
+    if (!variants || !groups || !order || !plan->base_uses || !plan->copies || !plan->changes)
         status = ffd_fail_memory(error);
     for (size_t m = 0; m < d->model.mesh_count && status == FFD_OK; m++) {
         const size_t first_copy = plan->copy_count, first_change = plan->change_count;
         split_mesh(d, m, variants, plan);
         order_copies(plan, first_copy, first_change);
+        ffd_gltf_join_uses(d, m, first_copy, first_change, plan, groups, order);
     }
     ffd_free(variants);
+    ffd_free(groups);
+    ffd_free(order);
     return status;
 }
 
@@ -273,8 +279,7 @@ static bool can_overwrite(const gltf_document *d, const gltf_version *version)
     return has_bytes && !accessor->sparse.present && version->component == accessor->component;
 }
 
-/* Whether the accessor is one that we added, of zeros without bytes, which can get bytes for the
-   version. */
+/* Whether the accessor is one that we added, of zeros without bytes, which can get bytes for the version. */
 static bool can_rebind(const gltf_document *d, const gltf_version *version)
 {
     const gltf_accessor *accessor = &d->model.accessors[version->accessor];

@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/file/base64.h"
 #include "io/gltf/save/gltf_json_insert.h"
+#include "io/gltf/save/gltf_morph_reuse.h"
 #include "io/gltf/save/gltf_morph_weights.h"
 #include "io/gltf/save/gltf_saver.h"
 #include <string.h>
@@ -11,13 +12,35 @@
 typedef struct morph_writer {
     gltf_saver saver;
     const bool *meshes;
-    size_t *zeros[2]; /* per accessor: the new one of as many zeros; [1]: with bounds */
+    const size_t *named;  /* per mesh: the target that is replaced; GLTF_NONE: none */
+    bool *grow;           /* per mesh: it gets one more */
+    unsigned char *users; /* of ffd_gltf_count_users */
+    size_t *zeros[2];     /* per accessor: the new one of as many zeros; [1]: with bounds */
     morph_data data;
 } morph_writer;
 
 static bool is_array(const gltf_saver *saver, uint32_t value)
 {
     return value != JSON_NONE && saver->document->tree.values[value].kind == JSON_ARRAY;
+}
+
+/* Returns the names of a mesh's targets; JSON_NONE if there is no list of them. */
+static uint32_t names_of(const gltf_document *d, size_t mesh)
+{
+    const uint32_t extras = ffd_json_span_member(&d->tree, d->mesh_values.values[mesh], "extras");
+    const uint32_t names = ffd_json_span_member(&d->tree, extras, "targetNames");
+    return names != JSON_NONE && d->tree.values[names].kind == JSON_ARRAY ? names : JSON_NONE;
+}
+
+size_t ffd_gltf_find_target(const gltf_document *d, size_t mesh)
+{
+    const size_t count = ffd_gltf_target_count(d, mesh);
+    size_t t = 0;
+    for (uint32_t v = ffd_json_span_first(&d->tree, names_of(d, mesh)); v != JSON_NONE && t < count;
+         v = ffd_json_span_after(&d->tree, v), t++)
+        if (ffd_json_span_string_is(&d->tree, v, d->morph_name))
+            return t;
+    return GLTF_NONE;
 }
 
 /* Returns the new accessor of zeros for offsets of an accessor. */
@@ -35,10 +58,21 @@ static size_t zeros_for(morph_writer *w, size_t accessor, bool bounds)
     return *number;
 }
 
-/* Writes a target. It has normals and tangents only if these are deformed. */
-static void write_target(morph_writer *w, const gltf_primitive *primitive, byte_buffer *text)
+/* Returns the accessor for an attribute of a target: the one of the target that is replaced, if it can be. */
+static size_t accessor_for(morph_writer *w, const morph_place *place)
 {
     const gltf_document *d = w->saver.document;
+    const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
+    if (place->target < primitive->target_count && ffd_gltf_can_reuse(d, w->users, place))
+        return (size_t)primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
+    return zeros_for(w, (size_t)primitive->accessor[place->semantic], place->semantic == GLTF_POSITION);
+}
+
+/* Writes a target. It has normals and tangents only if these are deformed. */
+static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, byte_buffer *text)
+{
+    const gltf_document *d = w->saver.document;
+    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const bool wanted[GLTF_DEFORMED] = {true, d->morph_normals,
                                         d->morph_normals && primitive->accessor[GLTF_NORMAL] >= 0};
     bool first = true;
@@ -46,21 +80,39 @@ static void write_target(morph_writer *w, const gltf_primitive *primitive, byte_
     for (size_t s = 0; s < GLTF_DEFORMED; s++)
         if (wanted[s] && primitive->accessor[s] >= 0) {
             ffd_buffer_format(text, "%s\"%s\":%zu", first ? "" : ",", ffd_gltf_semantic_names[s],
-                              zeros_for(w, (size_t)primitive->accessor[s], s == GLTF_POSITION));
+                              accessor_for(w, &(morph_place){mesh, p, target, (gltf_semantic)s}));
             first = false;
         }
     ffd_buffer_text(text, "}");
 }
 
+static void replace_target(morph_writer *w, size_t mesh, size_t p, size_t target, uint32_t targets)
+{
+    const json_span *const tree = &w->saver.document->tree;
+    const json_value *const value = &tree->values[ffd_json_span_element(tree, targets, target)];
+    byte_buffer text = {0};
+    write_target(w, mesh, p, target, &text);
+    if (!text.failed)
+        ffd_edits_replace(&w->saver.edits, value->begin, value->end, text.data, text.size);
+    w->saver.edits.failed = w->saver.edits.failed || text.failed;
+    ffd_buffer_free(&text);
+}
+
 static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
 {
     const gltf_document *d = w->saver.document;
+    const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const uint32_t value = ffd_gltf_primitive_value(d, mesh, p);
     const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
+    const size_t place = ffd_gltf_target_place(primitive, w->named[mesh]);
     byte_buffer text = {0};
+    if (place < primitive->target_count) {
+        replace_target(w, mesh, p, place, targets);
+        return;
+    }
     if (targets == JSON_NONE)
         ffd_buffer_text(&text, "\"targets\":[");
-    write_target(w, &d->model.meshes[mesh].primitives[p], &text);
+    write_target(w, mesh, p, place, &text);
     if (targets == JSON_NONE)
         ffd_buffer_text(&text, "]");
     ffd_gltf_insert_last(&w->saver, targets == JSON_NONE ? value : targets, &text);
@@ -82,7 +134,10 @@ static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte
     for (size_t t = first; t < count; t++)
         ffd_buffer_format(text, "\"target_%zu\",", t);
     write_name(saver->document->morph_name, text);
-    if (first < count)
+    if (first + 1 == count)
+        ffd_log_line(saver->log, FFD_LOG_INFO,
+                     "the unnamed morph target of mesh %zu is now called target_%zu", mesh, first);
+    else if (first < count)
         ffd_log_line(saver->log, FFD_LOG_INFO,
                      "the unnamed morph targets of mesh %zu are now called target_%zu to target_%zu", mesh,
                      first, count - 1);
@@ -94,10 +149,6 @@ static void edit_names(gltf_saver *saver, size_t mesh, uint32_t names)
     const json_span *tree = &saver->document->tree;
     const size_t count = ffd_gltf_target_count(saver->document, mesh), named = tree->values[names].count;
     byte_buffer text = {0};
-    for (uint32_t v = ffd_json_span_first(tree, names); v != JSON_NONE; v = ffd_json_span_after(tree, v))
-        if (ffd_json_span_string_is(tree, v, saver->document->morph_name))
-            ffd_log_line(saver->log, FFD_LOG_WARNING, "mesh %zu already has a morph target of that name",
-                         mesh);
     write_names(saver, mesh, named < count ? named : count, &text);
     if (named <= count) {
         ffd_gltf_insert_last(saver, names, &text);
@@ -159,11 +210,16 @@ static void add_to_meshes(morph_writer *w)
             continue;
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
             add_to_primitive(w, m, p);
+        if (!w->grow[m]) {
+            ffd_log_line(w->saver.log, FFD_LOG_WARNING,
+                         "mesh %zu has a morph target of that name already: it is replaced", m);
+            continue;
+        }
         add_weights(&w->saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
         add_names(&w->saver, m);
     }
     for (size_t n = 0; n < d->model.node_count; n++)
-        if (d->model.nodes[n].mesh >= 0 && w->meshes[d->model.nodes[n].mesh])
+        if (d->model.nodes[n].mesh >= 0 && w->grow[d->model.nodes[n].mesh])
             add_weights(&w->saver, d->node_values.values[n], 0, false);
 }
 
@@ -193,8 +249,7 @@ static void write_buffer(morph_writer *w, byte_buffer *text)
     ffd_free(encoded);
 }
 
-/* Adds the bufferView of the new bytes, in the BIN chunk if there is one, else in a buffer of their
-   own. */
+/* Adds the bufferView of the new bytes, in the BIN chunk if there is one, else in a buffer of their own. */
 static void add_bytes(morph_writer *w)
 {
     gltf_saver *saver = &w->saver;
@@ -282,26 +337,32 @@ static ffd_status write_file(morph_writer *w, file_input *made, ffd_error *error
     return status;
 }
 
-ffd_status ffd_gltf_add_target(const gltf_document *d, const bool *meshes, const mesh_log *log,
-                               file_input *made, ffd_error *error)
+ffd_status ffd_gltf_add_target(const gltf_document *d, const bool *meshes, const size_t *named,
+                               const mesh_log *log, file_input *made, ffd_error *error)
 {
     const size_t count = d->model.accessor_count;
-    morph_writer w = {.saver = {.document = d, .log = log}, .meshes = meshes};
+    morph_writer w = {.saver = {.document = d, .log = log}, .meshes = meshes, .named = named};
     ffd_status status = FFD_OK;
+    w.users = ffd_gltf_count_users(d);
+    w.grow = ffd_alloc(d->model.mesh_count, sizeof *w.grow);
+    for (size_t m = 0; m < d->model.mesh_count && w.grow; m++)
+        w.grow[m] = meshes[m] && named[m] == GLTF_NONE;
     for (int i = 0; i < 2; i++) {
         w.zeros[i] = ffd_alloc(count, sizeof *w.zeros[i]);
         for (size_t a = 0; w.zeros[i] && a < count; a++)
             w.zeros[i][a] = GLTF_NONE;
     }
-    if (w.zeros[0] && w.zeros[1]) {
+    if (w.zeros[0] && w.zeros[1] && w.grow && w.users) {
         add_to_meshes(&w);
-        ffd_gltf_extend_weights(&w.saver, meshes, &w.data);
+        ffd_gltf_extend_weights(&w.saver, w.grow, &w.data);
         ffd_gltf_add_elements(&w.saver, &d->accessor_values, "accessors", &w.data.accessors);
         add_bytes(&w);
         status = write_file(&w, made, error);
     } else {
         status = ffd_fail_memory(error);
     }
+    ffd_free(w.grow);
+    ffd_free(w.users);
     ffd_free(w.zeros[0]);
     ffd_free(w.zeros[1]);
     ffd_buffer_free(&w.data.accessors);

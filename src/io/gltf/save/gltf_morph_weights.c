@@ -2,6 +2,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/refer/gltf_index_table.h"
 #include "io/gltf/save/gltf_json_insert.h"
 #include <math.h>
 #include <string.h>
@@ -37,18 +38,48 @@ static bool read_index(const gltf_saver *saver, uint32_t object, const char *key
     return true;
 }
 
-/* Returns the marked mesh whose weights a channel drives; GLTF_NONE: it drives none. */
-static size_t driven_mesh(const gltf_saver *saver, const bool *meshes, uint32_t channel)
+/* Returns the mesh of which a JSON pointer leads to all weights, its own or a node's; GLTF_NONE: it leads
+ * elsewhere.
+ */
+static size_t pointed_mesh(const gltf_document *d, const char *pointer)
+{
+    const char *rest = "";
+    const size_t mesh = ffd_gltf_pointed(pointer, "meshes", &rest);
+    if (mesh < d->model.mesh_count && strcmp(rest, "/weights") == 0)
+        return mesh;
+    const size_t node = ffd_gltf_pointed(pointer, "nodes", &rest);
+    return node < d->model.node_count && d->model.nodes[node].mesh >= 0 && strcmp(rest, "/weights") == 0
+               ? (size_t)d->model.nodes[node].mesh
+               : GLTF_NONE;
+}
+
+/* Returns the mesh whose weights the target of a channel is; GLTF_NONE: it is something else. */
+static size_t target_mesh(gltf_saver *saver, uint32_t target)
 {
     const gltf_document *d = saver->document;
-    const uint32_t target = ffd_json_span_member(&d->tree, channel, "target");
+    const uint32_t pointer =
+        ffd_json_span_member(&d->tree, ffd_gltf_extension(d, target, "KHR_animation_pointer"), "pointer");
+    if (pointer != JSON_NONE && d->tree.values[pointer].kind == JSON_STRING) {
+        char *text = ffd_json_span_string(&d->tree, pointer, NULL);
+        const size_t mesh = text ? pointed_mesh(d, text) : GLTF_NONE;
+        saver->edits.failed = saver->edits.failed || !text;
+        ffd_free(text);
+        return mesh;
+    }
     const uint32_t path = ffd_json_span_member(&d->tree, target, "path");
     size_t node;
-    if (path == JSON_NONE || !ffd_json_span_string_is(&d->tree, path, "weights") ||
-        !read_index(saver, target, "node", d->model.node_count, &node) || d->model.nodes[node].mesh < 0 ||
-        !meshes[d->model.nodes[node].mesh])
-        return GLTF_NONE;
-    return (size_t)d->model.nodes[node].mesh;
+    return path != JSON_NONE && ffd_json_span_string_is(&d->tree, path, "weights") &&
+                   read_index(saver, target, "node", d->model.node_count, &node) &&
+                   d->model.nodes[node].mesh >= 0
+               ? (size_t)d->model.nodes[node].mesh
+               : GLTF_NONE;
+}
+
+/* Returns the marked mesh whose weights a channel drives; GLTF_NONE: it drives none. */
+static size_t driven_mesh(gltf_saver *saver, const bool *meshes, uint32_t channel)
+{
+    const size_t mesh = target_mesh(saver, ffd_json_span_member(&saver->document->tree, channel, "target"));
+    return mesh != GLTF_NONE && meshes[mesh] ? mesh : GLTF_NONE;
 }
 
 static bool begin_animation(const gltf_saver *saver, uint32_t value, animation *a)
@@ -80,7 +111,7 @@ static void end_animation(animation *a)
     ffd_free(a->copies);
 }
 
-static void find_drivers(const gltf_saver *saver, const bool *meshes, animation *a)
+static void find_drivers(gltf_saver *saver, const bool *meshes, animation *a)
 {
     const json_span *tree = &saver->document->tree;
     for (uint32_t v = ffd_json_span_first(tree, a->channels); v != JSON_NONE;
@@ -103,8 +134,8 @@ static void put_float(float value, byte_buffer *out)
     ffd_buffer_append(out, bytes, sizeof bytes);
 }
 
-/* Makes a copy of the accessor with a 0 after every `targets` values; GLTF_NONE if it does not hold whole
-   rows. */
+/* Makes a copy of the accessor with a 0 after every `targets` values; GLTF_NONE if it
+   does not hold whole rows. */
 static size_t extend_output(gltf_saver *saver, size_t accessor, size_t targets, bool cubic, morph_data *data)
 {
     const gltf_document *d = saver->document;

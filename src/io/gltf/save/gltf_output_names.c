@@ -1,6 +1,8 @@
 #include "io/gltf/save/gltf_output_names.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "io/gltf/file/buffer_count.h"
+#include "io/gltf/file/glb.h"
 #include "io/gltf/file/uri.h"
 #include "io/gltf/save/gltf_container.h"
 #include <string.h>
@@ -68,10 +70,8 @@ static ffd_status give_name(gltf_saver *saver, size_t b, size_t number, ffd_erro
     ffd_status status = target ? refuse_own_file(saver, target, error) : ffd_fail_memory(error);
     if (status == FFD_OK)
         status = ffd_output_check(target, saver->options->force, error);
-    if (status == FFD_OK) {
-        saver->replaces = saver->replaces || ffd_file_exists(target);
+    if (status == FFD_OK)
         status = set_uri(saver, b, name, error);
-    }
     ffd_free(name);
     return status;
 }
@@ -112,7 +112,6 @@ static ffd_status give_name_in_place(gltf_saver *saver, size_t b, size_t *number
         status = !target ? ffd_fail_memory(error) : exists ? is_own_file(d, b, target, &own, error) : FFD_OK;
         if (status == FFD_OK && (own || !exists)) {
             saver->buffers[b].target = target;
-            saver->replaces = saver->replaces || own;
             target = NULL;
             status = set_uri(saver, b, name, error);
         }
@@ -140,6 +139,38 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
                 "name as output");
         status = saver->in_place ? give_name_in_place(saver, b, &number, error)
                                  : give_name(saver, b, number++, error);
+    }
+    return status;
+}
+
+/* Of a model with its own structure, as gltf_container.c places its buffers; else of one that is written
+ * anew. */
+size_t ffd_gltf_count_beside(const char *input, ffd_format from, ffd_format to)
+{
+    const bool is_model = from == FFD_FORMAT_GLTF || from == FFD_FORMAT_GLB, to_text = to == FFD_FORMAT_GLTF;
+    file_input file;
+    glb_layout layout;
+    size_t count = 0;
+    if (!is_model || ffd_file_load(input, &file, NULL))
+        return to_text && !is_model;
+    const char *const data = (const char *)file.data;
+    if (!ffd_glb_is(file.data, file.size))
+        count = to_text ? ffd_gltf_count_buffer_files(data, file.size) : 0;
+    else if (!ffd_glb_parse(file.data, file.size, input, &layout, NULL))
+        count = ffd_gltf_count_buffer_files(data + layout.json_begin, layout.json_size) +
+                (to_text && layout.has_bin);
+    ffd_file_unload(&file);
+    return count;
+}
+
+ffd_status ffd_gltf_list_beside(const char *output, size_t count, path_list *files, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        char *const name = make_name(output, i), *const path = name ? ffd_path_beside(output, name) : NULL;
+        status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);
+        ffd_free(name);
+        ffd_free(path);
     }
     return status;
 }

@@ -61,8 +61,7 @@ static size_t size_member(const gltf_document *d, uint32_t object, const char *k
     return (size_t)number;
 }
 
-/* Adds the compressed bytes of EXT_meshopt_compression and of any extension of a view that names a
-   buffer. */
+/* Adds the compressed bytes of EXT_meshopt_compression and of any extension of a view that names a buffer. */
 static void add_compressed(const gltf_document *d, uint32_t view, user_list *list)
 {
     const json_span *tree = &d->tree;

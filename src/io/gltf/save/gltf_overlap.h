@@ -4,8 +4,8 @@
 
 #include "io/gltf/save/gltf_plan.h"
 
-/* Takes back the in-place versions that would change bytes which something else needs unchanged. Errors:
-   FFD_E_MEMORY. */
+/* Takes back the in-place versions that would change bytes which something else needs unchanged.
+   Errors: FFD_E_MEMORY. */
 ffd_status ffd_gltf_resolve_overlaps(const gltf_document *document, gltf_plan *plan, ffd_error *error);
 
 #endif

@@ -5,6 +5,7 @@
 #include "io/gltf/save/gltf_container.h"
 #include "io/gltf/save/gltf_content.h"
 #include "io/gltf/save/gltf_extensions.h"
+#include "io/gltf/save/gltf_follow.h"
 #include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/save/gltf_plan.h"
 #include "io/gltf/save/gltf_unpack.h"
@@ -177,6 +178,7 @@ static void add_meshes(gltf_saver *saver)
         json_edits edits = {0};
         edit_attributes(saver, copy->mesh, copy->use, &edits);
         ffd_gltf_edit_compression(saver, copy->mesh, copy->use, &edits);
+        ffd_gltf_follow_accessors(saver, copy->mesh, copy->use, &edits);
         add_copy(saver, &d->mesh_values, "meshes", copy->mesh, &edits);
     }
     for (size_t i = 0; i < saver->plan.change_count; i++) {
@@ -197,9 +199,9 @@ static void edit_data_uri(gltf_saver *saver, size_t buffer)
     const json_value *uri =
         value_of(saver, ffd_json_span_member(&d->tree, d->buffer_values.values[buffer], "uri"));
     const uint32_t first = uri->begin + 1, last = uri->end - 1;
-    bool base64 = false;
-    const size_t head = ffd_data_uri_payload(d->tree.text + first, last - first, &base64);
-    if (head != SIZE_MAX && base64) {
+    data_uri_coding coding;
+    const size_t head = ffd_data_uri_payload(d->tree.text + first, last - first, &coding);
+    if (head != SIZE_MAX && coding != DATA_PLAIN) {
         ffd_edits_buffer(&saver->edits, first + (uint32_t)head, last, (int)buffer);
         return;
     }
@@ -229,11 +231,15 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         edit_attributes(saver, m, saver->plan.base_uses[m], &saver->edits);
         ffd_gltf_edit_compression(saver, m, saver->plan.base_uses[m], &saver->edits);
+        ffd_gltf_follow_accessors(saver, m, saver->plan.base_uses[m], &saver->edits);
     }
     ffd_gltf_edit_unpackings(saver);
     add_views(saver);
     add_accessors(saver);
     add_meshes(saver);
+    const ffd_status status = ffd_gltf_follow_meshes(saver, error);
+    if (status)
+        return status;
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);
     ffd_gltf_add_buffer(saver);

@@ -4,12 +4,15 @@
 
 #include "io/gltf/save/gltf_saver.h"
 
-/* Copies the images beside the output, or edits their URIs. Refuses an image that has the name of a
+/* Copies the images beside the output, or edits their URIs. What is no image, is hidden or is reached through
+   a link is not copied, with a warning. Refuses an image that has the name of a
    file of the model itself. Begins and writes files of saver->output; to be called after
    ffd_gltf_name_buffers. Errors: FFD_E_EXISTS, FFD_E_IO, FFD_E_MEMORY. */
 ffd_status ffd_gltf_bring_images(gltf_saver *saver, ffd_error *error);
 
 /* mesh_format's list_images. */
 mesh_list_files_function ffd_gltf_list_images;
+/* mesh_format's find_resources. */
+mesh_find_resources_function ffd_gltf_find_resources;
 
 #endif

@@ -1,6 +1,5 @@
 #include "io/gltf/save/gltf_save.h"
 #include "base/little_endian.h"
-#include "base/memory/memory.h"
 #include "io/gltf/file/base64.h"
 #include "io/gltf/save/gltf_announce.h"
 #include "io/gltf/save/gltf_container.h"
@@ -18,7 +17,8 @@
 
 static ffd_status put(const gltf_saver *saver, const void *bytes, size_t size, ffd_error *error)
 {
-    ffd_file_prefault(bytes, size);
+    if (!saver->document->is_present)
+        ffd_file_prefault(bytes, size);
     return ffd_output_write(saver->output, bytes, size, error);
 }
 
@@ -72,8 +72,8 @@ static ffd_status put_json(const gltf_saver *saver, size_t end, ffd_error *error
     return status ? status : put(saver, text + at, end - at, error);
 }
 
-/* Returns where a GLB's JSON ends; without its padding if its size changes, since it then needs another
-   one. */
+/* Returns where a GLB's JSON ends; without its padding if its size changes, since it
+   then needs another one. */
 static size_t json_end(const gltf_saver *saver)
 {
     const json_span *tree = &saver->document->tree;
@@ -184,14 +184,13 @@ static ffd_status put_files(gltf_saver *saver, ffd_error *error)
     if (status == FFD_OK && ffd_edits_failed(&saver->edits))
         status = ffd_fail_memory(error);
     ffd_edits_sort(&saver->edits);
-    if (status == FFD_OK)
-        status = put_buffer_files(saver, error);
+    if (status || !saver->output)
+        return status;
+    status = put_buffer_files(saver, error);
     if (status == FFD_OK)
         status = ffd_output_begin(saver->output, path, overwrites(saver), error);
     if (status)
         return status;
-    if (saver->replaces && !ffd_output_is_stream(path))
-        ffd_output_remove_first(saver->output);
     if (saver->binary)
         return put_glb(saver, error);
     return put_json(saver, d->binary ? d->tree.values[0].end : d->tree.size, error);
@@ -230,9 +229,11 @@ ffd_status ffd_gltf_save_results(mesh_document *document, const mesh_save_option
         ffd_gltf_announce(&saver);
     if (status == FFD_OK)
         status = put_files(&saver, error);
+    ((gltf_document *)document)->is_present = status == FFD_OK && d->keeps_pages;
     ffd_gltf_free_content(&saver);
     ffd_gltf_free_unpackings(&saver);
     ffd_gltf_free_plan(&saver.plan);
     ffd_edits_free(&saver.edits);
+    ffd_buffer_free(&saver.left);
     return status;
 }

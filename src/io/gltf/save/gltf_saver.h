@@ -44,7 +44,7 @@ typedef struct gltf_new_buffer {
 typedef struct gltf_saver {
     const gltf_document *document;
     const mesh_save_options *options;
-    file_output *output;
+    file_output *output; /* NULL: nothing is written, but what would be refused is */
     const mesh_log *log;
     gltf_plan plan;
     gltf_unpacking *unpackings; /* those of accessors come first */
@@ -53,9 +53,9 @@ typedef struct gltf_saver {
     gltf_new_buffer *buffers;                      /* those of the document, then possibly an added one */
     size_t buffer_count; /* one more than the document has if none of those can grow */
     json_edits edits;
-    bool binary;   /* the output is a GLB */
-    bool in_place; /* the output is the input */
-    bool replaces; /* an existing buffer file is replaced */
+    byte_buffer left; /* uint32_t each, perhaps twice: indices in extensions that cannot follow */
+    bool binary;      /* the output is a GLB */
+    bool in_place;    /* the output is the input */
 } gltf_saver;
 
 #endif

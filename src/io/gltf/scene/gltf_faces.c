@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_refuse.h"
+#include "io/gltf/scene/gltf_shown.h"
 
 #define MOST_TRIANGLES INT32_MAX
 
@@ -18,6 +19,8 @@ static drawing count_drawing(const gltf_document *d, const gltf_primitive *primi
         return counted;
     const int accessor = primitive->indices >= 0 ? primitive->indices : primitive->accessor[GLTF_POSITION];
     const size_t n = (size_t)d->model.accessors[accessor].count;
+    if (primitive->mode == MODE_UNKNOWN)
+        return counted;
     counted.corners = n;
     switch (primitive->mode) {
     case MODE_POINTS:
@@ -50,6 +53,11 @@ void ffd_gltf_count_drawing(const gltf_document *d, size_t mesh, size_t *triangl
         *lines += counted.lines;
         *points += counted.points;
     }
+}
+
+size_t ffd_gltf_count_triangles(const gltf_document *d, size_t mesh, size_t primitive)
+{
+    return count_drawing(d, &d->model.meshes[mesh].primitives[primitive]).triangles;
 }
 
 static ffd_status refuse_primitive(const gltf_document *d, size_t m, size_t p, ffd_error *error)
@@ -97,10 +105,21 @@ static void fill_positions(const gltf_document *d, mesh_faces *faces, size_t *ba
         if (part->repeats_positions)
             continue;
         double *positions = faces->positions + 3 * at;
-        ffd_gltf_read(d, d->parts[i].streams[GLTF_POSITION].accessor, 0, part->vertex_count, 3, positions);
+        ffd_gltf_read_shown(d, i, GLTF_POSITION, 0, part->vertex_count, 3, positions);
         ffd_part_transform(&d->base, i, 0, part->vertex_count, positions);
         at += part->vertex_count;
     }
+}
+
+static ffd_status refuse_index(const gltf_document *d, size_t m, size_t p, size_t i, ffd_error *error)
+{
+    const gltf_primitive *primitive = &d->model.meshes[m].primitives[p];
+    const gltf_accessor *positions = &d->model.accessors[primitive->accessor[GLTF_POSITION]];
+    double index;
+    ffd_gltf_read(d, (size_t)primitive->indices, i, 1, 1, &index);
+    return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID, error,
+                              "index %zu is %.0f, but the count of vertices is %llu", i, index,
+                              (unsigned long long)positions->count);
 }
 
 static ffd_status fill_corners(const gltf_document *d, size_t m, size_t p, size_t count, uint32_t *corners,
@@ -113,15 +132,10 @@ static ffd_status fill_corners(const gltf_document *d, size_t m, size_t p, size_
             corners[i] = (uint32_t)i;
         return FFD_OK;
     }
-    for (size_t i = 0; i < count; i++) {
-        double index;
-        ffd_gltf_read(d, (size_t)primitive->indices, i, 1, 1, &index);
-        if (!(index < (double)vertices))
-            return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID,
-                                      error, "index %zu is %.0f, but there are only %llu vertices", i, index,
-                                      (unsigned long long)vertices);
-        corners[i] = (uint32_t)index;
-    }
+    const uint32_t largest = ffd_gltf_read_indices(d, (size_t)primitive->indices, 0, count, corners);
+    for (size_t i = 0; i < count && largest >= vertices; i++)
+        if (corners[i] >= vertices)
+            return refuse_index(d, m, p, i, error);
     return FFD_OK;
 }
 

@@ -8,6 +8,9 @@
 void ffd_gltf_count_drawing(const gltf_document *document, size_t mesh, size_t *triangles, size_t *lines,
                             size_t *points);
 
+/* Returns the number of triangles that one use of a primitive draws. */
+size_t ffd_gltf_count_triangles(const gltf_document *document, size_t mesh, size_t primitive);
+
 /* Lists the vertices (0, 1, ..) that a primitive with positions draws, in order, for the caller to free;
    corners is NULL after a failure. Errors: FFD_E_INVALID, FFD_E_UNSUPPORTED, FFD_E_MEMORY. */
 ffd_status ffd_gltf_read_corners(const gltf_document *document, size_t mesh, size_t primitive,

@@ -1,8 +1,8 @@
-/* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh under many transforms, which cannot
-   have results of their own. Their vertices stay, and their bounds tell whether the lattice reaches
-   them. */
+/* gltf_instancing.c - nodes with EXT_mesh_gpu_instancing: one mesh under many transforms, which cannot have
+   results of their own. Their vertices stay, and their bounds tell whether the lattice reaches them. */
 #include "io/gltf/scene/gltf_instancing.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "base/vector/vec.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_scene.h"
@@ -49,23 +49,25 @@ static ffd_status find_attribute(const gltf_document *d, uint32_t attributes, co
                                  ffd_error *error)
 {
     const uint32_t value = ffd_json_span_member(&d->tree, attributes, key);
-    double number;
     *found = GLTF_NONE;
     if (value == JSON_NONE)
         return FFD_OK;
-    if (!ffd_json_span_number(&d->tree, value, &number) ||
-        !(number >= 0 && number < (double)d->model.accessor_count && floor(number) >= number))
+    const size_t number = ffd_gltf_index(d, value, d->model.accessor_count);
+    if (number == GLTF_NONE)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "is not the number of one of the %zu accessors", d->model.accessor_count);
-    const gltf_accessor *accessor = &d->model.accessors[(size_t)number];
+                                  "is not the number of an accessor, of which there are %zu",
+                                  d->model.accessor_count);
+    const gltf_accessor *accessor = &d->model.accessors[number];
     if (accessor->columns != 1 || accessor->rows != rows || !allowed(accessor))
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "accessor %.0f is not a VEC%d of an allowed component type", number, rows);
+                                  "accessor %zu is not a VEC%d of an allowed component type", number, rows);
     if (*count != UINT64_MAX && accessor->count != *count)
         return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_INVALID, error,
-                                  "accessor %.0f has %llu elements, another attribute has %llu", number,
-                                  (unsigned long long)accessor->count, (unsigned long long)*count);
-    *found = (size_t)number;
+                                  "accessor %zu has %llu %s, another attribute has %llu", number,
+                                  (unsigned long long)accessor->count,
+                                  ffd_plural(accessor->count, "element", "elements"),
+                                  (unsigned long long)*count);
+    *found = number;
     *count = accessor->count;
     return FFD_OK;
 }

@@ -4,8 +4,8 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Finds these nodes and deselects their parts; to be called after ffd_gltf_make_parts. Errors: FFD_E_INVALID,
-   FFD_E_MEMORY. */
+/* Finds these nodes and deselects their parts; to be called after ffd_gltf_make_parts. Errors:
+   FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_gltf_find_instanced_nodes(gltf_document *document, ffd_error *error);
 
 /* Returns the instances of a node; NULL if it has none. */

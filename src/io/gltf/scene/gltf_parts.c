@@ -2,6 +2,7 @@
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
 #include "base/vector/vec.h"
+#include "io/gltf/decode/gltf_rounding.h"
 #include <string.h>
 
 #define MOST_VERTICES ((uint64_t)UINT32_MAX - 1)
@@ -97,10 +98,12 @@ static size_t add_part(gltf_document *d, const gltf_part *part, size_t repeated)
     mesh_part *made = &d->mesh_parts[index];
     d->parts[index] = *part;
     made->vertex_count = (size_t)d->model.accessors[part->streams[GLTF_POSITION].accessor].count;
+    made->rounding = ffd_gltf_rounding(d, part->streams[GLTF_POSITION].accessor);
     made->normal_count = part->streams[GLTF_NORMAL].accessor == GLTF_NONE ? 0 : made->vertex_count;
     made->has_tangents = part->streams[GLTF_TANGENT].accessor != GLTF_NONE;
     made->repeats_positions = repeated != GLTF_NONE;
     made->repeats = repeated;
+    made->hidden = ffd_gltf_is_hidden(d, part->node);
     set_part_transform(d, part, made);
     return index;
 }

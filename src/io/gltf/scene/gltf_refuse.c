@@ -2,58 +2,12 @@
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_draco.h"
 #include "io/gltf/decode/gltf_views.h"
+#include "io/gltf/scene/gltf_required.h"
 #include <string.h>
 
 static ffd_status refuse(const gltf_document *d, uint32_t value, ffd_error *error, const char *what)
 {
     return ffd_json_span_fail(&d->tree, value, d->name, FFD_E_UNSUPPORTED, error, "%s", what);
-}
-
-/* Whether a file may require the extension: it does not change vertices, or is handled where it is
-   used. */
-static bool is_harmless(const char *extension)
-{
-    static const char *const known[] = {"KHR_materials_*",
-                                        "EXT_materials_*",
-                                        "KHR_texture_*",
-                                        "EXT_texture_*",
-                                        "MSFT_texture_dds",
-                                        "KHR_lights_*",
-                                        "EXT_lights_*",
-                                        "KHR_xmp*",
-                                        "KHR_animation_pointer",
-                                        "KHR_mesh_quantization",
-                                        "KHR_draco_mesh_compression",
-                                        "EXT_meshopt_compression",
-                                        "KHR_meshopt_compression",
-                                        "EXT_mesh_gpu_instancing",
-                                        "EXT_mesh_features",
-                                        "EXT_structural_metadata",
-                                        "EXT_instance_features"};
-    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
-        const size_t length = strlen(known[i]);
-        const bool family = known[i][length - 1] == '*';
-        if (family ? strncmp(extension, known[i], length - 1) == 0 : strcmp(extension, known[i]) == 0)
-            return true;
-    }
-    return false;
-}
-
-static ffd_status refuse_unknown_extensions(const gltf_document *d, ffd_error *error)
-{
-    const uint32_t required = ffd_json_span_member(&d->tree, 0, "extensionsRequired");
-    ffd_status status = FFD_OK;
-    for (uint32_t v = ffd_json_span_first(&d->tree, required); v != JSON_NONE && status == FFD_OK;
-         v = ffd_json_span_after(&d->tree, v)) {
-        char *name = ffd_json_span_string(&d->tree, v, NULL);
-        if (!name)
-            return ffd_fail_memory(error);
-        if (!is_harmless(name))
-            status = ffd_json_span_fail(&d->tree, v, d->name, FFD_E_UNSUPPORTED, error,
-                                        "the required extension \"%s\" is not known", name);
-        ffd_free(name);
-    }
-    return status;
 }
 
 ffd_status ffd_gltf_refuse_unreadable(const gltf_document *d, size_t mesh, size_t primitive, int accessor,
@@ -136,7 +90,7 @@ ffd_status ffd_gltf_refuse_read(const gltf_document *d, ffd_error *error)
     if (status == FFD_OK)
         status = refuse_shared_child(d, error);
     if (status == FFD_OK)
-        status = refuse_unknown_extensions(d, error);
+        status = ffd_gltf_refuse_required(d, error);
     if (status == FFD_OK && d->skins_status) {
         if (error)
             *error = d->skins_error;

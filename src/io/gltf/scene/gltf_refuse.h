@@ -4,8 +4,8 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Refuses what would make positions wrong or unreadable. Errors: FFD_E_UNSUPPORTED, FFD_E_INVALID,
-   FFD_E_MEMORY. */
+/* Refuses what would make positions wrong or unreadable. Errors: FFD_E_UNSUPPORTED,
+   FFD_E_INVALID, FFD_E_MEMORY. */
 ffd_status ffd_gltf_refuse_read(const gltf_document *document, ffd_error *error);
 
 /* Refuses what cannot be written back: positions, and normals and tangents where these are wanted.

@@ -4,6 +4,7 @@
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_refuse.h"
+#include "io/gltf/scene/gltf_shown.h"
 #include <string.h>
 
 static size_t tiles_of(size_t count)
@@ -17,17 +18,23 @@ static size_t tile_end(const gltf_document *d, size_t part, size_t tile)
     return count - tile * MESH_RANGE_STEP < MESH_RANGE_STEP ? count : (tile + 1) * MESH_RANGE_STEP;
 }
 
-/* Copies the originals to a tile that is not filled yet. */
+/* Copies the originals to a tile that is not filled yet: those that are shown, where results are of these. */
 static void begin_tile(const gltf_document *d, size_t part, const gltf_stream *stream, size_t tile)
 {
-    const size_t first = tile * MESH_RANGE_STEP;
-    ffd_gltf_originals(d, stream->accessor, first, tile_end(d, part, tile) - first,
-                       stream->result + 3 * first);
+    const size_t first = tile * MESH_RANGE_STEP, count = tile_end(d, part, tile) - first;
+    double shown[3 * MESH_RANGE_STEP];
+    float *const result = stream->result + 3 * first;
     stream->filled[tile] = 1;
+    if (!d->base.shown || !d->mesh_parts[part].shows_shapes) {
+        ffd_gltf_originals(d, stream->accessor, first, count, result);
+        return;
+    }
+    ffd_gltf_read_shown(d, part, (gltf_semantic)(stream - d->parts[part].streams), first, count, 3, shown);
+    for (size_t i = 0; i < 3 * count; i++)
+        result[i] = (float)shown[i];
 }
 
-/* Fills the tiles of vectors [first, last) before their results are written. whole: all of them will
-   be. */
+/* Fills the tiles of vectors [first, last) before their results are written. whole: all of them will be. */
 static void begin_tiles(const gltf_document *d, size_t part, const gltf_stream *stream, size_t first,
                         size_t last, bool whole)
 {
@@ -148,7 +155,9 @@ ffd_status ffd_gltf_begin_results(mesh_document *document, bool normals, bool ta
     if (status == FFD_OK)
         status = ffd_gltf_refuse_store(d, normals, tangents, error);
     d->morph_normals = normals;
-    for (size_t i = 0; i < (d->morph_name ? d->base.part_count : ffd_gltf_part_count(d)); i++)
+    /* What is converted has no morph targets. */
+    const bool targets = !d->morph_name && !d->base.converted;
+    for (size_t i = 0; i < (targets ? ffd_gltf_part_count(d) : d->base.part_count); i++)
         for (int s = 0; s < GLTF_DEFORMED && status == FFD_OK; s++)
             if (!wanted[s])
                 drop_result(d, i, (gltf_semantic)s);

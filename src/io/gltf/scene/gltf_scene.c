@@ -1,6 +1,8 @@
 #include "io/gltf/scene/gltf_scene.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
+#include "io/gltf/scene/gltf_detail.h"
+#include "io/gltf/scene/gltf_visibility.h"
 #include <math.h>
 #include <string.h>
 
@@ -48,9 +50,10 @@ static void set_world_matrix(gltf_document *d, size_t n, const double *parent)
     memcpy(world + 9, offset, sizeof offset);
 }
 
-static void find_parents(gltf_document *d, size_t *parents)
+/* twice: a node that its parent names twice, which says the same again; GLTF_NONE: there is none. */
+static void find_parents(gltf_document *d, size_t *parents, size_t *twice)
 {
-    d->shared_child = GLTF_NONE;
+    *twice = d->shared_child = GLTF_NONE;
     for (size_t n = 0; n < d->model.node_count; n++)
         parents[n] = GLTF_NONE;
     for (size_t n = 0; n < d->model.node_count; n++)
@@ -58,6 +61,8 @@ static void find_parents(gltf_document *d, size_t *parents)
             const size_t child = (size_t)d->model.nodes[n].children[i];
             if (parents[child] == GLTF_NONE) {
                 parents[child] = n;
+            } else if (parents[child] == n) {
+                *twice = child;
             } else if (d->shared_child == GLTF_NONE) {
                 d->shared_child = child;
                 d->shared_by[0] = parents[child];
@@ -108,7 +113,7 @@ static void set_world_matrices(gltf_document *d, const size_t *parents, const si
     }
 }
 
-/* Adds a root and all nodes below it to the scene. */
+/* Adds a root and all nodes below it to the scene, after the nodes that are there. */
 static void add_subtree(gltf_document *d, size_t root, const size_t *parents, size_t *pending)
 {
     size_t waiting = 0;
@@ -117,7 +122,8 @@ static void add_subtree(gltf_document *d, size_t root, const size_t *parents, si
     while (waiting > 0) {
         const size_t n = pending[--waiting];
         const gltf_node *node = &d->model.nodes[n];
-        for (size_t i = 0; i < node->child_count; i++) {
+        d->scene_ranks[n] = d->nodes_in_scene++;
+        for (size_t i = node->child_count; i-- > 0;) { /* the first one is taken next */
             const size_t child = (size_t)node->children[i];
             if (parents[child] != n || d->in_scene[child])
                 continue;
@@ -127,21 +133,131 @@ static void add_subtree(gltf_document *d, size_t root, const size_t *parents, si
     }
 }
 
+/* Whether the matrix of a node in the scene is that of no transform. */
+static bool is_identity(const double world[12])
+{
+    static const double identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    for (int i = 0; i < 12; i++)
+        if (world[i] < identity[i] || world[i] > identity[i])
+            return false;
+    return true;
+}
+
+/* A root that is a child too stands where its parent places it. Viewers that place it as a root show the same
+   where the parent does not move it. */
+static ffd_status note_child(gltf_document *d, size_t root, size_t parent, ffd_error *error)
+{
+    const uint32_t value = d->node_values.values[root];
+    if (is_identity(d->world + 12 * parent))
+        return ffd_gltf_flaw(d, value, error,
+                             "a scene names the node as a root, but it is a child of node %zu", parent);
+    return ffd_gltf_flaw(d, value, error,
+                         "a scene names the node as a root, but it is a child of node %zu, which places it: "
+                         "viewers differ in this",
+                         parent);
+}
+
+/* Sets for every node whether the scene names it, or a node above it. */
+static ffd_status mark_named(gltf_document *d, const gltf_scene *scene, const size_t *parents,
+                             const size_t *order, bool *named, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < scene->node_count && status == FFD_OK; i++) {
+        const size_t root = (size_t)scene->nodes[i];
+        if (named[root])
+            status = ffd_gltf_flaw(d, d->node_values.values[root], error, "the scene names the node twice");
+        else if (parents[root] != GLTF_NONE)
+            status = note_child(d, root, parents[root], error);
+        named[root] = true;
+    }
+    for (size_t i = 0; i < d->model.node_count; i++)
+        if (parents[order[i]] != GLTF_NONE)
+            named[order[i]] = named[order[i]] || named[parents[order[i]]];
+    return status;
+}
+
+/* Adds what the scene names, but for what is below something else that it names. */
 static ffd_status add_scene(gltf_document *d, const size_t *parents, size_t *pending, ffd_error *error)
 {
     const gltf_scene *scene = &d->model.scenes[d->model.scene >= 0 ? d->model.scene : 0];
-    for (size_t i = 0; i < scene->node_count; i++) {
+    bool *named = ffd_alloc_zero(d->model.node_count, sizeof *named);
+    if (!named)
+        return ffd_fail_memory(error);
+    const ffd_status status = mark_named(d, scene, parents, pending, named, error);
+    for (size_t i = 0; i < scene->node_count && status == FFD_OK; i++) {
         const size_t root = (size_t)scene->nodes[i];
-        if (parents[root] != GLTF_NONE)
-            return ffd_json_span_fail(&d->tree, d->node_values.values[root], d->name, FFD_E_INVALID, error,
-                                      "a scene names the node as a root, but it is a child of node %zu",
-                                      parents[root]);
-        if (d->in_scene[root])
-            return ffd_json_span_fail(&d->tree, d->node_values.values[root], d->name, FFD_E_INVALID, error,
-                                      "the scene names the node twice");
-        add_subtree(d, root, parents, pending);
+        const bool is_below = parents[root] != GLTF_NONE && named[parents[root]];
+        if (!is_below && !d->in_scene[root])
+            add_subtree(d, root, parents, pending);
     }
-    return FFD_OK;
+    ffd_free(named);
+    return status;
+}
+
+/* Without scenes all roots are shown, but those that only stand for others at a distance. */
+static void add_roots(gltf_document *d, const size_t *parents, size_t *pending)
+{
+    const size_t count = d->model.node_count;
+    for (size_t n = 0; n < count; n++)
+        for (uint32_t v = ffd_gltf_first_detail(d, n); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v))
+            if (ffd_gltf_node(d, v) != GLTF_NONE)
+                d->stands_in[ffd_gltf_node(d, v)] = true;
+    for (size_t n = 0; n < count; n++)
+        if (parents[n] == GLTF_NONE && !d->stands_in[n])
+            add_subtree(d, n, parents, pending);
+    memset(d->stands_in, 0, count * sizeof *d->stands_in);
+}
+
+/* Adds a node to the scene as one that stands in for another, at its place below its parent. */
+static void add_stand_in(gltf_document *d, size_t n, const size_t *parents, size_t *queue, size_t *added)
+{
+    set_world_matrix(d, n, parents[n] == GLTF_NONE ? NULL : d->world + 12 * parents[n]);
+    d->in_scene[n] = d->stands_in[n] = true;
+    d->scene_ranks[n] = d->nodes_in_scene++;
+    queue[(*added)++] = n;
+}
+
+/* Whether what is below one node (GLTF_NONE: the scene itself) stands as it would below another. */
+static bool stand_alike(const gltf_document *d, size_t a, size_t b)
+{
+    static const double scene[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+    const double *const p = a == GLTF_NONE ? scene : d->world + 12 * a;
+    const double *const q = b == GLTF_NONE ? scene : d->world + 12 * b;
+    bool alike = true;
+    for (int i = 0; i < 12; i++)
+        alike = alike && p[i] == q[i];
+    return alike;
+}
+
+/* Adds the coarser levels of detail of all nodes in the scene, as if each were a child of the parent of the
+   node that it stands for, whatever its own parent. They are in no scene, since they are not shown together
+   with that node. */
+static void add_details(gltf_document *d, size_t *parents, size_t *queue)
+{
+    size_t added = 0;
+    for (size_t n = 0; n < d->model.node_count; n++)
+        if (d->in_scene[n])
+            queue[added++] = n;
+    for (size_t i = 0; i < added; i++) {
+        const size_t n = queue[i];
+        const gltf_node *node = &d->model.nodes[n];
+        for (size_t c = 0; c < node->child_count && d->stands_in[n]; c++) {
+            const size_t child = (size_t)node->children[c];
+            if (parents[child] == n && !d->in_scene[child])
+                add_stand_in(d, child, parents, queue, &added);
+        }
+        for (uint32_t v = ffd_gltf_first_detail(d, n); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
+            const size_t detail = ffd_gltf_node(d, v);
+            if (detail == GLTF_NONE)
+                continue;
+            if (!d->in_scene[detail]) {
+                parents[detail] = parents[n];
+                add_stand_in(d, detail, parents, queue, &added);
+            } else if (d->stands_in[detail] && !stand_alike(d, parents[detail], parents[n])) {
+                d->details_shared++;
+            }
+        }
+    }
 }
 
 static ffd_status refuse_infinite(const gltf_document *d, ffd_error *error)
@@ -197,16 +313,25 @@ static void use_meshes_alone(gltf_document *d)
 ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
 {
     const size_t count = d->model.node_count;
+    size_t twice;
     size_t *parents = ffd_alloc(count, sizeof *parents), *pending = ffd_alloc(count, sizeof *pending);
     d->world = ffd_alloc_zero(count, 12 * sizeof *d->world);
     d->in_scene = ffd_alloc_zero(count, sizeof *d->in_scene);
+    d->scene_ranks = ffd_alloc_zero(count, sizeof *d->scene_ranks);
+    d->stands_in = ffd_alloc_zero(count, sizeof *d->stands_in);
     d->mesh_uses = ffd_alloc_zero(d->model.mesh_count, sizeof *d->mesh_uses);
     ffd_status status =
-        parents && pending && d->world && d->in_scene && d->mesh_uses ? FFD_OK : ffd_fail_memory(error);
+        parents && pending && d->world && d->in_scene && d->stands_in && d->scene_ranks && d->mesh_uses
+            ? FFD_OK
+            : ffd_fail_memory(error);
     if (status)
         goto done;
-    find_parents(d, parents);
-    status = refuse_cycles(d, parents, pending, error);
+    find_parents(d, parents, &twice);
+    if (twice != GLTF_NONE)
+        status = ffd_gltf_flaw(d, d->node_values.values[twice], error,
+                               "node %zu names the node twice as its child", parents[twice]);
+    if (status == FFD_OK)
+        status = refuse_cycles(d, parents, pending, error);
     if (status)
         goto done;
     if (d->space == FFD_SPACE_MESH) {
@@ -214,12 +339,15 @@ ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
         goto done;
     }
     set_world_matrices(d, parents, pending);
+    status = ffd_gltf_find_hidden(d, parents, pending, error);
+    if (status)
+        goto done;
     if (d->model.scene_count > 0)
         status = add_scene(d, parents, pending, error);
     else
-        for (size_t n = 0; n < count; n++)
-            if (parents[n] == GLTF_NONE)
-                add_subtree(d, n, parents, pending);
+        add_roots(d, parents, pending);
+    if (status == FFD_OK)
+        add_details(d, parents, pending);
     if (status == FFD_OK)
         status = refuse_infinite(d, error);
     if (status == FFD_OK)

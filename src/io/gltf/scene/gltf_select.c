@@ -1,6 +1,7 @@
 /* gltf_select.c - which primitives under which nodes `--only` selects, and which vertices these draw. */
 #include "io/gltf/scene/gltf_select.h"
 #include "base/memory/memory.h"
+#include "io/gltf/scene/gltf_detail.h"
 #include "io/gltf/scene/gltf_faces.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include <string.h>
@@ -40,34 +41,59 @@ static ffd_status refuse_unknown(const gltf_document *d, const mesh_selector *se
     return ffd_selector_unknown(&nearest, d->name, error);
 }
 
-/* Marks a node and all below it. */
-static void mark_nodes(const selecting *s, size_t root)
+static void mark_node(const selecting *s, size_t node, size_t *waiting)
 {
-    size_t waiting = 0;
-    if (s->nodes[root])
+    if (s->nodes[node])
         return;
-    s->nodes[root] = true;
-    s->pending[waiting++] = root;
-    while (waiting > 0) {
-        const gltf_node *node = &s->document->model.nodes[s->pending[--waiting]];
-        for (size_t i = 0; i < node->child_count; i++) {
-            const size_t child = (size_t)node->children[i];
-            if (s->nodes[child])
-                continue;
-            s->nodes[child] = true;
-            s->pending[waiting++] = child;
-        }
+    s->nodes[node] = true;
+    s->pending[(*waiting)++] = node;
+}
+
+/* Marks the nodes that stand in for a node at a distance. */
+static void mark_details(const selecting *s, size_t node, size_t *waiting)
+{
+    const gltf_document *d = s->document;
+    for (uint32_t v = ffd_gltf_first_detail(d, node); v != JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
+        const size_t detail = ffd_gltf_node(d, v);
+        if (detail != GLTF_NONE && d->stands_in[detail])
+            mark_node(s, detail, waiting);
     }
+}
+
+/* Marks all below the nodes that wait, and what stands in for any of them. */
+static void mark_below(const selecting *s, size_t waiting)
+{
+    while (waiting > 0) {
+        const size_t n = s->pending[--waiting];
+        const gltf_node *node = &s->document->model.nodes[n];
+        for (size_t i = 0; i < node->child_count; i++)
+            mark_node(s, (size_t)node->children[i], &waiting);
+        mark_details(s, n, &waiting);
+    }
+}
+
+/* Marks a mesh, and what stands in at a distance for the nodes that show it. */
+static void mark_mesh(const selecting *s, size_t mesh)
+{
+    const gltf_mesh_uses *uses = &s->document->mesh_uses[mesh];
+    size_t waiting = 0;
+    s->meshes[mesh] = true;
+    for (size_t i = 0; uses->nodes && i < uses->node_count; i++)
+        mark_details(s, uses->nodes[i], &waiting);
+    mark_below(s, waiting);
 }
 
 static void mark(const selecting *s, selector_kind kind, size_t number)
 {
-    if (kind == SELECT_NODE)
-        mark_nodes(s, number);
-    else if (kind == SELECT_MESH)
-        s->meshes[number] = true;
-    else
+    size_t waiting = 0;
+    if (kind == SELECT_NODE) {
+        mark_node(s, number, &waiting);
+        mark_below(s, waiting);
+    } else if (kind == SELECT_MESH) {
+        mark_mesh(s, number);
+    } else {
         s->materials[number] = true;
+    }
 }
 
 /* Marks all that have the selector's name. */
@@ -198,7 +224,7 @@ ffd_status ffd_gltf_select(mesh_document *document, const mesh_selector *selecto
     s.materials = ffd_alloc_zero(s.material_count, sizeof *s.materials);
     const bool allocated = s.nodes && s.pending && s.meshes && s.materials;
     const ffd_status status = allocated ? select_all(&s, error) : ffd_fail_memory(error);
-    ffd_free(s.nodes);
+    d->selected_nodes = s.nodes;
     ffd_free(s.pending);
     ffd_free(s.meshes);
     ffd_free(s.materials);

@@ -1,8 +1,10 @@
-/* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives use
-   it. */
+/* gltf_shapes.c - the morph targets of the parts: each is deformed once, however many primitives use it. */
 #include "io/gltf/scene/gltf_shapes.h"
 #include "base/memory/memory.h"
 #include "base/memory/slots.h"
+#include "io/gltf/decode/gltf_rounding.h"
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
 /* A morph target of a part. */
@@ -11,8 +13,8 @@ typedef struct target {
     size_t accessors[GLTF_DEFORMED]; /* GLTF_NONE: absent */
 } target;
 
-/* Memory that is kept for a target under a node, and that is needed meanwhile (with a hash table half
-   full). */
+/* Memory that is kept for a target under a node, and that is needed meanwhile (with a
+   hash table half full). */
 #define TARGET_BYTES                                                                                         \
     (sizeof(gltf_part) + sizeof(mesh_part) + sizeof(mesh_shape) + sizeof(target) + 5 * sizeof(size_t))
 
@@ -61,13 +63,19 @@ static ffd_status count_targets(gltf_document *d, size_t *total, ffd_error *erro
     return FFD_OK;
 }
 
+/* The part whose shapes an instance's targets are: the one that has its normals, if it has any. */
+static size_t part_of_targets(const gltf_instance *instance)
+{
+    const size_t normals = instance->part[GLTF_NORMAL];
+    return normals != GLTF_NONE ? normals : instance->part[GLTF_POSITION];
+}
+
 /* Returns the target's number. Offsets of attributes that the primitive lacks are ignored; GLTF_NONE if
    no others are left. */
 static size_t add_target(const gltf_document *d, target_table *table, const gltf_primitive *primitive,
                          const gltf_instance *instance, const int *accessors)
 {
-    const size_t normal_part = instance->part[GLTF_NORMAL];
-    target wanted = {.part = normal_part != GLTF_NONE ? normal_part : instance->part[GLTF_POSITION]};
+    target wanted = {.part = part_of_targets(instance)};
     bool any = false;
     for (int s = 0; s < GLTF_DEFORMED; s++) {
         const bool has = accessors[s] >= 0 && primitive->accessor[s] >= 0 && instance->part[s] != GLTF_NONE &&
@@ -118,6 +126,8 @@ static void fill_shape(gltf_document *d, const target *from, size_t number)
         d->parts[index].streams[s].accessor = from->accessors[s];
         d->shapes[number].has[s] = from->accessors[s] != GLTF_NONE;
     }
+    if (d->shapes[number].has[GLTF_POSITION])
+        d->shapes[number].rounding = ffd_gltf_rounding(d, from->accessors[GLTF_POSITION]);
 }
 
 /* Grows the parts by count, which hold the results of targets. */
@@ -155,6 +165,69 @@ static ffd_status add_shapes(gltf_document *d, const target_table *table, size_t
     return FFD_OK;
 }
 
+/* The default weights that a node or mesh states; JSON_NONE where they are no array. */
+static uint32_t weights_of(const gltf_document *d, uint32_t object)
+{
+    const uint32_t array = ffd_json_span_member(&d->tree, object, "weights");
+    return array != JSON_NONE && d->tree.values[array].kind == JSON_ARRAY ? array : JSON_NONE;
+}
+
+/* The first of the default weights of a node, or else of its mesh. */
+static uint32_t first_weight(const gltf_document *d, size_t mesh, size_t node)
+{
+    const uint32_t of_node = node == GLTF_NONE ? JSON_NONE : weights_of(d, d->node_values.values[node]);
+    const uint32_t array = of_node == JSON_NONE ? weights_of(d, d->mesh_values.values[mesh]) : of_node;
+    return ffd_json_span_first(&d->tree, array);
+}
+
+bool ffd_gltf_weight(const gltf_document *d, uint32_t value, double *weight)
+{
+    return ffd_json_span_number(&d->tree, value, weight) && fabs(*weight) <= FLT_MAX;
+}
+
+/* Adds a primitive's weights to the shapes of its part; two of its targets may be one shape. */
+static void add_weights(gltf_document *d, const gltf_instance *instance, size_t targets, uint32_t weight)
+{
+    for (size_t t = 0; t < targets && weight != JSON_NONE;
+         t++, weight = ffd_json_span_after(&d->tree, weight)) {
+        const size_t part = d->targets[instance->first_target + t];
+        double number;
+        if (part != GLTF_NONE && ffd_gltf_weight(d, weight, &number))
+            d->shapes[part - d->base.part_count].weight += number;
+    }
+}
+
+static void note_shown(gltf_document *d)
+{
+    for (size_t i = 0; i < d->base.part_count; i++)
+        for (size_t s = 0; s < d->mesh_parts[i].shape_count; s++)
+            d->mesh_parts[i].shows_shapes =
+                d->mesh_parts[i].shows_shapes || d->mesh_parts[i].shapes[s].weight != 0;
+}
+
+/* Of primitives that share a part, which is one node's, the first one has a say. */
+static ffd_status set_weights(gltf_document *d, ffd_error *error)
+{
+    const gltf_instance *instance = d->instances;
+    bool *is_set = ffd_alloc_zero(d->base.part_count, sizeof *is_set);
+    if (!is_set)
+        return ffd_fail_memory(error);
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++, instance++) {
+                const gltf_mesh_uses *const uses = &d->mesh_uses[m];
+                const size_t part = part_of_targets(instance);
+                if (part == GLTF_NONE || is_set[part])
+                    continue;
+                is_set[part] = true;
+                add_weights(d, instance, d->model.meshes[m].primitives[p].target_count,
+                            first_weight(d, m, uses->nodes ? uses->nodes[n] : GLTF_NONE));
+            }
+    note_shown(d);
+    ffd_free(is_set);
+    return FFD_OK;
+}
+
 ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
 {
     size_t total;
@@ -167,6 +240,8 @@ ffd_status ffd_gltf_make_shapes(gltf_document *d, ffd_error *error)
     if (table.slots && table.targets && d->targets) {
         find_targets(d, &table);
         status = add_shapes(d, &table, total, error);
+        if (status == FFD_OK)
+            status = set_weights(d, error);
     } else {
         status = ffd_fail_memory(error);
     }

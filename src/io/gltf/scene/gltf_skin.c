@@ -1,7 +1,9 @@
 /* gltf_skin.c - skins in their default pose: the matrix of every vertex (glTF 2.0, 3.7.3). */
 #include "io/gltf/scene/gltf_skin.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "base/vector/vec.h"
+#include "io/gltf/decode/gltf_check.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/scene/gltf_scene.h"
 #include <stdio.h>
@@ -9,9 +11,6 @@
 
 #define MOST_SETS ((size_t)16) /* JOINTS_0 to JOINTS_15 */
 #define BLOCK ((size_t)32)     /* vertices that are read at once */
-
-/* The last row of an exporter's matrix may have rounding errors of floats. */
-#define LAST_ROW_TOLERANCE 1e-5
 
 static ffd_status list_joints(const gltf_document *d, uint32_t value, gltf_skin *skin, ffd_error *error)
 {
@@ -55,8 +54,9 @@ static ffd_status check_inverse_bind(const gltf_document *d, const gltf_skin *sk
                                   "accessor %d is not a MAT4 of floats", skin->inverse_bind);
     if (accessor->count < skin->joint_count)
         return ffd_json_span_fail(&d->tree, member, d->name, FFD_E_INVALID, error,
-                                  "accessor %d has %llu matrices for %zu joints", skin->inverse_bind,
-                                  (unsigned long long)accessor->count, skin->joint_count);
+                                  "accessor %d has %llu %s for %zu joints", skin->inverse_bind,
+                                  (unsigned long long)accessor->count,
+                                  ffd_plural(accessor->count, "matrix", "matrices"), skin->joint_count);
     return FFD_OK;
 }
 
@@ -262,24 +262,44 @@ static void sort_joint_weights(joint_weight *terms, size_t count)
         }
 }
 
-/* The sum of weight * matrix, divided by the sum of the weights. That should be 1, and viewers
-   normalize it if it is not. If all weights are 0, the result is zeros, which have no inverse. */
-static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, double transform[12])
+/* Sums of weights that are floats miss 1 by less than this. */
+#define SUM_ROUNDING 1e-6
+
+static void note_sum(double total, skin_weights *found)
 {
+    const double off = fabs(total - 1);
+    if (!(total > 0))
+        found->none++;
+    else if (off > SUM_ROUNDING)
+        found->off++;
+    if (total > 0 && off > found->farthest && off > SUM_ROUNDING)
+        found->farthest = off;
+}
+
+/* The sum of weight * matrix, divided by the sum of the weights. That should be 1, and viewers normalize it
+   if it is not; a vertex whose weights are all 0 they give to its first joint. */
+static void blend(const gltf_skin *skin, joint_weight *terms, size_t count, double transform[12],
+                  skin_weights *found)
+{
+    const size_t first_joint = terms[0].joint;
     double total = 0;
-    memset(transform, 0, 12 * sizeof *transform);
     sort_joint_weights(terms, count);
     for (size_t i = 0; i < count; i++)
         total += terms[i].weight;
-    if (!(total > 0) && !isnan(total))
+    if (found && !isnan(total))
+        note_sum(total, found);
+    if (!(total > 0) && !isnan(total)) {
+        memcpy(transform, skin->matrices + 12 * first_joint, 12 * sizeof *transform);
         return;
+    }
+    memset(transform, 0, 12 * sizeof *transform);
     for (size_t i = 0; i < count; i++)
         for (size_t k = 0; k < 12 && terms[i].weight != 0; k++)
             transform[k] += terms[i].weight / total * skin->matrices[12 * terms[i].joint + k];
 }
 
 void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t first, size_t count,
-                              double *transforms)
+                              double *transforms, skin_weights *found)
 {
     const gltf_document *d = ffd_gltf_of(document);
     const gltf_part *part = &d->parts[p];
@@ -298,6 +318,6 @@ void ffd_gltf_read_transforms(const mesh_document *document, size_t p, size_t fi
                 terms[i / 4][4 * s + i % 4] = (joint_weight){(size_t)joints[i], weights[i]};
         }
         for (size_t i = 0; i < size; i++)
-            blend(part->skin, terms[i], 4 * part->influence_count, transforms + 12 * (at + i));
+            blend(part->skin, terms[i], 4 * part->influence_count, transforms + 12 * (at + i), found);
     }
 }

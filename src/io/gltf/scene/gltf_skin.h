@@ -15,6 +15,6 @@ ffd_status ffd_gltf_prepare_skins(gltf_document *document, ffd_error *error);
 void ffd_gltf_free_skins(gltf_document *document);
 
 /* mesh_format's read_transforms. */
-mesh_read_function ffd_gltf_read_transforms;
+mesh_read_transforms_function ffd_gltf_read_transforms;
 
 #endif

@@ -1,0 +1,214 @@
+#define _XOPEN_SOURCE 700 /* readlink */
+#include "base/file/file_set.h"
+#include "base/file/file_set_record.h"
+#include "base/file/input.h"
+#include "base/file/path.h"
+#include "base/file/temporary.h"
+#include "base/memory/memory.h"
+#include <errno.h>
+#include <ffd/job.h>
+#include <limits.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* As many links in a row as systems follow. */
+#define MOST_LINKS 40
+
+static bool exists(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0;
+}
+
+/* Whether the entry's new file stands under its name. A copy of it, or of the whole folder, is as good. */
+static bool is_placed(const set_entry *entry)
+{
+    file_stamp there;
+    return ffd_file_stamp(entry->target, &there) && there.size == entry->size &&
+           there.written[0] == entry->time[0] && there.written[1] == entry->time[1];
+}
+
+static ffd_status fail_place(const char *path, ffd_error *error)
+{
+    if (errno == EEXIST)
+        return ffd_fail_file(error, FFD_E_EXISTS, path, "exists already (--force overwrites it)");
+    return ffd_fail_errno(error, path, "cannot be written");
+}
+
+/* The way forward: what was set aside goes. */
+static ffd_status finish(const set_record *record, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < record->count; i++) {
+        const set_entry *const entry = &record->entries[i];
+        if (entry->was_there && unlink(entry->aside) != 0 && errno != ENOENT)
+            status = ffd_fail_errno(error, entry->aside, "was replaced, but cannot be removed");
+    }
+    return status;
+}
+
+/* Somebody may have put another file where an old one is to come back to. */
+static ffd_status check_places(const set_record *record, ffd_error *error)
+{
+    for (size_t i = 0; i < record->count; i++) {
+        const set_entry *const entry = &record->entries[i];
+        if (entry->was_there && exists(entry->aside) && exists(entry->target) && !is_placed(entry) &&
+            !ffd_file_same(entry->aside, entry->target))
+            return ffd_fail_file(error, FFD_E_IO, entry->target,
+                                 "stands where %s, set aside by a run that was killed, is to come back to: "
+                                 "remove one of them",
+                                 ffd_path_name(entry->aside));
+    }
+    return FFD_OK;
+}
+
+/* The way back: the new files go, what was set aside comes back, the head last. */
+static ffd_status undo(const set_record *record, ffd_error *error)
+{
+    ffd_status status = check_places(record, error);
+    for (size_t i = 0; i < record->count && !status; i++) {
+        const set_entry *const entry = &record->entries[i];
+        int failed = 0;
+        if (entry->was_there && ffd_file_same(entry->aside, entry->target)) /* two names of it, by link */
+            failed = unlink(entry->aside);
+        else if (entry->was_there && exists(entry->aside))
+            failed = ffd_place(entry->aside, entry->target, true);
+        else if (!entry->was_there && is_placed(entry))
+            failed = unlink(entry->target);
+        if (failed)
+            status = ffd_fail_errno(error, entry->target, "what was there before cannot be brought back");
+    }
+    return status;
+}
+
+/* To the new files or the old ones, and then without a record. */
+static ffd_status settle(const set_record *record, bool is_done, ffd_error *error)
+{
+    ffd_status status = is_done ? finish(record, error) : undo(record, error);
+    if (!status && ffd_record_remove(record) != 0 && errno != ENOENT)
+        status = ffd_fail_errno(error, record->path, "cannot be removed");
+    return status;
+}
+
+/* The head is placed last: it tells how far a run came that was killed. */
+static bool has_head(const set_record *record)
+{
+    return record->count > 0 && is_placed(&record->entries[record->count - 1]);
+}
+
+static ffd_status set_aside(const set_record *record, ffd_error *error)
+{
+    for (size_t i = record->count; i-- > 0;) {
+        const set_entry *const entry = &record->entries[i];
+        if (entry->was_there && ffd_place(entry->target, entry->aside, false) != 0)
+            return errno == EEXIST ? ffd_fail_file(error, FFD_E_IO, entry->aside, "is in the way: remove it")
+                                   : ffd_fail_errno(error, entry->target, "cannot be replaced");
+    }
+    return FFD_OK;
+}
+
+static ffd_status place_all(set_file *files, size_t count, ffd_error *error)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (ffd_place(files[i].temporary, files[i].target, false) != 0)
+            return fail_place(files[i].target, error);
+        files[i].is_gone = true;
+    }
+    return FFD_OK;
+}
+
+/* Notes what is to be placed, and what stands there. */
+static ffd_status survey(const set_file *files, size_t count, set_record *record, ffd_error *error)
+{
+    ffd_status status = ffd_record_begin(record, files[count - 1].target, error);
+    for (size_t i = 0; i < count && !status; i++) {
+        struct stat there;
+        file_stamp made;
+        const bool is_there = lstat(files[i].target, &there) == 0;
+        if (is_there && !files[i].replace) {
+            errno = EEXIST;
+            status = fail_place(files[i].target, error);
+        } else if (is_there && !S_ISREG(there.st_mode)) {
+            status = ffd_fail_file(error, FFD_E_IO, files[i].target, "is not a file");
+        } else if (!ffd_file_stamp(files[i].temporary, &made)) {
+            status = ffd_fail_errno(error, files[i].target, "cannot be written");
+        } else {
+            status = ffd_record_add(record, files[i].target, is_there, made.size, made.written, error);
+        }
+    }
+    return status;
+}
+
+/* Says in the error that not even the old files could be brought back. */
+static void tell_of_record(const set_record *record, ffd_error *error)
+{
+    if (error && exists(record->entries[record->count - 1].aside))
+        ffd_fail_file(error, error->status, error->file,
+                      "%s; what was there before stands beside it as %s until the next run that writes it",
+                      error->message, ffd_path_name(record->entries[record->count - 1].aside));
+}
+
+static ffd_status place_set(set_file *files, size_t count, const set_record *record, ffd_error *error)
+{
+    ffd_status status = set_aside(record, error);
+    if (!status)
+        status = place_all(files, count, error);
+    /* Not by a look at the head, which may fail, or find that somebody moved it: this run knows what it
+     * placed. */
+    if (!status)
+        return settle(record, true, error);
+    if (settle(record, false, NULL))
+        tell_of_record(record, error);
+    return status;
+}
+
+ffd_status ffd_set_place(set_file *files, size_t count, ffd_error *error)
+{
+    set_record record = {.fd = -1};
+    if (count == 1 && ffd_place(files->temporary, files->target, files->replace) != 0)
+        return fail_place(files->target, error);
+    if (count <= 1) {
+        for (size_t i = 0; i < count; i++)
+            files[i].is_gone = true;
+        return FFD_OK;
+    }
+    ffd_status status = survey(files, count, &record, error);
+    if (!status)
+        status = ffd_record_write(&record, error);
+    if (!status)
+        status = place_set(files, count, &record, error);
+    ffd_record_free(&record);
+    return status;
+}
+
+/* Where path leads to, be a file there or not. Free with ffd_free; NULL: no memory. */
+static char *follow_links(const char *path)
+{
+    char *at = ffd_text_copy(path);
+    for (int links = 0; at && links < MOST_LINKS; links++) {
+        char link[PATH_MAX];
+        const ssize_t length = readlink(at, link, sizeof link - 1);
+        if (length < 0)
+            break;
+        link[length] = 0;
+        char *const next = ffd_path_is_absolute(link) ? ffd_text_copy(link) : ffd_path_beside(at, link);
+        ffd_free(at);
+        at = next;
+    }
+    return at;
+}
+
+ffd_status ffd_restore_output(const char *path, ffd_error *error)
+{
+    set_record record = {.fd = -1};
+    char *const head = follow_links(path);
+    ffd_status status = head ? ffd_record_open(&record, head, error) : ffd_fail_memory(error);
+    if (!status && record.fd >= 0)
+        status = settle(&record, has_head(&record), error);
+    for (size_t i = 0; i < record.count && !status; i++)
+        ffd_temporary_remove(record.entries[i].target);
+    ffd_record_free(&record);
+    ffd_free(head);
+    return status;
+}

@@ -1,0 +1,172 @@
+#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
+#include "base/system/module.h"
+#include <dlfcn.h>
+#include <inttypes.h>
+#include <pthread.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define LONGEST_PATH 4096
+#define MODULE_BYTES ((size_t)16 << 20)
+#define THREAD_BYTES ((size_t)64 << 10)
+
+/* Where modules lie: absolute, or from the folder of the program or library that this is linked into. */
+static const char *const folders[] = {FFD_MODULE_FOLDERS};
+
+/* The file that this is linked into, as the system knows it: a program's own path may be relative, or that of
+   a link. False: it is not known. */
+static bool find_own_file(char file[LONGEST_PATH])
+{
+    char line[LONGEST_PATH + 128];
+    FILE *const maps = fopen("/proc/self/maps", "re");
+    bool found = false;
+    while (maps && !found && fgets(line, sizeof line, maps)) {
+        uintptr_t first, end;
+        const char *const path = strchr(line, '/');
+        if (!path || sscanf(line, "%" SCNxPTR "-%" SCNxPTR, &first, &end) != 2)
+            continue;
+        const size_t length = strcspn(path, "\n");
+        found = (uintptr_t)folders >= first && (uintptr_t)folders < end && length < LONGEST_PATH;
+        if (found)
+            snprintf(file, LONGEST_PATH, "%.*s", (int)length, path);
+    }
+    if (maps)
+        fclose(maps);
+    return found;
+}
+
+/* Whether this is a file of those who may change what the program does: the administrator, the user, or the
+   owner of the program's own file. A program may stand in a folder where others put files too, and pipes, for
+   which the loader would wait. */
+static bool is_trusted(const char *path, const struct stat *own)
+{
+    struct stat link, file;
+    if (lstat(path, &link) != 0 || stat(path, &file) != 0 || !S_ISREG(file.st_mode) || file.st_mode & S_IWOTH)
+        return false;
+    const uid_t trusted[] = {0, geteuid(), own->st_uid};
+    bool has_link = false, has_file = false;
+    for (size_t i = 0; i < sizeof trusted / sizeof *trusted; i++) {
+        has_link = has_link || link.st_uid == trusted[i];
+        has_file = has_file || file.st_uid == trusted[i];
+    }
+    return has_link && has_file;
+}
+
+/* The path of a module in the first folder that has one to trust. False: none has, and path is what must not
+   be loaded. Where nothing is there at all, it is the path in the last folder. */
+static bool find_module(const char *file, char path[LONGEST_PATH])
+{
+    char own[LONGEST_PATH], tried[LONGEST_PATH];
+    struct stat own_info = {0}, info;
+    bool is_refused = false;
+    const bool is_known = find_own_file(own) && stat(own, &own_info) == 0;
+    if (is_known)
+        *strrchr(own, '/') = 0;
+    for (size_t i = 0; i < sizeof folders / sizeof *folders; i++) {
+        const bool is_absolute = folders[i][0] == '/';
+        if (!is_absolute && !is_known)
+            continue;
+        const int length = snprintf(tried, LONGEST_PATH, "%s%s%s/%s", is_absolute ? "" : own,
+                                    is_absolute ? "" : "/", folders[i], file);
+        const bool is_there = length < LONGEST_PATH && lstat(tried, &info) == 0;
+        const bool is_good = is_there && is_trusted(tried, &own_info);
+        if (is_good || !is_refused)
+            memcpy(path, tried, sizeof tried);
+        if (is_good)
+            return true;
+        is_refused = is_refused || is_there;
+    }
+    return !is_refused;
+}
+
+/* Whether there is so much memory to spare. It is not touched, as an allocation may be. */
+static bool has_room(size_t bytes)
+{
+    void *const room = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return room != MAP_FAILED && munmap(room, bytes) == 0;
+}
+
+static bool is_wanted(const module_identity *found, const module_identity *wanted)
+{
+    return strcmp(found->file, wanted->file) == 0 && strcmp(found->version, wanted->version) == 0 &&
+           found->interface == wanted->interface;
+}
+
+/* found: what the module says that it is; NULL: nothing. */
+static ffd_status refuse_module(const char *path, const module_identity *found, const module *of,
+                                ffd_error *error)
+{
+    char is[120] = "no module of ffd";
+    if (found)
+        snprintf(is, sizeof is, "%.40s %.40s (%lu)", found->file, found->version,
+                 (unsigned long)found->interface);
+    return ffd_fail(error, FFD_E_UNSUPPORTED, "%s is %s, and not %s %s (%lu), which is needed for %s", path,
+                    is, of->wanted.file, of->wanted.version, (unsigned long)of->wanted.interface, of->what);
+}
+
+/* Libraries that run out of memory while they are loaded end the program, and the loader gives its reasons as
+   text, in words that are not fixed: what a module takes with its libraries must be there before. Does not
+   close what it refuses: another part of the process may have loaded the same file. */
+static ffd_status open_module(const module *of, const module_head **head, ffd_error *error)
+{
+    char path[LONGEST_PATH];
+    if (!has_room(MODULE_BYTES))
+        return ffd_fail_memory(error);
+    if (!find_module(of->wanted.file, path))
+        return ffd_fail(error, FFD_E_UNSUPPORTED,
+                        "the module for %s cannot be loaded: %s: is no file, or one of another user, or one "
+                        "that everybody may change",
+                        of->what, path);
+    void *const handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!handle) {
+        const char *const said = dlerror();
+        return ffd_fail(error, FFD_E_UNSUPPORTED, "the module for %s cannot be loaded: %s", of->what,
+                        said ? said : "no reason is given");
+    }
+    *head = dlsym(handle, MODULE_SYMBOL);
+    if (*head && is_wanted(&(*head)->identity, &of->wanted))
+        return FFD_OK;
+    const ffd_status status = refuse_module(path, *head ? &(*head)->identity : NULL, of, error);
+    *head = NULL;
+    return status;
+}
+
+/* Prepares the calling thread, once: there is one C++ runtime at most. False: memory is short. */
+static bool prepare_thread(const module_head *head)
+{
+    static _Thread_local bool is_prepared __attribute__((tls_model("initial-exec")));
+    if (is_prepared || !head->prepare)
+        return true;
+    if (!has_room(THREAD_BYTES))
+        return false;
+    head->prepare();
+    is_prepared = true;
+    return true;
+}
+
+static ffd_status load_once(module *of, const module_head **head, ffd_error *error)
+{
+    static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+    ffd_status status = FFD_OK;
+    pthread_mutex_lock(&lock);
+    *head = atomic_load(&of->head);
+    if (!*head)
+        status = open_module(of, head, error);
+    if (status == FFD_OK)
+        atomic_store(&of->head, *head);
+    pthread_mutex_unlock(&lock);
+    return status;
+}
+
+ffd_status ffd_module_load(module *of, const module_head **head, ffd_error *error)
+{
+    *head = atomic_load(&of->head);
+    const ffd_status status = *head ? FFD_OK : load_once(of, head, error);
+    if (status == FFD_OK && !prepare_thread(*head))
+        return ffd_fail_memory(error);
+    return status;
+}

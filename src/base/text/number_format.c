@@ -1,0 +1,134 @@
+/* number_format.c - the shortest text of numbers. */
+#include "base/text/decimal.h"
+#include "base/text/number.h"
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The digits of a positive number: it is them, as a whole number, by 10^exponent. */
+typedef struct shortest_digits {
+    char text[DBL_DECIMAL_DIG + 1];
+    int count, exponent;
+} shortest_digits;
+
+/* Whether the nearest number of the type to the digits is the value. */
+static bool reads_back(const shortest_digits *digits, double value, bool is_float)
+{
+    char whole[DBL_DECIMAL_DIG + 16]; /* without a point: the C library reads it so in every locale */
+    snprintf(whole, sizeof whole, "%se%d", digits->text, digits->exponent);
+    const double back = is_float ? (double)strtof(whole, NULL) : strtod(whole, NULL);
+    return !(back < value) && !(back > value);
+}
+
+/* The nearest number of so many digits. */
+static void round_to_digits(double value, int count, shortest_digits *digits)
+{
+    char text[DBL_DECIMAL_DIG + 16];
+    snprintf(text, sizeof text, "%.*e", count - 1, value);
+    const char *const exponent = strchr(text, 'e');
+    digits->text[0] = text[0];
+    memcpy(digits->text + 1, exponent - (count - 1), (size_t)(count - 1)); /* behind the locale's point */
+    digits->text[count] = 0;
+    digits->count = count;
+    digits->exponent = atoi(exponent + 1) - (count - 1);
+}
+
+/* The next number of as many digits. False where it has more. */
+static bool step_up(shortest_digits *digits)
+{
+    int i = digits->count - 1;
+    for (; i >= 0 && digits->text[i] == '9'; i--)
+        digits->text[i] = '0';
+    if (i >= 0)
+        digits->text[i]++;
+    return i >= 0;
+}
+
+/* The digits of a positive number by trial: the C library rounds right both ways. Below a power of two the
+   next number is nearer than above: the nearest of so many digits may miss it where the one above does not.
+ */
+static void find_shortest(double value, bool is_float, shortest_digits *digits)
+{
+    int exponent;
+    const bool is_power_of_two = !(frexp(value, &exponent) > 0.5);
+    const int most = is_float ? FLT_DECIMAL_DIG : DBL_DECIMAL_DIG;
+    const bool is_normal = value >= (is_float ? FLT_MIN : DBL_MIN);
+    /* So many digits are kept by all numbers but the least. */
+    for (int count = !is_normal ? 1 : is_float ? FLT_DIG : DBL_DIG;; count++) {
+        round_to_digits(value, count, digits);
+        if (count == most || reads_back(digits, value, is_float))
+            break;
+        if (is_power_of_two && step_up(digits) && reads_back(digits, value, is_float))
+            break;
+    }
+    for (; digits->count > 1 && digits->text[digits->count - 1] == '0'; digits->exponent++)
+        digits->text[--digits->count] = 0;
+}
+
+static size_t write_scientific(const shortest_digits *digits, char *text)
+{
+    const int exponent = digits->exponent + digits->count - 1;
+    return (size_t)snprintf(text, FFD_NUMBER_CAPACITY, "%c%s%se%c%02d", digits->text[0],
+                            digits->count > 1 ? "." : "", digits->text + 1, exponent < 0 ? '-' : '+',
+                            abs(exponent));
+}
+
+static size_t write_fixed(double value, const shortest_digits *digits, char *text)
+{
+    const int before = digits->count + digits->exponent;
+    if (digits->exponent >= 0) /* with all digits of the number, not with zeros */
+        return (size_t)snprintf(text, FFD_NUMBER_CAPACITY, "%.0f", value);
+    if (before > 0)
+        return (size_t)snprintf(text, FFD_NUMBER_CAPACITY, "%.*s.%s", before, digits->text,
+                                digits->text + before);
+    return (size_t)snprintf(text, FFD_NUMBER_CAPACITY, "0.%.*s%s", -before, "00000000", digits->text);
+}
+
+/* The number in the shorter of both forms. */
+static size_t format_positive(double value, bool is_float, char *text)
+{
+    shortest_digits digits;
+    if (isnan(value) || isinf(value)) {
+        memcpy(text, isnan(value) ? "nan" : "inf", 3);
+        return 3;
+    }
+    if (!(value > 0)) {
+        *text = '0';
+        return 1;
+    }
+    find_shortest(value, is_float, &digits);
+    /* Without a point behind the first digit the scientific form is one shorter. */
+    const int single = digits.count == 1;
+    return digits.exponent >= single - digits.count - 3 && digits.exponent <= 5 - single
+               ? write_fixed(value, &digits, text)
+               : write_scientific(&digits, text);
+}
+
+static size_t format(double value, bool is_float, char *text)
+{
+    const bool negative = signbit(value);
+    *text = '-';
+    return negative + format_positive(negative ? -value : value, is_float, text + negative);
+}
+
+size_t ffd_number_format(double value, char text[FFD_NUMBER_CAPACITY])
+{
+    const size_t size = ffd_decimal_format(value, text);
+    return size ? size : format(value, false, text);
+}
+
+size_t ffd_number_format_float(float value, char text[FFD_NUMBER_CAPACITY])
+{
+    const size_t size = ffd_decimal_format_float(value, text);
+    return size ? size : format((double)value, true, text);
+}
+
+number_text ffd_number_text(double value)
+{
+    number_text result;
+    result.text[ffd_number_format(value, result.text)] = 0;
+    return result;
+}

@@ -1,0 +1,130 @@
+#include "batch/file_table.h"
+#include "base/file/folder.h"
+#include "base/file/path.h"
+#include "base/little_endian.h"
+#include "base/memory/memory.h"
+#include <stdlib.h>
+
+#define FEWEST_SLOTS ((size_t)1024)
+
+hash128 ffd_file_identity(const char *path)
+{
+    char *const whole = ffd_path_resolve(path); /* NULL: nothing is there yet */
+    char *const folder = ffd_path_folder(whole ? whole : path);
+    char *const resolved = folder && !whole ? ffd_path_resolve(folder) : NULL;
+    const char *const start = resolved ? resolved : folder ? folder : "";
+    const char *const name = ffd_path_name(whole ? whole : path);
+    const hash_block blocks[] = {{start, strlen(start) + 1}, {name, strlen(name)}};
+    const hash128 hash = ffd_hash_blocks(blocks, 2);
+    ffd_free(whole);
+    ffd_free(folder);
+    ffd_free(resolved);
+    return hash;
+}
+
+/* 0: it is free. */
+static uint64_t number_of(const file_entry *entry)
+{
+    unsigned char bytes[8] = {0};
+    memcpy(bytes, entry->number, sizeof entry->number);
+    return load_u64(bytes);
+}
+
+static int compare(const void *a, const void *b)
+{
+    return memcmp(a, b, sizeof(((file_entry *)0)->file));
+}
+
+/* Among those that are sorted; NULL: it is not there. */
+static file_entry *find_sorted(const file_table *table, const file_entry *entry)
+{
+    return table->count ? bsearch(entry, table->sorted, table->count, sizeof *entry, compare) : NULL;
+}
+
+/* The slot of a recent one, or the free one where it belongs. */
+static file_entry *find_recent(const file_table *table, const file_entry *entry)
+{
+    size_t i = (size_t)load_u64(entry->file) & (table->slots - 1);
+    while (number_of(&table->recent[i]) && compare(&table->recent[i], entry) != 0)
+        i = (i + 1) & (table->slots - 1);
+    return &table->recent[i];
+}
+
+/* Sorts the recent ones in among the others, from the last one on: nothing is copied. */
+static void merge(file_table *table)
+{
+    size_t kept = 0, to = table->count + table->used, from = table->count;
+    for (size_t i = 0; i < table->slots; i++)
+        if (number_of(&table->recent[i]))
+            table->recent[kept++] = table->recent[i];
+    if (kept > 0) /* there may be no array at all */
+        qsort(table->recent, kept, sizeof *table->recent, compare);
+    while (kept > 0) {
+        const bool is_recent = from == 0 || compare(&table->recent[kept - 1], &table->sorted[from - 1]) > 0;
+        table->sorted[--to] = is_recent ? table->recent[--kept] : table->sorted[--from];
+    }
+    table->count += table->used;
+    table->used = 0;
+}
+
+/* Makes room for a recent one. There are slots for a sixteenth of all: few beside them, but not so few that
+   they are sorted in often. */
+static bool make_room(file_table *table)
+{
+    if (table->used < table->slots / 2)
+        return true;
+    const size_t count = table->count + table->used;
+    const size_t slots = !table->slots               ? FEWEST_SLOTS
+                         : table->slots < count / 16 ? 2 * table->slots
+                                                     : table->slots;
+    file_entry *const recent = ffd_alloc_zero(slots, sizeof *recent);
+    file_entry *const grown = recent ? ffd_realloc(table->sorted, count, sizeof *grown) : NULL;
+    if (!grown) {
+        ffd_free(recent);
+        return false;
+    }
+    table->sorted = grown;
+    merge(table);
+    ffd_free(table->recent);
+    table->recent = recent;
+    table->slots = slots;
+    return true;
+}
+
+ffd_status ffd_files_put(file_table *table, const hash128 *file, uint64_t number, ffd_error *error)
+{
+    file_entry entry;
+    unsigned char bytes[8];
+    store_u64(bytes, number + 1);
+    memcpy(entry.file, file->bytes, sizeof entry.file);
+    memcpy(entry.number, bytes, sizeof entry.number);
+    file_entry *place = find_sorted(table, &entry);
+    if (!place && !make_room(table))
+        return ffd_fail_memory(error);
+    place = find_sorted(table, &entry);
+    if (!place) {
+        place = find_recent(table, &entry);
+        table->used += number_of(place) == 0;
+    }
+    *place = entry;
+    return FFD_OK;
+}
+
+bool ffd_files_find(const file_table *table, const hash128 *file, uint64_t *number)
+{
+    file_entry entry;
+    memcpy(entry.file, file->bytes, sizeof entry.file);
+    const file_entry *place = find_sorted(table, &entry);
+    if (!place && table->slots)
+        place = find_recent(table, &entry);
+    const uint64_t found = place ? number_of(place) : 0;
+    *number = found - 1;
+    return found;
+}
+
+void ffd_files_free(file_table *table)
+{
+    ffd_free(table->sorted);
+    ffd_free(table->recent);
+    *table = (file_table){0};
+}

@@ -1,0 +1,146 @@
+#include "batch/measure.h"
+#include "base/file/input.h"
+#include "base/memory/memory.h"
+#include "base/system/interrupt.h"
+#include <string.h>
+
+/* Jobs that are known at a time. */
+#define WINDOW ((size_t)256)
+
+/* Seconds between looks at the source. */
+#define LOOK 0.1
+
+typedef struct measuring {
+    job_source *source;
+    worker_pool *pool;
+    pool_task *tasks[WINDOW]; /* count */
+    size_t count;
+    hash128 last; /* what the job before reads, and how */
+    bool has_last;
+    bool ended, starved; /* the source: has no more jobs; the next one has not come yet */
+    shown_box *box;
+    path_list *files;
+} measuring;
+
+/* Hashes what a job reads, and how: its content without output and placeholders. */
+static hash128 hash_input(const batch_job *job)
+{
+    byte_buffer text = {0};
+    const char *word = job->content.data, *const end = word + job->content.size;
+    for (size_t i = 0; word < end; i++, word += strlen(word) + 1)
+        if (i != 1 && strncmp(word, "--set=", 6) != 0)
+            ffd_buffer_append(&text, word, strlen(word) + 1);
+    const hash128 hash = ffd_hash(text.data, text.size);
+    ffd_buffer_free(&text);
+    return hash;
+}
+
+/* Keeps a job that has something new to measure. */
+static bool is_new(measuring *m, const batch_job *job)
+{
+    if (job->error.status)
+        return false;
+    const hash128 input = hash_input(job);
+    const bool is_known = m->has_last && ffd_hash_equal(&m->last, &input);
+    m->last = input;
+    m->has_last = true;
+    return !is_known;
+}
+
+static ffd_status read_jobs(measuring *m, ffd_error *error)
+{
+    m->starved = false;
+    while (!m->ended && !m->starved && m->count < WINDOW) {
+        line_state state;
+        pool_task *const task = ffd_alloc_zero(1, sizeof *task);
+        if (!task)
+            return ffd_fail_memory(error);
+        const ffd_status status = ffd_jobs_next(m->source, &task->job, &state, error);
+        m->ended = !status && state == LINE_NONE;
+        m->starved = !status && state == LINE_LATER;
+        if (status || state != LINE_READ || !is_new(m, &task->job)) {
+            ffd_task_free(task);
+            if (status)
+                return status;
+            continue;
+        }
+        task->mesh = ffd_hash(task->job.input, strlen(task->job.input));
+        m->tasks[m->count++] = task;
+    }
+    return FFD_OK;
+}
+
+static ffd_status take_task(measuring *m, const pool_task *task, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    if (task->outcome == OUTCOME_FAILED)
+        return FFD_OK;
+    ffd_shown_box_join(m->box, &task->box);
+    for (size_t at = 0; at < task->rule.size && !status; at += strlen(task->rule.data + at) + 1)
+        status = ffd_paths_add(m->files, task->rule.data + at, error);
+    return status;
+}
+
+static ffd_status take_ended(measuring *m, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    size_t kept = 0;
+    for (size_t i = 0; i < m->count; i++) {
+        if (m->tasks[i]->state != TASK_ENDED) {
+            m->tasks[kept++] = m->tasks[i];
+            continue;
+        }
+        if (!status)
+            status = take_task(m, m->tasks[i], error);
+        ffd_task_free(m->tasks[i]);
+    }
+    m->count = kept;
+    return status;
+}
+
+static ffd_status measure_all(measuring *m, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    while (!status && !ffd_interrupt_requested()) {
+        status = read_jobs(m, error);
+        if (!status)
+            status = ffd_pool_assign(m->pool, m->tasks, m->count, error);
+        if (!status && (ffd_pool_running(m->pool) > 0 || m->starved))
+            ffd_pool_wait(m->pool, LOOK);
+        if (!status)
+            status = take_ended(m, error);
+        if (m->count == 0 && m->ended)
+            break;
+    }
+    return status;
+}
+
+ffd_status ffd_batch_measure(const job_source_desc *jobs, const pool_desc *pool, bool wants_files,
+                             shown_box *box, path_list *files, ffd_error *error)
+{
+    measuring m = {.box = box, .files = files};
+    job_source_desc all = *jobs;
+    pool_desc measurers = *pool;
+    const char *const origin = jobs->manifest ? jobs->manifest : jobs->table;
+    ffd_shown_box_clear(box);
+    if (origin && ffd_file_is_stream(origin))
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "--shared-box reads the jobs twice, which standard input cannot be");
+    all.shard = 0;
+    all.shards = 1;
+    measurers.measure = true;
+    measurers.depfile = wants_files;
+    ffd_status status = ffd_jobs_open(&all, &m.source, error);
+    measurers.origin = status ? NULL : ffd_jobs_name(m.source);
+    if (!status)
+        status = ffd_pool_create(&measurers, &m.pool, error);
+    if (!status)
+        status = measure_all(&m, error);
+    if (m.pool)
+        ffd_pool_stop(m.pool);
+    for (size_t i = 0; i < m.count; i++)
+        ffd_task_free(m.tasks[i]);
+    ffd_pool_destroy(&m.pool);
+    ffd_jobs_close(&m.source);
+    return status;
+}

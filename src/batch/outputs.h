@@ -1,0 +1,42 @@
+/* outputs.h - the files that the jobs of a run write: no two may write one file. */
+#ifndef FFD_BATCH_OUTPUTS_H
+#define FFD_BATCH_OUTPUTS_H
+
+#include "base/file/input.h"
+#include "base/file/path_list.h"
+#include "batch/file_table.h"
+#include "batch/job_words.h"
+#include <ffd/job.h>
+
+/* An image or material library that goes with an output into another folder. */
+typedef struct copied_file {
+    char *source;
+    uint64_t line; /* of the first job that copies it */
+} copied_file;
+
+/* All zeros: none. */
+typedef struct run_outputs {
+    file_table lines;    /* of the job that writes each file; 0: the run itself does */
+    file_table copies;   /* number in `copied` of each file that is a copy */
+    copied_file *copied; /* copied_count */
+    size_t copied_count, copied_capacity;
+    /* The mesh looked at last, how many files are written beside its output, and what may be copied. */
+    char *input;
+    ffd_format from, to;
+    file_stamp stamp;
+    bool has_beside, has_resources; /* known */
+    size_t beside;
+    path_list resources;
+} run_outputs;
+
+/* Notes what a job writes, beside it, and copies with it; *target is the output. If a job before writes one
+   of these files, or the run itself, or copies other bytes there, that becomes the job's error, at its line
+   in the manifest (NULL: there is none). Errors: FFD_E_MEMORY. */
+ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_job *job, hash128 *target,
+                             ffd_error *error);
+/* Notes a file of the run itself. Errors: FFD_E_MEMORY. */
+ffd_status ffd_outputs_reserve(run_outputs *outputs, const char *path, ffd_error *error);
+/* Leaves none. */
+void ffd_outputs_free(run_outputs *outputs);
+
+#endif

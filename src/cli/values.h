@@ -1,0 +1,19 @@
+/* values.h - the values of placeholders on the command line: --set NAME=VALUE, repeatable. */
+#ifndef FFD_CLI_VALUES_H
+#define FFD_CLI_VALUES_H
+
+#include "cli/options.h"
+#include <ffd/lattice.h>
+
+/* All zeros: none. */
+typedef struct cli_values {
+    ffd_setting *set; /* count; their names are owned */
+    size_t count;
+} cli_values;
+
+/* A setter: adds to the cli_values at the option's offset. */
+bool cli_add_value(void *settings, const cli_option *option, const char *value);
+/* Leaves none. */
+void cli_values_free(cli_values *values);
+
+#endif

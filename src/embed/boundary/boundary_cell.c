@@ -1,0 +1,133 @@
+/* boundary_cell.c - whether the border meets a cell: the tree's boxes, its patches and their halves are left
+   where a plane keeps them from the cell, until a point of one is found in it or none is left. */
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "embed/boundary/boundary_faces.h"
+#include <string.h>
+
+/* Patches, and parts of patches, that one search looks at. */
+#define BUDGET 4096
+/* Parts of a cell of the face that are this short are not halved. */
+#define LEAST_PART 0x1p-44
+
+typedef struct cell_visit {
+    const boundary *border;
+    patch_cell cell;
+    face_patch *scratch; /* as large as any patch; made when first needed */
+    int budget;
+    bool meets, undecided;
+    ffd_error *error;
+} cell_visit;
+
+static ffd_status look_at(cell_visit *visit, const face_patch *patch);
+
+static ffd_status look_at_halves(cell_visit *visit, const face_patch *patch, int f)
+{
+    face_patch *half[2] = {ffd_patch_create(patch->order, patch->rational),
+                           ffd_patch_create(patch->order, patch->rational)};
+    ffd_status status = half[0] && half[1] ? FFD_OK : ffd_fail_memory(visit->error);
+    if (!status)
+        ffd_patch_split(patch, f, half[0], half[1]);
+    for (int i = 0; i < 2; i++) {
+        if (!status && !visit->meets)
+            status = look_at(visit, half[i]);
+        ffd_free(half[i]);
+    }
+    return status;
+}
+
+static ffd_status look_at(cell_visit *visit, const face_patch *patch)
+{
+    int longer = 0;
+    if (visit->budget-- <= 0) {
+        visit->undecided = true;
+        return FFD_OK;
+    }
+    const patch_view view = ffd_patch_view_cell(patch, &visit->cell, &longer);
+    visit->meets = visit->meets || view == PATCH_MEETS;
+    if (view != PATCH_UNKNOWN)
+        return FFD_OK;
+    if (patch->hi[longer] - patch->lo[longer] > LEAST_PART)
+        return look_at_halves(visit, patch, longer);
+    visit->undecided = true;
+    return FFD_OK;
+}
+
+static ffd_status make_scratch(cell_visit *visit)
+{
+    const int order[2] = {MAX_ORDER, MAX_ORDER};
+    if (!visit->scratch)
+        visit->scratch = ffd_patch_create(order, true);
+    return visit->scratch ? FFD_OK : ffd_fail_memory(visit->error);
+}
+
+/* The patches of a leaf that are not kept. */
+static ffd_status look_at_cells(cell_visit *visit, const boundary_node *leaf)
+{
+    ffd_status status = make_scratch(visit);
+    for (size_t j = 0; j < leaf->cells[1] && !status; j++)
+        for (size_t i = 0; i < leaf->cells[0] && !status && !visit->meets; i++) {
+            const size_t cell[2] = {leaf->cell[0] + i, leaf->cell[1] + j};
+            ffd_boundary_patch(visit->border, leaf->face, cell, visit->scratch);
+            status = look_at(visit, visit->scratch);
+        }
+    return status;
+}
+
+static ffd_status look_at_node(cell_visit *visit, uint32_t number)
+{
+    const boundary_node *const node = &visit->border->nodes[number];
+    if (visit->meets || !bounds_hold(&node->box, visit->cell.centre, visit->cell.half))
+        return FFD_OK;
+    if (node->patch)
+        return look_at(visit, node->patch);
+    if (!node->child)
+        return look_at_cells(visit, node);
+    const ffd_status status = look_at_node(visit, node->child);
+    return status ? status : look_at_node(visit, node->child + 1);
+}
+
+/* A face of a box whose map is affine, as a patch. */
+static void make_box_face(const boundary *border, int direction, int end, face_patch *patch)
+{
+    const int along[2] = {direction == 0 ? 1 : 0, direction == 2 ? 1 : 2};
+    patch->rational = false;
+    for (int f = 0; f < 2; f++) {
+        patch->order[f] = 2;
+        patch->lo[f] = 0;
+        patch->hi[f] = 1;
+    }
+    for (int corner = 0; corner < 4; corner++) {
+        double *const point = patch->points + PATCH_COMPONENTS * corner;
+        double t[3];
+        t[direction] = end;
+        t[along[0]] = corner & 1;
+        t[along[1]] = corner >> 1;
+        mat_apply(border->frame, t, point);
+        point[3] = 1;
+    }
+}
+
+static ffd_status look_at_box(cell_visit *visit)
+{
+    ffd_status status = make_scratch(visit);
+    for (int face = 0; face < MOST_FACES && !status && !visit->meets; face++) {
+        make_box_face(visit->border, face / 2, face % 2, visit->scratch);
+        status = look_at(visit, visit->scratch);
+    }
+    return status;
+}
+
+ffd_status ffd_boundary_view_cell(const boundary *border, const patch_cell *cell, patch_view *view,
+                                  ffd_error *error)
+{
+    cell_visit visit = {.border = border, .cell = *cell, .budget = BUDGET, .error = error};
+    ffd_status status = FFD_OK;
+    if (border->lattice->form == REST_BOX_AFFINE)
+        status = look_at_box(&visit);
+    for (int i = 0; i < border->face_count && !status; i++)
+        status = look_at_node(&visit, border->faces[i].root);
+    ffd_free(visit.scratch);
+    *view = visit.meets ? PATCH_MEETS : visit.undecided ? PATCH_UNKNOWN : PATCH_MISSES;
+    return status;
+}

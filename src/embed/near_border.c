@@ -1,0 +1,144 @@
+#include "embed/near_border.h"
+#include "base/vector/vec.h"
+#include "embed/locator_border.h"
+#include <string.h>
+
+/* The border's search may leave a point of the border that is nearer by this part of the lattice. */
+#define BORDER_GAP 4e-12
+/* Rounding below this part of the tolerance is part of it: doubles as they stand in a file have 1/32. */
+#define NEGLIGIBLE (1.0 / 16)
+/* The search of the border knows C to less than this part of the tolerance, and shows what it shows with a
+   gap of this part of the reach. */
+#define NOISE (1.0 / 4)
+#define GRAZING 1e-6
+
+/* What one point may miss the border by. */
+typedef struct border_reach {
+    double each[3]; /* in each coordinate: tolerance and rounding; 0 without rounding */
+    double cell[3]; /* the same, with what the search of the border does not know; 0 without rounding */
+    double snap;
+    double distance; /* no point of the border that counts is farther */
+} border_reach;
+
+/* Returns false if the point has no allowance beyond its tolerance. */
+static bool find_reach(const ffd_locator *locator, const double p[3], const double *rounding, double snap,
+                       border_reach *reach)
+{
+    double tolerance[3];
+    bool counts = false;
+    ffd_world_tolerance(locator, p, tolerance);
+    memset(reach, 0, sizeof *reach);
+    for (int a = 0; a < 3; a++)
+        counts = counts || (rounding && rounding[a] > NEGLIGIBLE * tolerance[a]);
+    for (int a = 0; a < 3 && counts; a++) {
+        reach->each[a] = tolerance[a] + (rounding[a] > 0 ? rounding[a] : 0);
+        reach->cell[a] = reach->each[a] * (1 + GRAZING) + NOISE * tolerance[a];
+    }
+    reach->snap = snap > 0 ? snap : 0;
+    reach->distance = larger_of(vec_length(reach->each), reach->snap);
+    return reach->distance > 0 && isfinite(reach->distance);
+}
+
+static bool is_near_hull(const ffd_locator *locator, const double p[3], const border_reach *reach)
+{
+    const double slack[3] = {reach->distance, reach->distance, reach->distance};
+    return bounds_hold(&locator->hull, p, slack);
+}
+
+static double length_of_domain(const ffd_locator *locator, int a)
+{
+    const knot_vector *knots = &locator->lattice->knots[a];
+    return ffd_knots_last(knots) - ffd_knots_first(knots);
+}
+
+/* A point of the border as one of the lattice. */
+typedef struct border_place {
+    double uvw[3], residual[3], jacobian[9]; /* C - p and J by parts of the domain */
+} border_place;
+
+static void evaluate(const ffd_locator *locator, const double p[3], const double uvw[3], border_place *place)
+{
+    double point[3];
+    memcpy(place->uvw, uvw, sizeof place->uvw);
+    ffd_lattice_evaluate(locator->lattice, FFD_VOLUME_REST, uvw, point, place->jacobian);
+    for (int r = 0; r < 3; r++)
+        place->residual[r] = point[r] - p[r];
+    for (int i = 0; i < 9; i++)
+        place->jacobian[i] *= length_of_domain(locator, i % 3);
+}
+
+static void take(const border_place *place, ffd_location *location)
+{
+    double determinant;
+    const bool singular = ffd_mat_is_singular(place->jacobian, &determinant);
+    location->status = singular || location->unresolved ? FFD_SINGULAR : FFD_INSIDE;
+    location->residual = vec_length(place->residual);
+    memcpy(location->uvw, place->uvw, sizeof place->uvw);
+}
+
+/* Whether the border is within the reach of p, where place is the point of it that is nearest, if any. The
+   nearest one decides if it is within the reach itself. Where coordinates are not known alike another one may
+   be, however far along the border. */
+static ffd_status find_verdict(const boundary *border, const double p[3], const border_reach *reach,
+                               const boundary_point *nearest, const border_place *place,
+                               boundary_verdict *verdict, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    *verdict = BOUNDARY_MISSES;
+    if (nearest->found &&
+        (nearest->distance <= reach->snap || ffd_within_tolerance(place->residual, reach->each)))
+        *verdict = BOUNDARY_MEETS;
+    else if (reach->each[0] > 0 && (nearest->found || nearest->cut_short))
+        status = ffd_boundary_meets(border, p, reach->cell, verdict, error);
+    if ((*verdict == BOUNDARY_MEETS && !nearest->found) ||
+        (*verdict == BOUNDARY_MISSES && nearest->cut_short && reach->snap > 0))
+        *verdict = BOUNDARY_UNDECIDED;
+    return status;
+}
+
+static ffd_status look_again(const ffd_locator *locator, const double p[3], const border_reach *reach,
+                             ffd_location *location, ffd_error *error)
+{
+    const boundary *border;
+    boundary_point nearest;
+    boundary_verdict verdict;
+    border_place place;
+    ffd_status status = ffd_locator_border(locator, &border, error);
+    if (status)
+        return status;
+    double size = 0;
+    for (int a = 0; a < 3; a++)
+        size = larger_of(size, locator->hull.hi[a] - locator->hull.lo[a]);
+    status = ffd_boundary_find(border, p, reach->distance + BORDER_GAP * size, &nearest, error);
+    if (status)
+        return status;
+    if (nearest.found)
+        evaluate(locator, p, nearest.uvw, &place);
+    status = find_verdict(border, p, reach, &nearest, &place, &verdict, error);
+    if (verdict == BOUNDARY_MEETS) {
+        take(&place, location);
+    } else if (verdict == BOUNDARY_UNDECIDED) {
+        location->status = FFD_SINGULAR;
+        location->unresolved = true;
+    }
+    return status;
+}
+
+ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, size_t count,
+                                const ffd_border_allowance *allowance, ffd_location *locations,
+                                ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    if (!allowance->rounding && !(allowance->snap > 0))
+        return FFD_OK;
+    for (size_t i = 0; i < count && !status; i++) {
+        const double *const p = xyz + 3 * i, *const rounding = allowance->rounding;
+        border_reach reach;
+        if (!isnan(locations[i].uvw[0]) || !vec_is_finite(p) ||
+            !find_reach(locator, p, rounding ? rounding + 3 * i : NULL, allowance->snap, &reach) ||
+            !is_near_hull(locator, p, &reach))
+            continue;
+        status = look_again(locator, p, &reach, &locations[i], error);
+    }
+    return status;
+}

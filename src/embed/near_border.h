@@ -1,0 +1,14 @@
+/* near_border.h - points that miss the volume by no more than they are known to: inside, at the nearest point
+   of the border (src/maths.md 6.6). */
+#ifndef FFD_EMBED_NEAR_BORDER_H
+#define FFD_EMBED_NEAR_BORDER_H
+
+#include "embed/frame/frame.h"
+
+/* Looks again at those of count points that have no u,v,w: fills the locations of those that are within the
+   allowance of the border. Errors: FFD_E_MEMORY. */
+ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, size_t count,
+                                const ffd_border_allowance *allowance, ffd_location *locations,
+                                ffd_error *error);
+
+#endif

@@ -1,0 +1,20 @@
+/* meshopt_module.h - what the module with meshoptimizer shows. meshopt_module.c is part of the module;
+   meshopt_load.c, in its place, of a program that loads it. */
+#ifndef FFD_IO_GLTF_DECODE_MESHOPT_MODULE_H
+#define FFD_IO_GLTF_DECODE_MESHOPT_MODULE_H
+
+#include "base/system/module.h"
+#include "io/gltf/decode/meshopt_view.h"
+#include <ffd/version.h>
+
+#define MESHOPT_IDENTITY                                                                                     \
+    {                                                                                                        \
+        "ffd-meshopt.so", FFD_VERSION, 1                                                                     \
+    }
+
+typedef struct meshopt_module {
+    module_head head;
+    ffd_status (*decode)(const meshopt_view *view, unsigned char *bytes, ffd_error *error);
+} meshopt_module;
+
+#endif

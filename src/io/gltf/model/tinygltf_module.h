@@ -1,0 +1,21 @@
+/* tinygltf_module.h - what the module with tinygltf shows. tinygltf_module.c is part of the module;
+   tinygltf_load.c, in its place, of a program that loads it. */
+#ifndef FFD_IO_GLTF_MODEL_TINYGLTF_MODULE_H
+#define FFD_IO_GLTF_MODEL_TINYGLTF_MODULE_H
+
+#include "base/system/module.h"
+#include "io/gltf/model/gltf_model.h"
+#include <ffd/version.h>
+
+#define TINYGLTF_IDENTITY                                                                                    \
+    {                                                                                                        \
+        "ffd-tinygltf.so", FFD_VERSION, 1                                                                    \
+    }
+
+typedef struct tinygltf_module {
+    module_head head;
+    ffd_status (*parse_model)(const char *text, size_t size, const char *name, gltf_model *model,
+                              ffd_error *error);
+} tinygltf_module;
+
+#endif

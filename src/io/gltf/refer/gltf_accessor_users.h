@@ -1,0 +1,12 @@
+/* gltf_accessor_users.h - who uses an accessor. */
+#ifndef FFD_IO_GLTF_REFER_GLTF_ACCESSOR_USERS_H
+#define FFD_IO_GLTF_REFER_GLTF_ACCESSOR_USERS_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* Sets used[a] for each accessor a that something other than a deformed attribute uses: animations,
+   skins, other attributes, indices, extensions. An extension of a mesh that names an accessor of the mesh's
+   own attributes follows these. */
+void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
+
+#endif

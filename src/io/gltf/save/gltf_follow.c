@@ -1,0 +1,271 @@
+#include "io/gltf/save/gltf_follow.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "io/gltf/refer/gltf_index_table.h"
+#include "io/gltf/save/gltf_plan.h"
+#include "json/json_text.h"
+#include <stdlib.h>
+#include <string.h>
+
+#define NAMED 3 /* of those that cannot follow */
+#define POINTER_SIZE 256
+
+static void leave(gltf_saver *saver, uint32_t value)
+{
+    ffd_buffer_append(&saver->left, &value, sizeof value);
+}
+
+/* One use of a mesh whose extensions are edited. */
+typedef struct mesh_use {
+    gltf_saver *saver;
+    size_t mesh, use;
+    bool deformed;
+    json_edits *edits;
+} mesh_use;
+
+static bool is_deformed(const gltf_saver *saver, size_t mesh, size_t use)
+{
+    const gltf_document *d = saver->document;
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++)
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh].primitives[p]); s++)
+            if (ffd_gltf_version_at(d, &saver->plan, mesh, p, s, use) != GLTF_NONE)
+                return true;
+    return false;
+}
+
+/* Returns the accessor that holds in the output what `accessor` held for a use of a mesh; GLTF_NONE: the mesh
+   has no such accessor, or several. */
+static size_t output_of(const mesh_use *u, size_t accessor)
+{
+    const gltf_document *d = u->saver->document;
+    const gltf_plan *plan = &u->saver->plan;
+    size_t output = GLTF_NONE;
+    for (size_t p = 0; p < d->model.meshes[u->mesh].primitive_count; p++) {
+        const gltf_primitive *primitive = &d->model.meshes[u->mesh].primitives[p];
+        for (size_t s = 0; s < gltf_slot_count(primitive); s++) {
+            if (gltf_slot_accessor(primitive, s) < 0 || (size_t)gltf_slot_accessor(primitive, s) != accessor)
+                continue;
+            const size_t version = ffd_gltf_version_at(d, plan, u->mesh, p, s, u->use);
+            const size_t here = version == GLTF_NONE ? accessor : plan->versions[version].output;
+            if (output != GLTF_NONE && output != here)
+                return GLTF_NONE;
+            output = here;
+        }
+    }
+    return output;
+}
+
+static void follow_accessor(void *context, const gltf_index_place *place)
+{
+    const mesh_use *u = context;
+    const gltf_document *d = u->saver->document;
+    const size_t accessor = ffd_gltf_index(d, place->value, d->model.accessor_count);
+    if (place->kind != GLTF_INDEX_SHAPE || accessor == GLTF_NONE || !u->deformed)
+        return;
+    const size_t output = output_of(u, accessor);
+    const json_value *number = &d->tree.values[place->value];
+    if (output == GLTF_NONE)
+        leave(u->saver, place->value);
+    else if (output != accessor)
+        ffd_edits_format(u->edits, number->begin, number->end, "%zu", output);
+}
+
+void ffd_gltf_follow_accessors(gltf_saver *saver, size_t mesh, size_t use, json_edits *edits)
+{
+    mesh_use u = {saver, mesh, use, is_deformed(saver, mesh, use), edits};
+    ffd_gltf_visit_mesh_indices(saver->document, mesh, follow_accessor, &u);
+}
+
+/* The copies of meshes as they are looked up. */
+typedef struct copies {
+    gltf_saver *saver;
+    size_t *of_node;      /* per node: its copy in the plan; GLTF_NONE: none */
+    memory_budget budget; /* of repeated elements: many, each for many copies, could take any amount */
+    ffd_status status;
+    ffd_error *error;
+    size_t repeated; /* elements */
+    uint32_t first;  /* of those */
+} copies;
+
+/* Returns the first copy of a mesh in the plan, which has them in the order of the meshes. */
+static size_t first_copy(const gltf_plan *plan, size_t mesh)
+{
+    size_t low = 0, high = plan->copy_count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (plan->copies[middle].mesh < mesh)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Writes the text with which a value names a mesh: a number, or a pointer with the rest of the value's own.
+ */
+static void write_name(const gltf_index_place *place, size_t mesh, const char *rest, byte_buffer *text)
+{
+    byte_buffer pointer = {0};
+    json_text json;
+    if (place->kind == GLTF_INDEX_MESH) {
+        ffd_buffer_format(text, "%zu", mesh);
+        return;
+    }
+    ffd_buffer_format(&pointer, "/meshes/%zu%s", mesh, rest);
+    char *characters = ffd_buffer_finish(&pointer);
+    ffd_json_begin(&json, text);
+    if (characters)
+        ffd_json_string(&json, NULL, characters);
+    text->failed = text->failed || !characters;
+    ffd_free(characters);
+}
+
+/* Adds the element of a list once more, for a copy of the mesh that it names. */
+static void repeat(copies *c, const gltf_index_place *place, size_t copy, const char *rest)
+{
+    const gltf_document *d = c->saver->document;
+    json_edits *edits = &c->saver->edits;
+    const json_value *element = &d->tree.values[place->repeats], *value = &d->tree.values[place->value];
+    const uint64_t size = sizeof(json_edit) + (element->end - element->begin);
+    ffd_error problem = {0};
+    byte_buffer text = {0};
+    c->status = ffd_budget_take(&c->budget, 1, size, &problem);
+    if (c->status) {
+        ffd_json_span_fail(&d->tree, place->repeats, d->name, c->status, c->error, "%s", problem.message);
+        return;
+    }
+    ffd_buffer_text(&text, ",");
+    ffd_buffer_append(&text, d->tree.text + element->begin, value->begin - element->begin);
+    write_name(place, d->mesh_values.count + copy, rest, &text);
+    ffd_buffer_append(&text, d->tree.text + value->end, element->end - value->end);
+    if (!text.failed)
+        ffd_edits_replace(edits, element->end, element->end, text.data, text.size);
+    edits->failed = edits->failed || text.failed;
+    ffd_buffer_free(&text);
+    c->first = c->repeated++ ? c->first : place->repeats;
+}
+
+/* Lets a value follow that names a mesh, with the rest of its pointer. */
+static void follow_name(copies *c, const gltf_index_place *place, size_t mesh, const char *rest)
+{
+    gltf_saver *saver = c->saver;
+    const gltf_document *d = saver->document;
+    const gltf_plan *plan = &saver->plan;
+    const size_t first = first_copy(plan, mesh);
+    const bool in_node = place->kind == GLTF_INDEX_MESH && place->list && strcmp(place->list, "nodes") == 0;
+    const json_value *number = &d->tree.values[place->value];
+    if (first == plan->copy_count || plan->copies[first].mesh != mesh)
+        return;
+    if (place->repeats != JSON_NONE) {
+        for (size_t i = first; i < plan->copy_count && plan->copies[i].mesh == mesh && c->status == FFD_OK;
+             i++)
+            repeat(c, place, i, rest);
+    } else if (in_node && d->model.nodes[place->owner].mesh >= 0 &&
+               (size_t)d->model.nodes[place->owner].mesh == mesh) {
+        if (c->of_node[place->owner] != GLTF_NONE)
+            ffd_edits_format(&saver->edits, number->begin, number->end, "%zu",
+                             d->mesh_values.count + c->of_node[place->owner]);
+    } else {
+        leave(saver, place->value);
+    }
+}
+
+static void follow_mesh(void *context, const gltf_index_place *place)
+{
+    copies *c = context;
+    const gltf_document *d = c->saver->document;
+    if (c->status)
+        return;
+    if (place->kind == GLTF_INDEX_MESH) {
+        const size_t mesh = ffd_gltf_index(d, place->value, d->model.mesh_count);
+        if (mesh != GLTF_NONE)
+            follow_name(c, place, mesh, "");
+    } else if (place->kind == GLTF_INDEX_POINTER && d->tree.values[place->value].kind == JSON_STRING) {
+        const char *rest = "";
+        char *pointer = ffd_json_span_string(&d->tree, place->value, NULL);
+        const size_t mesh = pointer ? ffd_gltf_pointed(pointer, "meshes", &rest) : GLTF_NONE;
+        c->saver->edits.failed = c->saver->edits.failed || !pointer;
+        if (mesh != GLTF_NONE)
+            follow_name(c, place, mesh, rest);
+        ffd_free(pointer);
+    }
+}
+
+static int compare_values(const void *a, const void *b)
+{
+    uint32_t x, y;
+    memcpy(&x, a, sizeof x);
+    memcpy(&y, b, sizeof y);
+    return (x > y) - (x < y);
+}
+
+/* Warns of what cannot follow, each once. */
+static void warn_of_left(gltf_saver *saver)
+{
+    const size_t size = saver->left.size / sizeof(uint32_t);
+    size_t count = 0;
+    uint32_t last = JSON_NONE;
+    byte_buffer names = {0};
+    saver->edits.failed = saver->edits.failed || saver->left.failed;
+    if (size == 0 || saver->edits.failed)
+        return;
+    qsort(saver->left.data, size, sizeof(uint32_t), compare_values);
+    for (size_t i = 0; i < size; i++) {
+        uint32_t value;
+        char pointer[POINTER_SIZE];
+        memcpy(&value, saver->left.data + i * sizeof value, sizeof value);
+        if (value == last)
+            continue;
+        last = value;
+        if (count++ >= NAMED)
+            continue;
+        ffd_json_span_pointer(&saver->document->tree, value, pointer, sizeof pointer);
+        ffd_buffer_format(&names, "%s%s", count > 1 ? ", " : "", pointer);
+    }
+    if (saver->options->indices_left)
+        *saver->options->indices_left = count;
+    if (count > NAMED)
+        ffd_buffer_format(&names, " and %zu more", count - NAMED);
+    char *text = ffd_buffer_finish(&names);
+    saver->edits.failed = saver->edits.failed || !text;
+    if (text)
+        ffd_log_line(saver->log, FFD_LOG_WARNING, "%zu %s: %s", count,
+                     ffd_plural(count, "index in an extension does not follow the deformed mesh",
+                                "indices in extensions do not follow the deformed meshes"),
+                     text);
+    ffd_free(text);
+}
+
+static void tell_repeated(const copies *c)
+{
+    char pointer[POINTER_SIZE];
+    if (c->repeated == 0)
+        return;
+    ffd_json_span_pointer(&c->saver->document->tree, c->first, pointer, sizeof pointer);
+    ffd_log_line(c->saver->log, FFD_LOG_INFO, "%zu %s, as %s is", c->repeated,
+                 ffd_plural(c->repeated, "element that names a mesh is repeated for a copy of it",
+                            "elements that name meshes are repeated for copies of these"),
+                 pointer);
+}
+
+ffd_status ffd_gltf_follow_meshes(gltf_saver *saver, ffd_error *error)
+{
+    const gltf_document *d = saver->document;
+    const gltf_plan *plan = &saver->plan;
+    copies c = {saver, NULL, d->base.budget, FFD_OK, error, 0, JSON_NONE};
+    if (plan->copy_count > 0) {
+        c.of_node = ffd_alloc(d->model.node_count, sizeof *c.of_node);
+        if (!c.of_node)
+            return ffd_fail_memory(error);
+        for (size_t n = 0; n < d->model.node_count; n++)
+            c.of_node[n] = GLTF_NONE;
+        for (size_t i = 0; i < plan->change_count; i++)
+            c.of_node[plan->changes[i].node] = plan->changes[i].copy;
+        ffd_gltf_visit_indices(d, follow_mesh, &c);
+    }
+    ffd_free(c.of_node);
+    tell_repeated(&c);
+    if (c.status == FFD_OK)
+        warn_of_left(saver);
+    return c.status;
+}

@@ -1,0 +1,286 @@
+#include "io/gltf/save/gltf_join_uses.h"
+#include "io/gltf/decode/gltf_encode.h"
+#include "io/gltf/decode/gltf_read.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/* A group is compared with so many others at most, so that thousands of nodes that all see something else do
+   not take the square of their number. */
+#define MOST_COMPARED 100
+/* What the doubles of a deformation may be off by, in eps of the world's coordinates: those of the lattice,
+   by which u,v,w are found, may be many times the mesh's. */
+#define ROUNDINGS 1024
+
+/* The content of a slot of a primitive for one use. */
+typedef struct slot_values {
+    const gltf_document *document;
+    size_t accessor;
+    const gltf_version *version; /* NULL: the original content */
+} slot_values;
+
+static slot_values values_of(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p,
+                             size_t slot, size_t use)
+{
+    const size_t version = ffd_gltf_version_at(d, plan, mesh, p, slot, use);
+    return (slot_values){.document = d,
+                         .accessor = (size_t)gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], slot),
+                         .version = version == GLTF_NONE ? NULL : &plan->versions[version]};
+}
+
+static void read_vector(const slot_values *values, size_t i, float vector[3])
+{
+    if (values->version)
+        memcpy(vector, values->version->values + 3 * i, 3 * sizeof *vector);
+    else
+        ffd_gltf_original(values->document, values->accessor, i, vector);
+}
+
+static float largest_of(const float v[3])
+{
+    return fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[2])));
+}
+
+/* The step from a float to the next one away from 0. */
+static double ulp_of(float size)
+{
+    size = fabsf(size);
+    return (double)nextafterf(size, HUGE_VALF) - (double)size;
+}
+
+/* A mesh whose uses are compared. */
+typedef struct shared_mesh {
+    const gltf_document *document;
+    const gltf_plan *plan;
+    size_t number;
+    double size[3]; /* its largest coordinates before the deformation */
+} shared_mesh;
+
+static shared_mesh describe(const gltf_document *d, const gltf_plan *plan, size_t mesh)
+{
+    shared_mesh made = {d, plan, mesh, {0, 0, 0}};
+    for (size_t p = 0; p < d->model.meshes[mesh].primitive_count; p++) {
+        if (ffd_gltf_instances(d, mesh, p)[0].part[GLTF_POSITION] == GLTF_NONE)
+            continue;
+        const size_t accessor =
+            (size_t)gltf_slot_accessor(&d->model.meshes[mesh].primitives[p], GLTF_POSITION);
+        for (size_t i = 0; i < d->model.accessors[accessor].count; i++) {
+            float at[3];
+            ffd_gltf_original(d, accessor, i, at);
+            for (int c = 0; c < 3; c++)
+                made.size[c] = larger_of(made.size[c], fabs((double)at[c]));
+        }
+    }
+    return made;
+}
+
+/* What the vectors of a slot may differ by for two uses. */
+typedef struct slack {
+    double step;                /* of integers; 0: the numbers are floats */
+    bool along;                 /* they are directions: rounded by their length */
+    double size[3];             /* the mesh's */
+    const mesh_part *placed[2]; /* how each use places the vectors; NULL: it does not */
+} slack;
+
+/* What the rounding of doubles comes to in the file's space: positions go to the world and come back. */
+static void find_rounding(const slack *allowed, const float x[3], const float y[3], double rounding[3])
+{
+    double size[3];
+    for (int c = 0; c < 3; c++) {
+        size[c] = larger_of(allowed->size[c], larger_of(fabs((double)x[c]), fabs((double)y[c])));
+        rounding[c] = allowed->along ? 1 : size[c];
+    }
+    for (int k = 0; k < 2 && !allowed->along; k++) {
+        const mesh_part *const part = allowed->placed[k];
+        double world[3];
+        if (!part || part->identity || part->skinned || part->singular)
+            continue;
+        for (int b = 0; b < 3; b++) {
+            world[b] = fabs(part->offset[b]);
+            for (int c = 0; c < 3; c++)
+                world[b] += fabs(part->linear[3 * b + c]) * size[c];
+        }
+        for (int c = 0; c < 3; c++) {
+            double back = 0;
+            for (int b = 0; b < 3; b++)
+                back += fabs(part->inverse[3 * c + b]) * world[b];
+            rounding[c] = larger_of(rounding[c], back);
+        }
+    }
+    for (int c = 0; c < 3; c++)
+        rounding[c] *= ROUNDINGS * DBL_EPSILON;
+}
+
+static bool are_equal(const float a[3], const float b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+/* The file's own rounding may part the results of two uses by a step of coordinate c, unless one of them is
+   the original: what is not moved keeps its bits, whatever moves elsewhere. */
+static double file_rounding(const slack *allowed, const float x[3], const float y[3], int c)
+{
+    if (allowed->step > 0)
+        return allowed->step * (1 + 1e-6);
+    return ulp_of(allowed->along ? fmaxf(largest_of(x), largest_of(y)) : fmaxf(fabsf(x[c]), fabsf(y[c])));
+}
+
+static bool agree_at(const slot_values *a, const slot_values *b, size_t i, const slack *allowed)
+{
+    float x[3], y[3], original[3];
+    double rounding[3];
+    read_vector(a, i, x);
+    read_vector(b, i, y);
+    if (are_equal(x, y))
+        return true;
+    ffd_gltf_original(a->document, a->accessor, i, original);
+    const bool stays = are_equal(x, original) || are_equal(y, original);
+    find_rounding(allowed, x, y, rounding);
+    for (int c = 0; c < 3; c++) {
+        const double most = rounding[c] + (stays ? 0 : file_rounding(allowed, x, y, c));
+        if (!(fabs((double)x[c] - (double)y[c]) <= most))
+            return false;
+    }
+    return true;
+}
+
+static int component_of(const gltf_document *d, const slot_values *values)
+{
+    return values->version ? values->version->component : d->model.accessors[values->accessor].component;
+}
+
+static const mesh_part *part_of(const shared_mesh *mesh, size_t p, size_t use)
+{
+    const gltf_instance *const instance = &ffd_gltf_instances(mesh->document, mesh->number, p)[use];
+    const size_t part = instance->part[GLTF_POSITION];
+    return part == GLTF_NONE ? NULL : &mesh->document->mesh_parts[part];
+}
+
+/* Whether a slot has nearly the same content for two uses, for which it has different versions. */
+static bool agree_in_slot(const shared_mesh *mesh, size_t p, size_t slot, const size_t use[2])
+{
+    const gltf_document *const d = mesh->document;
+    const slot_values a = values_of(d, mesh->plan, mesh->number, p, slot, use[0]),
+                      b = values_of(d, mesh->plan, mesh->number, p, slot, use[1]);
+    const gltf_accessor *const accessor = &d->model.accessors[a.accessor];
+    const int component = component_of(d, &a);
+    const slack allowed = {.step = component == GLTF_FLOAT ? 0 : ffd_gltf_step(accessor),
+                           .along = slot % GLTF_DEFORMED != GLTF_POSITION,
+                           .size = {mesh->size[0], mesh->size[1], mesh->size[2]},
+                           .placed = {part_of(mesh, p, use[0]), part_of(mesh, p, use[1])}};
+    if (component != component_of(d, &b))
+        return false;
+    for (size_t i = 0; i < accessor->count; i++)
+        if (!agree_at(&a, &b, i, &allowed))
+            return false;
+    return true;
+}
+
+/* Whether two uses of a mesh see the same shape but for rounding. What is not selected keeps its bits. */
+static bool agree(const shared_mesh *mesh, const size_t use[2])
+{
+    const gltf_document *const d = mesh->document;
+    for (size_t p = 0; p < d->model.meshes[mesh->number].primitive_count; p++) {
+        const gltf_instance *const instances = ffd_gltf_instances(d, mesh->number, p);
+        if (!instances[use[0]].selected || !instances[use[1]].selected)
+            return false;
+        for (size_t s = 0; s < gltf_slot_count(&d->model.meshes[mesh->number].primitives[p]); s++)
+            if (ffd_gltf_version_at(d, mesh->plan, mesh->number, p, s, use[0]) !=
+                    ffd_gltf_version_at(d, mesh->plan, mesh->number, p, s, use[1]) &&
+                !agree_in_slot(mesh, p, s, use))
+                return false;
+    }
+    return true;
+}
+
+/* groups[0] is the mesh itself, the others are its copies; they are put in the order of the scene. Returns
+   how many there are. The content that a mesh has for nodes outside the scene is no result, and stays. */
+static size_t list_groups(const gltf_document *d, size_t mesh, size_t first_copy, size_t first_change,
+                          const gltf_plan *plan, gltf_use_group *groups, size_t *order)
+{
+    const gltf_mesh_uses *const uses = &d->mesh_uses[mesh];
+    const size_t count = 1 + plan->copy_count - first_copy;
+    size_t change = first_change, listed = 0;
+    for (size_t g = 0; g < count; g++)
+        groups[g] = (gltf_use_group){.rank = SIZE_MAX, .leader = g, .target = g ? g - 1 : GLTF_NONE};
+    for (size_t use = 0; use < uses->node_count; use++) {
+        const size_t node = uses->nodes[use], rank = d->scene_ranks[node];
+        const bool is_changed = change < plan->change_count && plan->changes[change].node == node;
+        const size_t g = is_changed ? 1 + plan->changes[change++].copy - first_copy : 0;
+        if (rank < groups[g].rank) {
+            groups[g].rank = rank;
+            groups[g].use = use;
+        }
+    }
+    for (size_t g = plan->base_uses[mesh] == GLTF_NONE ? 1 : 0; g < count; g++) {
+        size_t at = groups[g].rank < SIZE_MAX ? listed++ : listed;
+        if (at == listed)
+            continue;
+        for (; at > 0 && groups[order[at - 1]].rank > groups[g].rank; at--)
+            order[at] = order[at - 1];
+        order[at] = g;
+    }
+    return listed;
+}
+
+/* Gives each group the first one before it in the scene that it agrees with, if any, for its leader. */
+static bool find_leaders(const gltf_document *d, size_t number, const gltf_plan *plan, gltf_use_group *groups,
+                         const size_t *order, size_t count)
+{
+    const shared_mesh mesh = describe(d, plan, number);
+    bool any = false;
+    for (size_t i = 1; i < count; i++) {
+        gltf_use_group *const group = &groups[order[i]];
+        size_t compared = 0;
+        for (size_t k = 0; k < i && compared < MOST_COMPARED && group->leader == order[i]; k++) {
+            const size_t use[2] = {groups[order[k]].use, group->use};
+            if (groups[order[k]].leader != order[k])
+                continue;
+            compared++;
+            if (agree(&mesh, use))
+                group->leader = order[k];
+        }
+        any = any || group->leader != order[i];
+    }
+    return any;
+}
+
+/* Keeps the copies that are targets, and points the nodes to these. */
+static void drop_joined(size_t mesh, size_t first_copy, size_t first_change, gltf_plan *plan,
+                        gltf_use_group *groups)
+{
+    const size_t copies = plan->copy_count - first_copy;
+    size_t kept = first_copy, changed = first_change;
+    for (size_t c = 0; c < copies; c++) {
+        const gltf_use_group *const leader = &groups[groups[1 + c].leader];
+        if (leader->target != c)
+            continue;
+        groups[1 + c].number = kept;
+        plan->copies[kept++] = (gltf_mesh_copy){mesh, leader->use};
+    }
+    for (size_t i = first_change; i < plan->change_count; i++) {
+        const gltf_node_change change = plan->changes[i];
+        const size_t target = groups[groups[1 + change.copy - first_copy].leader].target;
+        if (target != GLTF_NONE)
+            plan->changes[changed++] = (gltf_node_change){change.node, groups[1 + target].number};
+    }
+    plan->copy_count = kept;
+    plan->change_count = changed;
+}
+
+void ffd_gltf_join_uses(const gltf_document *d, size_t mesh, size_t first_copy, size_t first_change,
+                        gltf_plan *plan, gltf_use_group *groups, size_t *order)
+{
+    const size_t copies = plan->copy_count - first_copy;
+    if (copies == 0)
+        return;
+    const size_t count = list_groups(d, mesh, first_copy, first_change, plan, groups, order);
+    if (!find_leaders(d, mesh, plan, groups, order, count))
+        return;
+    /* The bits of a leader go to the mesh itself if that is one of its groups, else to their first copy. */
+    for (size_t g = copies + 1; g-- > 0;)
+        groups[groups[g].leader].target = g ? g - 1 : GLTF_NONE;
+    if (plan->base_uses[mesh] != GLTF_NONE)
+        plan->base_uses[mesh] = groups[groups[0].leader].use;
+    drop_joined(mesh, first_copy, first_change, plan, groups);
+}

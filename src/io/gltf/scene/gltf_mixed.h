@@ -1,0 +1,10 @@
+/* gltf_mixed.h - the triangles whose vertices are not all marked alike. */
+#ifndef FFD_IO_GLTF_SCENE_GLTF_MIXED_H
+#define FFD_IO_GLTF_SCENE_GLTF_MIXED_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* mesh_format's mixed_faces. */
+mesh_mixed_faces_function ffd_gltf_mixed_faces;
+
+#endif

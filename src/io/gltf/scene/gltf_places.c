@@ -1,0 +1,235 @@
+#include "io/gltf/scene/gltf_places.h"
+#include "base/memory/memory.h"
+#include "io/gltf/scene/gltf_references.h"
+#include <string.h>
+
+/* What is known of a node. */
+enum {
+    IS_SHOWN = 1, /* it is in the scene, or a skin in the scene has it as a joint */
+    IS_CHOSEN = 2,
+    IS_JOINT = 4,
+    IS_ANIMATED = 8,
+    HAS_SHAPE = 16
+};
+
+typedef struct survey {
+    const gltf_document *document;
+    uint8_t *nodes;  /* of each node */
+    size_t *pending; /* a stack, of the size of all nodes */
+} survey;
+
+static void mark_joints(const survey *s, const gltf_skin *skin, uint8_t mark)
+{
+    for (size_t j = 0; j < skin->joint_count; j++)
+        s->nodes[skin->joints[j]] |= mark;
+}
+
+static void mark_shown(const survey *s)
+{
+    const gltf_document *d = s->document;
+    for (size_t i = 0; i < d->skin_values.count; i++)
+        mark_joints(s, &d->skins[i], IS_JOINT);
+    for (size_t n = 0; n < d->model.node_count; n++) {
+        const gltf_node *node = &d->model.nodes[n];
+        if (!d->in_scene[n])
+            continue;
+        s->nodes[n] |= IS_SHOWN;
+        if (node->mesh >= 0 && node->skin >= 0)
+            mark_joints(s, &d->skins[node->skin], IS_SHOWN);
+    }
+}
+
+/* Chooses a node and all below it up to the next meshes, which are selected on their own account. */
+static void choose_below(const survey *s, size_t root)
+{
+    size_t waiting = 0;
+    if (s->nodes[root] & IS_CHOSEN)
+        return;
+    s->nodes[root] |= IS_CHOSEN;
+    s->pending[waiting++] = root;
+    while (waiting > 0) {
+        const gltf_node *node = &s->document->model.nodes[s->pending[--waiting]];
+        for (size_t i = 0; i < node->child_count; i++) {
+            const size_t child = (size_t)node->children[i];
+            if (s->nodes[child] & IS_CHOSEN || s->document->model.nodes[child].mesh >= 0)
+                continue;
+            s->nodes[child] |= IS_CHOSEN;
+            s->pending[waiting++] = child;
+        }
+    }
+}
+
+static void choose_instances(const survey *s, size_t m, size_t p)
+{
+    const gltf_document *d = s->document;
+    const gltf_mesh_uses *uses = &d->mesh_uses[m];
+    const gltf_instance *instances = ffd_gltf_instances(d, m, p);
+    for (size_t n = 0; n < uses->node_count; n++) {
+        if (!instances[n].selected)
+            continue;
+        const int skin = d->model.nodes[uses->nodes[n]].skin;
+        choose_below(s, uses->nodes[n]);
+        for (size_t j = 0; skin >= 0 && j < d->skins[skin].joint_count; j++)
+            choose_below(s, d->skins[skin].joints[j]);
+    }
+}
+
+static void mark_chosen(const survey *s)
+{
+    const gltf_document *d = s->document;
+    for (size_t n = 0; n < d->model.node_count; n++)
+        if (!d->selected_nodes || d->selected_nodes[n])
+            s->nodes[n] |= IS_CHOSEN;
+    for (size_t m = 0; m < d->model.mesh_count && d->selected_nodes; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+            choose_instances(s, m, p);
+}
+
+static void mark_node(const survey *s, size_t node, uint8_t mark)
+{
+    if (node != GLTF_NONE)
+        s->nodes[node] |= mark;
+}
+
+static ffd_status mark_target(const survey *s, uint32_t target, ffd_error *error)
+{
+    size_t node;
+    uint32_t fault;
+    const ffd_status status = ffd_gltf_animated_node(s->document, target, &node, &fault, error);
+    mark_node(s, node, IS_ANIMATED);
+    return status;
+}
+
+static ffd_status mark_animated(const survey *s, ffd_error *error)
+{
+    const json_span *tree = &s->document->tree;
+    ffd_status status = FFD_OK;
+    for (uint32_t a = ffd_gltf_first(s->document, 0, "animations"); a != JSON_NONE && status == FFD_OK;
+         a = ffd_json_span_after(tree, a))
+        for (uint32_t c = ffd_gltf_first(s->document, a, "channels"); c != JSON_NONE && status == FFD_OK;
+             c = ffd_json_span_after(tree, c))
+            status = mark_target(s, ffd_json_span_member(tree, c, "target"), error);
+    return status;
+}
+
+/* Marks the nodes that a list of the file gives a shape. */
+static void mark_listed(const survey *s, uint32_t object, const char *list)
+{
+    const json_span *tree = &s->document->tree;
+    for (uint32_t v = ffd_gltf_first(s->document, object, list); v != JSON_NONE;
+         v = ffd_json_span_after(tree, v))
+        mark_node(s, ffd_gltf_node(s->document, ffd_json_span_member(tree, v, "node")), HAS_SHAPE);
+}
+
+/* Whether a node names one of these, from first to last. */
+static bool refers(const gltf_document *d, size_t node, gltf_reference first, gltf_reference last)
+{
+    bool found = false;
+    for (int i = (int)first; i <= (int)last && !found; i++)
+        found = ffd_gltf_refers(d, ffd_gltf_reference(d, node, (gltf_reference)i), (gltf_reference)i);
+    return found;
+}
+
+static void mark_shapes(const survey *s)
+{
+    const gltf_document *d = s->document;
+    mark_listed(s, ffd_gltf_extension(d, 0, "VRMC_springBone"), "colliders");
+    mark_listed(s, ffd_json_span_member(&d->tree, ffd_gltf_extension(d, 0, "VRM"), "secondaryAnimation"),
+                "colliderGroups");
+    for (size_t n = 0; n < d->model.node_count; n++)
+        /* A shape that is made from a mesh of the scene goes with it, and names no other. */
+        if (refers(d, n, GLTF_COLLIDER, GLTF_OMI_TRIGGER) ||
+            ffd_gltf_has_extension(d, d->node_values.values[n], "OMI_collider"))
+            s->nodes[n] |= HAS_SHAPE;
+}
+
+static unsigned kinds_of(const survey *s, size_t n)
+{
+    const gltf_document *d = s->document;
+    const gltf_node *node = &d->model.nodes[n];
+    unsigned kinds = s->nodes[n] & IS_JOINT ? PLACE_BIT(FFD_BEHIND_JOINT) : 0;
+    if (refers(d, n, GLTF_CAMERA, GLTF_CAMERA))
+        kinds |= PLACE_BIT(FFD_BEHIND_CAMERA);
+    if (refers(d, n, GLTF_LIGHT, GLTF_LIGHT_PROFILE))
+        kinds |= PLACE_BIT(FFD_BEHIND_LIGHT);
+    if (kinds == 0 && s->nodes[n] & IS_ANIMATED)
+        kinds |= PLACE_BIT(FFD_BEHIND_PIVOT);
+    if (s->nodes[n] & HAS_SHAPE)
+        kinds |= PLACE_BIT(FFD_BEHIND_PHYSICS_SHAPE);
+    if (kinds == 0 && node->mesh < 0 && node->child_count == 0)
+        kinds |= PLACE_BIT(FFD_BEHIND_SOCKET);
+    return kinds;
+}
+
+static ffd_status list_nodes(const survey *s, mesh_places *places, ffd_error *error)
+{
+    const gltf_document *d = s->document;
+    places->list = ffd_alloc(d->model.node_count, sizeof *places->list);
+    if (!places->list)
+        return ffd_fail_memory(error);
+    for (size_t n = 0; n < d->model.node_count; n++) {
+        const unsigned wanted = IS_SHOWN | IS_CHOSEN;
+        const unsigned kinds = (s->nodes[n] & wanted) == wanted ? kinds_of(s, n) : 0;
+        if (kinds == 0)
+            continue;
+        mesh_place *place = &places->list[places->count++];
+        *place = (mesh_place){.kinds = kinds, .number = n};
+        memcpy(place->at, d->world + 12 * n + 9, sizeof place->at);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_list_places(const mesh_document *document, mesh_places *places, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const size_t count = d->model.node_count;
+    *places = (mesh_places){0};
+    if (d->space == FFD_SPACE_MESH)
+        return FFD_OK; /* nodes have no place there */
+    survey s = {.document = d,
+                .nodes = ffd_alloc_zero(count, sizeof *s.nodes),
+                .pending = ffd_alloc(count, sizeof *s.pending)};
+    ffd_status status = s.nodes && s.pending ? FFD_OK : ffd_fail_memory(error);
+    if (status == FFD_OK) {
+        mark_shown(&s);
+        mark_chosen(&s);
+        mark_shapes(&s);
+        status = mark_animated(&s, error);
+    }
+    if (status == FFD_OK)
+        status = list_nodes(&s, places, error);
+    ffd_free(s.nodes);
+    ffd_free(s.pending);
+    return status;
+}
+
+char *ffd_gltf_place_name(const mesh_document *document, size_t number)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    const uint32_t name = ffd_json_span_member(&d->tree, d->node_values.values[number], "name");
+    byte_buffer text = {0};
+    if (name != JSON_NONE && d->tree.values[name].kind == JSON_STRING &&
+        d->tree.values[name].end - d->tree.values[name].begin > 2)
+        return ffd_json_span_string(&d->tree, name, NULL);
+    ffd_buffer_format(&text, "node %zu", number);
+    return ffd_buffer_finish(&text);
+}
+
+void ffd_gltf_mark_splats(gltf_document *d)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
+            const uint32_t value = ffd_gltf_primitive_value(d, m, p);
+            const gltf_instance *instances = ffd_gltf_instances(d, m, p);
+            if (!ffd_gltf_has_extension(d, value, "KHR_gaussian_splatting"))
+                continue;
+            for (size_t n = 0; n < d->mesh_uses[m].node_count; n++) {
+                const size_t part = instances[n].part[GLTF_POSITION];
+                if (part == GLTF_NONE)
+                    continue;
+                d->mesh_parts[part].splats = true;
+                d->mesh_parts[part].place =
+                    d->parts[part].node == GLTF_NONE ? MESH_NO_PLACE : d->parts[part].node;
+            }
+        }
+}

@@ -1,0 +1,19 @@
+/* gltf_places.h - what a file places in the scene beside its vertices, and what of these is more than a
+   position. */
+#ifndef FFD_IO_GLTF_SCENE_GLTF_PLACES_H
+#define FFD_IO_GLTF_SCENE_GLTF_PLACES_H
+
+#include "io/gltf/document/gltf_document.h"
+
+/* mesh_format's list_places: joints, cameras, lights, animated pivots, physics shapes, and sockets: empty
+   nodes without children. After ffd_gltf_select only those of the nodes that it selects, of the empty nodes
+   below, and of their skins. */
+mesh_list_places_function ffd_gltf_list_places;
+
+/* mesh_format's place_name: the name of a node, "node N" where it has none. */
+mesh_place_name_function ffd_gltf_place_name;
+
+/* Marks the parts whose vertices are Gaussian splats (KHR_gaussian_splatting). */
+void ffd_gltf_mark_splats(gltf_document *document);
+
+#endif

@@ -1,0 +1,163 @@
+#include "io/gltf/scene/gltf_required.h"
+#include "base/memory/memory.h"
+#include <string.h>
+
+/* What an extension that a file requires is to the vertices. */
+typedef enum extension_effect {
+    EXTENSION_UNKNOWN,
+    EXTENSION_APART,  /* no vertex stands elsewhere, or is stored otherwise, because of it */
+    EXTENSION_READ,   /* it is read where it is used */
+    EXTENSION_PLACES, /* it places vertices, in a way that is not supported */
+    EXTENSION_HOLDS   /* it holds geometry, in a form that is not supported */
+} extension_effect;
+
+typedef struct known_extension {
+    const char *name; /* a final '*' stands for any letters: of two that fit the first counts */
+    extension_effect effect;
+} known_extension;
+
+/* The names of the registry (github.com/KhronosGroup/glTF, extensions, July 2026), with its archive and
+   drafts, and those that widespread programs write beside. */
+static const known_extension known[] = {
+    {"KHR_accessor_float64", EXTENSION_HOLDS},
+    {"KHR_animation_pointer", EXTENSION_READ},
+    {"KHR_audio*", EXTENSION_APART},
+    {"KHR_character*", EXTENSION_APART},
+    {"KHR_collision_shapes", EXTENSION_APART},
+    {"KHR_draco_mesh_compression", EXTENSION_READ},
+    {"KHR_environment_map", EXTENSION_APART},
+    {"KHR_gaussian_splatting", EXTENSION_READ},
+    {"KHR_gaussian_splatting_compression_*", EXTENSION_HOLDS},
+    {"KHR_implicit_shapes", EXTENSION_READ},
+    {"KHR_interactivity", EXTENSION_APART},
+    {"KHR_lights_*", EXTENSION_APART},
+    {"KHR_materials_*", EXTENSION_APART},
+    {"KHR_mesh_instancing", EXTENSION_PLACES},
+    {"KHR_mesh_primitive_restart", EXTENSION_APART},
+    {"KHR_mesh_quantization", EXTENSION_READ},
+    {"KHR_meshopt_compression", EXTENSION_READ},
+    {"KHR_node_hoverability", EXTENSION_APART},
+    {"KHR_node_selectability", EXTENSION_APART},
+    {"KHR_node_visibility", EXTENSION_READ},
+    {"KHR_physics_rigid_bodies", EXTENSION_READ},
+    {"KHR_rigid_bodies", EXTENSION_APART},
+    {"KHR_spz_gaussian_splats_compression", EXTENSION_HOLDS},
+    {"KHR_techniques_webgl", EXTENSION_APART},
+    {"KHR_texture_*", EXTENSION_APART},
+    {"KHR_xmp*", EXTENSION_APART},
+
+    {"EXT_feature_metadata", EXTENSION_APART},
+    {"EXT_implicit_*", EXTENSION_HOLDS},
+    {"EXT_instance_features", EXTENSION_APART},
+    {"EXT_lights_*", EXTENSION_APART},
+    {"EXT_materials_*", EXTENSION_APART},
+    {"EXT_mesh_features", EXTENSION_APART},
+    {"EXT_mesh_gpu_instancing", EXTENSION_READ},
+    {"EXT_mesh_manifold", EXTENSION_APART},
+    {"EXT_mesh_polygon", EXTENSION_APART},
+    {"EXT_mesh_primitive_edge_visibility", EXTENSION_APART},
+    {"EXT_mesh_primitive_restart", EXTENSION_APART},
+    {"EXT_meshopt_compression", EXTENSION_READ},
+    {"EXT_primitive_voxels", EXTENSION_HOLDS},
+    {"EXT_structural_metadata", EXTENSION_APART},
+    {"EXT_texture*", EXTENSION_APART},
+
+    {"ADOBE_materials_*", EXTENSION_APART},
+    {"AGI_articulations", EXTENSION_PLACES}, /* a stage need not begin at nothing */
+    {"AGI_stk_metadata", EXTENSION_APART},
+    {"ASOBO_asset_optimized", EXTENSION_HOLDS},
+    {"ASOBO_*", EXTENSION_APART},
+    {"AVR_*", EXTENSION_APART},
+    {"BENTLEY_materials_*", EXTENSION_APART},
+    {"BENTLEY_primitive_restart", EXTENSION_APART},
+    {"BLENDER_*", EXTENSION_APART},
+    {"CESIUM_RTC", EXTENSION_PLACES},
+    {"CESIUM_mesh_vector", EXTENSION_APART},
+    {"CESIUM_primitive_outline", EXTENSION_APART},
+    {"CESIUM_tile_edges", EXTENSION_APART},
+    {"EPIC_*", EXTENSION_APART},
+    {"FB_geometry_metadata", EXTENSION_APART},
+    {"FB_materials_*", EXTENSION_APART},
+    {"FB_ngon_encoding", EXTENSION_APART},
+    {"GODOT_single_root", EXTENSION_APART},
+    {"GOOGLE_*", EXTENSION_APART},
+    {"GRIFFEL_bim_data", EXTENSION_APART},
+    {"HUBS_components", EXTENSION_APART},
+    {"MAXAR_*", EXTENSION_APART},
+    {"MOZ_*", EXTENSION_APART},
+    {"MPEG_accessor_timed", EXTENSION_HOLDS},
+    {"MPEG_buffer_circular", EXTENSION_HOLDS},
+    {"MPEG_primitive_V3C", EXTENSION_HOLDS},
+    {"MPEG_*", EXTENSION_APART},
+    {"MSFT_audio_emitter", EXTENSION_APART},
+    {"MSFT_collision_mesh", EXTENSION_APART},
+    {"MSFT_lod", EXTENSION_READ},
+    {"MSFT_packing_*", EXTENSION_APART},
+    {"MSFT_physics", EXTENSION_APART},
+    {"MSFT_texture_dds", EXTENSION_APART},
+    {"NEEDLE_*", EXTENSION_APART},
+    {"NGA_gpm*", EXTENSION_APART},
+    {"NV_displacement_micromap", EXTENSION_PLACES},
+    {"NV_materials_mdl", EXTENSION_APART},
+    {"NV_opacity_micromap", EXTENSION_APART},
+    {"OMI_*", EXTENSION_APART},
+    {"PANDA3D_physics_collision_shapes", EXTENSION_APART},
+    {"VRM", EXTENSION_APART},
+    {"VRMC_*", EXTENSION_APART},
+    {"WEB3D_quantized_attributes", EXTENSION_HOLDS},
+};
+
+static extension_effect effect_of(const char *name)
+{
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
+        const size_t length = strlen(known[i].name);
+        const bool family = known[i].name[length - 1] == '*';
+        if (family ? strncmp(name, known[i].name, length - 1) == 0 : strcmp(name, known[i].name) == 0)
+            return known[i].effect;
+    }
+    return EXTENSION_UNKNOWN;
+}
+
+static bool is_allowed(const ffd_source *source, const char *name)
+{
+    for (size_t i = 0; i < source->allow_extension_count; i++)
+        if (strcmp(source->allow_extensions[i], name) == 0)
+            return true;
+    return false;
+}
+
+ffd_status ffd_gltf_find_required(gltf_document *d, const ffd_source *source, ffd_error *error)
+{
+    const uint32_t required = ffd_json_span_member(&d->tree, 0, "extensionsRequired");
+    d->refused_extension = JSON_NONE;
+    for (uint32_t v = ffd_json_span_first(&d->tree, required);
+         v != JSON_NONE && d->refused_extension == JSON_NONE; v = ffd_json_span_after(&d->tree, v)) {
+        char *name = ffd_json_span_string(&d->tree, v, NULL);
+        if (!name)
+            return ffd_fail_memory(error);
+        const extension_effect effect = effect_of(name);
+        if (effect != EXTENSION_APART && effect != EXTENSION_READ && !is_allowed(source, name))
+            d->refused_extension = v;
+        ffd_free(name);
+    }
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_refuse_required(const gltf_document *d, ffd_error *error)
+{
+    if (d->refused_extension == JSON_NONE)
+        return FFD_OK;
+    char *name = ffd_json_span_string(&d->tree, d->refused_extension, NULL);
+    if (!name)
+        return ffd_fail_memory(error);
+    const extension_effect effect = effect_of(name);
+    const char *why = effect == EXTENSION_PLACES  ? "places vertices in a way that is not supported"
+                      : effect == EXTENSION_HOLDS ? "holds geometry in a form that is not supported"
+                                                  : "is not known";
+    const ffd_status status = ffd_json_span_fail(
+        &d->tree, d->refused_extension, d->name, FFD_E_UNSUPPORTED, error,
+        "the required extension \"%s\" %s (--allow-extension %s deforms the file all the same)", name, why,
+        name);
+    ffd_free(name);
+    return status;
+}

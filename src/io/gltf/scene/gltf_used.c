@@ -1,0 +1,110 @@
+#include "io/gltf/scene/gltf_used.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_refuse.h"
+#include <string.h>
+
+/* Indices that are read at a time, and those whose pages are released at a time. */
+#define RUN ((size_t)4096)
+#define RELEASED (64 * RUN)
+
+/* A primitive, and the parts of the nodes that show it. */
+typedef struct drawn_primitive {
+    gltf_document *document;
+    const gltf_instance *instances;
+    size_t nodes;
+    size_t indices; /* the accessor */
+    bool failed;    /* an index is out of range */
+} drawn_primitive;
+
+/* The part of a node that takes marks; NULL: there is none, or all its vertices are marked. */
+static gltf_part *part_of(const drawn_primitive *primitive, size_t node)
+{
+    const size_t part = primitive->instances[node].part[GLTF_POSITION];
+    gltf_part *const found = part == GLTF_NONE ? NULL : &primitive->document->parts[part];
+    return found && !found->is_all_used ? found : NULL;
+}
+
+static size_t vertices_of(const drawn_primitive *primitive, size_t node)
+{
+    return primitive->document->mesh_parts[primitive->instances[node].part[GLTF_POSITION]].vertex_count;
+}
+
+/* Marks all vertices: of a primitive without indices, or with some that cannot be read. */
+static void mark_all(const drawn_primitive *primitive)
+{
+    for (size_t n = 0; n < primitive->nodes; n++) {
+        gltf_part *const part = part_of(primitive, n);
+        if (!part)
+            continue;
+        part->is_all_used = true;
+        if (part->used)
+            memset(part->used, 1, vertices_of(primitive, n));
+    }
+}
+
+static void mark_run(drawn_primitive *primitive, size_t first, size_t count)
+{
+    uint32_t indices[RUN];
+    const uint32_t largest =
+        ffd_gltf_read_indices(primitive->document, primitive->indices, first, count, indices);
+    for (size_t n = 0; n < primitive->nodes; n++) {
+        const gltf_part *const part = part_of(primitive, n);
+        uint8_t *const used = part ? part->used : NULL;
+        primitive->failed = primitive->failed || (part && largest >= vertices_of(primitive, n));
+        for (size_t i = 0, last = used && !primitive->failed ? count : 0; i < last; i++)
+            used[indices[i]] = 1;
+    }
+}
+
+static ffd_status mark_indices(drawn_primitive *primitive, ffd_error *error)
+{
+    gltf_document *const d = primitive->document;
+    const size_t count = (size_t)d->model.accessors[primitive->indices].count;
+    for (size_t n = 0; n < primitive->nodes; n++) {
+        gltf_part *const part = part_of(primitive, n);
+        const ffd_status status = part && !part->used
+                                      ? ffd_used_make(&d->base, vertices_of(primitive, n), &part->used, error)
+                                      : FFD_OK;
+        if (status)
+            return status;
+    }
+    for (size_t first = 0; first < count && !primitive->failed; first += RUN) {
+        mark_run(primitive, first, count - first < RUN ? count - first : RUN);
+        if ((first + RUN) % RELEASED == 0)
+            ffd_gltf_forget_elements(d, primitive->indices, first + RUN - RELEASED, RELEASED);
+    }
+    return FFD_OK;
+}
+
+/* Marks what a primitive draws in the part of each node that shows it. */
+static ffd_status mark_primitive(gltf_document *d, size_t m, size_t p, ffd_error *error)
+{
+    const gltf_primitive *const primitive = &d->model.meshes[m].primitives[p];
+    drawn_primitive drawn = {
+        .document = d, .instances = ffd_gltf_instances(d, m, p), .nodes = d->mesh_uses[m].node_count};
+    if (drawn.nodes == 0 || primitive->accessor[GLTF_POSITION] < 0)
+        return FFD_OK;
+    drawn.failed = primitive->indices < 0 || ffd_gltf_refuse_unreadable(d, m, p, primitive->indices, NULL);
+    if (!drawn.failed) {
+        drawn.indices = (size_t)primitive->indices;
+        const ffd_status status = mark_indices(&drawn, error);
+        if (status)
+            return status;
+    }
+    if (drawn.failed)
+        mark_all(&drawn);
+    return FFD_OK;
+}
+
+ffd_status ffd_gltf_mark_used(mesh_document *document, ffd_error *error)
+{
+    gltf_document *const d = (gltf_document *)document;
+    ffd_status status = FFD_OK;
+    for (size_t m = 0; m < d->model.mesh_count && !status; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count && !status; p++)
+            status = mark_primitive(d, m, p, error);
+    for (size_t i = 0; i < d->base.part_count && !status; i++)
+        if (d->parts[i].used && ffd_used_keep(document, d->mesh_parts[i].vertex_count, &d->parts[i].used))
+            d->mesh_parts[i].used = d->parts[i].used;
+    return status;
+}

@@ -1,0 +1,15 @@
+/* obj_libraries.h - the material libraries that an OBJ file names (mtllib). */
+#ifndef FFD_IO_OBJ_RESOURCE_OBJ_LIBRARIES_H
+#define FFD_IO_OBJ_RESOURCE_OBJ_LIBRARIES_H
+
+#include "base/fail.h"
+#include "base/file/input.h"
+#include "base/memory/intern.h"
+
+/* Lists the names of all mtllib statements of a file at a path, as they are written. A statement names
+   several files; a name may have blanks, and reaches to the ending of a library then. Errors: FFD_E_LIMIT,
+   FFD_E_MEMORY. */
+ffd_status ffd_obj_list_libraries(const file_input *input, const char *path, intern_table *names,
+                                  ffd_error *error);
+
+#endif

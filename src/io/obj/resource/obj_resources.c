@@ -1,0 +1,209 @@
+#include "io/obj/resource/obj_resources.h"
+#include "base/file/folder.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "io/obj/resource/mtl_file.h"
+#include "io/obj/resource/obj_libraries.h"
+#include "io/obj/resource/resource_names.h"
+#include "mesh/resource/image_file.h"
+#include "mesh/resource/resource_copy.h"
+#include <string.h>
+
+/* Whether a name leads to one file wherever it is read: "/x", "C:\x", "\\server\x". */
+static bool is_absolute(const char *name)
+{
+    const char letter = (char)(name[0] | 0x20);
+    return name[0] == '/' || name[0] == '\\' || (letter >= 'a' && letter <= 'z' && name[1] == ':');
+}
+
+/* Finds the path, relative to the mesh's folder and normalized, of a name in the file `base`, which is
+   relative to that folder too. NULL with FFD_OK: the name is absolute, or that of a folder. */
+static ffd_status find_path(const resource_copier *c, const char *base, const char *name, char **path,
+                            ffd_error *error)
+{
+    bool turned;
+    char *beside = NULL;
+    *path = NULL;
+    if (is_absolute(name))
+        return FFD_OK;
+    beside = ffd_path_beside(base, name);
+    ffd_status status = beside ? ffd_path_turn_slashes(beside, c->from, &turned, error) : FFD_E_MEMORY;
+    if (!status)
+        *path = ffd_path_normalize(beside);
+    ffd_free(beside);
+    if (!*path)
+        return ffd_fail_memory(error);
+    if (**path == 0) {
+        ffd_free(*path);
+        *path = NULL;
+    }
+    return FFD_OK;
+}
+
+/* Whether there is a file at a path below the mesh's folder. */
+static bool is_there(const resource_copier *c, const char *path)
+{
+    char *const file = ffd_path_leads_out(path) ? NULL : ffd_path_join(c->from, path);
+    const bool there = file && ffd_file_exists(file);
+    ffd_free(file);
+    return there;
+}
+
+/* Adds a map of a library. Names count from the library's folder; some programs write them from that of the
+   mesh. */
+static ffd_status add_map(const resource_copier *c, resource_list *list, const char *library,
+                          const char *name, ffd_error *error)
+{
+    char *path, *other = NULL;
+    ffd_status status = find_path(c, library, name, &path, error);
+    if (status || !path)
+        return status;
+    if (!is_there(c, path))
+        status = find_path(c, "", name, &other, error);
+    if (other && is_there(c, other)) {
+        char *const wrong = path;
+        path = other;
+        other = wrong;
+    }
+    ffd_free(other);
+    if (!status)
+        return ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
+    ffd_free(path);
+    return status;
+}
+
+/* Adds the maps of a library that may be copied. */
+static ffd_status add_maps(const resource_copier *c, resource_list *list, const mesh_resource *library,
+                           ffd_error *error)
+{
+    file_input bytes = {0};
+    const char *left;
+    ffd_error refused;
+    intern_table names = {0};
+    ffd_status status = ffd_resource_load(c, library, &bytes, &left, &refused, error);
+    if (status || left || refused.status)
+        return status;
+    status = ffd_mtl_list_maps(bytes.data, bytes.size, library->path, &names, error);
+    for (uint32_t i = 0; i < names.count && !status; i++)
+        status = add_map(c, list, library->path, ffd_intern_key(&names, i), error);
+    ffd_intern_free(&names);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
+/* Lists the libraries, and what they name (with_maps), in the order of their paths. */
+static ffd_status list_all(const resource_copier *c, const file_input *input, bool with_maps,
+                           resource_list *list, ffd_error *error)
+{
+    intern_table names = {0};
+    ffd_status status = ffd_obj_list_libraries(input, c->mesh, &names, error);
+    for (uint32_t i = 0; i < names.count && !status; i++) {
+        char *path;
+        status = find_path(c, "", ffd_intern_key(&names, i), &path, error);
+        if (!status && path)
+            status = ffd_resources_add(list, &ffd_resource_library, i, path, error);
+    }
+    ffd_intern_free(&names);
+    const size_t libraries = list->count;
+    for (size_t i = 0; i < libraries && with_maps && !status; i++) {
+        const mesh_resource library = list->resources[i]; /* the list moves as it grows */
+        status = add_maps(c, list, &library, error);
+        if (!status && list->count > OBJ_RESOURCES_MAX)
+            status = ffd_fail_file(error, FFD_E_LIMIT, c->mesh, "names more than %d maps", OBJ_RESOURCES_MAX);
+    }
+    ffd_resources_sort(list);
+    return status;
+}
+
+/* Whether a relative path leads from the output's folder to a file, and if it leads out of the mesh's folder,
+   to that one. */
+static bool is_reached(const resource_copier *c, const char *path)
+{
+    char *const from = ffd_path_join(c->from, path), *const to = ffd_path_join(c->to, path);
+    const bool reached =
+        from && to && (ffd_path_leads_out(path) ? ffd_file_same(from, to) : ffd_file_exists(to));
+    ffd_free(from);
+    ffd_free(to);
+    return reached;
+}
+
+static ffd_status copy(const resource_copier *c, const mesh_resource *resource, ffd_error *error)
+{
+    ffd_error refused;
+    if (ffd_path_leads_out(resource->path) && is_reached(c, resource->path))
+        return FFD_OK;
+    const ffd_status status = ffd_resource_copy(c, resource, &refused, error);
+    if (!status && refused.status)
+        ffd_log_line(c->log, FFD_LOG_WARNING, "the %s \"%s\" cannot be copied: %s", resource->kind->name,
+                     resource->path, refused.message);
+    return status;
+}
+
+static void say_unreached(const resource_copier *c, const mesh_resource *library)
+{
+    if (!is_reached(c, library->path))
+        ffd_log_line(c->log, FFD_LOG_WARNING,
+                     "the output does not reach the material library \"%s\" (--resources copy copies it)",
+                     library->path);
+}
+
+/* is_stay: mesh and output are in one folder. */
+static ffd_status bring(const resource_copier *c, const file_input *input, const mesh_save_options *options,
+                        bool is_stay, ffd_error *error)
+{
+    const bool copies = options->resources == FFD_RESOURCES_COPY;
+    resource_list list = {0};
+    ffd_status status = list_all(c, input, copies || is_stay, &list, error);
+    for (size_t i = 0; i < list.count && !status; i++)
+        status = ffd_resource_check_target(c, &list.resources[i], copies || is_stay, options->path, error);
+    for (size_t i = 0; i < list.count && !status && !is_stay; i++) {
+        if (copies)
+            status = copy(c, &list.resources[i], error);
+        else
+            say_unreached(c, &list.resources[i]);
+    }
+    ffd_resources_free(&list);
+    return status;
+}
+
+ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_options *options,
+                                   file_output *output, const mesh_log *log, ffd_error *error)
+{
+    const char *const mesh = options->input;
+    if (!mesh || ffd_file_is_stream(mesh) || ffd_output_is_stream(options->path) ||
+        ffd_file_same(mesh, options->path))
+        return FFD_OK;
+    char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
+    const resource_copier copier = {mesh, from, to, output, log, options->copied};
+    ffd_status status = from && to ? FFD_OK : ffd_fail_memory(error);
+    const bool is_stay = !status && ffd_file_same(from, to);
+    /* In its own folder an output of another ending meets none of the names. */
+    if (!status && (!is_stay || ffd_mtl_has_name(options->path) || ffd_image_has_name(options->path)))
+        status = bring(&copier, input, options, is_stay, error);
+    ffd_free(from);
+    ffd_free(to);
+    return status;
+}
+
+ffd_status ffd_obj_find_resources(const char *path, path_list *files, ffd_error *error)
+{
+    file_input input;
+    resource_list list = {0};
+    char *const from = ffd_path_folder(path);
+    const resource_copier copier = {.mesh = path, .from = from};
+    ffd_status status = from ? FFD_OK : ffd_fail_memory(error);
+    if (!status && !ffd_file_is_stream(path) && !ffd_file_load(path, &input, NULL)) {
+        status = list_all(&copier, &input, true, &list, error);
+        ffd_file_unload(&input);
+    }
+    for (size_t i = 0; i < list.count && !status; i++) {
+        char *const file = ffd_path_beside(path, list.resources[i].path);
+        status = file ? FFD_OK : ffd_fail_memory(error);
+        if (!status && !ffd_path_leads_out(list.resources[i].path))
+            status = ffd_paths_add(files, file, error);
+        ffd_free(file);
+    }
+    ffd_resources_free(&list);
+    ffd_free(from);
+    return status;
+}

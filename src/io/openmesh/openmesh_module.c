@@ -1,0 +1,10 @@
+#include "io/openmesh/openmesh_module.h"
+#include "base/system/exceptions.h"
+
+FFD_API extern const openmesh_module ffd_module;
+
+const openmesh_module ffd_module = {
+    {OPENMESH_IDENTITY, ffd_exceptions_prepare},
+    ffd_topology_compute,
+    ffd_normals_of_groups,
+};

@@ -1,0 +1,11 @@
+/* ply_save.h - what saving a PLY file writes beside its vertices. Declares ply_face_normals.c. */
+#ifndef FFD_IO_PLY_PLY_SAVE_H
+#define FFD_IO_PLY_PLY_SAVE_H
+
+#include "io/ply/ply_document.h"
+#include "io/text/splice.h"
+
+/* Writes the rows of the faces, whose normals (face_normals) are renewed where a corner has moved. */
+void ffd_ply_write_face_normals(const ply_document *document, file_splice *splice);
+
+#endif

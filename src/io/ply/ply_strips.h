@@ -1,0 +1,17 @@
+/* ply_strips.h - the triangles of a PLY file's strips: element tristrips, with a list of vertices. Each
+   vertex makes a triangle with the two before it, every second one turned round; -1 begins anew (the files of
+   Stanford's models). Triangles that name a vertex twice only join strips: they are left out. */
+#ifndef FFD_IO_PLY_PLY_STRIPS_H
+#define FFD_IO_PLY_PLY_STRIPS_H
+
+#include "io/ply/ply_document.h"
+
+/* Takes a triangle. Returns false if memory ran out. */
+typedef bool ply_triangle_visitor(void *context, const uint32_t corners[3]);
+
+/* Visits the triangles in the order of the file. Errors: FFD_E_INVALID for a vertex that does not exist,
+   FFD_E_MEMORY. */
+ffd_status ffd_ply_visit_strips(const ply_document *document, ply_triangle_visitor *visit, void *context,
+                                ffd_error *error);
+
+#endif

@@ -1,0 +1,396 @@
+#include "job/chain/blocks.h"
+#include "base/system/clock.h"
+#include "base/vector/array_kernel.h"
+#include "deform/extension.h"
+#include "job/chain/block_faces.h"
+#include "job/chain/common_faces.h"
+#include "job/chain/look_again.h"
+#include "job/chain/point_outcome.h"
+#include "job/chain/seams.h"
+#include <float.h>
+#include <string.h>
+
+/* Distances from two borders are equal where they differ by no more than this part. */
+#define EQUAL_DISTANCE 1e-12
+
+typedef struct block_work {
+    const lattice_chain *chain;
+    chain_run *run;
+    bool snaps; /* points are looked for that miss a block by no more than the snap */
+} block_work;
+
+/* The first block after another one whose box holds a point. */
+typedef struct next_block {
+    const bounds *boxes;
+    const double *p, *slack;
+    uint32_t first, found; /* no less than first; BLOCK_NONE: there is none */
+} next_block;
+
+static bool offer_block(void *context, uint32_t block)
+{
+    next_block *const next = context;
+    if (block >= next->first && block < next->found && bounds_hold(&next->boxes[block], next->p, next->slack))
+        next->found = block;
+    return true;
+}
+
+/* Of point i of the run. What it stands for may reach a block. */
+static uint32_t find_next(const block_work *work, size_t i, uint32_t first)
+{
+    const lattice_chain *const chain = work->chain;
+    const chain_rounding *const rounding = work->run->rounding;
+    const double *const p = work->run->x + 3 * i;
+    double slack[3] = {0, 0, 0};
+    if (rounding)
+        rounding->find(rounding->context, i, true, p, slack);
+    double *const cell = &work->run->scratch->cell;
+    *cell = larger_of(*cell, vec_length(slack));
+    for (int a = 0; a < 3; a++)
+        slack[a] = 2 * slack[a] + chain->slack[a] + 16 * DBL_EPSILON * fabs(p[a]);
+    next_block next = {chain->boxes, p, slack, first, BLOCK_NONE};
+    ffd_box_tree_visit(&chain->tree, p, slack, offer_block, &next);
+    return next.found;
+}
+
+/* Bits of a block's number that are sorted by at once. */
+#define DIGIT_BITS 10
+#define DIGITS (1u << DIGIT_BITS)
+
+/* Sorts points by the blocks' numbers, of which the greatest is `last`; those of one block stay in their
+   order. Returns where they are: in points or spare. */
+static uint32_t *sort_by_block(const uint32_t *block, uint32_t last, size_t count, uint32_t *points,
+                               uint32_t *spare)
+{
+    for (unsigned shift = 0; shift < 32 && last >> shift; shift += DIGIT_BITS) {
+        uint32_t start[DIGITS + 1] = {0};
+        for (size_t i = 0; i < count; i++)
+            start[(block[points[i]] >> shift) % DIGITS + 1]++;
+        for (size_t d = 0; d < DIGITS; d++)
+            start[d + 1] += start[d];
+        for (size_t i = 0; i < count; i++)
+            spare[start[(block[points[i]] >> shift) % DIGITS]++] = points[i];
+        uint32_t *const sorted = spare;
+        spare = points;
+        points = sorted;
+    }
+    return points;
+}
+
+/* How many points from the first on have its block. */
+static size_t same_block(const uint32_t *block, const uint32_t *points, size_t count)
+{
+    size_t same = 1;
+    while (same < count && block[points[same]] == block[points[0]])
+        same++;
+    return same;
+}
+
+/* Every point is outside of all blocks so far, or has a coordinate that is not finite. */
+static void begin_points(const block_work *work)
+{
+    chain_run *const run = work->run;
+    block_scratch *const blocks = &run->scratch->blocks;
+    blocks->pending_count = 0;
+    run->scratch->cell = 0;
+    for (size_t i = 0; i < run->count; i++) {
+        const bool finite = vec_is_finite(run->x + 3 * i);
+        run->scratch->owners[i] = BLOCK_NONE;
+        run->outcomes[i] =
+            (point_outcome){.status = finite ? FFD_OUTSIDE : FFD_POINT_INVALID, .outside = finite};
+        run->scratch->locations[i] =
+            (ffd_location){.uvw = {NAN, NAN, NAN}, .status = run->outcomes[i].status};
+        blocks->asked[i] = 0;
+        if (run->differences)
+            run->differences[i] = 0;
+        if (finite)
+            blocks->pending[blocks->pending_count++] = (uint32_t)i;
+    }
+}
+
+/* Asks the tree for the next block of each pending point, and drops those that have none. Returns the
+   greatest block. */
+static uint32_t ask_next(const block_work *work)
+{
+    block_scratch *const blocks = &work->run->scratch->blocks;
+    size_t count = 0;
+    uint32_t last = 0;
+    for (size_t k = 0; k < blocks->pending_count; k++) {
+        const uint32_t i = blocks->pending[k];
+        const uint32_t next = find_next(work, i, blocks->asked[i]);
+        blocks->asked[i] = next;
+        if (next == BLOCK_NONE)
+            continue;
+        blocks->pending[count++] = i;
+        last = next > last ? next : last;
+    }
+    blocks->pending_count = count;
+    return last;
+}
+
+/* The links that marks are about (ffd_chain_marked). */
+enum { MARK_OUTSIDE, MARK_DISAGREES };
+
+static void mark(chain_run *run, size_t i, size_t link)
+{
+    run->kept[ffd_kept_plane(link) * CHAIN_RUN + i] |= ffd_kept_bit(link);
+    run->keeps = true;
+}
+
+static double snap_of(const block_work *work, uint32_t block)
+{
+    return work->snaps ? work->chain->links[block].snap : 0;
+}
+
+/* What point i of the run stands for. */
+static void find_half(const block_work *work, size_t i, double half[3])
+{
+    const chain_rounding *const rounding = work->run->rounding;
+    memset(half, 0, 3 * sizeof *half);
+    if (rounding)
+        rounding->find(rounding->context, i, true, work->run->x + 3 * i, half);
+}
+
+/* A point that has a block is in another one too: do both move it alike? */
+static ffd_status compare(const block_work *work, size_t i, uint32_t other, const double uvw[3],
+                          ffd_error *error)
+{
+    chain_run *const run = work->run;
+    const chain_link *const links = work->chain->links;
+    const block_place own = {&links[run->scratch->owners[i]], run->scratch->locations[i].uvw};
+    const block_place next = {&links[other], uvw};
+    double half[3], length;
+    find_half(work, i, half);
+    const ffd_status status = ffd_blocks_part(&own, &next, half, snap_of(work, other), &length, error);
+    if (status || !(length > 0))
+        return status;
+    run->outcomes[i].disagrees = true;
+    run->disagreement = larger_of(run->disagreement, length);
+    if (run->differences)
+        run->differences[i] = larger_of(run->differences[i], length);
+    if (run->kept)
+        mark(run, i, MARK_DISAGREES);
+    return FFD_OK;
+}
+
+/* Whether a point that a block has is on a face of it, with what it stands for. */
+static bool is_on_face(const block_work *work, size_t i, uint32_t block, const double uvw[3])
+{
+    double half[3], jacobian[9];
+    find_half(work, i, half);
+    return ffd_faces_reached(&work->chain->links[block], uvw, half, snap_of(work, block), jacobian) != 0;
+}
+
+/* Takes note of where a point is in a block. *again: whether it is to be looked for in others too. */
+static ffd_status note_location(const block_work *work, size_t i, uint32_t block, const face_ends *ends,
+                                const ffd_location *location, bool *again, ffd_error *error)
+{
+    const chain_run *const run = work->run;
+    point_outcome now, *const outcome = &run->outcomes[i];
+    uint32_t *const owner = &run->scratch->owners[i];
+    ffd_outcome_make(work->chain->links[block].lattice, location, &now);
+    *again = true;
+    if (*owner != BLOCK_NONE)
+        return now.located ? compare(work, i, block, location->uvw, error) : FFD_OK;
+    if (!now.located) {
+        ffd_outcome_join(&now, outcome);
+        return FFD_OK;
+    }
+    now.evaluations += outcome->evaluations;
+    *outcome = now;
+    *owner = block;
+    run->scratch->locations[i] = *location;
+    *again = ffd_faces_at(ends, location->uvw) && is_on_face(work, i, block, location->uvw);
+    return FFD_OK;
+}
+
+/* Looks for points in a block that is asked for them. Those that are to be looked for in others too become
+   pending again, from *pending on. */
+static ffd_status look_in_block(const block_work *work, const uint32_t *points, size_t count, size_t *pending,
+                                ffd_error *error)
+{
+    const chain_run *const run = work->run;
+    block_scratch *const blocks = &run->scratch->blocks;
+    const uint32_t block = blocks->asked[points[0]];
+    const chain_link *const link = &work->chain->links[block];
+    const double snap = snap_of(work, block);
+    const face_ends ends = ffd_face_ends(link->lattice, ffd_faces_near(link, snap, run));
+    for (size_t k = 0; k < count; k++)
+        memcpy(blocks->x + 3 * k, run->x + 3 * (size_t)points[k], 3 * sizeof *blocks->x);
+    ffd_status status = ffd_locator_find(link->locator, blocks->x, count, blocks->found, error);
+    for (size_t k = 0; k < count && !status; k++) {
+        const uint32_t i = points[k];
+        blocks->asked[i] = block + 1;
+        bool again;
+        if (blocks->found[k].status == FFD_OUTSIDE)
+            status = ffd_look_again(link, snap, true, run, i, run->x + 3 * i, &blocks->found[k], error);
+        if (!status)
+            status = note_location(work, i, block, &ends, &blocks->found[k], &again, error);
+        if (!status && again)
+            blocks->again[(*pending)++] = i;
+    }
+    return status;
+}
+
+/* Finds the blocks of the pending points. */
+static ffd_status locate_pending(const block_work *work, ffd_error *error)
+{
+    block_scratch *const blocks = &work->run->scratch->blocks;
+    ffd_status status = FFD_OK;
+    while (blocks->pending_count > 0 && !status) {
+        const uint32_t last = ask_next(work);
+        const size_t count = blocks->pending_count;
+        const uint32_t *const sorted =
+            sort_by_block(blocks->asked, last, count, blocks->pending, blocks->sorted);
+        size_t again = 0;
+        for (size_t k = 0, size; k < count && !status; k += size) {
+            size = same_block(blocks->asked, sorted + k, count - k);
+            status = look_in_block(work, sorted + k, size, &again, error);
+        }
+        memcpy(blocks->pending, blocks->again, again * sizeof *blocks->again);
+        blocks->pending_count = again;
+    }
+    return status;
+}
+
+/* The points that no block has are pending again. */
+static void begin_again(const block_work *work)
+{
+    const chain_run *const run = work->run;
+    block_scratch *const blocks = &run->scratch->blocks;
+    blocks->pending_count = 0;
+    for (size_t i = 0; i < run->count; i++) {
+        blocks->asked[i] = 0;
+        if (run->scratch->owners[i] == BLOCK_NONE && run->outcomes[i].status != FFD_POINT_INVALID)
+            blocks->pending[blocks->pending_count++] = (uint32_t)i;
+    }
+}
+
+/* Finds the block of each point: one that holds it goes before one that it misses by the snap. */
+static ffd_status locate(block_work *work, ffd_error *error)
+{
+    begin_points(work);
+    ffd_status status = locate_pending(work, error);
+    if (status || !(work->chain->outside.snap > 0))
+        return status;
+    work->snaps = true;
+    begin_again(work);
+    return locate_pending(work, error);
+}
+
+/* The border of all blocks that is nearest to a point. */
+typedef struct nearest_border {
+    const lattice_chain *chain;
+    const double *p;
+    double reach; /* no farther one will do */
+    boundary_point point;
+    uint32_t block;
+    ffd_status status;
+    ffd_error *error;
+} nearest_border;
+
+/* Of equally near ones the first has it. */
+static bool offer_border(void *context, uint32_t block)
+{
+    nearest_border *const best = context;
+    boundary_point found;
+    best->status =
+        ffd_boundary_find(best->chain->links[block].border, best->p, best->reach, &found, best->error);
+    if (best->status || !found.found)
+        return !best->status;
+    const bool equal = best->point.found && found.distance >= best->point.distance * (1 - EQUAL_DISTANCE);
+    if (equal && block > best->block)
+        return true;
+    best->point = found;
+    best->block = block;
+    best->reach = found.distance * (1 + EQUAL_DISTANCE);
+    return true;
+}
+
+/* Moves a point that is in no block by what the nearest border of all says. */
+static ffd_status extend(const block_work *work, size_t i, ffd_error *error)
+{
+    const chain_run *const run = work->run;
+    const double falloff = work->chain->outside.falloff;
+    nearest_border best = {
+        .chain = work->chain, .p = run->x + 3 * i, .reach = falloff > 0 ? falloff : HUGE_VAL, .error = error};
+    const double limit = best.reach;
+    ffd_box_tree_visit_near(&work->chain->tree, best.p, &best.reach, offer_border, &best);
+    if (best.status || !best.point.found)
+        return best.status;
+    run->outcomes[i].extended = best.point.distance < limit || !(falloff > 0);
+    run->outcomes[i].moved =
+        ffd_extension_displacement(work->chain->links[best.block].lattice, &best.point, falloff,
+                                   run->delta + 3 * i, run->gradient ? run->gradient + 9 * i : NULL);
+    return FFD_OK;
+}
+
+/* What is in no block stays, or follows the nearest border. */
+static ffd_status place_others(const block_work *work, ffd_error *error)
+{
+    chain_run *const run = work->run;
+    block_scratch *const blocks = &run->scratch->blocks;
+    ffd_status status = FFD_OK;
+    blocks->pending_count = 0;
+    for (size_t i = 0; i < run->count && !status; i++) {
+        if (run->scratch->owners[i] != BLOCK_NONE) {
+            blocks->pending[blocks->pending_count++] = (uint32_t)i;
+            if (work->chain->seam_count > 0)
+                ffd_seams_mark(work->chain, run->scratch->owners[i], run, i, run->scratch->locations[i].uvw);
+            continue;
+        }
+        memset(run->delta + 3 * i, 0, 3 * sizeof *run->delta);
+        if (run->gradient)
+            memset(run->gradient + 9 * i, 0, 9 * sizeof *run->gradient);
+        if (run->outcomes[i].status == FFD_POINT_INVALID)
+            continue;
+        if (work->chain->outside.extend)
+            status = extend(work, i, error);
+        else if (run->kept)
+            mark(run, i, MARK_OUTSIDE);
+    }
+    return status;
+}
+
+/* Moves the points that have a block. */
+static void displace(const block_work *work)
+{
+    const lattice_chain *const chain = work->chain;
+    const chain_run *const run = work->run;
+    chain_scratch *const scratch = run->scratch;
+    block_scratch *const blocks = &scratch->blocks;
+    const size_t count = blocks->pending_count;
+    const uint32_t *const sorted =
+        sort_by_block(scratch->owners, (uint32_t)(chain->count - 1), count, blocks->pending, blocks->sorted);
+    displacement_batch batch = {.uvw = scratch->locations[0].uvw,
+                                .stride = sizeof *scratch->locations / sizeof(double),
+                                .delta = run->delta,
+                                .gradient = run->gradient,
+                                .moves = scratch->moves};
+    for (size_t k = 0; k < count; k += batch.count) {
+        batch.which = sorted + k;
+        batch.count = same_block(scratch->owners, batch.which, count - k);
+        ffd_displacements(chain->links[scratch->owners[sorted[k]]].lattice, chain->isa, &batch,
+                          &scratch->displacement);
+    }
+    for (size_t k = 0; k < count; k++)
+        run->outcomes[sorted[k]].moved = scratch->moves[sorted[k]];
+}
+
+ffd_status ffd_blocks_apply(const lattice_chain *chain, chain_run *run, ffd_error *error)
+{
+    block_work work = {.chain = chain, .run = run};
+    const double start = ffd_clock_seconds();
+    ffd_status status = locate(&work, error);
+    const double middle = ffd_clock_seconds();
+    if (!status)
+        status = place_others(&work, error);
+    if (!status) {
+        displace(&work);
+        ffd_array_kernel(chain->isa)->add(run->delta, 3 * run->count, run->x);
+    }
+    for (size_t i = 0; i < run->count && !status; i++)
+        run->disagreeing += run->outcomes[i].disagrees;
+    run->embed_seconds += middle - start;
+    run->deform_seconds += ffd_clock_seconds() - middle;
+    return status;
+}

@@ -1,0 +1,162 @@
+#include "job/chain/chain_apply.h"
+#include "base/system/clock.h"
+#include "base/vector/array_kernel.h"
+#include "base/vector/vec.h"
+#include "deform/extension.h"
+#include "job/chain/blocks.h"
+#include "job/chain/common_faces.h"
+#include "job/chain/look_again.h"
+#include "job/chain/point_outcome.h"
+#include "job/chain/seams.h"
+#include "lattice/lattice.h"
+#include <string.h>
+
+/* F = F2 F1 in terms of what each differs from I: E = E1 + E2 + E2 E1. Zeros stay exact. */
+static void compose(double gradient[9], const double next[9])
+{
+    double product[9];
+    mat_multiply(next, gradient, product);
+    for (int i = 0; i < 9; i++)
+        gradient[i] = gradient[i] + next[i] + product[i];
+}
+
+/* Where a link's displacements are written: those of the first link straight to the run. */
+static displacement_batch begin_batch(const chain_run *run, size_t link)
+{
+    chain_scratch *scratch = run->scratch;
+    return (displacement_batch){.uvw = scratch->locations[0].uvw,
+                                .stride = sizeof *scratch->locations / sizeof(double),
+                                .which = scratch->inside,
+                                .delta = link == 0 ? run->delta : scratch->delta,
+                                .gradient = !run->gradient ? NULL
+                                            : link == 0    ? run->gradient
+                                                           : scratch->gradient,
+                                .moves = scratch->moves};
+}
+
+/* Writes the displacement of a point outside of link l to where the batch writes those of the others. */
+static ffd_status extend(const lattice_chain *chain, size_t l, chain_run *run,
+                         const displacement_batch *batch, size_t i, ffd_error *error)
+{
+    const chain_link *const link = &chain->links[l];
+    boundary_point nearest;
+    double *const delta = batch->delta + 3 * i;
+    double *const gradient = batch->gradient ? batch->gradient + 9 * i : NULL;
+    run->scratch->moves[i] = 0;
+    memset(delta, 0, 3 * sizeof *delta);
+    if (gradient)
+        memset(gradient, 0, 9 * sizeof *gradient);
+    if (run->scratch->locations[i].status == FFD_POINT_INVALID || !link->border)
+        return FFD_OK;
+    const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
+    const ffd_status status = ffd_boundary_find(link->border, run->x + 3 * i, reach, &nearest, error);
+    if (status || !nearest.found)
+        return status;
+    if (chain->seam_count > 0)
+        ffd_seams_mark(chain, l, run, i, nearest.uvw);
+    run->outcomes[i].extended |= nearest.distance < reach || !(link->falloff > 0);
+    run->scratch->moves[i] =
+        (uint8_t)ffd_extension_displacement(link->lattice, &nearest, link->falloff, delta, gradient);
+    return FFD_OK;
+}
+
+/* Marks a point without u,v,w in a link, unless the link moves it all the same. */
+static void mark_kept(const chain_link *link, size_t l, chain_run *run, size_t i)
+{
+    if (!run->kept || link->border || run->scratch->locations[i].status == FFD_POINT_INVALID)
+        return;
+    run->kept[ffd_kept_plane(l) * CHAIN_RUN + i] |= ffd_kept_bit(l);
+    run->keeps = true;
+}
+
+/* Notes what is known of the points, and lists those that have u,v,w in the link. */
+static ffd_status note_locations(const lattice_chain *chain, size_t l, chain_run *run,
+                                 displacement_batch *batch, ffd_error *error)
+{
+    const chain_link *const link = &chain->links[l];
+    const bool is_first = l == 0;
+    const ffd_location *const locations = run->scratch->locations;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < run->count && !status; i++) {
+        point_outcome later, *const outcome = is_first ? &run->outcomes[i] : &later;
+        ffd_outcome_make(link->lattice, &locations[i], outcome);
+        if (outcome->outside && !(is_first && run->located)) {
+            status = ffd_look_again(link, link->snap, is_first, run, i, run->x + 3 * i,
+                                    &run->scratch->locations[i], error);
+            ffd_outcome_make(link->lattice, &locations[i], outcome);
+        }
+        if (!is_first)
+            ffd_outcome_join(outcome, &run->outcomes[i]);
+        if (outcome->located) {
+            run->scratch->inside[batch->count++] = (uint32_t)i;
+            if (chain->seam_count > 0)
+                ffd_seams_mark(chain, l, run, i, locations[i].uvw);
+            continue;
+        }
+        mark_kept(link, l, run, i);
+        if (!status)
+            status = extend(chain, l, run, batch, i, error);
+    }
+    return status;
+}
+
+/* Adds what a link after the first does. */
+static void add_link(const chain_run *run, const array_kernel *arrays)
+{
+    const chain_scratch *scratch = run->scratch;
+    arrays->add(scratch->delta, 3 * run->count, run->delta);
+    for (size_t i = 0; i < run->count && run->gradient; i++) {
+        const double *const next = scratch->gradient + 9 * i;
+        if (scratch->moves[i] && run->outcomes[i].moved)
+            compose(run->gradient + 9 * i, next);
+        else if (scratch->moves[i])
+            memcpy(run->gradient + 9 * i, next, 9 * sizeof *next);
+    }
+}
+
+static ffd_status apply_link(const lattice_chain *chain, size_t l, chain_run *run, ffd_error *error)
+{
+    const chain_link *link = &chain->links[l];
+    chain_scratch *scratch = run->scratch;
+    const array_kernel *const arrays = ffd_array_kernel(chain->isa);
+    displacement_batch batch = begin_batch(run, l);
+    const ffd_status status = note_locations(chain, l, run, &batch, error);
+    if (status)
+        return status;
+    if (ffd_common_wanted(chain))
+        ffd_common_note(chain, l, run);
+    ffd_displacements(link->lattice, chain->isa, &batch, &scratch->displacement);
+    arrays->add(batch.delta, 3 * run->count, run->x);
+    if (l > 0)
+        add_link(run, arrays);
+    for (size_t i = 0; i < run->count; i++)
+        run->outcomes[i].moved |= scratch->moves[i];
+    return ffd_common_wanted(chain) ? ffd_common_count(chain, l, batch.delta, run, error) : FFD_OK;
+}
+
+ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    if (links == 0) {
+        memset(run->delta, 0, 3 * run->count * sizeof *run->delta);
+        memset(run->outcomes, 0, run->count * sizeof *run->outcomes);
+        if (run->gradient)
+            memset(run->gradient, 0, 9 * run->count * sizeof *run->gradient);
+    }
+    if (links > 0 && chain->blocks)
+        return ffd_blocks_apply(chain, run, error);
+    if (ffd_common_wanted(chain))
+        ffd_common_begin(run);
+    for (size_t l = 0; l < links && !status; l++) {
+        const double start = ffd_clock_seconds();
+        if (l > 0 || !run->located)
+            status =
+                ffd_locator_find(chain->links[l].locator, run->x, run->count, run->scratch->locations, error);
+        const double middle = ffd_clock_seconds();
+        if (!status)
+            status = apply_link(chain, l, run, error);
+        run->embed_seconds += middle - start;
+        run->deform_seconds += ffd_clock_seconds() - middle;
+    }
+    return status;
+}

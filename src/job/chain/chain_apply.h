@@ -1,0 +1,10 @@
+/* chain_apply.h - sends points through the lattices of a chain. */
+#ifndef FFD_JOB_CHAIN_CHAIN_APPLY_H
+#define FFD_JOB_CHAIN_CHAIN_APPLY_H
+
+#include "job/chain/chain.h"
+
+/* Sends the points through links [0, links), or through all blocks where links is not 0. */
+ffd_status ffd_chain_apply(const lattice_chain *chain, size_t links, chain_run *run, ffd_error *error);
+
+#endif

@@ -1,0 +1,89 @@
+/* point_outcome.h - what is known of a point in one lattice, and in several. */
+#ifndef FFD_JOB_CHAIN_POINT_OUTCOME_H
+#define FFD_JOB_CHAIN_POINT_OUTCOME_H
+
+#include "base/vector/vec.h"
+#include "job/chain/chain.h"
+#include "lattice/lattice.h"
+#include <math.h>
+
+/* Whether the location has u,v,w. */
+static inline bool ffd_location_is_placed(const ffd_location *location)
+{
+    return location->status != FFD_OUTSIDE && location->status != FFD_POINT_INVALID &&
+           vec_is_finite(location->uvw);
+}
+
+/* Fills outcome with what the location in a lattice says. */
+static inline void ffd_outcome_make(const ffd_lattice *lattice, const ffd_location *location,
+                                    point_outcome *outcome)
+{
+    /* Member by member: a record that is made on the stack and copied has to wait for its own bytes. */
+    const bool invalid = location->status == FFD_POINT_INVALID;
+    const bool placed = ffd_location_is_placed(location);
+    const double relative = location->residual / lattice->diagonal;
+    outcome->residual_square = relative * relative;
+    outcome->evaluations = location->evaluations;
+    outcome->status = location->status;
+    outcome->moved = false;
+    outcome->located = placed;
+    outcome->outside = !placed && !invalid;
+    outcome->multiple = location->status == FFD_MULTIPLE;
+    outcome->unresolved = location->unresolved;
+    outcome->disagrees = false;
+    outcome->extended = false;
+}
+
+/* Being outside of one lattice says nothing where the point is in another one. */
+static inline uint8_t ffd_status_joined(uint8_t a, uint8_t b)
+{
+    if (a == FFD_OUTSIDE || b == FFD_OUTSIDE)
+        return a == FFD_OUTSIDE ? b : a;
+    return a > b ? a : b;
+}
+
+/* Adds what another lattice knows of the point. */
+static inline void ffd_outcome_join(const point_outcome *now, point_outcome *outcome)
+{
+    outcome->residual_square = larger_of(outcome->residual_square, now->residual_square);
+    outcome->evaluations += now->evaluations;
+    outcome->status = ffd_status_joined(outcome->status, now->status);
+    outcome->located |= now->located;
+    outcome->outside &= now->outside;
+    outcome->multiple |= now->multiple;
+    outcome->unresolved |= now->unresolved;
+}
+
+/* The parameters of a lattice from which on a point is on a face of its domain, or near one. A closed
+   direction has no faces. */
+typedef struct face_ends {
+    double low[3], high[3];
+} face_ends;
+
+#define ON_FACE 1e-9
+
+/* near: parts of the domain; ON_FACE for points that are on a face. */
+static inline face_ends ffd_face_ends(const ffd_lattice *lattice, double near)
+{
+    face_ends ends;
+    for (int a = 0; a < 3; a++) {
+        const knot_vector *const knots = &lattice->knots[a];
+        const double first = ffd_knots_first(knots), last = ffd_knots_last(knots);
+        const double distance = near * (last - first);
+        ends.low[a] = ffd_knots_closed(knots) ? -HUGE_VAL : first + distance;
+        ends.high[a] = ffd_knots_closed(knots) ? HUGE_VAL : last - distance;
+    }
+    return ends;
+}
+
+/* Returns which faces u,v,w is on: bit 2a where the domain begins in direction a, 2a + 1 where it ends. */
+static inline unsigned ffd_faces_at(const face_ends *ends, const double uvw[3])
+{
+    unsigned faces = 0;
+    for (int a = 0; a < 3; a++)
+        faces |= (unsigned)(uvw[a] <= ends->low[a]) << 2 * a | (unsigned)(uvw[a] >= ends->high[a])
+                                                                   << (2 * a + 1);
+    return faces;
+}
+
+#endif

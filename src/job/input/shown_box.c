@@ -1,0 +1,113 @@
+#include "job/input/shown_box.h"
+#include "base/file/mapping.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "job/input/selection.h"
+#include "job/input/source.h"
+#include "mesh/bounds.h"
+
+static bool is_empty(const ffd_bounds *box)
+{
+    return !(box->min[0] <= box->max[0]);
+}
+
+static void join(ffd_bounds *box, const ffd_bounds *other)
+{
+    if (is_empty(other))
+        return;
+    ffd_bounds_widen(box, other->min);
+    ffd_bounds_widen(box, other->max);
+}
+
+void ffd_shown_box_clear(shown_box *box)
+{
+    box->shown = box->all = ffd_bounds_empty();
+}
+
+void ffd_shown_box_join(shown_box *box, const shown_box *other)
+{
+    join(&box->shown, &other->shown);
+    join(&box->all, &other->all);
+}
+
+/* A part, and the box that is to hold its places. */
+typedef struct part_box {
+    const mesh_part *part;
+    shown_box *box;
+} part_box;
+
+static bool widen(void *context, size_t vertex, const double place[3])
+{
+    const part_box *const of = context;
+    if (!ffd_part_selects(of->part, vertex) || !vec_is_finite(place))
+        return true;
+    ffd_bounds_widen(&of->box->all, place);
+    if (ffd_part_shows(of->part, vertex))
+        ffd_bounds_widen(&of->box->shown, place);
+    return true;
+}
+
+ffd_status ffd_shown_box_add(shown_box *box, const ffd_source *source, const char *const *only,
+                             size_t only_count, path_list *files, const mesh_log *log, ffd_error *error)
+{
+    ffd_source positions = *source;
+    const unsigned losses = ffd_mapping_losses();
+    mesh_document *document;
+    positions.only_positions = true;
+    ffd_status status = ffd_source_open(&positions, 0, &document, error);
+    if (status)
+        return status;
+    status = ffd_selection_apply(only, only_count, ffd_source_name(source), document, error);
+    if (!status)
+        status = ffd_mesh_check(document, error);
+    if (!status)
+        status = ffd_mesh_mark_used(document, error);
+    for (size_t i = 0; i < document->part_count && !status; i++) {
+        part_box of = {&document->parts[i], box};
+        if (!of.part->repeats_positions)
+            ffd_source_visit_places(document, i, widen, &of);
+    }
+    if (!status && files)
+        status = ffd_source_files(source, document, files, error);
+    if (!status)
+        ffd_flaws_warn(&document->flaws, ffd_source_name(source), log);
+    ffd_source_close(&document);
+    status = ffd_mapping_judge(losses, status, error);
+    if (status && status != FFD_E_ARGUMENT)
+        ffd_fail_name_file(error, ffd_source_name(source));
+    return status;
+}
+
+ffd_bounds ffd_shown_box_bounds(const shown_box *box)
+{
+    static const ffd_bounds unit = {{0, 0, 0}, {1, 1, 1}};
+    if (!is_empty(&box->shown))
+        return box->shown;
+    return is_empty(&box->all) ? unit : box->all;
+}
+
+ffd_status ffd_shared_box_create(ffd_shared_box **box, ffd_error *error)
+{
+    *box = ffd_alloc_zero(1, sizeof **box);
+    if (!*box)
+        return ffd_fail_memory(error);
+    ffd_shown_box_clear(&(*box)->box);
+    return FFD_OK;
+}
+
+ffd_status ffd_shared_box_add(ffd_shared_box *box, const ffd_deform_desc *desc, ffd_error *error)
+{
+    if (ffd_file_is_stream(desc->input.path))
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "standard input can be read only once, not for a shared box and again");
+    return ffd_shown_box_add(&box->box, &desc->input, desc->only, desc->only_count, &box->files, NULL, error);
+}
+
+void ffd_shared_box_destroy(ffd_shared_box **box)
+{
+    if (!box || !*box)
+        return;
+    ffd_paths_free(&(*box)->files);
+    ffd_free(*box);
+    *box = NULL;
+}

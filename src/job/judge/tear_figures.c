@@ -1,0 +1,259 @@
+#include "job/judge/tear_figures.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "job/chain/seams.h"
+#include "job/judge/tear_steps.h"
+#include "job/judge/tears.h"
+#include "lattice/lattice.h"
+#include "mesh/mixed_faces.h"
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Of larger meshes a deformation reads the faces only where the figures are asked for. */
+#define UNASKED_VERTICES ((uint64_t)5500000)
+
+static bool is_asked_for(const deform_job *job)
+{
+    return job->check || job->desc->quality || job->desc->fail_on & FFD_GATE_TEAR;
+}
+
+ffd_status ffd_tear_figures_prepare(deform_job *job, ffd_error *error)
+{
+    const uint64_t count = ffd_mesh_vertex_count(job->document);
+    if (count == 0)
+        return FFD_OK;
+    /* Pages of it that no vertex writes to take no memory. */
+    job->kept = ffd_alloc_zero((size_t)count, ffd_kept_planes(ffd_chain_marked(&job->chain)));
+    return job->kept ? FFD_OK : ffd_fail_memory(error);
+}
+
+static bool moves_nothing(const ffd_lattice *lattice)
+{
+    for (size_t i = 0; i < lattice->count; i++)
+        if (lattice->moved[i] & POINT_MOVED)
+            return false;
+    return true;
+}
+
+/* Marks that lattices which move nothing leave all vertices: what only they hold stays. */
+static void mark_left(const deform_job *job)
+{
+    const size_t vertices = (size_t)ffd_mesh_vertex_count(job->document);
+    for (size_t l = 0; l < job->chain.count && !job->chain.blocks; l++) {
+        uint8_t *const marks = job->kept + ffd_kept_plane(l) * vertices;
+        if (!moves_nothing(job->chain.links[l].lattice))
+            continue;
+        for (size_t v = 0; v < vertices; v++)
+            marks[v] |= ffd_kept_bit(l);
+    }
+}
+
+/* Lists the vertices that are not shown, as far as they have positions of their own. *ranges is the caller's
+   to free. */
+static ffd_status list_hidden(const deform_job *job, vertex_range **ranges, size_t *count, ffd_error *error)
+{
+    const mesh_document *const document = job->document;
+    size_t end = 0;
+    *count = 0;
+    *ranges = ffd_alloc(document->part_count, sizeof **ranges);
+    if (!*ranges)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *const part = &document->parts[i];
+        if (part->repeats_positions)
+            continue;
+        if (part->hidden && part->vertex_count > 0)
+            (*ranges)[(*count)++] = (vertex_range){end, end + part->vertex_count};
+        end += part->vertex_count;
+    }
+    return FFD_OK;
+}
+
+/* Leaves a byte for each vertex: whether it stays, and is shown, as messages about vertices outside count
+   them. */
+static void mark_still(const deform_job *job, const tear_question *question)
+{
+    const mesh_document *const document = job->document;
+    const size_t vertices = question->faces->vertex_count;
+    size_t first = 0;
+    for (size_t v = 0; v < vertices; v++)
+        job->kept[v] = !ffd_tear_takes_part(job->kept, vertices, (uint32_t)v, question->acting);
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *const part = &document->parts[i];
+        if (part->repeats_positions)
+            continue;
+        for (size_t v = 0; v < part->vertex_count && (part->hidden || part->used); v++)
+            job->kept[first + v] &= ffd_part_shows(part, v);
+        first += part->vertex_count;
+    }
+}
+
+/* Finds the name of what stays, and how many vertices of it do. */
+static void name_part(const deform_job *job, const tear_question *question, ffd_job_result *result)
+{
+    const size_t vertices = question->faces->vertex_count;
+    const mesh_format *const format = job->document->format;
+    mark_still(job, question);
+    if (format->name_part)
+        result->tear_stays = format->name_part(job->document, result->tear_vertex, job->kept,
+                                               result->tear_part, sizeof result->tear_part);
+    for (char *c = result->tear_part; *c; c++) /* messages are one line */
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+    if (*result->tear_part)
+        return;
+    result->tear_stays = 0;
+    for (size_t v = 0; v < vertices; v++)
+        result->tear_stays += job->kept[v] != 0;
+}
+
+static void fill_result(const deform_job *job, const tear_question *question, const tear_count *count,
+                        ffd_job_result *result)
+{
+    const bool blocks = job->chain.blocks, torn = count->edges > 0;
+    result->has_tear = true;
+    result->tear_edges = count->edges;
+    result->tear_largest = count->largest;
+    result->tear_vertex = count->vertex;
+    result->tear_unselected = torn && count->mode == TEAR_UNMOVABLE;
+    result->tear_between =
+        torn && count->mode == TEAR_BORDER &&
+        ffd_tear_takes_part(job->kept, question->faces->vertex_count, count->vertex, question->acting);
+    result->tear_seam = torn && count->mode >= ffd_tear_seams(&job->chain);
+    result->tear_disagrees = torn && blocks && count->mode == TEAR_DISAGREES;
+    if (torn)
+        name_part(job, question, result);
+}
+
+static ffd_status count_torn(deform_job *job, const mesh_faces *faces, const memory_budget *budget,
+                             ffd_job_result *result, ffd_error *error)
+{
+    tear_count count;
+    vertex_range *hidden = NULL;
+    tear_question question = {.faces = faces,
+                              .marks = job->kept,
+                              .links = ffd_chain_marked(&job->chain),
+                              .acting = ffd_chain_layers(&job->chain),
+                              .lone = ffd_tear_seams(&job->chain),
+                              .step = ffd_tear_steps_find,
+                              .context = ffd_tear_steps_make(&job->chain, job->document, faces, job->kept),
+                              .budget = budget};
+    ffd_status status =
+        question.context ? list_hidden(job, &hidden, &question.hidden_count, error) : ffd_fail_memory(error);
+    question.hidden = hidden;
+    if (!status)
+        status = ffd_tears_count(&question, &count, error);
+    if (!status)
+        fill_result(job, &question, &count, result);
+    ffd_tear_steps_free(question.context);
+    ffd_free(hidden);
+    return status;
+}
+
+/* Whether there are vertices that no link may move. They may stand where something is that moves: all
+   positions are looked at then. */
+static bool some_may_not_move(const deform_job *job)
+{
+    const size_t vertices = (size_t)ffd_mesh_vertex_count(job->document);
+    unsigned any = 0;
+    for (size_t v = 0; v < vertices; v++)
+        any |= job->kept[v];
+    return any & KEPT_ALWAYS;
+}
+
+static ffd_status read_and_count(deform_job *job, const memory_budget *left, ffd_job_result *result,
+                                 ffd_error *error)
+{
+    mesh_faces faces;
+    memory_budget budget = *left;
+    const mesh_format *const format = job->document->format;
+    const vertex_marks marks = {job->kept, ffd_kept_planes(ffd_chain_marked(&job->chain)),
+                                (size_t)ffd_mesh_vertex_count(job->document)};
+    ffd_status status = some_may_not_move(job) ? format->faces(job->document, &faces, error)
+                                               : format->mixed_faces(job->document, &marks, &faces, error);
+    if (status)
+        return status;
+    status = ffd_mesh_faces_take(&faces, faces.start[faces.face_count], &budget, error);
+    if (!status)
+        status = count_torn(job, &faces, &budget, result, error);
+    ffd_mesh_faces_free(&faces);
+    return status;
+}
+
+ffd_status ffd_tear_figures_find(deform_job *job, figure_arrays *arrays, ffd_job_result *result,
+                                 ffd_error *error)
+{
+    const pass_totals *const totals = &job->totals;
+    ffd_error own;
+    char line[1024];
+    ffd_status status;
+    if (totals->kept == 0 || totals->located + totals->extended == 0) {
+        result->has_tear = true;
+        return FFD_OK;
+    }
+    mark_left(job);
+    if (arrays->has_faces)
+        return count_torn(job, &arrays->faces, &arrays->budget, result, error);
+    if (!is_asked_for(job) && ffd_mesh_vertex_count(job->document) > UNASKED_VERTICES)
+        status =
+            ffd_fail(&own, FFD_E_LIMIT, "more than %" PRIu64 " vertices (see --report)", UNASKED_VERTICES);
+    else
+        status = read_and_count(job, &arrays->budget, result, &own);
+    if (status == FFD_OK)
+        return FFD_OK;
+    if (job->desc->fail_on & FFD_GATE_TEAR || status == FFD_E_MEMORY) {
+        if (error)
+            *error = own;
+        return status;
+    }
+    ffd_error_format(&own, line, sizeof line);
+    ffd_log_line(&job->log, FFD_LOG_WARNING, "torn edges are not counted: %s", line);
+    return FFD_OK;
+}
+
+void ffd_tear_figures_describe(const ffd_job_result *result, char *text, size_t capacity)
+{
+    const char *const colon = strchr(result->tear_part, ':');
+    if (result->tear_between) {
+        snprintf(
+            text, capacity,
+            "the lattices move the two ends of edges differently; the largest step to a neighbour is %g, "
+            "at vertex %" PRIu64 "%s%.200s (%" PRIu64 " torn %s)",
+            result->tear_largest, result->tear_vertex, colon ? " of " : "", colon ? colon + 1 : "",
+            result->tear_edges, ffd_plural(result->tear_edges, "edge", "edges"));
+        return;
+    }
+    if (result->tear_disagrees) {
+        snprintf(text, capacity,
+                 "blocks move %" PRIu64 " %s on their faces differently; the largest step to a "
+                 "neighbour is %g",
+                 result->disagreeing, ffd_plural(result->disagreeing, "vertex", "vertices"),
+                 result->tear_largest);
+        return;
+    }
+    if (result->tear_seam) {
+        snprintf(text, capacity,
+                 "the two faces of a lattice's seam are moved apart; the largest step to a neighbour is %g",
+                 result->tear_largest);
+        return;
+    }
+    snprintf(text, capacity, "%" PRIu64 " %s%s%.200s %s; the largest step to a neighbour is %g",
+             result->tear_stays, ffd_plural(result->tear_stays, "vertex", "vertices"), colon ? " of " : "",
+             colon ? colon + 1 : "", ffd_plural(result->tear_stays, "stays", "stay"), result->tear_largest);
+}
+
+void ffd_tear_figures_warn(const deform_job *job, const ffd_job_result *result)
+{
+    char text[400];
+    const char *const remedy =
+        result->tear_disagrees || result->tear_seam ? "their control points there have to move alike"
+        : result->tear_between     ? "see --blocks for lattices side by side, --outside extend, --falloff"
+        : !result->tear_unselected ? "see --outside extend, --falloff, a larger lattice"
+        : job->desc->only_count    ? "--only does not select them"
+                                   : "the matrix of their node or skin has no inverse";
+    if (!result->has_tear || result->tear_edges == 0)
+        return;
+    ffd_tear_figures_describe(result, text, sizeof text);
+    ffd_log_line(&job->log, FFD_LOG_WARNING, "%s (%s)", text, remedy);
+}

@@ -1,0 +1,77 @@
+#include "job/pass/vertex_rounding.h"
+#include "base/memory/memory.h"
+#include <string.h>
+
+void ffd_vertex_in_file(const vertex_transform *transform, const double x[3], double position[3])
+{
+    memcpy(position, x, 3 * sizeof *position);
+    if (transform->identity || transform->singular)
+        return;
+    for (int a = 0; a < 3; a++)
+        position[a] -= transform->offset[a];
+    mat_apply(transform->inverse, position, position);
+}
+
+void ffd_vertex_rounding_place(const vertex_transform *transform, double half[3])
+{
+    if (!transform->identity)
+        ffd_rounding_transform(transform->linear, half);
+}
+
+ffd_status ffd_vertex_owners_list(const mesh_document *document, vertex_owners *owners, ffd_error *error)
+{
+    size_t number = 0;
+    *owners = (vertex_owners){.document = document};
+    owners->parts = ffd_alloc(document->part_count, sizeof *owners->parts);
+    owners->first = ffd_alloc(document->part_count, sizeof *owners->first);
+    if (!owners->parts || !owners->first)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *part = &document->parts[i];
+        if (part->repeats_positions || part->vertex_count == 0)
+            continue;
+        owners->parts[owners->count] = i;
+        owners->first[owners->count++] = number;
+        number += part->vertex_count;
+    }
+    return FFD_OK;
+}
+
+void ffd_vertex_owners_free(vertex_owners *owners)
+{
+    ffd_free(owners->parts);
+    ffd_free(owners->first);
+    *owners = (vertex_owners){0};
+}
+
+/* The transform of vertex i of a part; own and inverse hold that of a skinned one. */
+static vertex_transform transform_of(const mesh_document *document, size_t part, size_t i, double own[12],
+                                     double inverse[9])
+{
+    const mesh_part *const p = &document->parts[part];
+    if (!p->skinned)
+        return (vertex_transform){p->linear, p->offset, p->inverse, p->identity, p->singular};
+    document->format->read_transforms(document, part, i, 1, own, NULL);
+    return (vertex_transform){own, own + 9, inverse, false, !mat_invert(own, inverse)};
+}
+
+void ffd_vertex_rounding(const vertex_owners *owners, size_t vertex, const double x[3], double half[3])
+{
+    const mesh_document *const document = owners->document;
+    size_t low = 0, high = owners->count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (owners->first[middle] <= vertex)
+            low = middle;
+        else
+            high = middle;
+    }
+    const size_t part = owners->parts[low], i = vertex - owners->first[low];
+    double position[3], own[12], inverse[9];
+    const vertex_transform transform = transform_of(document, part, i, own, inverse);
+    document->format->read_positions(document, part, i, 1, position);
+    if (x)
+        ffd_vertex_in_file(&transform, x, position);
+    ffd_rounding_cell(&document->parts[part].rounding, position, half);
+    ffd_vertex_rounding_place(&transform, half);
+}

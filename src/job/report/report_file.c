@@ -1,0 +1,292 @@
+#include "job/report/report_file.h"
+#include "base/file/growing.h"
+#include "base/file/output.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "job/report/output_set.h"
+#include "job/report/replace.h"
+#include "job/report/report.h"
+#include "json/json_text.h"
+#include <string.h>
+
+/* Where the entry of a job is in the file; size 0: nowhere. */
+typedef struct entry_place {
+    uint64_t begin, size;
+} entry_place;
+
+struct ffd_report {
+    bool stable, lines;
+    char *path;
+    file_output *stream; /* begun when the report is created; or else */
+    growing_file *file;
+    uint64_t end;        /* of the last entry there */
+    entry_place *places; /* by the numbers of the jobs */
+    size_t place_count, place_capacity;
+    uint64_t count;     /* of entries */
+    bool is_mixed;      /* they are not in the order of the jobs */
+    byte_buffer buffer; /* what is written next */
+};
+
+/* The text */
+
+bool ffd_report_has_lines(const char *path)
+{
+    return ffd_path_has_ending(path, ".jsonl");
+}
+
+void ffd_report_begin_text(bool lines, byte_buffer *text)
+{
+    if (!lines)
+        ffd_buffer_text(text, "{\n  \"format\": \"ffd-report\",\n  \"version\": 1,\n  \"jobs\": [");
+}
+
+void ffd_report_put_entry(bool lines, bool is_first, const char *entry, size_t size, byte_buffer *text)
+{
+    if (lines) {
+        ffd_json_join_lines(entry, size, text);
+        ffd_buffer_text(text, "\n");
+        return;
+    }
+    ffd_buffer_text(text, is_first ? "\n    " : ",\n    ");
+    ffd_buffer_append(text, entry, size);
+}
+
+void ffd_report_end_text(bool lines, bool is_empty, byte_buffer *text)
+{
+    if (!lines)
+        ffd_buffer_text(text, is_empty ? "]\n}\n" : "\n  ]\n}\n");
+}
+
+/* What may be replaced */
+
+static bool contains(const char *text, size_t size, const char *word)
+{
+    const size_t length = strlen(word);
+    for (size_t i = 0; i + length <= size; i++)
+        if (memcmp(text + i, word, length) == 0)
+            return true;
+    return false;
+}
+
+static bool is_report(const file_input *old)
+{
+    return contains((const char *)old->data, old->size < 76 ? old->size : 76, "\"ffd-report\"");
+}
+
+/* By its first line. */
+static bool is_report_of_lines(const file_input *old)
+{
+    static const char *const members[] = {"\"input\":", "\"output\":", "\"status\":", "\"exit\":"};
+    const char *const text = (const char *)old->data, *const end = memchr(text, '\n', old->size);
+    if (!end || *text != '{')
+        return false;
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++)
+        if (!contains(text, (size_t)(end - text), members[i]))
+            return false;
+    return true;
+}
+
+/* Writing */
+
+static ffd_status open_file(ffd_report *report, ffd_written *written, ffd_error *error)
+{
+    byte_buffer *const head = &report->buffer;
+    ffd_report_begin_text(report->lines, head);
+    report->end = head->size;
+    if (!ffd_growing_can(report->path)) {
+        ffd_status status = ffd_output_create(&report->stream, error);
+        if (status)
+            return status;
+        ffd_output_record(report->stream, ffd_written_list(written));
+        status = ffd_output_begin(report->stream, report->path, true, error);
+        if (!status && head->failed)
+            status = ffd_fail_memory(error);
+        return status ? status : ffd_output_write(report->stream, head->data, head->size, error);
+    }
+    ffd_report_end_text(report->lines, true, head);
+    return head->failed ? ffd_fail_memory(error)
+                        : ffd_growing_create(report->path, head->data, head->size, ffd_written_list(written),
+                                             &report->file, error);
+}
+
+ffd_status ffd_report_create(const char *path, bool stable, ffd_written *written, ffd_report **report,
+                             ffd_error *error)
+{
+    const bool lines = ffd_report_has_lines(path);
+    *report = NULL;
+    ffd_status status = ffd_replace_check(path, lines ? is_report_of_lines : is_report, "report", error);
+    if (status)
+        return status;
+    ffd_report *made = ffd_alloc_zero(1, sizeof *made);
+    if (!made || !(made->path = ffd_text_copy(path))) {
+        ffd_free(made);
+        return ffd_fail_memory(error);
+    }
+    made->stable = stable;
+    made->lines = lines;
+    status = open_file(made, written, error);
+    if (status)
+        ffd_report_destroy(&made);
+    *report = made;
+    return status;
+}
+
+void ffd_report_destroy(ffd_report **report)
+{
+    if (!report || !*report)
+        return;
+    ffd_output_destroy(&(*report)->stream);
+    ffd_growing_close(&(*report)->file);
+    ffd_buffer_free(&(*report)->buffer);
+    ffd_free((*report)->places);
+    ffd_free((*report)->path);
+    ffd_free(*report);
+    *report = NULL;
+}
+
+bool ffd_report_is_ordered(const ffd_report *report)
+{
+    return report->stream;
+}
+
+/* Notes where the entry of a job is about to be. */
+static ffd_status note_place(ffd_report *report, uint64_t number, uint64_t begin, uint64_t size,
+                             ffd_error *error)
+{
+    report->is_mixed = report->is_mixed || number < report->place_count;
+    if (number >= report->place_count) {
+        if (!ffd_grow((void **)&report->places, &report->place_capacity, (size_t)number + 1,
+                      sizeof *report->places))
+            return ffd_fail_memory(error);
+        memset(report->places + report->place_count, 0,
+               ((size_t)number - report->place_count) * sizeof *report->places);
+        report->place_count = (size_t)number + 1;
+    }
+    report->places[number] = (entry_place){begin, size};
+    return FFD_OK;
+}
+
+/* Writes the entry in the buffer over the end of the text, and the end behind it. What cannot be written
+   whole is taken back. */
+static ffd_status grow_file(ffd_report *report, ffd_error *error)
+{
+    byte_buffer *const text = &report->buffer;
+    const uint64_t size = text->size;
+    ffd_report_end_text(report->lines, false, text);
+    if (text->failed)
+        return ffd_fail_memory(error);
+    const ffd_status status = ffd_growing_write(report->file, report->end, text->data, text->size, error);
+    if (!status) {
+        report->end += size;
+        return FFD_OK;
+    }
+    text->size = 0;
+    ffd_report_end_text(report->lines, report->count == 0, text);
+    if (!text->failed)
+        ffd_growing_write(report->file, report->end, text->data, text->size, NULL);
+    return status;
+}
+
+ffd_status ffd_report_add_text(ffd_report *report, uint64_t number, const char *text, size_t size,
+                               ffd_error *error)
+{
+    byte_buffer *const buffer = &report->buffer;
+    buffer->size = 0;
+    ffd_report_put_entry(report->lines, report->count == 0, text, size, buffer);
+    if (buffer->failed)
+        return ffd_fail_memory(error);
+    ffd_status status;
+    if (report->stream) {
+        status = ffd_output_write(report->stream, buffer->data, buffer->size, error);
+    } else {
+        const size_t lead = report->lines ? 0 : buffer->size - size;
+        status = note_place(report, number, report->end + lead, buffer->size - lead, error);
+        if (!status)
+            status = grow_file(report, error);
+        if (status && number < report->place_count)
+            report->places[number].size = 0;
+    }
+    report->count += !status;
+    return status;
+}
+
+ffd_status ffd_report_add(ffd_report *report, const char *input, const char *output,
+                          const ffd_job_result *result, ffd_error *error)
+{
+    const report_entry entry = {.input = input, .output = output, .result = result, .stable = report->stable};
+    byte_buffer text = {0};
+    ffd_report_entry_text(&entry, &text);
+    const ffd_status status = text.failed
+                                  ? ffd_fail_memory(error)
+                                  : ffd_report_add_text(report, report->count, text.data, text.size, error);
+    ffd_buffer_free(&text);
+    return status;
+}
+
+/* The end */
+
+/* Copies the entries in the order of their jobs. */
+static ffd_status copy_entries(ffd_report *report, file_output *output, ffd_error *error)
+{
+    byte_buffer *const text = &report->buffer, entry = {0};
+    bool is_first = true;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < report->place_count && !status; i++) {
+        const entry_place place = report->places[i];
+        entry.size = text->size = 0;
+        if (place.size == 0)
+            continue;
+        char *const bytes = ffd_buffer_reserve(&entry, (size_t)place.size);
+        status = bytes ? ffd_growing_read(report->file, place.begin, bytes, (size_t)place.size, error)
+                       : ffd_fail_memory(error);
+        if (status)
+            break;
+        /* A line has its end with it. */
+        ffd_report_put_entry(report->lines, is_first, bytes, (size_t)place.size - report->lines, text);
+        is_first = false;
+        status =
+            text->failed ? ffd_fail_memory(error) : ffd_output_write(output, text->data, text->size, error);
+    }
+    ffd_buffer_free(&entry);
+    return status;
+}
+
+/* Replaces the file by one with the entries in their order. */
+static ffd_status put_in_order(ffd_report *report, ffd_error *error)
+{
+    byte_buffer *const text = &report->buffer;
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    text->size = 0;
+    ffd_report_begin_text(report->lines, text);
+    if (!status)
+        status = ffd_output_begin(output, report->path, true, error);
+    if (!status && !text->failed)
+        status = ffd_output_write(output, text->data, text->size, error);
+    if (!status)
+        status = copy_entries(report, output, error);
+    text->size = 0;
+    ffd_report_end_text(report->lines, false, text);
+    if (!status)
+        status =
+            text->failed ? ffd_fail_memory(error) : ffd_output_write(output, text->data, text->size, error);
+    if (!status)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status;
+}
+
+ffd_status ffd_report_write(ffd_report *report, ffd_error *error)
+{
+    byte_buffer *const text = &report->buffer;
+    if (report->file) {
+        const bool keeps_order = report->lines && !report->stable;
+        return report->is_mixed && !keeps_order ? put_in_order(report, error) : FFD_OK;
+    }
+    text->size = 0;
+    ffd_report_end_text(report->lines, report->count == 0, text);
+    if (text->failed)
+        return ffd_fail_memory(error);
+    const ffd_status status = ffd_output_write(report->stream, text->data, text->size, error);
+    return status ? status : ffd_output_commit(report->stream, error);
+}

@@ -1,0 +1,16 @@
+/* mesh_log.h - the lines that are said of a mesh. */
+#ifndef FFD_MESH_MESH_LOG_H
+#define FFD_MESH_MESH_LOG_H
+
+#include "base/fail.h"
+#include <ffd/job.h>
+
+typedef struct mesh_log {
+    ffd_log_function function; /* may be NULL */
+    void *user;
+} mesh_log;
+
+/* Sends one line to a log. Does nothing if the log is NULL or has no function. */
+void ffd_log_line(const mesh_log *log, ffd_log_level level, const char *format, ...) FFD_PRINTF(3, 4);
+
+#endif

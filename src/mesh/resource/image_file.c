@@ -1,0 +1,68 @@
+#include "mesh/resource/image_file.h"
+#include "base/file/path.h"
+#include <string.h>
+
+/* Endings of the images that glTF, its extensions and the materials of OBJ use. */
+static const char *const endings[] = {".png", ".jpg", ".jpeg", ".webp", ".avif", ".ktx2", ".ktx", ".basis",
+                                      ".dds", ".bmp", ".gif",  ".tif",  ".tiff", ".tga",  ".hdr", ".exr"};
+
+/* How a kind of image begins: these bytes at an offset. */
+typedef struct image_mark {
+    size_t offset, size;
+    const char *bytes;
+} image_mark;
+
+static const image_mark marks[] = {
+    {0, 8, "\x89PNG\r\n\x1a\n"},
+    {0, 3, "\xff\xd8\xff"}, /* JPEG */
+    {8, 4, "WEBP"},         /* in a RIFF file */
+    {4, 8, "ftypavif"},
+    {4, 8, "ftypavis"},
+    {4, 8, "ftypmif1"}, /* AVIF too, by its general brand */
+    {0, 12, "\xabKTX 20\xbb\r\n\x1a\n"},
+    {0, 12, "\xabKTX 11\xbb\r\n\x1a\n"},
+    {0, 2, "sB"}, /* Basis Universal */
+    {0, 4, "DDS "},
+    {0, 2, "BM"},
+    {0, 4, "GIF8"},
+    {0, 4, "II*\0"}, /* TIFF */
+    {0, 4, "MM\0*"},
+    {0, 10, "#?RADIANCE"},
+    {0, 6, "#?RGBE"},
+    {0, 4, "v/1\x01"}, /* OpenEXR */
+};
+
+#define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+#define TGA_HEADER 18
+
+bool ffd_image_has_name(const char *path)
+{
+    for (size_t i = 0; i < COUNT_OF(endings); i++)
+        if (ffd_path_has_ending(path, endings[i]))
+            return true;
+    return false;
+}
+
+bool ffd_image_is_hidden(const char *path)
+{
+    return path[0] == '.' || strstr(path, "/.") || strstr(path, "\\.");
+}
+
+/* Targa has no mark: the members of its header must make sense (colour map, kind, bits of a pixel). */
+static bool is_targa(const unsigned char *bytes, size_t size)
+{
+    if (size < TGA_HEADER || bytes[1] > 1)
+        return false;
+    const unsigned kind = bytes[2] & ~8u, bits = bytes[16];
+    return kind >= 1 && kind <= 3 && (bits == 8 || bits == 15 || bits == 16 || bits == 24 || bits == 32);
+}
+
+bool ffd_image_has_content(const unsigned char *bytes, size_t size)
+{
+    for (size_t i = 0; i < COUNT_OF(marks); i++) {
+        const image_mark *const mark = &marks[i];
+        if (size >= mark->offset + mark->size && memcmp(bytes + mark->offset, mark->bytes, mark->size) == 0)
+            return true;
+    }
+    return is_targa(bytes, size);
+}

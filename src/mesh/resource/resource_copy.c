@@ -1,0 +1,168 @@
+#include "mesh/resource/resource_copy.h"
+#include "base/file/folder.h"
+#include "base/file/input.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/system/clock.h"
+#include "mesh/resource/image_file.h"
+#include <string.h>
+
+/* The longest wait for other processes, and the time between checks, in seconds. */
+#define MOST_WAITING 60.0
+#define LOOK 0.002
+
+/* Begins the copy's file, unless it exists. Another mesh that is saved at the same time may be writing the
+   same copy: this waits for it. There is no deadlock, since all write their copies in the order of their
+   paths. */
+static ffd_status begin_copy(const resource_copier *c, const char *target, bool *exists, ffd_error *error)
+{
+    const double begin = ffd_clock_seconds();
+    for (;;) {
+        *exists = ffd_file_exists(target);
+        if (*exists)
+            return FFD_OK;
+        const ffd_status status = ffd_output_begin(c->output, target, false, error);
+        /* It may also have been created between these two calls. */
+        const bool waits = status && (ffd_output_was_busy(c->output) || status == FFD_E_EXISTS);
+        if (!waits || ffd_clock_seconds() - begin > MOST_WAITING)
+            return status;
+        ffd_clock_sleep(LOOK);
+    }
+}
+
+static ffd_status compare_copy(const resource_kind *kind, const char *target, const file_input *bytes,
+                               ffd_error *error)
+{
+    bool same = false;
+    const ffd_status status = ffd_file_compare(target, bytes, &same, error);
+    if (status || same)
+        return status;
+    return ffd_fail_file(
+        error, FFD_E_IO, target,
+        "already exists and is not the %s to be copied there (--resources reference copies none)",
+        kind->name);
+}
+
+static ffd_status write_copy(const resource_copier *c, const resource_kind *kind, const char *target,
+                             const file_input *bytes, ffd_error *error)
+{
+    bool exists;
+    if (ffd_file_exists(target))
+        return compare_copy(kind, target, bytes, error);
+    if (!c->output)
+        return FFD_OK;
+    char *folder = ffd_path_folder(target);
+    ffd_status status = folder ? ffd_output_folder(c->output, folder, error) : ffd_fail_memory(error);
+    ffd_free(folder);
+    if (status == FFD_OK)
+        status = begin_copy(c, target, &exists, error);
+    if (status)
+        return status;
+    return exists ? compare_copy(kind, target, bytes, error)
+                  : ffd_output_write(c->output, bytes->data, bytes->size, error);
+}
+
+/* Whether a link leads to a path below the folder. */
+static bool is_through_link(const char *folder, const char *path)
+{
+    char *const root = ffd_path_resolve(folder), *const joined = ffd_path_join(folder, path);
+    char *const direct = root ? ffd_path_join(root, path) : NULL;
+    char *const resolved = joined ? ffd_path_resolve(joined) : NULL;
+    const bool same = direct && resolved && strcmp(direct, resolved) == 0;
+    ffd_free(root);
+    ffd_free(joined);
+    ffd_free(direct);
+    ffd_free(resolved);
+    return !same;
+}
+
+/* Why a file, which stays in the mesh's folder, is left by its name alone; NULL: it is not. */
+static const char *left_by_name(const mesh_resource *resource, const char *source)
+{
+    if (!resource->kind->has_name(resource->path))
+        return resource->kind->other_name;
+    if (ffd_image_is_hidden(resource->path))
+        return "is a hidden file or in a hidden folder";
+    return ffd_file_exists(source) ? NULL : "is missing";
+}
+
+static const char *left_by_content(const resource_copier *c, const mesh_resource *resource,
+                                   const file_input *bytes)
+{
+    if (is_through_link(c->from, resource->path))
+        return "is reached through a link";
+    return resource->kind->has_content(bytes->data, bytes->size) ? NULL : resource->kind->other_content;
+}
+
+ffd_status ffd_resource_load(const resource_copier *c, const mesh_resource *resource, file_input *bytes,
+                             const char **left, ffd_error *refused, ffd_error *error)
+{
+    size_t most = SIZE_MAX;
+    *refused = (ffd_error){0};
+    *left = NULL;
+    if (ffd_path_leads_out(resource->path)) {
+        ffd_fail(refused, FFD_E_IO, "it is outside the model's folder");
+        return FFD_OK;
+    }
+    char *const source = ffd_path_beside(c->mesh, resource->path);
+    if (!source)
+        return ffd_fail_memory(error);
+    *left = left_by_name(resource, source);
+    ffd_free(source);
+    if (*left)
+        return FFD_OK;
+    const ffd_status status = ffd_file_load_within(c->from, resource->path, c->mesh, &most, bytes, refused);
+    if (status)
+        return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
+    *left = left_by_content(c, resource, bytes);
+    if (*left)
+        ffd_file_unload(bytes);
+    return FFD_OK;
+}
+
+static ffd_status copy_loaded(const resource_copier *c, const mesh_resource *resource,
+                              const file_input *bytes, ffd_error *error)
+{
+    char *source = ffd_path_beside(c->mesh, resource->path), *target = ffd_path_join(c->to, resource->path);
+    ffd_status status =
+        source && target ? write_copy(c, resource->kind, target, bytes, error) : ffd_fail_memory(error);
+    if (!status && c->copied)
+        status = ffd_paths_add(c->copied, source, error);
+    ffd_free(source);
+    ffd_free(target);
+    return status;
+}
+
+ffd_status ffd_resource_copy(const resource_copier *c, const mesh_resource *resource, ffd_error *refused,
+                             ffd_error *error)
+{
+    file_input bytes = {0};
+    const char *left;
+    ffd_status status = ffd_resource_load(c, resource, &bytes, &left, refused, error);
+    if (status || refused->status)
+        return status;
+    if (left) {
+        ffd_log_line(c->log, FFD_LOG_WARNING, "the %s \"%s\" %s and was not copied", resource->kind->name,
+                     resource->path, left);
+        return FFD_OK;
+    }
+    status = copy_loaded(c, resource, &bytes, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
+ffd_status ffd_resource_check_target(const resource_copier *c, const mesh_resource *resource, bool is_copied,
+                                     const char *target, ffd_error *error)
+{
+    char *source = ffd_path_join(c->from, resource->path), *copy = ffd_path_join(c->to, resource->path);
+    ffd_status status = source && copy ? FFD_OK : ffd_fail_memory(error);
+    if (!status &&
+        (ffd_file_same(source, target) ||
+         (is_copied && (strcmp(resource->path, ffd_path_name(target)) == 0 || ffd_file_same(copy, target)))))
+        status = ffd_fail_file(error, FFD_E_EXISTS, target,
+                               "is also the path of the %s \"%s\": give the output another name",
+                               resource->kind->name, resource->path);
+    ffd_free(source);
+    ffd_free(copy);
+    return status;
+}

@@ -1,0 +1,319 @@
+#!/usr/bin/env python3
+"""Default morph weights, of meshes and nodes: what a viewer shows is what boxes go round, what conversions write and
+what gates judge. And --as-morph with a name that is there."""
+import json
+
+from gltf_build import SHIFT, Scene
+from gltf_reader import Gltf
+from harness import NO, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy, obj_vertices
+from said import anything, entry, lines_with
+
+TRIANGLE = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]
+
+
+def scene(offsets, weights=None, node_weights=None, nodes=None, names=None):
+    """A triangle with a morph target for each offset, which moves all of it."""
+    made = Scene(nodes=nodes or [{"mesh": 0, **({"weights": node_weights} if node_weights else {})}], scene=0)
+    made.asset["scenes"] = [{"nodes": list(range(len(made.asset["nodes"])))}]
+    primitive = {"attributes": {"POSITION": made.add(TRIANGLE, bounds=True)},
+                 "targets": [{"POSITION": made.add([offset] * 3, bounds=True)} for offset in offsets]}
+    made.asset["meshes"] = [{"primitives": [primitive], **({"weights": weights} if weights else {}),
+                             **({"extras": {"targetNames": names}} if names else {})}]
+    return made
+
+
+def box_round(run, made):
+    run.write("a.glb", made.glb())
+    run.ffd("lattice", "new", "a.glb", "-o", "n.json", "--margin", "0", "--force", err=anything)
+    box = json.loads(run.read("n.json"))["rest"]["box"]
+    return [box["min"], box["max"]]
+
+
+def bounds(run, made):
+    run.write("a.glb", made.glb())
+    box = run.ffd("info", "a.glb", "--json", err=anything).json["bounds"]
+    return [box["min"], box["max"]]
+
+
+def shown(run, made, **options):
+    """The vertices of the OBJ that a shift by 1 along x gives."""
+    run.write("a.glb", made.glb())
+    run.write("l.json", SHIFT)
+    run.ffd("deform", "a.glb", "a.obj", "-l", "l.json", "--force", err=anything, **options)
+    return obj_vertices(run.text("a.obj"))
+
+
+def moved(by):
+    return [[p[a] + by[a] + (a == 0) for a in range(3)] for p in TRIANGLE]
+
+
+TWO = [[2.0, 0.0, 1.0], [0.0, 4.0, 2.0]]
+
+
+@case
+def a_box_goes_round_base_targets_and_what_is_shown(run):
+    for weights, low, high in ((None, [0, 0, 0], [3, 5, 2]), ([1, 1], [0, 0, 0], [3, 5, 3]), ([-1, 0], [-2, 0, -1], [3, 5, 2]),
+                               ([0.5, 0.25], [0, 0, 0], [3, 5, 2])):
+        near(box_round(run, scene(TWO, weights)), [low, high], 1e-6, str(weights))
+
+
+@case
+def the_weights_of_a_node_hold_before_those_of_its_mesh(run):
+    near(bounds(run, scene(TWO, [1, 1], [0, 0.5])), [[0, 2, 1], [1, 3, 1]], 1e-6)
+    near(shown(run, scene(TWO, [1, 1], [0, 0.5])), moved([0, 2, 1]), 1e-6)
+
+
+@case
+def weights_that_are_not_one_number_for_each_target(run):
+    """What is missing or is not a finite number counts as 0; what is too many is left."""
+    for weights, shift in (("x", [0, 0, 0]), (7, [0, 0, 0]), ({"a": 1}, [0, 0, 0]), ([1], [2, 0, 1]), ([1, 1, 1], [2, 4, 3]),
+                           (["x", 1], [0, 4, 2]), ([None, 1], [0, 4, 2]), ([1e39, 1], [0, 4, 2]), ([[1], True], [0, 0, 0])):
+        for holder in ("mesh", "node"):
+            made = scene(TWO, nodes=[{"mesh": 0, "name": "Arm"}])
+            made.asset["meshes"][0]["name"] = "Kni\nght"
+            made.asset["meshes" if holder == "mesh" else "nodes"][0]["weights"] = weights
+            near(shown(run, made), moved(shift), 1e-6, f"{holder} {weights}")
+            name = "mesh Kni?ght" if holder == "mesh" else "node Arm"
+            equal(lines_with(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "default weights"),
+                  [f"a.glb: the default weights of {name} are not one finite number for each morph target: a missing or other "
+                   "one counts as 0"], str(weights))
+    # Of a node that has no list of them, those of its mesh hold; an empty list is one.
+    near(shown(run, scene(TWO, [1, 1], nodes=[{"mesh": 0, "weights": "x"}])), moved([2, 4, 3]), 1e-6)
+    near(shown(run, scene(TWO, [1, 1], nodes=[{"mesh": 0, "weights": []}])), moved([0, 0, 0]), 1e-6)
+    equal(lines_with(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "default weights of node 0 are"),
+          lines_with(run.ffd("check", "a.glb", "-l", "l.json", err=anything), "default weights"))
+
+
+@case
+def bounds_of_info_are_those_of_what_is_shown(run):
+    near(bounds(run, scene(TWO)), [[0, 0, 0], [1, 1, 0]], 1e-6)
+    near(bounds(run, scene(TWO, [1, 0.5])), [[2, 2, 2], [3, 3, 2]], 1e-6)
+    placed = [{"mesh": 0, "scale": [2, 2, 2]}, {"mesh": 0, "weights": [0, 1]}]
+    near(bounds(run, scene(TWO, [1, 0], nodes=placed)), [[0, 0, 2], [6, 5, 2]], 1e-6)
+
+
+@case
+def parts_of_info_have_the_bounds_of_what_is_shown(run):
+    run.write("a.glb", scene(TWO, nodes=[{"mesh": 0, "name": "n", "weights": [1, 0.5]}]).glb())
+    part = run.ffd("info", "a.glb", "--parts", "--json").json["named_parts"][0]
+    near([part["bounds"]["min"], part["bounds"]["max"]], [[2, 2, 2], [3, 3, 2]], 1e-6)
+
+
+@case
+def a_conversion_writes_what_is_shown(run):
+    near(shown(run, scene(TWO)), moved([0, 0, 0]), 1e-6)
+    near(shown(run, scene(TWO, [0.5, -1])), moved([1, -4, -1.5]), 1e-6)
+
+
+@case
+def a_conversion_of_a_bent_shape(run):
+    """The target is shown in full: base and target of the glTF that comes out, added."""
+    run.write("a.glb", scene([[0.0, 0.0, 1.0]], [1]).glb())
+    run.write("l.json", lattice(low=(-3, -3, -3), high=(3, 3, 3), moves=[{"twist": {"axis": "z", "degrees": 60}}]))
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", err=anything)
+    run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", err=anything)
+    asset, data = glb_split(run.read("b.glb"))
+    primitive = asset["meshes"][0]["primitives"][0]
+    base, target = (gltf_vectors(asset, data, n["POSITION"]) for n in (primitive["attributes"], primitive["targets"][0]))
+    near(obj_vertices(run.text("b.obj")), [[a + b for a, b in zip(p, m)] for p, m in zip(base, target)], 1e-6)
+
+
+@case
+def gates_judge_base_target_and_what_is_shown(run):
+    """The lattice holds z from -1 to 1."""
+    run.write("l.json", lattice(low=(-9, -9, -1), high=(9, 9, 1), moves=[{"by": [1, 0, 0]}]))
+    for offsets, weights, outside in (([[0.0, 0.0, 0.5]], None, False), ([[0.0, 0.0, 0.5]], [1], False),
+                                      ([[0.0, 0.0, 0.5]], [3], True),  # what is shown alone
+                                      ([[0.0, 0.0, 2.0]], None, True), ([[0.0, 0.0, 2.0]], [0.25], True)):
+        run.write("a.glb", scene(offsets, weights).glb())
+        for command in (["check", "a.glb"], ["deform", "a.glb", "b.glb", "--force"]):
+            done = run.ffd(*command, "-l", "l.json", "--fail-on", "outside", code=NO if outside else 0, err=anything)
+            if outside:
+                equal("default weights" in done.err[0], weights == [3], done.err[0])
+
+
+@case
+def the_report_has_what_the_gates_count(run):
+    """The lattice holds z from -1 to 1, base at 0; what gates count beside the base's vertices is in a member of its own."""
+    run.write("l.json", lattice(low=(-9, -9, -1), high=(9, 9, 1), moves=[{"by": [1, 0, 0]}]))
+    for offsets, weights, targets, shown in (([0.5], None, 0, 0), ([0.5], [1], 0, 0), ([0.5], [3], 0, 3), ([2.0], None, 3, 0),
+                                             ([2.0], [1], 3, 3), ([2.0, 0.5], [0.25, 1], 3, 0), ([2.0, 3.0], [1, -1], 6, 0),
+                                             ([2.0, 3.0], [0, 1], 6, 3)):
+        run.write("a.glb", scene([[0.0, 0.0, z] for z in offsets], weights).glb())
+        for command in (["check", "a.glb"], ["deform", "a.glb", "b.glb"], ["deform", "a.glb", "b.obj"]):
+            job = entry(run, *command, "-l", "l.json")
+            equal([job["outside"], job["morph_targets"]], [0, {"outside": targets, "shown_outside": shown, "invalid": 0}],
+                  f"{offsets} {weights} {command}")
+    made = scene([])
+    made.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": made.add([[0, float("inf"), 0]] * 3)}]
+    run.write("a.glb", made.glb())
+    equal(entry(run, "check", "a.glb", "-l", "l.json")["morph_targets"], {"outside": 0, "shown_outside": 0, "invalid": 3})
+
+
+@case
+def bounds_of_a_report_are_those_of_info(run):
+    """Also of targets that move one vertex only, of several nodes, and of a mesh without weights beside one with them."""
+    run.write("l.json", lattice(low=(-9, -9, -9), high=(9, 9, 9), moves=[{"by": [1, 0, 0]}]))
+    made = scene(TWO, [0.5, -1], nodes=[{"mesh": 0, "scale": [2, 1, 1]}, {"mesh": 0, "weights": [1, 0]}, {"mesh": 0, "weights": [0, 0]}])
+    one = scene([[0.0, 0.0, 1.0]], [1])
+    one.asset["meshes"][0]["primitives"][0]["targets"] = [{"POSITION": one.add([[0, 0, 0], [0, 0, 3], [0, 0, 0]], bounds=True)}]
+    for file in (scene(TWO), scene(TWO, [1, 0]), scene(TWO, [0.5, 0.25]), made, one):
+        shape = bounds(run, file)
+        shifted = [[p[0] + 1, *p[1:]] for p in shape]
+        for command in (["check", "a.glb"], ["deform", "a.glb", "b.glb"], ["deform", "a.glb", "b.obj"]):
+            found = entry(run, *command, "-l", "l.json")["bounds"]
+            near([[box["min"], box["max"]] for box in (found["before"], found["after"])], [shape, shifted], 1e-6, str(command))
+
+
+@case
+def arrays_of_embed_are_those_of_the_base(run):
+    run.write("a.glb", scene([[0.0, 0.0, 1.0]], [1]).glb())
+    run.write("l.json", lattice())
+    run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy", "--status", "s.npy", err=anything)
+    near(npy(run.read("e.npy"))[2], [[(x + 2) / 4 for x in p] for p in TRIANGLE], 1e-15)
+    equal(npy(run.read("s.npy"))[2], [0, 0, 0])
+
+
+MADE_ROUND = lattice(moves=[{"twist": {"axis": "z", "degrees": 40}}], rest={"box": "mesh", "margin": 0.05})
+
+
+@case
+def the_box_is_the_same_whatever_is_written(run):
+    """What the glTF shows afterwards is what the OBJ has; so too where the targets stay as they are."""
+    run.write("a.glb", scene(TWO, [0, 1]).glb())
+    run.write("l.json", MADE_ROUND)
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", err=anything)
+    run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", err=anything)
+    run.ffd("deform", "a.glb", "m.glb", "-l", "l.json", "--as-morph", "new", err=anything)
+    base, target, added = primitives(run, "b.glb", 0), targets(run, "b.glb")[1], targets(run, "m.glb")
+    near(obj_vertices(run.text("b.obj")), total(base, target), 1e-6)
+    near(total(primitives(run, "a.glb", 0), added[2]), base, 1e-6)
+    near(added[:2], targets(run, "a.glb"), 0)
+
+
+@case
+def a_lattice_round_a_mesh_holds_base_targets_and_what_is_shown(run):
+    """Nothing is outside of it, and it is no larger: the corner of the box is at the end of the volume."""
+    for weights, low, high in ((None, [0, 0, 0], [3, 5, 2]), ([1, 1], [0, 0, 0], [3, 5, 3]), ([-1, 0], [-2, 0, -1], [3, 5, 2])):
+        run.write("a.glb", scene(TWO, weights).glb())
+        run.write("l.json", lattice(rest={"box": "mesh", "margin": 0}, moves=[{"by": [1, 0, 0]}]))
+        run.ffd("check", "a.glb", "-l", "l.json", "--fail-on", "outside")
+        run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy", "--force")
+        near(npy(run.read("e.npy"))[2], [[(x - a) / (b - a) for x, a, b in zip(p, low, high)] for p in TRIANGLE], 1e-9)
+
+
+def primitives(run, name, mesh):
+    asset, data = glb_split(run.read(name))
+    return gltf_vectors(asset, data, asset["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"])
+
+
+def targets(run, name):
+    asset, data = glb_split(run.read(name))
+    return [gltf_vectors(asset, data, target["POSITION"]) for target in asset["meshes"][0]["primitives"][0]["targets"]]
+
+
+def total(points, offsets):
+    return [[a + b for a, b in zip(p, m)] for p, m in zip(points, offsets)]
+
+
+BOUNDS = ((-3, -3, -3), (4, 4, 4))
+
+
+def turned(p):
+    """What a rotation of the whole lattice by 90 degrees about z through the origin does."""
+    return [-p[1], p[0], p[2]]
+
+
+@case
+def a_conversion_deforms_the_shape_that_is_shown(run):
+    """Half of a target through a lattice that is not affine: not half of what the target gets."""
+    moves = [{"twist": {"axis": "z", "degrees": 60, "about": [0, 0, 0]}}]
+    low, high = BOUNDS
+    run.write("l.json", lattice(low=low, high=high, moves=moves))
+    run.write("a.glb", scene([[0.0, 2.0, 2.0]], [0.5]).glb())
+    run.ffd("deform", "a.glb", "a.obj", "-l", "l.json", err=anything)
+    run.write("s.obj", "".join("v %r %r %r\n" % (p[0], p[1] + 1, p[2] + 1) for p in TRIANGLE))
+    run.ffd("deform", "s.obj", "t.obj", "-l", "l.json", err=anything)
+    near(obj_vertices(run.text("a.obj")), obj_vertices(run.text("t.obj")), 1e-6)
+
+
+@case
+def normals_of_a_conversion_are_those_of_the_shape_shown(run):
+    low, high = BOUNDS
+    run.write("l.json", lattice(low=low, high=high, moves=[{"rotate": {"axis": "z", "degrees": 90, "about": [0, 0, 0]}}]))
+    made = scene([[0.0, 0.0, 1.0]], [0.5])
+    primitive = made.asset["meshes"][0]["primitives"][0]
+    primitive["attributes"]["NORMAL"] = made.add([[0.0, 0.0, 1.0]] * 3)
+    primitive["targets"][0]["NORMAL"] = made.add([[1.5, 0.0, 0.0]] * 3)
+    run.write("a.glb", made.glb())
+    for normals in ("transform", "keep"):
+        run.ffd("deform", "a.glb", "a.obj", "-l", "l.json", "--normals", normals, "--force", err=anything)
+        lines = [line.split() for line in run.text("a.obj").splitlines()]
+        found = [[float(x) for x in line[1:]] for line in lines if line[0] == "vn"]
+        near(found, [turned([0.6, 0, 0.8]) if normals == "transform" else [0.6, 0, 0.8]] * len(found), 1e-6, normals)
+        near(obj_vertices(run.text("a.obj")), [turned([p[0], p[1], p[2] + 0.5]) for p in TRIANGLE], 1e-6, normals)
+    run.ffd("deform", "a.glb", "a.obj", "-l", "l.json", "--normals", "recompute", "--force", err=anything)
+    check("vn 0 0 1" in run.text("a.obj").splitlines(), run.text("a.obj"))
+
+
+@case
+def an_embedding_of_the_base_serves_a_conversion(run):
+    run.write("a.glb", scene(TWO, [1, 0]).glb())
+    run.write("l.json", SHIFT)
+    run.ffd("embed", "a.glb", "-l", "l.json", "-o", "e.npy", err=anything)
+    run.ffd("deform", "a.glb", "a.obj", "-l", "l.json", "--embedding", "e.npy", err=anything)
+    near(obj_vertices(run.text("a.obj")), moved(TWO[0]), 1e-6)
+
+
+@case
+def a_mesh_that_jobs_share_is_shown_to_conversions_only(run):
+    run.write("a.glb", scene(TWO, [1, 0]).glb())
+    run.write("l.json", SHIFT)
+    outputs = ["1.glb", "2.obj", "3.glb", "4.ply", "5.obj", "6.glb"]
+    run.write("m.jsonl", "".join(json.dumps({"in": "a.glb", "lattice": "l.json", "out": name}) + "\n" for name in outputs))
+    run.ffd("batch", "m.jsonl", "-j", "1", err=anything)
+    equal([run.read(name) for name in ("3.glb", "6.glb")], [run.read("1.glb")] * 2)
+    equal(run.read("5.obj"), run.read("2.obj"))
+    near(primitives(run, "1.glb", 0), moved([0, 0, 0]), 1e-6)
+    near(obj_vertices(run.text("2.obj")), moved(TWO[0]), 1e-6)
+
+
+@case
+def counts_are_of_the_base_and_targets_in_a_conversion_too(run):
+    """The target that is not shown leaves the box: the gate says so whatever is written."""
+    run.write("l.json", lattice(low=(-9, -9, -1), high=(9, 9, 1), moves=[{"by": [1, 0, 0]}]))
+    run.write("a.glb", scene([[0.0, 0.0, 2.0], [0.0, 0.0, 0.5]], [0, 1]).glb())
+    run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", "--fail-on", "outside", code=NO, err=anything)
+    run.ffd("deform", "a.glb", "b.obj", "-l", "l.json", err=anything)
+    near(obj_vertices(run.text("b.obj")), moved([0, 0, 0.5]), 1e-6)
+
+
+def as_morph(run, made, name, moves):
+    run.write("a.glb", made.glb())
+    run.write("l.json", lattice(low=(-10, -10, -10), high=(10, 10, 10), moves=moves))
+    run.ffd("deform", "a.glb", "b.glb", "-l", "l.json", "--as-morph", name, "--force", err=anything)
+    gltf = Gltf(run.path("b.glb"))  # reads accessors of zeros, which need no bytes
+    mesh = gltf.asset["meshes"][0]
+    return mesh, [[list(m) for m in gltf.decoded(target["POSITION"])] for target in mesh["primitives"][0]["targets"]]
+
+
+@case
+def as_morph_replaces_a_target_of_that_name(run):
+    mesh, targets = as_morph(run, scene(TWO, [0.5, 0], names=["smile", "frown"]), "smile", [{"by": [0, 0, 3]}])
+    equal([mesh["extras"]["targetNames"], mesh["weights"]], [["smile", "frown"], [0.5, 0]])
+    near(targets, [[[0, 0, 3]] * 3, [TWO[1]] * 3], 1e-6)
+    mesh, targets = as_morph(run, scene(TWO, [0.5, 0], names=["smile", "frown"]), "frown", [{"by": [0, 0, 3]}])
+    near(targets, [[TWO[0]] * 3, [[0, 0, 3]] * 3], 1e-6)
+
+
+@case
+def a_zero_shape_gets_its_target(run):
+    mesh, targets = as_morph(run, scene(TWO[:1], names=["smile"]), "rest", [])
+    equal(mesh["extras"]["targetNames"], ["smile", "rest"])
+    near(targets[1], [[0, 0, 0]] * 3, 0)
+    mesh, targets = as_morph(run, scene(TWO[:1], names=["smile"]), "smile", [])
+    equal(mesh["extras"]["targetNames"], ["smile"])
+    near(targets, [[[0, 0, 0]] * 3], 0)
+
+
+main()

@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+"""Races and hostile surroundings that once cost users their files (siege-*): what stands under a name when a run ends is
+whole, and what is not the run's own is as it was. The inputs are made here. siege-02, a run that is killed at any call, is
+tests/cli/test_file_sets.py.
+
+    FFD=... PYTHONPATH=tests/cli python3 tests/faults/test_siege.py siege_05
+"""
+
+import json
+import math
+import os
+import socket
+import subprocess
+import time
+
+from harness import CUBE, CUBE_CORNERS, FFD, INVALID, IO, NOBODY, SECONDS, case, check, equal, gltf_json, lattice, main
+
+TWIST = lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"twist": {"axis": "z", "degrees": 40}}])
+
+
+def grid(n):
+    """A wavy sheet of n x n vertices."""
+    points = "".join(f"v {i / n:.6g} {j / n:.6g} {math.sin(i * j % 7) / 70:.6g}\n" for j in range(n) for i in range(n))
+    return points + "".join(f"f {k + 1} {k + 2} {k + n + 2} {k + n + 1}\n" for k in range(n * n - n) if k % n < n - 1)
+
+
+def start(run, *arguments, **options):
+    return subprocess.Popen([FFD, *arguments], cwd=run.folder, stderr=subprocess.PIPE, **options)
+
+
+def ended(child):
+    told = child.communicate(timeout=SECONDS)[1].decode()
+    return child.returncode, told
+
+
+@case
+def siege_01(run):
+    """A buffer that this user must not rename, in a folder with the sticky bit: nothing is replaced."""
+    user = run.unprivileged()
+    if os.geteuid() != 0 or not user:
+        return  # only root can lay out files of three users
+    asset, data = gltf_json(CUBE_CORNERS, uri="a.bin")
+    asset["buffers"].append({**asset["buffers"][0], "uri": "a-1.bin"})
+    asset["bufferViews"].append({**asset["bufferViews"][0], "buffer": 1})
+    asset["accessors"].append({**asset["accessors"][0], "bufferView": 1})
+    asset["meshes"][0]["primitives"].append({"attributes": {"POSITION": 1}, "mode": 0})
+    run.folder_of("st")
+    os.chmod(run.path("st"), 0o1777)
+    for name, content, owner in (("a.gltf", asset, NOBODY), ("a.bin", data, NOBODY), ("a-1.bin", data, 1002)):
+        run.write("st/" + name, content)
+        os.chown(run.path("st/" + name), owner, owner)
+    run.write("l.json", TWIST)
+    before = {name: run.read("st/" + name) for name in run.names("st")}
+    run.ffd("deform", "st/a.gltf", "--in-place", "-l", "l.json", code=IO,
+            err="st/a-1.bin: cannot be replaced: it belongs to another user, in a folder with the sticky bit", **user)
+    run.write("st/r.json", '{"format": "ffd-report"}')
+    os.chown(run.path("st/r.json"), 1002, 1002)
+    os.chmod(run.path("st/r.json"), 0o666)
+    run.write("a.obj", CUBE)
+    run.ffd("deform", "a.obj", "st/b.obj", "-l", "l.json", "--report", "st/r.json", code=IO,
+            err="st/r.json: cannot be replaced: it belongs to another user, in a folder with the sticky bit", **user)
+    run.remove("st/r.json")
+    equal({name: run.read("st/" + name) for name in run.names("st")}, before)
+
+
+@case
+def siege_03(run):
+    """The input becomes shorter at any moment: one line, exit 3, and nothing is left; or it was read before that."""
+    run.write("l.json", TWIST)
+    run.write("big.obj", grid(150))
+    begun = time.monotonic()
+    run.ffd("deform", "big.obj", "expected.obj", "-l", "l.json", "--normals", "keep")
+    whole = time.monotonic() - begun
+    cut = 0
+    for n in range(10):
+        run.write("x.obj", run.read("big.obj"))
+        child = start(run, "deform", "x.obj", "y.obj", "-l", "l.json", "--normals", "keep")
+        time.sleep(whole * n / 8)
+        os.truncate(run.path("x.obj"), 1000)
+        code, told = ended(child)
+        if code == 0:  # it was read whole, or when it was cut already
+            check(run.exists("y.obj"), told)
+            run.remove("y.obj")
+            continue
+        # It may have had 1,000 bytes from the start: the last line is cut, or faces are missing.
+        check(code in (IO, INVALID) and told.count("\n") == 1, code, told)
+        cut += told == "ffd: x.obj: became shorter while it was read\n"
+        equal(run.names(), ["big.obj", "expected.obj", "l.json", "x.obj"])
+    check(cut > 0, "no run was under way when its input became shorter")
+
+
+@case
+def siege_04(run):
+    """A journal grows without touching what stands beside it."""
+    run.write("a.obj", CUBE)
+    run.write("l.json", TWIST)
+    run.folder_of("o")
+    run.write("jobs.jsonl", "".join(json.dumps({"in": "a.obj", "lattice": "l.json", "out": f"o/{i}.obj"}) + "\n" for i in range(520)))
+    run.write("J.new", "precious")
+    run.write("victim", "precious")
+    os.symlink("victim", run.path("K.new"))
+    for name in "JK":
+        run.ffd("batch", "jobs.jsonl", "--journal", name, "-q", "--force", err=lambda said: None)
+        check(os.stat(run.path(name)).st_size > 1024 * 64, "the journal did not grow")
+    equal([run.text("J.new"), run.text("victim"), os.readlink(run.path("K.new"))], ["precious", "precious", "victim"])
+
+
+@case
+def siege_05(run):
+    """A file that appears under the output's name while the run goes on stays."""
+    run.write("l.json", TWIST)
+    run.write("big.obj", grid(100))
+    for _ in range(50):
+        run.remove("race.obj")
+        child = start(run, "deform", "big.obj", "race.obj", "-l", "l.json")
+        while not run.exists(".race.obj.ffd-tmp") and child.poll() is None:
+            time.sleep(0.0005)
+        try:
+            with open(run.path("race.obj"), "x", encoding="utf-8") as file:
+                file.write("precious")
+        except FileExistsError:
+            equal(ended(child), (0, ""))
+            continue
+        equal(ended(child), (IO, "ffd: race.obj: exists already (--force overwrites it)\n"))
+        equal(run.text("race.obj"), "precious")
+        return run.check_no_leftovers()
+    check(False, "the file never appeared in time")
+
+
+@case
+def siege_07(run):
+    """Pipes, sockets and disks as outputs of any kind: one line at once, and no work is done."""
+    run.write("a.obj", CUBE)
+    run.write("l.json", TWIST)
+    run.ffd("deform", "a.obj", "old.obj", "-l", "l.json", "--report", "old.json")
+    for name in ("f.obj", "f.json"):
+        os.mkfifo(run.path(name))
+    run.ffd("lattice", "new", "a.obj", "-o", "f.json", "--force", code=IO,
+            err="f.json: is a pipe, not a file (- writes to standard output)")
+    specials = {"f.obj": "pipe"}
+    listener = socket.socket(socket.AF_UNIX)
+    if len(run.path("s.obj")) < 100:
+        listener.bind(run.path("s.obj"))
+        specials["s.obj"] = "socket"
+    before = run.names()
+    reader = os.open(run.path("f.obj"), os.O_RDONLY | os.O_NONBLOCK)
+    for held in (True, False):  # somebody reads from the pipe, who may stop to
+        for name, kind in specials.items():
+            told = f"{name}: is a {kind}, not a file (- writes to standard output)"
+            for arguments in (["deform", "a.obj", name, "-l", "l.json", "--force"],
+                              ["deform", "a.obj", "b.obj", "-l", "l.json", "--report", name, "--force"],
+                              ["deform", "a.obj", "b.obj", "-l", "l.json", "--depfile", name],
+                              ["check", "a.obj", "-l", "l.json", "--report", name],
+                              ["embed", "a.obj", "-l", "l.json", "-o", name, "--force"],
+                              ["embed", "a.obj", "-l", "l.json", "-o", "u.npy", "--status", name],
+                              ["report", "merge", "old.json", "-o", name, "--force"]):
+                run.ffd(*arguments, code=IO, err=told)
+        if held:
+            os.close(reader)
+    run.write("jobs.jsonl", json.dumps({"in": "a.obj", "lattice": "l.json", "out": "f.obj", "options": {"force": True}}) + "\n")
+    code, said = ended(start(run, "batch", "jobs.jsonl", "--journal", "J"))
+    check(code == 1 and "f.obj: is a pipe, not a file" in said, code, said)
+    for option in ("--report", "--depfile", "--journal"):
+        code, said = ended(start(run, "batch", "jobs.jsonl", option, "f.obj"))
+        check(code == IO and said.startswith("ffd: f.obj: is ") and said.count("\n") == 1, option, code, said)
+    listener.close()
+    equal(sorted(set(run.names()) - {"J", "jobs.jsonl"}), before)
+
+
+main()

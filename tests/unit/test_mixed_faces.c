@@ -1,0 +1,232 @@
+/* Faces whose vertices are not all marked alike: of each format those among all of its faces, for all marks.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "../support/mesh_file.h"
+#include "io/gltf/file/base64.h"
+#include "mesh/mixed_faces.h"
+
+#define MOST_VERTICES 12
+
+static bool is_marked(const vertex_marks *marks, size_t vertex)
+{
+    for (size_t p = 0; p < marks->planes; p++)
+        if (marks->bytes[p * marks->vertices + vertex])
+            return true;
+    return false;
+}
+
+/* The corners of a face are those of another; those that are not marked may be others at their positions. */
+static void assert_same_face(const mesh_faces *all, size_t face, const mesh_faces *mixed, size_t found,
+                             const vertex_marks *marks)
+{
+    const uint32_t *const a = all->corners + all->start[face], *const b =
+                                                                   mixed->corners + mixed->start[found];
+    const size_t count = all->start[face + 1] - all->start[face];
+    assert_int_equal(mixed->start[found + 1] - mixed->start[found], count);
+    for (size_t c = 0; c < count; c++) {
+        if (is_marked(marks, a[c]))
+            assert_int_equal(b[c], a[c]);
+        for (size_t i = 0; i < 3; i++)
+            assert_true(mixed->positions[3 * b[c] + i] == all->positions[3 * a[c] + i]); /* 0 is -0 */
+    }
+}
+
+/* Returns how many faces are mixed. */
+static size_t assert_mixed(const mesh_document *document, const mesh_faces *all, const vertex_marks *marks)
+{
+    mesh_faces mixed;
+    size_t found = 0;
+    assert_int_equal(document->format->mixed_faces(document, marks, &mixed, NULL), FFD_OK);
+    assert_int_equal(mixed.vertex_count, marks->vertices);
+    for (size_t f = 0; f < all->face_count; f++) {
+        const size_t count = all->start[f + 1] - all->start[f];
+        if (!ffd_marks_differ(marks, all->corners + all->start[f], count))
+            continue;
+        assert_in_range(found, 0, mixed.face_count - 1);
+        assert_same_face(all, f, &mixed, found++, marks);
+    }
+    assert_int_equal(mixed.face_count, found);
+    ffd_mesh_faces_free(&mixed);
+    return found;
+}
+
+/* Marks all subsets of the vertices in one plane, and in two that are not the same. Vertices at one position
+   are marked alike: places[v] is the first of those at the position of v. */
+static void assert_all_marks(mesh_document *document, const size_t *places)
+{
+    uint8_t bytes[2 * MOST_VERTICES];
+    size_t found = 0;
+    mesh_faces all;
+    assert_int_equal(ffd_mesh_check(document, NULL), FFD_OK);
+    assert_int_equal(document->format->faces(document, &all, NULL), FFD_OK);
+    const size_t vertices = all.vertex_count;
+    assert_in_range(vertices, 1, MOST_VERTICES);
+    for (uint32_t set = 0; set < 1u << vertices; set++)
+        for (size_t planes = 1; planes <= 2; planes++) {
+            for (size_t v = 0; v < planes * vertices; v++) {
+                const size_t place = places ? places[v % vertices] : v % vertices;
+                bytes[v] = (uint8_t)(set >> (v < vertices ? place : vertices - 1 - place) & 1);
+            }
+            const vertex_marks marks = {bytes, planes, vertices};
+            found += assert_mixed(document, &all, &marks);
+        }
+    assert_true(found > 0);
+    ffd_mesh_faces_free(&all);
+    document->format->close(document);
+}
+
+static void assert_of_text(ffd_format format, const char *text, const size_t *places)
+{
+    assert_all_marks(opened_bytes(ffd_format_table(format), text, strlen(text)), places);
+}
+
+#define OFF_VERTICES "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0.5 2 0\n"
+
+static void of_off(void **state)
+{
+    (void)state;
+    assert_of_text(FFD_FORMAT_OFF,
+                   "OFF\n5 6 0\n" OFF_VERTICES "3 0 1 2 # a\n4 0 1 3 2 255 0 0\n\n2 1 4\n1 3\n5 4 3 1 0 "
+                   "2\n3 0000000000000000002 3 4\n",
+                   NULL);
+    assert_of_text(FFD_FORMAT_OFF, "OFF 5 2 0 0 0 0 1 0 0\n0 1 0 1 1 0 0.5 2 0\n3 0 1 2\n3 3 4\n2", NULL);
+    assert_of_text(FFD_FORMAT_OFF, "COFF\r\n3 1 0\r\n0 0 0 1 1 1 1\r\n1 0 0 9\r\n0 1 0 9 9 9\r\n3 0 1 2\r\n",
+                   NULL);
+}
+
+#define PLY_HEAD(encoding, vertices, faces, type)                                                            \
+    "ply\nformat " encoding " 1.0\nelement edge 1\nproperty int vertex1\nproperty int vertex2\n"             \
+    "element vertex " vertices "\nproperty float x\nproperty float y\nproperty float z\nelement face " faces \
+    "\nproperty uchar red\nproperty list uchar " type " vertex_indices\nproperty uchar blue\nend_header\n"
+
+static void of_ply(void **state)
+{
+    (void)state;
+    assert_of_text(FFD_FORMAT_PLY,
+                   PLY_HEAD("ascii", "5", "5", "int") "0 4\n" OFF_VERTICES
+                                                      "7 3 0 1 2 7\n7 4 0 1 3 2 7\n\n7 0 7\n7 5 +4 3 1 0 2.0 "
+                                                      "7\n7 2 1 4 7\n",
+                   NULL);
+    assert_of_text(FFD_FORMAT_PLY,
+                   PLY_HEAD("ascii", "5", "1", "float") "0 4\n" OFF_VERTICES "7 3 1e0 4 2 7\n", NULL);
+}
+
+/* Writes numbers of a size into bytes, the lowest byte first or last. */
+static size_t put(unsigned char *bytes, uint64_t value, size_t size, bool big)
+{
+    for (size_t i = 0; i < size; i++)
+        bytes[big ? size - 1 - i : i] = (unsigned char)(value >> (8 * i));
+    return size;
+}
+
+static void of_binary_ply(void **state)
+{
+    (void)state;
+    static const uint32_t corners[] = {3, 0, 1, 2, 4, 0, 1, 3, 2};
+    static const struct {
+        const char *head;
+        size_t size;
+        bool big;
+    } cases[] = {{PLY_HEAD("binary_little_endian", "4", "2", "int"), 4, false},
+                 {PLY_HEAD("binary_big_endian", "4", "2", "ushort"), 2, true},
+                 {PLY_HEAD("binary_big_endian", "4", "2", "uint"), 4, true},
+                 {PLY_HEAD("binary_little_endian", "4", "2", "char"), 1, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        unsigned char bytes[1024];
+        size_t size = strlen(cases[i].head);
+        memcpy(bytes, cases[i].head, size);
+        for (size_t v = 0; v < 2; v++)
+            size += put(bytes + size, v, 4, cases[i].big);
+        for (uint32_t v = 0; v < 12; v++)
+            size += put(bytes + size, v << 23, 4, cases[i].big);
+        for (size_t face = 0, at = 0; face < 2; face++) {
+            size += put(bytes + size, 7, 1, false);
+            const size_t count = corners[at];
+            size += put(bytes + size, corners[at++], 1, false);
+            for (size_t c = 0; c < count; c++)
+                size += put(bytes + size, corners[at++], cases[i].size, cases[i].big);
+            size += put(bytes + size, 7, 1, false);
+        }
+        assert_all_marks(opened_bytes(ffd_format_table(FFD_FORMAT_PLY), bytes, size), NULL);
+    }
+}
+
+static void of_obj(void **state)
+{
+    (void)state;
+    assert_of_text(FFD_FORMAT_OBJ,
+                   "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1\nv 1 1 0\nf 1 2 \\\n4 -2\nl 1 2\np "
+                   "3\nv 5 0 0\nf 5 4 3 2 1 # a\nf 1 2 3 4 5 1 2 3 4 5\n",
+                   NULL);
+}
+
+#define FACET(a, b, c)                                                                                       \
+    "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
+
+/* The last corners are at positions of the first facet, once with another zero. */
+static void of_stl(void **state)
+{
+    (void)state;
+    static const size_t places[] = {0, 1, 2, 2, 1, 5, 5, 1, 8, 0, 2, 5};
+    assert_of_text(FFD_FORMAT_STL,
+                   "solid a\n" FACET("0 0 0", "1 0 0", "0 1 0") FACET("-0 1 0", "1 0 0", "1 1 0")
+                       FACET("1 1 0", "1 0 0", "2 0 0") FACET("0 0 0", "0 1 0", "1 1 0") "endsolid a\n",
+                   places);
+}
+
+/* Three squares: with indices of 32 bits under two nodes, of which one is moved; with indices of 8; and
+   without, as two triangles. */
+static void of_gltf(void **state)
+{
+    (void)state;
+    unsigned char bytes[128] = {0};
+    char base64[256] = {0}, text[2048];
+    for (size_t i = 0; i < 12; i++)
+        put(bytes + 4 * i, i * i << 23, 4, false);
+    static const uint32_t corners[] = {0, 1, 2, 2, 1, 3};
+    for (size_t i = 0; i < 6; i++) {
+        put(bytes + 48 + 4 * i, corners[i], 4, false);
+        put(bytes + 72 + i, corners[i], 1, false);
+    }
+    ffd_base64_encode(bytes, 78, base64);
+    snprintf(
+        text, sizeof text,
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":78,\"uri\":"
+        "\"data:application/octet-stream;base64,%s\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":48},"
+        "{\"buffer\":0,\"byteOffset\":48,\"byteLength\":24},{\"buffer\":0,\"byteOffset\":72,"
+        "\"byteLength\":6}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":"
+        "\"VEC3\"},{\"bufferView\":1,\"componentType\":5125,\"count\":6,\"type\":\"SCALAR\"},"
+        "{\"bufferView\":2,\"componentType\":5121,\"count\":6,\"type\":\"SCALAR\"},{\"bufferView\":0,"
+        "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"meshes\":[{\"primitives\":[{\"indices\":1,"
+        "\"attributes\":{\"POSITION\":0}}]},{\"primitives\":[{\"indices\":2,\"attributes\":"
+        "{\"POSITION\":0}}]},{\"primitives\":[{\"attributes\":{\"POSITION\":3}}]}],\"nodes\":["
+        "{\"mesh\":0},{\"mesh\":0,\"translation\":[1,2,3]},{\"mesh\":2}],\"scenes\":[{\"nodes\":[0,1,2]}],"
+        "\"scene\":0}",
+        base64);
+    mesh_document *document;
+    ffd_error error;
+    if (open_bytes(ffd_format_table(FFD_FORMAT_GLTF), text, strlen(text), &document, &error))
+        fail_msg("%s", error.message);
+    assert_all_marks(document, NULL);
+    snprintf(strstr(text, "\"nodes\":["), 100,
+             "\"nodes\":[{\"mesh\":1,\"scale\":[2,2,2]},{\"mesh\":2}],"
+             "\"scenes\":[{\"nodes\":[0,1]}],\"scene\":0}");
+    if (open_bytes(ffd_format_table(FFD_FORMAT_GLTF), text, strlen(text), &document, &error))
+        fail_msg("%s", error.message);
+    assert_all_marks(document, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_off), cmocka_unit_test(of_ply), cmocka_unit_test(of_binary_ply),
+        cmocka_unit_test(of_obj), cmocka_unit_test(of_stl), cmocka_unit_test(of_gltf),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,102 @@
+/* test_update.c - files that are changed where they stand: nothing else is opened, waited for or overwritten.
+ */
+#define _XOPEN_SOURCE 700 /* mkdtemp, mkfifo */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/test_folder.h"
+#include "base/file/input.h"
+#include "base/file/update.h"
+#include <sys/stat.h>
+
+static void check_content(const char *name, const char *text)
+{
+    file_input input;
+    assert_int_equal(ffd_file_load(in_folder(name), &input, NULL), FFD_OK);
+    assert_int_equal(input.size, strlen(text));
+    assert_memory_equal(input.data, text, input.size);
+    ffd_file_unload(&input);
+}
+
+static void files_are_made_or_opened(void **state)
+{
+    FILE *file;
+    assert_int_equal(ffd_update_open(in_folder("new"), &file, NULL), FFD_OK);
+    assert_true(fputs("some", file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    check_content("new", "some");
+    assert_int_equal(symlink("new", in_folder("link")), 0);
+    assert_int_equal(ffd_update_open(in_folder("link"), &file, NULL), FFD_OK);
+    assert_int_equal(fgetc(file), 's');
+    assert_int_equal(fseek(file, 0, SEEK_SET), 0);
+    assert_int_equal(fputc('c', file), 'c');
+    assert_int_equal(fclose(file), 0);
+    check_content("new", "come");
+    assert_int_equal(ffd_update_open(in_folder("new"), &file, NULL), FFD_OK);
+    assert_true(ffd_update_clear(file));
+    assert_true(fputs("x", file) >= 0);
+    assert_int_equal(fclose(file), 0);
+    check_content("new", "x");
+    (void)state;
+}
+
+static void what_is_no_file_is_refused_at_once(void **state)
+{
+    FILE *file;
+    ffd_error error;
+    assert_int_equal(mkfifo(in_folder("pipe"), 0600), 0);
+    assert_int_equal(symlink("nowhere", in_folder("dangling")), 0);
+    const char *const paths[] = {in_folder("pipe"), in_folder("dangling"), folder, "/dev/null",
+                                 in_folder("none/new")};
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        assert_int_equal(ffd_update_open(paths[i], &file, &error), FFD_E_IO);
+        assert_null(file);
+        assert_string_equal(error.file, paths[i]);
+    }
+    assert_false(ffd_file_exists(in_folder("nowhere")));
+    (void)state;
+}
+
+static void a_successor_takes_the_place_and_the_mode(void **state)
+{
+    file_successor successor;
+    struct stat info;
+    FILE *file;
+    put_text("old", "old");
+    put_text("old.new", "precious");
+    put_text("victim", "precious");
+    assert_int_equal(chmod(in_folder("old"), 0640), 0);
+    assert_int_equal(symlink("victim", in_folder(".old.ffd-tmp")), 0);
+    assert_false(ffd_successor_begin(&successor, in_folder("old")));
+    assert_int_equal(unlink(in_folder(".old.ffd-tmp")), 0);
+    for (int commit = 0; commit < 2; commit++) {
+        assert_true(ffd_successor_begin(&successor, in_folder("old")));
+        assert_true(fputs("newer", successor.file) >= 0);
+        if (commit)
+            assert_true(ffd_successor_commit(&successor, &file));
+        ffd_successor_end(&successor);
+        check_content("old", commit ? "newer" : "old");
+        assert_false(ffd_file_exists(in_folder(".old.ffd-tmp")));
+    }
+    rewind(file);
+    assert_int_equal(fgetc(file), 'n');
+    fclose(file);
+    assert_int_equal(stat(in_folder("old"), &info), 0);
+    assert_int_equal(info.st_mode & 0777, 0640);
+    check_content("old.new", "precious");
+    check_content("victim", "precious");
+    (void)state;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(files_are_made_or_opened),
+        cmocka_unit_test(what_is_no_file_is_refused_at_once),
+        cmocka_unit_test(a_successor_takes_the_place_and_the_mode),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}
