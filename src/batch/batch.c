@@ -46,11 +46,11 @@ typedef struct batch_run {
     batch_progress progress;
     batch_counts counts;
     pool_task *tasks[WINDOW]; /* in their order; count of them */
-    size_t count, waiting;
-    bool ended;   /* the source has no more jobs */
-    bool starved; /* the next one has not come yet */
-    bool ending;  /* no more jobs are begun */
-    bool dropped; /* some were not begun */
+    size_t count, waiting;    /* those that have not begun */
+    bool ended;               /* the source has no more jobs */
+    bool starved;             /* the next one has not come yet */
+    bool ending;              /* no more jobs are begun */
+    bool dropped;             /* some were not begun */
 } batch_run;
 
 /* Reading jobs */
@@ -75,24 +75,21 @@ static void find_record(batch_run *run, pool_task *task)
     task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
 }
 
-static ffd_status add_task(batch_run *run, pool_task *task, ffd_error *error)
+static void add_task(batch_run *run, pool_task *task)
 {
     batch_job *const job = &task->job;
     file_stamp stamp; /* of the mesh, whose path is the first word */
     run->tasks[run->count++] = task;
     task->number = run->jobs++;
-    if (!job->error.status && ffd_outputs_claim(&run->written, manifest_of(run), job, &task->target, error))
-        return FFD_E_MEMORY;
     if (job->error.status) {
         fail_task(task, &job->error);
-        return FFD_OK;
+        return;
     }
+    const bool is_file = ffd_file_stamp(job->words.data, &stamp);
     task->mesh = ffd_hash(job->input, strlen(job->input));
-    task->is_large = ffd_file_stamp(job->words.data, &stamp) && stamp.size > MOST_SHARED;
-    if (run->journal)
-        find_record(run, task);
+    task->is_large = is_file && stamp.size > MOST_SHARED;
+    task->state = is_file && ffd_outputs_depend_on_mesh(job) ? TASK_NEW : TASK_LOOKED;
     run->waiting++;
-    return FFD_OK;
 }
 
 static ffd_status read_jobs(batch_run *run, ffd_error *error)
@@ -103,18 +100,51 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
             return ffd_fail_memory(error);
-        ffd_status status = ffd_jobs_next(run->source, &task->job, &state, error);
+        const ffd_status status = ffd_jobs_next(run->source, &task->job, &state, error);
         if (status || state != LINE_READ) {
             ffd_task_free(task);
             run->ended = state == LINE_NONE;
             run->starved = state == LINE_LATER;
             return status;
         }
-        status = add_task(run, task, error);
-        if (status)
-            return status;
+        add_task(run, task);
     }
     return FFD_OK;
+}
+
+/* Lets a job begin, or fails it because of a file that a job before it writes. */
+static ffd_status claim_task(batch_run *run, pool_task *task, ffd_error *error)
+{
+    batch_job *const job = &task->job;
+    ffd_status status = FFD_OK;
+    if (task->was_looked_at)
+        status = ffd_outputs_learn(&run->written, job, task->beside, &task->copied, error);
+    ffd_buffer_free(&task->copied);
+    if (!status)
+        status = ffd_outputs_claim(&run->written, manifest_of(run), job, &task->target, error);
+    if (status)
+        return status;
+    task->state = TASK_WAITS;
+    if (job->error.status)
+        fail_task(task, &job->error);
+    else if (run->journal)
+        find_record(run, task);
+    return FFD_OK;
+}
+
+/* Lets the jobs begin, in their order, up to the first one whose mesh has to be looked at. */
+static ffd_status claim_tasks(batch_run *run, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < run->count && !status; i++) {
+        pool_task *const task = run->tasks[i];
+        const bool is_known = task->state == TASK_NEW && ffd_outputs_know_mesh(&run->written, &task->job);
+        if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known))
+            break;
+        if (task->state == TASK_NEW || task->state == TASK_LOOKED)
+            status = claim_task(run, task, error);
+    }
+    return status;
 }
 
 /* Jobs that have ended */
@@ -186,7 +216,7 @@ static ffd_status note_ends(batch_run *run, ffd_error *error)
     for (size_t i = 0; i < run->count && !status; i++) {
         pool_task *const task = run->tasks[i];
         const bool is_valid = !task->job.error.status;
-        is_first = is_first && task->state != TASK_WAITS && task->state != TASK_RUNS;
+        is_first = is_first && (task->state == TASK_ENDED || task->state == TASK_DROPPED);
         if (task->state != TASK_ENDED || task->noted || (!is_valid && !is_first && !run->ending))
             continue;
         if (run->ending && !is_valid) {
@@ -246,14 +276,14 @@ static void count_waiting(batch_run *run)
 {
     run->waiting = 0;
     for (size_t i = 0; i < run->count; i++)
-        run->waiting += run->tasks[i]->state == TASK_WAITS;
+        run->waiting += ffd_task_is_pending(run->tasks[i]);
 }
 
 static void drop_waiting(batch_run *run)
 {
     run->dropped = run->dropped || !run->ended;
     for (size_t i = 0; i < run->count; i++)
-        if (run->tasks[i]->state == TASK_WAITS) {
+        if (ffd_task_is_pending(run->tasks[i])) {
             run->tasks[i]->state = TASK_DROPPED;
             run->dropped = true;
         }
@@ -275,6 +305,8 @@ static void heed_interrupts(batch_run *run)
 static ffd_status begin_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = read_jobs(run, error);
+    if (!status)
+        status = claim_tasks(run, error);
     if (!status && !run->ending)
         status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
     run->ending = run->ending || status;

@@ -159,6 +159,18 @@ ffd_status ffd_fingerprint_inputs(const ffd_deform_desc *desc, const fingerprint
     return finish(&list, status, hash);
 }
 
+static ffd_status find_copies(const char *path, const mesh_format *format, path_list *images,
+                              ffd_error *error)
+{
+    file_input bytes;
+    ffd_status status = FFD_OK;
+    if (!format->find_resources || ffd_file_load(path, &bytes, NULL))
+        return FFD_OK;
+    status = format->find_resources(path, &bytes, images, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
 /* What the output refers to: its buffers, and images and material libraries (a format's find_resources finds
    those that came with it), which may be missing. */
 static ffd_status list_output(const ffd_source *output, bool has_copies, path_list *files, path_list *images,
@@ -168,9 +180,9 @@ static ffd_status list_output(const ffd_source *output, bool has_copies, path_li
     mesh_document *document = NULL;
     ffd_status status = ffd_source_format(output, &format, error);
     if (!status && !ffd_format_table(format)->list_files) {
-        mesh_find_resources_function *const find = ffd_format_table(format)->find_resources;
         status = ffd_paths_add(files, output->path, error);
-        return !status && has_copies && find ? find(output->path, images, error) : status;
+        return !status && has_copies ? find_copies(output->path, ffd_format_table(format), images, error)
+                                     : status;
     }
     if (!status)
         status = ffd_source_open(output, 1, &document, error);

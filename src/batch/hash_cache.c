@@ -25,6 +25,8 @@ static void forget_file(cached_file *file)
 
 static void remember(hash_cache *cache, const char *path, const file_stamp *stamp, const hash128 *hash)
 {
+    if (find(cache, path, stamp))
+        return;
     cached_file *const file = &cache->files[cache->next];
     forget_file(file);
     *file = (cached_file){.path = ffd_text_copy(path), .stamp = *stamp, .hash = *hash};
@@ -94,13 +96,40 @@ static ffd_status list_by_document(cached_mesh *mesh, const ffd_source *source, 
     return status;
 }
 
-static ffd_status look_into(cached_mesh *mesh, const ffd_source *source, ffd_format format, ffd_error *error)
+/* Loads a file whose stamp was taken, and hashes it as well: its bytes are in memory then. */
+static ffd_status load_and_hash(hash_cache *cache, const char *path, const file_stamp *stamp,
+                                file_input *bytes, ffd_error *error)
+{
+    const ffd_status status = ffd_file_load(path, bytes, error);
+    if (status)
+        return status;
+    const hash128 hash = ffd_hash(bytes->data, bytes->size);
+    remember(cache, path, stamp, &hash);
+    return FFD_OK;
+}
+
+static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_source *source,
+                                const mesh_format *table, ffd_error *error)
+{
+    file_input bytes;
+    ffd_status status = load_and_hash(cache, source->path, &mesh->stamp, &bytes, error);
+    if (status)
+        return status;
+    status = table->find_resources(source->path, &bytes, &mesh->images, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
+static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_source *source, ffd_format format,
+                            ffd_error *error)
 {
     const mesh_format *const table = ffd_format_table(format);
     const bool is_file = ffd_file_stamp(source->path, &mesh->stamp);
-    const ffd_status status = table->list_files || !table->find_resources
-                                  ? list_by_document(mesh, source, error)
-                                  : table->find_resources(source->path, &mesh->images, error);
+    ffd_status status = FFD_OK;
+    if (table->list_files || !table->find_resources)
+        status = list_by_document(mesh, source, error);
+    else if (is_file)
+        status = list_by_bytes(cache, mesh, source, table, error);
     if (!status && is_file)
         mesh->path = ffd_text_copy(source->path);
     mesh->format = format;
@@ -117,7 +146,7 @@ static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_for
     cached_mesh *const mesh = &cache->meshes[cache->next_mesh];
     forget_mesh(mesh);
     *known = mesh;
-    const ffd_status status = look_into(mesh, source, format, error);
+    const ffd_status status = look_into(cache, mesh, source, format, error);
     cache->next_mesh = (cache->next_mesh + 1) % CACHED_FILES;
     return status;
 }
@@ -144,6 +173,30 @@ ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_li
         return status;
     status = know_mesh(cache, source, format, &mesh, error);
     return status ? status : copy_list(&mesh->images, images, error);
+}
+
+ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
+                          path_list *copied, ffd_error *error)
+{
+    ffd_format format;
+    file_stamp stamp;
+    file_input bytes;
+    *beside = 0;
+    ffd_status status = ffd_source_format(source, &format, error);
+    const mesh_format *const table = status ? NULL : ffd_format_table(format);
+    if (status || !table->list_files)
+        return status ? status : ffd_cache_images(cache, source, copied, error);
+    if (!ffd_file_stamp(source->path, &stamp))
+        return FFD_OK;
+    status = load_and_hash(cache, source->path, &stamp, &bytes, error);
+    if (status)
+        return status;
+    if (table->count_beside)
+        *beside = table->count_beside(&bytes, format, to);
+    if (table->find_resources)
+        status = table->find_resources(source->path, &bytes, copied, error);
+    ffd_file_unload(&bytes);
+    return status;
 }
 
 /* Whether the text of a lattice may have the member "meshes", however it is written. */

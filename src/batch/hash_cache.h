@@ -41,6 +41,10 @@ ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ff
 ffd_status ffd_cache_list(hash_cache *cache, const ffd_source *source, path_list *files, ffd_error *error);
 /* Adds the images and material libraries beside it that it refers to, whether they exist or not. */
 ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_list *images, ffd_error *error);
+/* Looks at the bytes of a mesh that is saved in its own format, as `to`: how many files are written beside
+   the output, and adds the paths of those that may be copied with it. Errors: those of reading. */
+ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
+                          path_list *copied, ffd_error *error);
 /* Adds the meshes that the box of a lattice file names to go round; none where it cannot be read. Errors:
    FFD_E_MEMORY. */
 ffd_status ffd_cache_box_meshes(hash_cache *cache, const char *path, path_list *meshes, ffd_error *error);

@@ -17,68 +17,86 @@ static ffd_format format_of(const batch_job *job, const char *option, const char
     return ffd_format_from_name(value ? name : path);
 }
 
-/* Forgets what is known of the mesh looked at last, unless this is the same. */
-static void turn_to(run_outputs *outputs, const char *input, ffd_format from, ffd_format to)
-{
-    file_stamp stamp = {0};
-    const bool is_file = ffd_file_stamp(input, &stamp);
-    if (is_file && outputs->input && strcmp(outputs->input, input) == 0 && outputs->from == from &&
-        outputs->to == to && ffd_stamp_equal(&outputs->stamp, &stamp))
-        return;
-    ffd_free(outputs->input);
-    ffd_paths_free(&outputs->resources);
-    outputs->input = is_file ? ffd_text_copy(input) : NULL;
-    outputs->from = from;
-    outputs->to = to;
-    outputs->stamp = stamp;
-    outputs->has_beside = outputs->has_resources = false;
-}
+/* What a job writes beside its output, and copies with it, depends on. */
+typedef struct output_kind {
+    const char *input; /* its path from here */
+    ffd_format from, to;
+    const mesh_format *format; /* of the output; NULL: none is known */
+    bool is_kept;              /* it is that of the input */
+} output_kind;
 
-static size_t count_beside(run_outputs *outputs, const mesh_format *format)
+static output_kind kind_of(const batch_job *job)
 {
-    if (!outputs->has_beside)
-        outputs->beside =
-            outputs->input ? format->count_beside(outputs->input, outputs->from, outputs->to) : 0;
-    outputs->has_beside = true;
-    return outputs->beside;
+    const char *const input = job->words.data;
+    const ffd_format from = format_of(job, "input-format", input);
+    const ffd_format to = format_of(job, "output-format", job->target);
+    const mesh_format *const format = ffd_format_table(to);
+    return (output_kind){input, from, to, format, format == ffd_format_table(from)};
 }
 
 /* Whether what the mesh refers to goes with the output. */
-static bool has_copies(const batch_job *job, const mesh_format *from, const mesh_format *to)
+static bool has_copies(const batch_job *job, const output_kind *kind)
 {
     const char *const resources = ffd_job_option(job, "resources");
-    return job->output && to && from == to && to->find_resources &&
+    return job->output && kind->format && kind->is_kept && kind->format->find_resources &&
            !(resources && strcmp(resources, "reference") == 0) &&
-           ffd_folders_differ(job->words.data, job->target);
+           ffd_folders_differ(kind->input, job->target);
 }
 
-/* Lists what may be copied, in outputs->resources. *count: how many of these. */
-static ffd_status list_resources(run_outputs *outputs, const batch_job *job, size_t *count, ffd_error *error)
+bool ffd_outputs_depend_on_mesh(const batch_job *job)
 {
+    const output_kind kind = kind_of(job);
+    const bool has_beside = job->output && kind.format && kind.is_kept && kind.format->list_beside;
+    return has_beside || has_copies(job, &kind);
+}
+
+static bool knows(const run_outputs *outputs, const output_kind *kind)
+{
+    file_stamp stamp;
+    return outputs->input && strcmp(outputs->input, kind->input) == 0 && outputs->from == kind->from &&
+           outputs->to == kind->to && ffd_file_stamp(kind->input, &stamp) &&
+           ffd_stamp_equal(&outputs->stamp, &stamp);
+}
+
+bool ffd_outputs_know_mesh(const run_outputs *outputs, const batch_job *job)
+{
+    const output_kind kind = kind_of(job);
+    return knows(outputs, &kind);
+}
+
+ffd_status ffd_outputs_learn(run_outputs *outputs, const batch_job *job, size_t beside,
+                             const byte_buffer *resources, ffd_error *error)
+{
+    const output_kind kind = kind_of(job);
+    file_stamp stamp = {0};
+    const bool is_file = ffd_file_stamp(kind.input, &stamp);
     ffd_status status = FFD_OK;
-    const mesh_format *const to = ffd_format_table(outputs->to);
-    *count = 0;
-    if (!outputs->input || !has_copies(job, ffd_format_table(outputs->from), to))
-        return FFD_OK;
-    if (!outputs->has_resources)
-        status = to->find_resources(outputs->input, &outputs->resources, error);
-    outputs->has_resources = !status;
-    *count = status ? 0 : outputs->resources.count;
+    ffd_free(outputs->input);
+    ffd_paths_free(&outputs->resources);
+    outputs->input = is_file ? ffd_text_copy(kind.input) : NULL;
+    outputs->from = kind.from;
+    outputs->to = kind.to;
+    outputs->stamp = stamp;
+    outputs->beside = beside;
+    for (size_t at = 0; at < resources->size && !status; at += strlen(resources->data + at) + 1)
+        status = ffd_paths_add(&outputs->resources, resources->data + at, error);
     return status;
 }
 
 /* Lists the files of a job, the output first. One in place keeps its own files beside it. */
-static ffd_status list_files(run_outputs *outputs, const batch_job *job, path_list *files, ffd_error *error)
+static ffd_status list_files(const run_outputs *outputs, const batch_job *job, const output_kind *kind,
+                             path_list *files, ffd_error *error)
 {
-    const char *const input = job->words.data; /* its path from here */
-    const ffd_format from = format_of(job, "input-format", input);
-    const ffd_format to = format_of(job, "output-format", job->target);
-    const mesh_format *const format = ffd_format_table(to);
+    const mesh_format *const format = kind->format;
+    size_t beside = 0;
     const ffd_status status = ffd_paths_add(files, job->target, error);
-    turn_to(outputs, input, from, to);
     if (status || !job->output || !format || !format->list_beside)
         return status;
-    return format->list_beside(job->target, count_beside(outputs, format), files, error);
+    if (!kind->is_kept)
+        beside = format->count_beside(NULL, kind->from, kind->to);
+    else if (knows(outputs, kind))
+        beside = outputs->beside;
+    return format->list_beside(job->target, beside, files, error);
 }
 
 static void refuse(const char *manifest, batch_job *job, const char *file, uint64_t line)
@@ -159,12 +177,11 @@ static ffd_status claim_copy(run_outputs *outputs, const char *manifest, batch_j
 ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_job *job, hash128 *target,
                              ffd_error *error)
 {
+    const output_kind kind = kind_of(job);
+    const size_t copies = has_copies(job, &kind) && knows(outputs, &kind) ? outputs->resources.count : 0;
     path_list files = {0};
     uint64_t line;
-    size_t copies = 0;
-    ffd_status status = list_files(outputs, job, &files, error);
-    if (!status)
-        status = list_resources(outputs, job, &copies, error);
+    ffd_status status = list_files(outputs, job, &kind, &files, error);
     hash128 *const identities = status ? NULL : ffd_alloc(files.count, sizeof *identities);
     if (!status && !identities)
         status = ffd_fail_memory(error);

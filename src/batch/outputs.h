@@ -20,18 +20,27 @@ typedef struct run_outputs {
     file_table copies;   /* number in `copied` of each file that is a copy */
     copied_file *copied; /* copied_count */
     size_t copied_count, copied_capacity;
-    /* The mesh looked at last, how many files are written beside its output, and what may be copied. */
+    /* The mesh that a worker looked at last (NULL: none), how many files are written beside its output, and
+       what may be copied. */
     char *input;
     ffd_format from, to;
     file_stamp stamp;
-    bool has_beside, has_resources; /* known */
     size_t beside;
     path_list resources;
 } run_outputs;
 
-/* Notes what a job writes, beside it, and copies with it; *target is the output. If a job before writes one
-   of these files, or the run itself, or copies other bytes there, that becomes the job's error, at its line
-   in the manifest (NULL: there is none). Errors: FFD_E_MEMORY. */
+/* Whether a job writes files beside its output, or copies some with it, that only a look at its mesh shows.
+   The first process reads no mesh: one that ends the program, or never ends, must cost its own jobs only. */
+bool ffd_outputs_depend_on_mesh(const batch_job *job);
+/* Whether the mesh is the one of the last look, as it was then. */
+bool ffd_outputs_know_mesh(const run_outputs *outputs, const batch_job *job);
+/* Takes note of what a worker saw: how many files are written beside the output, and the paths that may be
+   copied, each ended by 0. Errors: FFD_E_MEMORY. */
+ffd_status ffd_outputs_learn(run_outputs *outputs, const batch_job *job, size_t beside,
+                             const byte_buffer *resources, ffd_error *error);
+/* Notes what a job writes, beside it, and copies with it, as far as it is known; *target is the output. If a
+   job before writes one of these files, or the run itself, or copies other bytes there, that becomes the
+   job's error, at its line in the manifest (NULL: there is none). Errors: FFD_E_MEMORY. */
 ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_job *job, hash128 *target,
                              ffd_error *error);
 /* Notes a file of the run itself. Errors: FFD_E_MEMORY. */

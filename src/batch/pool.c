@@ -18,6 +18,7 @@ typedef struct pool_worker {
     hash128 mesh;            /* of the task before or now */
     bool has_mesh, timed_out, stopped, retires;
     bool was_told;   /* of its task */
+    bool looks;      /* only */
     bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
 } pool_worker;
@@ -94,6 +95,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.quiet = desc->quiet;
     head.verbose = desc->verbose;
     head.measure = desc->measure;
+    head.look = worker->looks;
     head.has_box = desc->box != NULL;
     if (desc->box)
         head.box = *desc->box;
@@ -137,6 +139,21 @@ static pool_task *choose(const worker_pool *pool, const pool_worker *worker, poo
     return first;
 }
 
+/* The first new task, or nobody, whose mesh nobody is to look at for the task before it. */
+static pool_task *choose_look(pool_task *const *tasks, size_t count)
+{
+    const pool_task *before = NULL;
+    for (size_t i = 0; i < count; i++) {
+        pool_task *const task = tasks[i];
+        if (!task || (task->state != TASK_NEW && task->state != TASK_LOOKS))
+            continue;
+        if (task->state == TASK_NEW && !(before && ffd_hash_equal(&before->mesh, &task->mesh)))
+            return task;
+        before = task;
+    }
+    return NULL;
+}
+
 /* Counts the tasks that can run at the same time, with those that run: one a worker at most, and one a large
    mesh. */
 static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size_t count)
@@ -145,7 +162,7 @@ static int count_runnable(const worker_pool *pool, pool_task *const *tasks, size
     const hash128 *large = NULL;
     for (size_t i = 0; i < count && found < pool->desc.workers; i++) {
         const pool_task *const task = tasks[i];
-        if (!task || task->state != TASK_WAITS)
+        if (!task || !ffd_task_is_pending(task))
             continue;
         if (task->is_large && ((large && ffd_hash_equal(large, &task->mesh)) || is_taken(pool, NULL, task)))
             continue;
@@ -162,7 +179,8 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->has_mesh = true;
     worker->timed_out = worker->stopped = worker->is_ending = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
-    task->state = TASK_RUNS;
+    worker->looks = task->state == TASK_NEW;
+    task->state = worker->looks ? TASK_LOOKS : TASK_RUNS;
 }
 
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error)
@@ -170,7 +188,10 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
     const pool_desc *const desc = &pool->desc;
     for (int i = 0; i < desc->workers; i++) {
         pool_worker *const worker = &pool->workers[i];
-        pool_task *const task = worker->task ? NULL : choose(pool, worker, tasks, count);
+        if (worker->task)
+            continue;
+        pool_task *const ready = choose(pool, worker, tasks, count);
+        pool_task *const task = ready ? ready : choose_look(tasks, count);
         if (!task)
             continue;
         const ffd_status status =
@@ -201,6 +222,25 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
     worker->deadline = 0;
 }
 
+/* Takes what a look has found. */
+static void take_look(pool_worker *worker, const wire_answer *head, const char *copied)
+{
+    pool_task *const task = worker->task;
+    ffd_buffer_append(&task->copied, copied, head->rule_size);
+    task->beside = (size_t)head->beside;
+    task->was_returned = false;
+    worker->retires = head->retires;
+    if (head->out_of_memory || task->copied.failed) {
+        ffd_fail_file(&task->failure, FFD_E_MEMORY, task->job.input, "out of memory");
+        end_task(worker, OUTCOME_FAILED);
+        return;
+    }
+    task->state = TASK_LOOKED;
+    task->was_looked_at = true;
+    worker->task = NULL;
+    worker->deadline = 0;
+}
+
 /* Takes the answer, once it is complete. False if it is not valid. */
 static bool take_answer(worker_pool *pool, pool_worker *worker)
 {
@@ -217,6 +257,11 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
                       *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
     pool_task *const task = worker->task;
+    if (worker->looks) {
+        take_look(worker, &head, rule);
+        bytes->size = 0;
+        return true;
+    }
     ffd_buffer_append(&task->log, log, head.log_size);
     ffd_buffer_append(&task->entry, entry, head.entry_size);
     ffd_buffer_append(&task->rule, rule, head.rule_size);
@@ -268,8 +313,9 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
-    if (!worker->was_told && !task->was_returned) { /* it had ended before: somebody else's turn */
-        task->state = TASK_WAITS;
+    const bool is_returned = !worker->was_told && !task->was_returned;
+    if (is_returned || (worker->looks && worker->stopped)) { /* it had ended before: somebody else's turn */
+        task->state = worker->looks ? TASK_NEW : TASK_WAITS;
         task->was_returned = true;
         worker->task = NULL;
         return;
@@ -375,6 +421,11 @@ void ffd_pool_destroy(worker_pool **pool)
     *pool = NULL;
 }
 
+bool ffd_task_is_pending(const pool_task *task)
+{
+    return task->state == TASK_WAITS || task->state == TASK_NEW || task->state == TASK_LOOKED;
+}
+
 void ffd_task_free(pool_task *task)
 {
     if (!task)
@@ -384,5 +435,6 @@ void ffd_task_free(pool_task *task)
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);
     ffd_buffer_free(&task->figures);
+    ffd_buffer_free(&task->copied);
     ffd_free(task);
 }

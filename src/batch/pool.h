@@ -14,7 +14,15 @@ typedef struct pool_desc {
     const shown_box *box; /* that all jobs share, or NULL */
 } pool_desc;
 
-typedef enum task_state { TASK_WAITS, TASK_RUNS, TASK_ENDED, TASK_DROPPED } task_state;
+typedef enum task_state {
+    TASK_WAITS,
+    TASK_NEW,    /* its mesh is to be looked at before it may begin */
+    TASK_LOOKS,  /* a worker does that */
+    TASK_LOOKED, /* it may begin when all before it may */
+    TASK_RUNS,
+    TASK_ENDED,
+    TASK_DROPPED
+} task_state;
 
 /* A job on its way through the pool. */
 typedef struct pool_task {
@@ -27,8 +35,11 @@ typedef struct pool_task {
     bool has_record;
     byte_buffer figures; /* likewise: of the run that made the output, as JSON, ended by 0; or empty */
     task_state state;
-    bool was_returned; /* by a worker that had ended before it could take it */
-    bool noted;        /* what its end means at once was seen to */
+    bool was_looked_at;
+    size_t beside;      /* that this has found: files beside the output; */
+    byte_buffer copied; /* and files that may be copied, each path ended by 0 */
+    bool was_returned;  /* by a worker that had ended before it could take it */
+    bool noted;         /* what its end means at once was seen to */
     /* Once it has ended: */
     wire_outcome outcome;
     bool has_mesh_state;
@@ -45,8 +56,8 @@ typedef struct worker_pool worker_pool;
 /* Makes a pool without workers: they are started when there are tasks. desc's texts must outlive it.
    Errors: FFD_E_MEMORY. */
 ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error);
-/* Gives waiting tasks, which are listed in their order with gaps (NULL), to idle workers. Errors: no worker
-   can be started. */
+/* Gives waiting tasks, which are listed in their order with gaps (NULL), to idle workers, and new ones to be
+   looked at to those that have nothing else to do. Errors: no worker can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
 /* Waits until a task has ended, at most for this many seconds, and takes note of what has happened. */
 void ffd_pool_wait(worker_pool *pool, double seconds);
@@ -64,6 +75,8 @@ void ffd_pool_stop(worker_pool *pool);
 /* Ends the workers. Sets *pool to NULL; it may be NULL before. */
 void ffd_pool_destroy(worker_pool **pool);
 
+/* Whether a task has not begun, but for a look. */
+bool ffd_task_is_pending(const pool_task *task);
 /* Frees a task with its job and texts. */
 void ffd_task_free(pool_task *task);
 

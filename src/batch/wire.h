@@ -36,6 +36,7 @@ typedef struct wire_task {
     bool quiet;    /* no warnings */
     bool verbose;  /* what else there is to say */
     bool measure;  /* only the box of the mesh is wanted, and its files where depfile is set */
+    bool look;     /* only what is written beside the output and may be copied with it is wanted */
     bool has_box;
     shown_box box; /* that all jobs share, where has_box */
 } wire_task;
@@ -46,12 +47,14 @@ typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire
 typedef struct wire_answer {
     uint64_t log_size;     /* lines for people, each with its line break */
     uint64_t entry_size;   /* of the report */
-    uint64_t rule_size;    /* of the depfile; of a measured mesh its files, each ended by 0 */
+    uint64_t rule_size;    /* of the depfile; of a measured mesh its files, of a look what may be copied, each
+                              ended by 0 */
     uint64_t figures_size; /* of the job, as JSON, ended by 0 */
     job_record record;
     hash128 state;       /* of the files of the mesh, where has_state (job_cache.h) */
     share_counts counts; /* of this job */
     shown_box box;       /* of a measured mesh */
+    uint64_t beside;     /* files beside the output, of a look */
     uint8_t outcome;
     bool has_record, has_state;
     bool rehearsed;     /* all was done but the writing */

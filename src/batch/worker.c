@@ -191,12 +191,31 @@ static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd
     return status;
 }
 
+/* Looks at the mesh for what the job writes beside its output and copies. What cannot be read fails the job
+   itself. */
+static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_answer *answer,
+                       ffd_error *error)
+{
+    path_list copied = {0};
+    size_t beside = 0;
+    const ffd_format to =
+        desc->output_format == FFD_FORMAT_AUTO ? ffd_format_from_name(desc->output) : desc->output_format;
+    const ffd_status status = ffd_cache_look(&worker->hashes, &desc->input, to, &beside, &copied, error);
+    for (size_t i = 0; i < copied.count && !status; i++)
+        ffd_buffer_append(&worker->rule, copied.paths[i], strlen(copied.paths[i]) + 1);
+    answer->beside = beside;
+    ffd_paths_free(&copied);
+    return status;
+}
+
 /* Does all that is wanted of a job. */
 static ffd_status do_task(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
                           ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
 {
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
+    if (task->look)
+        return look(worker, desc, answer, &result->error);
     /* What a killed run had set aside is to be read. */
     ffd_status status =
         desc->in_place && !task->dry ? ffd_restore_output(desc->input.path, &result->error) : FFD_OK;
@@ -268,7 +287,7 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     result.status = run_words(worker, task, answer, &result);
     if (result.status) {
         answer->outcome = OUTCOME_FAILED;
-        if (!task->measure) /* the job itself will say it */
+        if (!task->measure && !task->look) /* the job itself will say it */
             log_error(worker, &result.error);
     }
     /* One that has run out of memory may do so again, with any job. */
@@ -277,7 +296,7 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
         ffd_report_figures(&result, &worker->figures);
         ffd_buffer_append(&worker->figures, "", 1);
     }
-    if (task->report && answer->outcome != OUTCOME_SKIPPED)
+    if (task->report && !task->look && answer->outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
 }
 

@@ -200,8 +200,7 @@ static ffd_status rehearse(deform_job *job, const mesh_save_options *options, ff
         return FFD_OK;
     ffd_status status = ffd_source_format(&job->desc->input, &from, error);
     if (!status)
-        status = to->list_beside(options->path, to->count_beside(options->input, from, options->format),
-                                 &files, error);
+        status = to->list_beside(options->path, to->count_beside(NULL, from, options->format), &files, error);
     for (size_t i = 0; i < files.count && !status; i++)
         status = ffd_output_check(files.paths[i], options->force, error);
     ffd_paths_free(&files);

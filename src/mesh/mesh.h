@@ -172,8 +172,9 @@ typedef ffd_status mesh_open_function(file_input *input, const ffd_source *sourc
 typedef void mesh_close_function(mesh_document *document);
 typedef ffd_status mesh_list_files_function(const mesh_document *document, path_list *files,
                                             ffd_error *error);
-typedef ffd_status mesh_find_resources_function(const char *path, path_list *files, ffd_error *error);
-typedef size_t mesh_count_beside_function(const char *input, ffd_format from, ffd_format to);
+typedef ffd_status mesh_find_resources_function(const char *path, const file_input *bytes, path_list *files,
+                                                ffd_error *error);
+typedef size_t mesh_count_beside_function(const file_input *bytes, ffd_format from, ffd_format to);
 typedef ffd_status mesh_list_beside_function(const char *output, size_t count, path_list *files,
                                              ffd_error *error);
 typedef ffd_status mesh_check_function(const mesh_document *document, ffd_error *error);
@@ -233,11 +234,12 @@ typedef struct mesh_format {
     mesh_list_files_function *list_files;
     /* Adds the images beside the file or below, whether they are there or not. NULL: none. */
     mesh_list_files_function *list_images;
-    /* The same, of images and of what else is copied with an output, by a look into the file at a path,
-       without opening a document. A file that cannot be read has none. NULL: nothing is copied. */
+    /* The same, of images and of what else is copied with an output, by a look into the bytes of the file at
+       a path, without opening a document. A file that is not valid has none. NULL: nothing is copied. */
     mesh_find_resources_function *find_resources;
     /* Counts the files that saving a mesh as `to` writes beside its output, images not among them, by a look
-       into the file at input. What cannot be read has none. NULL: there are none. */
+       into the input's bytes, which may be NULL where its format is another one. What is not valid has none.
+       NULL: there are none. */
     mesh_count_beside_function *count_beside;
     /* Adds the first `count` of them. */
     mesh_list_beside_function *list_beside;

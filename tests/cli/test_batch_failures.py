@@ -23,8 +23,9 @@ def trapped(run, *arguments, **options):
     return batch(run, *arguments, env={**os.environ, "XDG_CACHE_HOME": run.path("cache"), "LD_PRELOAD": TRAP}, **options)
 
 
-def start_trapped(run):
-    """Jobs that run into every trap, by a mesh and by a lattice, between good ones. Returns the reasons by line."""
+def start_trapped(run, folder=""):
+    """Jobs that run into every trap, by a mesh and by a lattice, between good ones, with their outputs in a folder. Returns the
+    reasons by line."""
     jobs, reasons = [job(0)], {}
     for i, (name, reason) in enumerate(TRAPS.items()):
         run.write(name + ".obj", CUBE)
@@ -32,20 +33,22 @@ def start_trapped(run):
         jobs += [job(100 + i, **{"in": name + ".obj"}), job(2 * i + 1), job(200 + i, lattice=name + ".json"), job(2 * i + 2)]
         reasons[4 * i + 2] = rf"^{name}\.obj: .*{reason}"
         reasons[4 * i + 4] = rf"^a\.obj: .*{reason}" if name != "nomemory" else "out of memory"
-    start(run, jobs)
+    if folder:
+        run.folder_of(folder)
+    start(run, [{**each, "out": os.path.join(folder, each["out"])} for each in jobs])
     return reasons
 
 
-def run_trapped(run, arguments):
+def run_trapped(run, arguments, folder):
     """A batch with every trap in a folder of its own, and, with a report, once more with --resume."""
-    reasons = start_trapped(run)
+    reasons = start_trapped(run, folder)
     run.ffd("deform", "a.obj", "single.obj", "-l", "l.json")
     for more in ([], ["--resume"])[:1 + ("--report" in arguments)]:
         trapped(run, "m.jsonl", "--timeout", TIMEOUT, "--force", *arguments, *more, failed=list(reasons.values()),
                 **({"kept": 11} if more else {"done": 11}))
-        equal(sorted(n for n in run.names() if n.startswith("o")), sorted(f"o{i}.obj" for i in range(11)))
+        equal(sorted(name for name in os.listdir(run.path(folder)) if name.startswith("o")), sorted(f"o{i}.obj" for i in range(11)))
         for i in range(11):
-            equal(run.read(f"o{i}.obj"), run.read("single.obj"), f"{arguments}: o{i}.obj")
+            equal(run.read(os.path.join(folder, f"o{i}.obj")), run.read("single.obj"), f"{arguments}: o{i}.obj")
         if "--report" in arguments:
             entries = report(run)
             equal([e["line"] for e in entries if e["status"] == "failed"], sorted(reasons))
@@ -54,11 +57,13 @@ def run_trapped(run, arguments):
 
 @case
 def every_trap(run):
-    """The batches run at the same time: each waits for jobs that never end, and for nothing else."""
-    options = (["-j1"], ["-j", "2"], ["-j", "5"], ["-j3", "--report", "r.json"])
+    """The batches run at the same time: each waits for jobs that never end, and for nothing else. What goes into another
+    folder takes material libraries along: the mesh is looked at before the job begins, by a worker too."""
+    options = (["-j1"], ["-j", "2"], ["-j", "5"], ["-j3", "--report", "r.json"], ["-j2"])
+    outputs = ("", "", "", "", "sub")
     folders = [Run(run.path(run.folder_of(f"batch{i}"))) for i in range(len(options))]
     with concurrent.futures.ThreadPoolExecutor(len(options)) as pool:
-        for ended in [*map(pool.submit, [run_trapped] * len(options), folders, options)]:
+        for ended in [*map(pool.submit, [run_trapped] * len(options), folders, options, outputs)]:
             ended.result()
 
 

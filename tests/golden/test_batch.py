@@ -7,6 +7,7 @@ the same bytes, the same figures, the same failures.
 
 import concurrent.futures
 import glob
+import itertools
 import json
 import os
 import random
@@ -50,7 +51,8 @@ def make_jobs(models, lattices):
             options = random.choice(OPTIONS)
             if "as-morph" in options and not model.endswith((".glb", ".gltf")):
                 options = {}
-            jobs.append((model, f"{number}-{k}{os.path.splitext(model)[1]}", chosen, options))
+            # A folder a model: two with material libraries of one name would be refused in one.
+            jobs.append((model, f"{number}/{k}{os.path.splitext(model)[1]}", chosen, options))
     return jobs
 
 
@@ -103,6 +105,8 @@ def main():
         for side in ("batch", "alone"):
             os.mkdir(os.path.join(folder, side))
         jobs = make_jobs(find_models(source), write_lattices(folder))
+        for side, (_, out, _, _) in itertools.product(("batch", "alone"), jobs):
+            os.makedirs(os.path.join(folder, side, os.path.dirname(out)), exist_ok=True)
         entries = run_batch(ffd, folder, jobs)
         if len(entries) != len(jobs):
             findings.append(f"{len(entries)} entries of {len(jobs)} jobs")

@@ -680,6 +680,14 @@ m("one-worker-a-mesh", "policy", "cli_batch_sweep", "if (!first && !tasks[i]->is
 m("large-mesh-shared", "limit", "cli_batch_sweep", "if (!first && !tasks[i]->is_large)", "if (!first)")
 m("meshes-in-turn", "policy", "cli_batch_sweep",
   "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]))", "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]) || count)")
+m("look-in-any-order", "order", "cli_batch_outputs",
+  "if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known)) break;",
+  "if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known)) continue;")
+m("crash-of-a-look-begun-again", "condition", "cli_batch_failures",
+  "const bool is_returned = !worker->was_told && !task->was_returned;",
+  "const bool is_returned = (worker->looks || !worker->was_told) && !task->was_returned;")
+m("look-of-another-mesh", "check left out", "cli_batch_outputs",
+  "return outputs->input && strcmp(outputs->input, kind->input) == 0 &&", "return outputs->input &&")
 m("changed-mesh-not-told", "message", "cli_batch_sweep", "if (known & TOLD || known == state)",
   "if ((known | TOLD) & TOLD || known == state)")
 m("changed-mesh-told-again", "message", "cli_batch_sweep",

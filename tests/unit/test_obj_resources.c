@@ -163,7 +163,10 @@ static void memory_may_run_out_anywhere(void **state)
     assert_int_equal(access(in_folder("out/m.mtl"), F_OK), 0);
     assert_int_equal(access(in_folder("out/sub/t.png"), F_OK), 0);
     path_list files = {0};
-    assert_int_equal(ffd_obj_find_resources(in_folder("m.obj"), &files, NULL), FFD_OK);
+    file_input bytes;
+    assert_int_equal(ffd_file_load(in_folder("m.obj"), &bytes, NULL), FFD_OK);
+    assert_int_equal(ffd_obj_find_resources(in_folder("m.obj"), &bytes, &files, NULL), FFD_OK);
+    ffd_file_unload(&bytes);
     assert_int_equal(files.count, 3);
     assert_string_equal(files.paths[0], in_folder("m.mtl"));
     assert_string_equal(files.paths[1], in_folder("none.mtl"));

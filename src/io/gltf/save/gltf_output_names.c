@@ -145,22 +145,19 @@ ffd_status ffd_gltf_name_buffers(gltf_saver *saver, ffd_error *error)
 
 /* Of a model with its own structure, as gltf_container.c places its buffers; else of one that is written
  * anew. */
-size_t ffd_gltf_count_beside(const char *input, ffd_format from, ffd_format to)
+size_t ffd_gltf_count_beside(const file_input *bytes, ffd_format from, ffd_format to)
 {
     const bool is_model = from == FFD_FORMAT_GLTF || from == FFD_FORMAT_GLB, to_text = to == FFD_FORMAT_GLTF;
-    file_input file;
     glb_layout layout;
-    size_t count = 0;
-    if (!is_model || ffd_file_load(input, &file, NULL))
-        return to_text && !is_model;
-    const char *const data = (const char *)file.data;
-    if (!ffd_glb_is(file.data, file.size))
-        count = to_text ? ffd_gltf_count_buffer_files(data, file.size) : 0;
-    else if (!ffd_glb_parse(file.data, file.size, input, &layout, NULL))
-        count = ffd_gltf_count_buffer_files(data + layout.json_begin, layout.json_size) +
-                (to_text && layout.has_bin);
-    ffd_file_unload(&file);
-    return count;
+    if (!is_model)
+        return to_text;
+    const char *const data = (const char *)bytes->data;
+    if (!ffd_glb_is(bytes->data, bytes->size))
+        return to_text ? ffd_gltf_count_buffer_files(data, bytes->size) : 0;
+    if (ffd_glb_parse(bytes->data, bytes->size, "", &layout, NULL))
+        return 0;
+    return ffd_gltf_count_buffer_files(data + layout.json_begin, layout.json_size) +
+           (to_text && layout.has_bin);
 }
 
 ffd_status ffd_gltf_list_beside(const char *output, size_t count, path_list *files, ffd_error *error)

@@ -76,17 +76,15 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     return status;
 }
 
-ffd_status ffd_gltf_find_resources(const char *path, path_list *files, ffd_error *error)
+ffd_status ffd_gltf_find_resources(const char *path, const file_input *bytes, path_list *files,
+                                   ffd_error *error)
 {
-    file_input file;
     glb_layout layout;
     json_span tree;
-    if (ffd_file_is_stream(path) || ffd_file_load(path, &file, NULL))
-        return FFD_OK;
-    json_input json = {.text = (const char *)file.data, .size = file.size, .rules = JSON_ALLOW_MARK};
+    json_input json = {.text = (const char *)bytes->data, .size = bytes->size, .rules = JSON_ALLOW_MARK};
     bool is_model = true;
-    if (ffd_glb_is(file.data, file.size)) {
-        is_model = !ffd_glb_parse(file.data, file.size, path, &layout, NULL);
+    if (ffd_glb_is(bytes->data, bytes->size)) {
+        is_model = !ffd_glb_parse(bytes->data, bytes->size, path, &layout, NULL);
         json.text += is_model ? layout.json_begin : 0;
         json.size = is_model ? layout.json_size : 0;
     }
@@ -96,7 +94,6 @@ ffd_status ffd_gltf_find_resources(const char *path, path_list *files, ffd_error
         status = find_images(&tree, path, files, error);
         ffd_json_span_free(&tree);
     }
-    ffd_file_unload(&file);
     return status;
 }
 

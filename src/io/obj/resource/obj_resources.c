@@ -185,17 +185,15 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_opti
     return status;
 }
 
-ffd_status ffd_obj_find_resources(const char *path, path_list *files, ffd_error *error)
+ffd_status ffd_obj_find_resources(const char *path, const file_input *bytes, path_list *files,
+                                  ffd_error *error)
 {
-    file_input input;
     resource_list list = {0};
     char *const from = ffd_path_folder(path);
     const resource_copier copier = {.mesh = path, .from = from};
     ffd_status status = from ? FFD_OK : ffd_fail_memory(error);
-    if (!status && !ffd_file_is_stream(path) && !ffd_file_load(path, &input, NULL)) {
-        status = list_all(&copier, &input, true, &list, error);
-        ffd_file_unload(&input);
-    }
+    if (!status)
+        status = list_all(&copier, bytes, true, &list, error);
     for (size_t i = 0; i < list.count && !status; i++) {
         char *const file = ffd_path_beside(path, list.resources[i].path);
         status = file ? FFD_OK : ffd_fail_memory(error);
