@@ -683,11 +683,9 @@ m("meshes-in-turn", "policy", "cli_batch_sweep",
 m("look-in-any-order", "order", "cli_batch_outputs",
   "if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known)) break;",
   "if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known)) continue;")
-m("crash-of-a-look-begun-again", "condition", "cli_batch_failures",
-  "const bool is_returned = !worker->was_told && !task->was_returned;",
-  "const bool is_returned = (worker->looks || !worker->was_told) && !task->was_returned;")
-m("look-of-another-mesh", "check left out", "cli_batch_outputs",
-  "return outputs->input && strcmp(outputs->input, kind->input) == 0 &&", "return outputs->input &&")
+m("look-not-learned", "operation", "cli_batch_outputs", "task->was_looked_at = true;", "")
+m("resources-of-a-look-left-out", "operation", "cli_batch_outputs",
+  "if (table->find_resources) status = table->find_resources(source->path, &bytes, copied, error);", "")
 m("changed-mesh-not-told", "message", "cli_batch_sweep", "if (known & TOLD || known == state)",
   "if ((known | TOLD) & TOLD || known == state)")
 m("changed-mesh-told-again", "message", "cli_batch_sweep",
