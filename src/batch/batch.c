@@ -85,10 +85,10 @@ static void add_task(batch_run *run, pool_task *task)
         fail_task(task, &job->error);
         return;
     }
-    const bool is_file = ffd_file_stamp(job->words.data, &stamp);
     task->mesh = ffd_hash(job->input, strlen(job->input));
-    task->is_large = is_file && stamp.size > MOST_SHARED;
-    task->state = is_file && ffd_outputs_depend_on_mesh(job) ? TASK_NEW : TASK_LOOKED;
+    task->is_large = ffd_file_stamp(job->words.data, &stamp) && stamp.size > MOST_SHARED;
+    task->has_mesh_name = ffd_format_from_name(job->target) != FFD_FORMAT_AUTO;
+    task->state = TASK_ORDERED;
     run->waiting++;
 }
 
@@ -112,19 +112,15 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
     return FFD_OK;
 }
 
-/* Lets a job begin, or fails it because of a file that a job before it writes. */
-static ffd_status claim_task(batch_run *run, pool_task *task, ffd_error *error)
+/* Takes the output of a job for it, or fails the job because one before it writes that file. */
+static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
-    ffd_status status = FFD_OK;
-    if (task->was_looked_at)
-        status = ffd_outputs_learn(&run->written, job, task->beside, &task->copied, error);
-    ffd_buffer_free(&task->copied);
-    if (!status)
-        status = ffd_outputs_claim(&run->written, manifest_of(run), job, &task->target, error);
-    if (status)
-        return status;
-    task->state = TASK_WAITS;
+    if (ffd_outputs_claim(&run->written, manifest_of(run), job, &task->target, error))
+        return FFD_E_MEMORY;
+    static const task_state states[] = {
+        [OTHERS_NONE] = TASK_WAITS, [OTHERS_KNOWN] = TASK_LOOKED, [OTHERS_BY_MESH] = TASK_NEW};
+    task->state = states[ffd_outputs_others(job)];
     if (job->error.status)
         fail_task(task, &job->error);
     else if (run->journal)
@@ -132,17 +128,37 @@ static ffd_status claim_task(batch_run *run, pool_task *task, ffd_error *error)
     return FFD_OK;
 }
 
-/* Lets the jobs begin, in their order, up to the first one whose mesh has to be looked at. */
+/* Likewise the files beside it and those that are copied with it, which are known. */
+static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error)
+{
+    batch_job *const job = &task->job;
+    ffd_status status = FFD_OK;
+    if (task->state == TASK_LOOKED)
+        status = ffd_outputs_learn(&run->written, job, task->beside, &task->copied, error);
+    ffd_buffer_free(&task->copied);
+    if (!status)
+        status = ffd_outputs_claim_others(&run->written, manifest_of(run), job, error);
+    task->state = TASK_WAITS;
+    if (!status && job->error.status)
+        fail_task(task, &job->error);
+    return status;
+}
+
+/* Lets jobs begin. No file of a mesh's name is written beside an output or copied with it: such an output can
+   be taken at once, all others when the files of all jobs before are known. */
 static ffd_status claim_tasks(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK;
+    bool settled = true;
     for (size_t i = 0; i < run->count && !status; i++) {
         pool_task *const task = run->tasks[i];
-        const bool is_known = task->state == TASK_NEW && ffd_outputs_know_mesh(&run->written, &task->job);
-        if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known))
-            break;
-        if (task->state == TASK_NEW || task->state == TASK_LOOKED)
-            status = claim_task(run, task, error);
+        if (task->state == TASK_ORDERED && (settled || task->has_mesh_name))
+            status = claim_output(run, task, error);
+        const bool is_known =
+            settled && task->state == TASK_NEW && ffd_outputs_know_mesh(&run->written, &task->job);
+        if (!status && settled && (task->state == TASK_LOOKED || is_known))
+            status = claim_others(run, task, error);
+        settled = settled && ffd_task_is_settled(task);
     }
     return status;
 }
@@ -313,6 +329,19 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
     return status;
 }
 
+/* Waits for ends. Whoever has ended goes on with a job that may begin before its end is noted, unless that
+   end could stop all. */
+static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
+{
+    if (ffd_pool_running(run->pool) > 0 || run->starved)
+        ffd_pool_wait(run->pool, LOOK);
+    if (run->ending || run->desc->stop || ffd_interrupt_requested())
+        return FFD_OK;
+    const ffd_status status = ffd_pool_assign(run->pool, run->tasks, run->count, error);
+    run->ending = status;
+    return status;
+}
+
 static ffd_status run_jobs(batch_run *run, ffd_error *error)
 {
     ffd_status status = FFD_OK, first = FFD_OK;
@@ -320,8 +349,8 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
         run->ending = run->ending || ffd_interrupt_requested();
         if (!first)
             first = begin_jobs(run, error);
-        if ((ffd_pool_running(run->pool) > 0 || run->starved))
-            ffd_pool_wait(run->pool, LOOK);
+        const ffd_status waited = wait_for_ends(run, first ? NULL : error);
+        first = first ? first : waited;
         status = note_ends(run, first ? NULL : error);
         heed_interrupts(run);
         if (!status)

@@ -175,28 +175,60 @@ ffd_status ffd_cache_images(hash_cache *cache, const ffd_source *source, path_li
     return status ? status : copy_list(&mesh->images, images, error);
 }
 
-ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
-                          path_list *copied, ffd_error *error)
+static void forget_look(cached_look *look)
 {
-    ffd_format format;
-    file_stamp stamp;
+    ffd_free(look->path);
+    ffd_paths_free(&look->copied);
+    *look = (cached_look){0};
+}
+
+static bool is_last_look(const cached_look *look, const char *path, const file_stamp *stamp, ffd_format from,
+                         ffd_format to)
+{
+    return look->path && strcmp(look->path, path) == 0 && ffd_stamp_equal(&look->stamp, stamp) &&
+           look->from == from && look->to == to;
+}
+
+/* Looks at the bytes of a file of a format that can refer to files of its own. */
+static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_stamp *stamp, ffd_format from,
+                                ffd_format to, ffd_error *error)
+{
+    cached_look *const look = &cache->look;
+    const mesh_format *const table = ffd_format_table(from);
     file_input bytes;
-    *beside = 0;
-    ffd_status status = ffd_source_format(source, &format, error);
-    const mesh_format *const table = status ? NULL : ffd_format_table(format);
-    if (status || !table->list_files)
-        return status ? status : ffd_cache_images(cache, source, copied, error);
-    if (!ffd_file_stamp(source->path, &stamp))
-        return FFD_OK;
-    status = load_and_hash(cache, source->path, &stamp, &bytes, error);
+    forget_look(look);
+    ffd_status status = load_and_hash(cache, path, stamp, &bytes, error);
     if (status)
         return status;
     if (table->count_beside)
-        *beside = table->count_beside(&bytes, format, to);
+        look->beside = table->count_beside(&bytes, from, to);
     if (table->find_resources)
-        status = table->find_resources(source->path, &bytes, copied, error);
+        status = table->find_resources(path, &bytes, &look->copied, error);
     ffd_file_unload(&bytes);
+    look->path = status ? NULL : ffd_text_copy(path);
+    look->stamp = *stamp;
+    look->from = from;
+    look->to = to;
     return status;
+}
+
+ffd_status ffd_cache_look(hash_cache *cache, const ffd_source *source, ffd_format to, size_t *beside,
+                          path_list *copied, ffd_error *error)
+{
+    ffd_format from;
+    file_stamp stamp;
+    *beside = 0;
+    ffd_status status = ffd_source_format(source, &from, error);
+    if (status || !ffd_format_table(from)->list_files)
+        return status ? status : ffd_cache_images(cache, source, copied, error);
+    if (!ffd_file_stamp(source->path, &stamp))
+        return FFD_OK;
+    if (!is_last_look(&cache->look, source->path, &stamp, from, to))
+        status = look_at_bytes(cache, source->path, &stamp, from, to, error);
+    if (status)
+        return status;
+    *beside = cache->look.beside;
+    return copy_list(&cache->look.copied, copied, error);
 }
 
 /* Whether the text of a lattice may have the member "meshes", however it is written. */
@@ -259,5 +291,6 @@ void ffd_cache_free(hash_cache *cache)
         forget_file(&cache->files[i]);
     for (size_t i = 0; i < CACHED_FILES; i++)
         forget_mesh(&cache->meshes[i]);
+    forget_look(&cache->look);
     *cache = (hash_cache){0};
 }

@@ -27,10 +27,20 @@ typedef struct cached_mesh {
     path_list files, images; /* images, material libraries */
 } cached_mesh;
 
+/* What the last look at a mesh has shown. */
+typedef struct cached_look {
+    char *path; /* NULL: none */
+    file_stamp stamp;
+    ffd_format from, to;
+    size_t beside;
+    path_list copied;
+} cached_look;
+
 /* An empty cache is all zeros. */
 typedef struct hash_cache {
     cached_file files[CACHED_FILES];
     cached_mesh meshes[CACHED_FILES];
+    cached_look look;
     size_t next, next_mesh; /* to be replaced */
 } hash_cache;
 

@@ -13,8 +13,10 @@ static ffd_format format_of(const batch_job *job, const char *option, const char
 {
     const char *const value = ffd_job_option(job, option);
     char name[24];
-    snprintf(name, sizeof name, "x.%.20s", value ? value : "");
-    return ffd_format_from_name(value ? name : path);
+    if (!value)
+        return ffd_format_from_name(path);
+    snprintf(name, sizeof name, "x.%.20s", value);
+    return ffd_format_from_name(name);
 }
 
 /* What a job writes beside its output, and copies with it, depends on. */
@@ -43,11 +45,13 @@ static bool has_copies(const batch_job *job, const output_kind *kind)
            ffd_folders_differ(kind->input, job->target);
 }
 
-bool ffd_outputs_depend_on_mesh(const batch_job *job)
+output_others ffd_outputs_others(const batch_job *job)
 {
     const output_kind kind = kind_of(job);
-    const bool has_beside = job->output && kind.format && kind.is_kept && kind.format->list_beside;
-    return has_beside || has_copies(job, &kind);
+    const bool has_beside = job->output && kind.format && kind.format->list_beside;
+    if (has_beside && !kind.is_kept)
+        return OTHERS_KNOWN;
+    return has_beside || has_copies(job, &kind) ? OTHERS_BY_MESH : OTHERS_NONE;
 }
 
 static bool knows(const run_outputs *outputs, const output_kind *kind)
@@ -83,15 +87,14 @@ ffd_status ffd_outputs_learn(run_outputs *outputs, const batch_job *job, size_t 
     return status;
 }
 
-/* Lists the files of a job, the output first. One in place keeps its own files beside it. */
-static ffd_status list_files(const run_outputs *outputs, const batch_job *job, const output_kind *kind,
-                             path_list *files, ffd_error *error)
+/* Lists the files beside the output. One in place keeps its own. */
+static ffd_status list_beside(const run_outputs *outputs, const batch_job *job, const output_kind *kind,
+                              path_list *files, ffd_error *error)
 {
     const mesh_format *const format = kind->format;
     size_t beside = 0;
-    const ffd_status status = ffd_paths_add(files, job->target, error);
-    if (status || !job->output || !format || !format->list_beside)
-        return status;
+    if (!job->output || !format || !format->list_beside)
+        return FFD_OK;
     if (!kind->is_kept)
         beside = format->count_beside(NULL, kind->from, kind->to);
     else if (knows(outputs, kind))
@@ -174,29 +177,46 @@ static ffd_status claim_copy(run_outputs *outputs, const char *manifest, batch_j
     return status;
 }
 
+/* Notes the files that the job writes, or refuses it. */
+static ffd_status claim_files(run_outputs *outputs, const char *manifest, batch_job *job,
+                              const path_list *files, ffd_error *error)
+{
+    hash128 *const identities = ffd_alloc(files->count, sizeof *identities);
+    ffd_status status = identities ? FFD_OK : ffd_fail_memory(error);
+    uint64_t line;
+    for (size_t i = 0; i < files->count && !status && !job->error.status; i++) {
+        identities[i] = ffd_file_identity(files->paths[i]);
+        if (is_taken(outputs, &identities[i], &line))
+            refuse(manifest, job, files->paths[i], line);
+    }
+    for (size_t i = 0; i < files->count && !status && !job->error.status; i++)
+        status = ffd_files_put(&outputs->lines, &identities[i], job->line, error);
+    ffd_free(identities);
+    return status;
+}
+
 ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_job *job, hash128 *target,
                              ffd_error *error)
+{
+    uint64_t line;
+    *target = ffd_file_identity(job->target);
+    if (!is_taken(outputs, target, &line))
+        return ffd_files_put(&outputs->lines, target, job->line, error);
+    refuse(manifest, job, ffd_job_output_name(job), line);
+    return FFD_OK;
+}
+
+ffd_status ffd_outputs_claim_others(run_outputs *outputs, const char *manifest, batch_job *job,
+                                    ffd_error *error)
 {
     const output_kind kind = kind_of(job);
     const size_t copies = has_copies(job, &kind) && knows(outputs, &kind) ? outputs->resources.count : 0;
     path_list files = {0};
-    uint64_t line;
-    ffd_status status = list_files(outputs, job, &kind, &files, error);
-    hash128 *const identities = status ? NULL : ffd_alloc(files.count, sizeof *identities);
-    if (!status && !identities)
-        status = ffd_fail_memory(error);
-    for (size_t i = 0; i < files.count && !status && !job->error.status; i++) {
-        identities[i] = ffd_file_identity(files.paths[i]);
-        if (is_taken(outputs, &identities[i], &line))
-            refuse(manifest, job, i ? files.paths[i] : ffd_job_output_name(job), line);
-    }
+    ffd_status status = list_beside(outputs, job, &kind, &files, error);
+    if (!status && files.count > 0)
+        status = claim_files(outputs, manifest, job, &files, error);
     for (size_t i = 0; i < copies && !status && !job->error.status; i++)
         status = claim_copy(outputs, manifest, job, outputs->resources.paths[i], error);
-    for (size_t i = 0; i < files.count && !status && !job->error.status; i++)
-        status = ffd_files_put(&outputs->lines, &identities[i], job->line, error);
-    if (!status)
-        *target = identities[0];
-    ffd_free(identities);
     ffd_paths_free(&files);
     return status;
 }

@@ -29,20 +29,29 @@ typedef struct run_outputs {
     path_list resources;
 } run_outputs;
 
-/* Whether a job writes files beside its output, or copies some with it, that only a look at its mesh shows.
-   The first process reads no mesh: one that ends the program, or never ends, must cost its own jobs only. */
-bool ffd_outputs_depend_on_mesh(const batch_job *job);
+/* The files that a job writes beside its output, or copies with it. The first process reads no mesh: one that
+   ends the program, or never ends, must cost its own jobs only. */
+typedef enum output_others {
+    OTHERS_NONE,
+    OTHERS_KNOWN,  /* by the formats */
+    OTHERS_BY_MESH /* only a look at the mesh shows them */
+} output_others;
+/* What is known of the others before anything is read. */
+output_others ffd_outputs_others(const batch_job *job);
 /* Whether the mesh is the one of the last look, as it was then. */
 bool ffd_outputs_know_mesh(const run_outputs *outputs, const batch_job *job);
 /* Takes note of what a worker saw: how many files are written beside the output, and the paths that may be
    copied, each ended by 0. Errors: FFD_E_MEMORY. */
 ffd_status ffd_outputs_learn(run_outputs *outputs, const batch_job *job, size_t beside,
                              const byte_buffer *resources, ffd_error *error);
-/* Notes what a job writes, beside it, and copies with it, as far as it is known; *target is the output. If a
-   job before writes one of these files, or the run itself, or copies other bytes there, that becomes the
-   job's error, at its line in the manifest (NULL: there is none). Errors: FFD_E_MEMORY. */
+/* Notes the output of a job, which becomes *target. If a job before writes that file, or the run itself, this
+   becomes the job's error, at its line in the manifest (NULL: there is none). Errors: FFD_E_MEMORY. */
 ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_job *job, hash128 *target,
                              ffd_error *error);
+/* The same of the others, as the last look at its mesh has shown them; two jobs may copy the same bytes to
+   one place. */
+ffd_status ffd_outputs_claim_others(run_outputs *outputs, const char *manifest, batch_job *job,
+                                    ffd_error *error);
 /* Notes a file of the run itself. Errors: FFD_E_MEMORY. */
 ffd_status ffd_outputs_reserve(run_outputs *outputs, const char *path, ffd_error *error);
 /* Leaves none. */

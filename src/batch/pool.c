@@ -18,7 +18,6 @@ typedef struct pool_worker {
     hash128 mesh;            /* of the task before or now */
     bool has_mesh, timed_out, stopped, retires;
     bool was_told;   /* of its task */
-    bool looks;      /* only */
     bool is_ending;  /* its time is up */
     double deadline; /* 0: none */
 } pool_worker;
@@ -70,16 +69,17 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
 {
     const pool_desc *const desc = &pool->desc;
     const batch_job *const job = &task->job;
-    byte_buffer text = {0};
+    byte_buffer text = {0}; /* with the head before it: two messages would wake the worker twice */
+    wire_task head;
+    memset(&head, 0, sizeof head); /* the bytes between members too: they are sent */
+    ffd_buffer_append(&text, &head, sizeof head);
     ffd_buffer_append(&text, job->words.data, job->words.size);
     ffd_buffer_append(&text, job->content.data, job->content.size);
     append_word(&text, pool->desc.origin);
     append_word(&text, job->input);
     append_word(&text, ffd_job_output_name(job));
-    wire_task head;
-    memset(&head, 0, sizeof head); /* the bytes between members too: they are sent */
     head.line = job->line;
-    head.text_size = text.size;
+    head.text_size = text.size - sizeof head;
     head.word_count = (uint32_t)job->word_count;
     head.content_words = count_words(&job->content);
     head.threads = threads;
@@ -95,12 +95,13 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.quiet = desc->quiet;
     head.verbose = desc->verbose;
     head.measure = desc->measure;
-    head.look = worker->looks;
+    head.look = task->looks;
     head.has_box = desc->box != NULL;
     if (desc->box)
         head.box = *desc->box;
-    const bool sent = !text.failed && ffd_process_send(worker->process, &head, sizeof head) &&
-                      ffd_process_send(worker->process, text.data, text.size);
+    if (!text.failed)
+        memcpy(text.data, &head, sizeof head);
+    const bool sent = !text.failed && ffd_process_send(worker->process, text.data, text.size);
     ffd_buffer_free(&text);
     return sent;
 }
@@ -129,7 +130,7 @@ static pool_task *choose(const worker_pool *pool, const pool_worker *worker, poo
 {
     pool_task *first = NULL;
     for (size_t i = 0; i < count; i++) {
-        if (!tasks[i] || tasks[i]->state != TASK_WAITS)
+        if (!tasks[i] || (tasks[i]->state != TASK_WAITS && tasks[i]->state != TASK_NEW))
             continue;
         if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]))
             return tasks[i];
@@ -137,21 +138,6 @@ static pool_task *choose(const worker_pool *pool, const pool_worker *worker, poo
             first = tasks[i];
     }
     return first;
-}
-
-/* The first new task, or nobody, whose mesh nobody is to look at for the task before it. */
-static pool_task *choose_look(pool_task *const *tasks, size_t count)
-{
-    const pool_task *before = NULL;
-    for (size_t i = 0; i < count; i++) {
-        pool_task *const task = tasks[i];
-        if (!task || (task->state != TASK_NEW && task->state != TASK_LOOKS))
-            continue;
-        if (task->state == TASK_NEW && !(before && ffd_hash_equal(&before->mesh, &task->mesh)))
-            return task;
-        before = task;
-    }
-    return NULL;
 }
 
 /* Counts the tasks that can run at the same time, with those that run: one a worker at most, and one a large
@@ -179,8 +165,8 @@ static void begin_task(const worker_pool *pool, pool_worker *worker, pool_task *
     worker->has_mesh = true;
     worker->timed_out = worker->stopped = worker->is_ending = false;
     worker->deadline = pool->desc.timeout > 0 ? ffd_clock_seconds() + pool->desc.timeout : 0;
-    worker->looks = task->state == TASK_NEW;
-    task->state = worker->looks ? TASK_LOOKS : TASK_RUNS;
+    task->looks = task->state == TASK_NEW;
+    task->state = TASK_RUNS;
 }
 
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error)
@@ -188,10 +174,7 @@ ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t co
     const pool_desc *const desc = &pool->desc;
     for (int i = 0; i < desc->workers; i++) {
         pool_worker *const worker = &pool->workers[i];
-        if (worker->task)
-            continue;
-        pool_task *const ready = choose(pool, worker, tasks, count);
-        pool_task *const task = ready ? ready : choose_look(tasks, count);
+        pool_task *const task = worker->task ? NULL : choose(pool, worker, tasks, count);
         if (!task)
             continue;
         const ffd_status status =
@@ -222,7 +205,7 @@ static void end_task(pool_worker *worker, wire_outcome outcome)
     worker->deadline = 0;
 }
 
-/* Takes what a look has found. */
+/* Takes what a look has found: the task goes back. */
 static void take_look(pool_worker *worker, const wire_answer *head, const char *copied)
 {
     pool_task *const task = worker->task;
@@ -236,7 +219,6 @@ static void take_look(pool_worker *worker, const wire_answer *head, const char *
         return;
     }
     task->state = TASK_LOOKED;
-    task->was_looked_at = true;
     worker->task = NULL;
     worker->deadline = 0;
 }
@@ -249,15 +231,15 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     if (bytes->size < sizeof head)
         return true;
     memcpy(&head, bytes->data, sizeof head);
-    if (!worker->task || head.log_size > WIRE_MOST || head.entry_size > WIRE_MOST ||
-        head.rule_size > WIRE_MOST || head.figures_size > WIRE_MOST)
+    if (!worker->task || (head.looked && !worker->task->looks) || head.log_size > WIRE_MOST ||
+        head.entry_size > WIRE_MOST || head.rule_size > WIRE_MOST || head.figures_size > WIRE_MOST)
         return false;
     if (bytes->size < sizeof head + head.log_size + head.entry_size + head.rule_size + head.figures_size)
         return true;
     const char *const log = bytes->data + sizeof head, *const entry = log + head.log_size,
                       *const rule = entry + head.entry_size, *const figures = rule + head.rule_size;
     pool_task *const task = worker->task;
-    if (worker->looks) {
+    if (head.looked) {
         take_look(worker, &head, rule);
         bytes->size = 0;
         return true;
@@ -313,9 +295,8 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
     if (!worker->task)
         return;
     pool_task *const task = worker->task;
-    const bool is_returned = !worker->was_told && !task->was_returned;
-    if (is_returned || (worker->looks && worker->stopped)) { /* it had ended before: somebody else's turn */
-        task->state = worker->looks ? TASK_NEW : TASK_WAITS;
+    if (!worker->was_told && !task->was_returned) { /* it had ended before: somebody else's turn */
+        task->state = task->looks ? TASK_NEW : TASK_WAITS;
         task->was_returned = true;
         worker->task = NULL;
         return;
@@ -423,7 +404,13 @@ void ffd_pool_destroy(worker_pool **pool)
 
 bool ffd_task_is_pending(const pool_task *task)
 {
-    return task->state == TASK_WAITS || task->state == TASK_NEW || task->state == TASK_LOOKED;
+    return task->state < TASK_RUNS;
+}
+
+bool ffd_task_is_settled(const pool_task *task)
+{
+    return task->state == TASK_WAITS || (task->state == TASK_RUNS && !task->looks) ||
+           task->state == TASK_ENDED || task->state == TASK_DROPPED;
 }
 
 void ffd_task_free(pool_task *task)

@@ -15,10 +15,10 @@ typedef struct pool_desc {
 } pool_desc;
 
 typedef enum task_state {
-    TASK_WAITS,
-    TASK_NEW,    /* its mesh is to be looked at before it may begin */
-    TASK_LOOKS,  /* a worker does that */
-    TASK_LOOKED, /* it may begin when all before it may */
+    TASK_WAITS,   /* all files that it writes are known */
+    TASK_NEW,     /* its worker has a look first at what it writes beside its output, and copies with it */
+    TASK_LOOKED,  /* there is such a file: its turn comes when the files of all before it are known */
+    TASK_ORDERED, /* the same, because of the name of its output */
     TASK_RUNS,
     TASK_ENDED,
     TASK_DROPPED
@@ -27,16 +27,17 @@ typedef enum task_state {
 /* A job on its way through the pool. */
 typedef struct pool_task {
     batch_job job;
-    uint64_t number;   /* in the run, from 0 */
-    hash128 target;    /* which file its output is */
-    hash128 mesh;      /* of the name of its input: a worker goes on with the one that it has */
-    bool is_large;     /* the input: it is left to one worker */
-    job_record record; /* before: of the last time, where has_record; afterwards: of this time, likewise */
+    uint64_t number;    /* in the run, from 0 */
+    hash128 target;     /* which file its output is */
+    hash128 mesh;       /* of the name of its input: a worker goes on with the one that it has */
+    bool is_large;      /* the input: it is left to one worker */
+    bool has_mesh_name; /* the output */
+    job_record record;  /* before: of the last time, where has_record; afterwards: of this time, likewise */
     bool has_record;
     byte_buffer figures; /* likewise: of the run that made the output, as JSON, ended by 0; or empty */
     task_state state;
-    bool was_looked_at;
-    size_t beside;      /* that this has found: files beside the output; */
+    bool looks;         /* while it runs: begun when it was new */
+    size_t beside;      /* that a look has found: files beside the output; */
     byte_buffer copied; /* and files that may be copied, each path ended by 0 */
     bool was_returned;  /* by a worker that had ended before it could take it */
     bool noted;         /* what its end means at once was seen to */
@@ -56,8 +57,8 @@ typedef struct worker_pool worker_pool;
 /* Makes a pool without workers: they are started when there are tasks. desc's texts must outlive it.
    Errors: FFD_E_MEMORY. */
 ffd_status ffd_pool_create(const pool_desc *desc, worker_pool **pool, ffd_error *error);
-/* Gives waiting tasks, which are listed in their order with gaps (NULL), to idle workers, and new ones to be
-   looked at to those that have nothing else to do. Errors: no worker can be started. */
+/* Gives waiting and new tasks, which are listed in their order with gaps (NULL), to idle workers. Errors: no
+   worker can be started. */
 ffd_status ffd_pool_assign(worker_pool *pool, pool_task *const *tasks, size_t count, ffd_error *error);
 /* Waits until a task has ended, at most for this many seconds, and takes note of what has happened. */
 void ffd_pool_wait(worker_pool *pool, double seconds);
@@ -77,6 +78,8 @@ void ffd_pool_destroy(worker_pool **pool);
 
 /* Whether a task has not begun, but for a look. */
 bool ffd_task_is_pending(const pool_task *task);
+/* Whether all files that a task writes are known, or there will be none. */
+bool ffd_task_is_settled(const pool_task *task);
 /* Frees a task with its job and texts. */
 void ffd_task_free(pool_task *task);
 

@@ -36,7 +36,7 @@ typedef struct wire_task {
     bool quiet;    /* no warnings */
     bool verbose;  /* what else there is to say */
     bool measure;  /* only the box of the mesh is wanted, and its files where depfile is set */
-    bool look;     /* only what is written beside the output and may be copied with it is wanted */
+    bool look;     /* what is written beside the output and may be copied with it is wanted first */
     bool has_box;
     shown_box box; /* that all jobs share, where has_box */
 } wire_task;
@@ -47,8 +47,8 @@ typedef enum wire_outcome { OUTCOME_DONE, OUTCOME_SKIPPED, OUTCOME_FAILED } wire
 typedef struct wire_answer {
     uint64_t log_size;     /* lines for people, each with its line break */
     uint64_t entry_size;   /* of the report */
-    uint64_t rule_size;    /* of the depfile; of a measured mesh its files, of a look what may be copied, each
-                              ended by 0 */
+    uint64_t rule_size;    /* of the depfile; of a measured mesh its files, after a look what may be copied,
+                              each ended by 0 */
     uint64_t figures_size; /* of the job, as JSON, ended by 0 */
     job_record record;
     hash128 state;       /* of the files of the mesh, where has_state (job_cache.h) */
@@ -58,6 +58,7 @@ typedef struct wire_answer {
     uint8_t outcome;
     bool has_record, has_state;
     bool rehearsed;     /* all was done but the writing */
+    bool looked;        /* there is such a file: nothing else was done */
     bool retires;       /* the worker ends, and is to be given nothing more */
     bool out_of_memory; /* so that there are no texts, although the job failed */
 } wire_answer;

@@ -23,6 +23,7 @@ typedef struct batch_worker {
     char **words;
     size_t word_capacity;
     byte_buffer log, entry, rule, figures; /* of the answer */
+    byte_buffer message;                   /* the whole answer */
 } batch_worker;
 
 /* The word after this one. */
@@ -129,11 +130,14 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
     return status ? status : ffd_chain_check(&files, error);
 }
 
-/* What the output is, which was just written: read again where its bytes were not hashed on their way. */
-static bool know_output(batch_worker *worker, const ffd_deform_desc *desc, hash128 *output)
+/* What the output is, which was just written: read again where its bytes were not hashed on their way. A job
+   that went on after a look copies nothing. */
+static bool know_output(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
+                        hash128 *output)
 {
     hash128 bytes;
-    if (!ffd_cache_find_output(worker->share, &bytes) || ffd_fingerprint_has_copies(desc, &worker->hashes))
+    if (!ffd_cache_find_output(worker->share, &bytes) ||
+        (!task->look && ffd_fingerprint_has_copies(desc, &worker->hashes)))
         return ffd_fingerprint_output(desc, output, NULL) == FFD_OK;
     *output = ffd_fingerprint_written(&bytes);
     return true;
@@ -164,7 +168,7 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, ffd_deform
     /* The output exists: a signal that ends the worker now is seen first. */
     ffd_process_defer_stop(true);
     if (!status && task->records)
-        answer->has_record = know_output(worker, desc, &answer->record.outputs);
+        answer->has_record = know_output(worker, task, desc, &answer->record.outputs);
     return status;
 }
 
@@ -191,8 +195,8 @@ static ffd_status measure(batch_worker *worker, const wire_task *task, const ffd
     return status;
 }
 
-/* Looks at the mesh for what the job writes beside its output and copies. What cannot be read fails the job
-   itself. */
+/* Looks at the mesh for what the job writes beside its output and copies with it. If there is such a file,
+   answer->looked is set. What cannot be read fails the job itself. */
 static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_answer *answer,
                        ffd_error *error)
 {
@@ -204,8 +208,9 @@ static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_a
     for (size_t i = 0; i < copied.count && !status; i++)
         ffd_buffer_append(&worker->rule, copied.paths[i], strlen(copied.paths[i]) + 1);
     answer->beside = beside;
+    answer->looked = !status && (beside > 0 || copied.count > 0);
     ffd_paths_free(&copied);
-    return status;
+    return status == FFD_E_MEMORY ? status : FFD_OK;
 }
 
 /* Does all that is wanted of a job. */
@@ -214,11 +219,12 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
 {
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
-    if (task->look)
-        return look(worker, desc, answer, &result->error);
     /* What a killed run had set aside is to be read. */
-    ffd_status status =
-        desc->in_place && !task->dry ? ffd_restore_output(desc->input.path, &result->error) : FFD_OK;
+    ffd_status status = task->look ? look(worker, desc, answer, &result->error) : FFD_OK;
+    if (status || answer->looked)
+        return status;
+    if (desc->in_place && !task->dry)
+        status = ffd_restore_output(desc->input.path, &result->error);
     if (!status && task->measure)
         return measure(worker, task, desc, answer, &result->error);
     desc->shared_box = task->has_box ? &shared : NULL;
@@ -287,7 +293,7 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
     result.status = run_words(worker, task, answer, &result);
     if (result.status) {
         answer->outcome = OUTCOME_FAILED;
-        if (!task->measure && !task->look) /* the job itself will say it */
+        if (!task->measure) /* the job itself will say it */
             log_error(worker, &result.error);
     }
     /* One that has run out of memory may do so again, with any job. */
@@ -296,30 +302,34 @@ static void answer_task(batch_worker *worker, const wire_task *task, wire_answer
         ffd_report_figures(&result, &worker->figures);
         ffd_buffer_append(&worker->figures, "", 1);
     }
-    if (task->report && !task->look && answer->outcome != OUTCOME_SKIPPED)
+    if (task->report && !answer->looked && answer->outcome != OUTCOME_SKIPPED)
         make_entry(worker, task, answer, &result);
 }
 
-/* If memory runs out for the message, the answer says so. */
+/* Sent at once: each part would wake the first process. If memory runs out for the message, its head says
+   so. */
 static bool send_answer(batch_worker *worker, wire_answer *answer)
 {
-    byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures};
+    const byte_buffer *const texts[] = {&worker->log, &worker->entry, &worker->rule, &worker->figures};
+    uint64_t *const sizes[] = {&answer->log_size, &answer->entry_size, &answer->rule_size,
+                               &answer->figures_size};
     enum { TEXTS = sizeof texts / sizeof *texts };
+    byte_buffer *const message = &worker->message;
     for (int i = 0; i < TEXTS; i++)
-        answer->out_of_memory = answer->out_of_memory || texts[i]->failed;
-    for (int i = 0; i < TEXTS && answer->out_of_memory; i++)
-        texts[i]->size = 0;
-    if (answer->out_of_memory)
-        answer->outcome = OUTCOME_FAILED;
-    answer->retires = answer->retires || answer->out_of_memory;
-    answer->log_size = worker->log.size;
-    answer->entry_size = worker->entry.size;
-    answer->rule_size = worker->rule.size;
-    answer->figures_size = worker->figures.size;
-    bool sent = ffd_process_give(answer, sizeof *answer);
-    for (int i = 0; i < TEXTS && sent; i++)
-        sent = ffd_process_give(texts[i]->data, texts[i]->size);
-    return sent;
+        *sizes[i] = texts[i]->size;
+    message->size = 0;
+    ffd_buffer_append(message, answer, sizeof *answer);
+    for (int i = 0; i < TEXTS; i++) {
+        ffd_buffer_append(message, texts[i]->data, texts[i]->size);
+        message->failed = message->failed || texts[i]->failed;
+    }
+    if (!message->failed)
+        return ffd_process_give(message->data, message->size);
+    for (int i = 0; i < TEXTS; i++)
+        *sizes[i] = 0;
+    answer->out_of_memory = answer->retires = true;
+    answer->outcome = OUTCOME_FAILED;
+    return ffd_process_give(answer, sizeof *answer);
 }
 
 bool ffd_worker_is(const char *name)
@@ -354,6 +364,7 @@ int ffd_worker_run(const worker_program *program)
     ffd_buffer_free(&worker.entry);
     ffd_buffer_free(&worker.rule);
     ffd_buffer_free(&worker.figures);
+    ffd_buffer_free(&worker.message);
     ffd_free(worker.words);
     return code;
 }

@@ -680,12 +680,13 @@ m("one-worker-a-mesh", "policy", "cli_batch_sweep", "if (!first && !tasks[i]->is
 m("large-mesh-shared", "limit", "cli_batch_sweep", "if (!first && !tasks[i]->is_large)", "if (!first)")
 m("meshes-in-turn", "policy", "cli_batch_sweep",
   "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]))", "if (is_of(worker, tasks[i]) || !is_taken(pool, worker, tasks[i]) || count)")
-m("look-in-any-order", "order", "cli_batch_outputs",
-  "if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known)) break;",
-  "if (task->state == TASK_LOOKS || (task->state == TASK_NEW && !is_known)) continue;")
-m("look-not-learned", "operation", "cli_batch_outputs", "task->was_looked_at = true;", "")
+m("looks-in-any-order", "order", "cli_batch_outputs", "settled = settled && ffd_task_is_settled(task);", "")
+m("look-not-learned", "operation", "cli_batch_outputs",
+  "if (task->state == TASK_LOOKED) status = ffd_outputs_learn(", "if (0) status = ffd_outputs_learn(")
+m("look-of-another-mesh", "check left out", "hash_cache, cli_batch_outputs",
+  "return look->path && strcmp(look->path, path) == 0 && ffd_stamp_equal(&look->stamp, stamp) &&", "return look->path &&")
 m("resources-of-a-look-left-out", "operation", "cli_batch_outputs",
-  "if (table->find_resources) status = table->find_resources(source->path, &bytes, copied, error);", "")
+  "if (table->find_resources) status = table->find_resources(path, &bytes, &look->copied, error);", "")
 m("changed-mesh-not-told", "message", "cli_batch_sweep", "if (known & TOLD || known == state)",
   "if ((known | TOLD) & TOLD || known == state)")
 m("changed-mesh-told-again", "message", "cli_batch_sweep",

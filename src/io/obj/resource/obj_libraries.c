@@ -188,7 +188,8 @@ ffd_status ffd_obj_list_libraries(const file_input *input, const char *path, int
     for (const char *at = first; at < last && !status;) {
         const char *const end = (size_t)(last - at) > PIECE ? at + PIECE : last;
         const char *letter;
-        ffd_file_prefault(at, (size_t)(end - at));
+        if (input->mapped)
+            ffd_file_prefault(at, (size_t)(end - at));
         while (!status && (letter = find_letter(at, end))) {
             at = letter + 1;
             if (begins_statement(first, letter, last)) {
