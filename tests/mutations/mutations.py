@@ -683,8 +683,6 @@ m("meshes-in-turn", "policy", "cli_batch_sweep",
 m("looks-in-any-order", "order", "cli_batch_outputs", "settled = settled && ffd_task_is_settled(task);", "")
 m("look-not-learned", "operation", "cli_batch_outputs",
   "if (task->state == TASK_LOOKED) status = ffd_outputs_learn(", "if (0) status = ffd_outputs_learn(")
-m("look-of-another-mesh", "check left out", "hash_cache, cli_batch_outputs",
-  "return look->path && strcmp(look->path, path) == 0 && ffd_stamp_equal(&look->stamp, stamp) &&", "return look->path &&")
 m("resources-of-a-look-left-out", "operation", "cli_batch_outputs",
   "if (table->find_resources) status = table->find_resources(path, &bytes, &look->copied, error);", "")
 m("changed-mesh-not-told", "message", "cli_batch_sweep", "if (known & TOLD || known == state)",
