@@ -329,8 +329,8 @@ static ffd_status begin_jobs(batch_run *run, ffd_error *error)
     return status;
 }
 
-/* Waits for ends. Whoever has ended goes on with a job that may begin before its end is noted, unless that
-   end could stop all. */
+/* Waits until jobs have ended. Their workers get the next jobs before the ends are noted, unless one of these
+   may stop the run (--stop). */
 static ffd_status wait_for_ends(batch_run *run, ffd_error *error)
 {
     if (ffd_pool_running(run->pool) > 0 || run->starved)

@@ -19,7 +19,7 @@ static ffd_format format_of(const batch_job *job, const char *option, const char
     return ffd_format_from_name(name);
 }
 
-/* What a job writes beside its output, and copies with it, depends on. */
+/* This decides what a job may write beside its output, and copy with it. */
 typedef struct output_kind {
     const char *input; /* its path from here */
     ffd_format from, to;

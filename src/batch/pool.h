@@ -18,7 +18,7 @@ typedef enum task_state {
     TASK_WAITS,   /* all files that it writes are known */
     TASK_NEW,     /* its worker has a look first at what it writes beside its output, and copies with it */
     TASK_LOOKED,  /* there is such a file: its turn comes when the files of all before it are known */
-    TASK_ORDERED, /* the same, because of the name of its output */
+    TASK_ORDERED, /* its output is not claimed yet; it waits likewise if its name is not that of a mesh */
     TASK_RUNS,
     TASK_ENDED,
     TASK_DROPPED

@@ -204,13 +204,13 @@ static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_a
     size_t beside = 0;
     const ffd_format to =
         desc->output_format == FFD_FORMAT_AUTO ? ffd_format_from_name(desc->output) : desc->output_format;
-    const ffd_status status = ffd_cache_look(&worker->hashes, &desc->input, to, &beside, &copied, error);
+    const ffd_status status = ffd_cache_look(&worker->hashes, &desc->input, to, &beside, &copied, NULL);
     for (size_t i = 0; i < copied.count && !status; i++)
         ffd_buffer_append(&worker->rule, copied.paths[i], strlen(copied.paths[i]) + 1);
     answer->beside = beside;
     answer->looked = !status && (beside > 0 || copied.count > 0);
     ffd_paths_free(&copied);
-    return status == FFD_E_MEMORY ? status : FFD_OK;
+    return status == FFD_E_MEMORY ? ffd_fail_memory(error) : FFD_OK;
 }
 
 /* Does all that is wanted of a job. */
