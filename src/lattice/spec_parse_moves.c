@@ -1,7 +1,7 @@
 #include "lattice/spec_parse_moves.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
-#include "lattice/direction.h"
+#include "base/vector/direction.h"
 #include "lattice/spec_values.h"
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 #include "lattice/spec_values.h"
 #include "base/memory/memory.h"
-#include "lattice/direction.h"
+#include "base/vector/direction.h"
 #include <string.h>
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
