@@ -5,7 +5,7 @@
 
 bool ffd_move_has_centre(move_action action)
 {
-    return action != MOVE_BY && action != MOVE_TO && action != MOVE_MATRIX;
+    return action != MOVE_BY && action != MOVE_TO && action != MOVE_MATRIX && action != MOVE_PULL;
 }
 
 bool ffd_move_has_extent(move_action action)
@@ -71,26 +71,30 @@ static void taper(const ready_move *ready, double p[3])
         p[c] += more * e[c];
 }
 
-/* s' = s0 + (R-t) sin a, t' = R - (R-t) cos a with a = (s-s0)/R = degrees f, written as the changes of s and
-   t, which are 0 at the low end and keep their digits where the angle is small and R is long: t' - t =
-   (R-t)(1 - cos a). */
-static void bend(const ready_move *ready, double p[3])
+/* s' = s0 + (R-t)(1+m) sin a, t' = R - (R-t)(1+m) cos a, m = more, written as the changes of s and t, which
+   are 0 at the low end and keep their digits where the angle is small and R is long: t' - t =
+   (R-t)((1 - cos a) - m cos a). */
+void ffd_move_bend(const ready_move *ready, double degrees, double more, double p[3])
 {
     static const double pi = 3.14159265358979323846;
     const lattice_move *const move = &ready->move;
-    if (move->amount == 0 || !(ready->length > 0))
-        return;
     const double from[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
     const double t = vec_dot(move->vector, from), s = vec_dot(move->axis, from) - ready->first;
     const double radius = ready->length * 180 / (pi * move->amount);
-    const double degrees = move->amount * fraction_of(ready, p);
     double sine, cosine, half_sine, half_cosine;
     ffd_sincos_degrees(degrees, &sine, &cosine);
     ffd_sincos_degrees(0.5 * degrees, &half_sine, &half_cosine);
     const double lost = cosine > 0.5 ? 2 * half_sine * half_sine : 1 - cosine;
-    const double by_s = (radius - t) * sine - s, by_t = (radius - t) * lost;
+    const double by_s = (radius - t) * (1 + more) * sine - s, by_t = (radius - t) * (lost - more * cosine);
     for (int c = 0; c < 3; c++)
         p[c] += by_s * move->axis[c] + by_t * move->vector[c];
+}
+
+/* The angle is (s-s0)/R = degrees f. */
+static void bend(const ready_move *ready, double p[3])
+{
+    if (ready->move.amount != 0 && ready->length > 0)
+        ffd_move_bend(ready, ready->move.amount * fraction_of(ready, p), 0, p);
 }
 
 void ffd_move_act(ready_move *ready, double p[3])
@@ -98,6 +102,7 @@ void ffd_move_act(ready_move *ready, double p[3])
     const lattice_move *const move = &ready->move;
     switch (move->action) {
     case MOVE_BY:
+    case MOVE_PULL:
         for (int c = 0; c < 3; c++)
             p[c] += move->vector[c];
         break;
