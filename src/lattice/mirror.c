@@ -93,7 +93,7 @@ static void split_range(mirror_tree *tree, size_t begin, size_t end)
     tree->split[middle] = (unsigned char)widest;
     put_middle(tree, begin, end, middle, widest);
     split_range(tree, begin, middle);
-    split_range(tree, middle, end);
+    split_range(tree, middle + 1, end);
 }
 
 /* Of all points, or of those selected. */
@@ -152,11 +152,11 @@ static bool find_in(look_up *look, size_t begin, size_t end)
     const double *const p = look->tree->points + 3 * (size_t)look->tree->order[middle];
     const double from_split = (look->place[c] - p[c]) / look->tolerance, kept = look->offset[c];
     const bool before = from_split < 0;
-    if (before ? find_in(look, begin, middle) : find_in(look, middle, end))
+    if (is_at(look, middle) || (before ? find_in(look, begin, middle) : find_in(look, middle + 1, end)))
         return true;
     look->offset[c] = larger_of(kept, fabs(from_split));
     const bool found =
-        is_near(look->offset) && (before ? find_in(look, middle, end) : find_in(look, begin, middle));
+        is_near(look->offset) && (before ? find_in(look, middle + 1, end) : find_in(look, begin, middle));
     look->offset[c] = kept;
     return found;
 }

@@ -8,7 +8,7 @@
 /* Points that a place is looked up in: a k-d tree in one array. */
 typedef struct mirror_tree {
     const double *points;
-    uint32_t *order;      /* numbers of points; each range of a node is split in its middle */
+    uint32_t *order;      /* numbers of points; a range is split by the point in its middle */
     unsigned char *split; /* by the middle's place in order: the coordinate that its range is split along */
     size_t count;
 } mirror_tree;
