@@ -19,6 +19,11 @@
     "\"size\":[2,2,5],\"degree\":[1,1,2],\"knots\":[\"clamped\",\"clamped\",[0,0,0,1,1,2,2,2]]," REST
 #define ONE_ARC "\"size\":[3,2,3]," REST
 
+#define THREE_ARCS(u, w, spacing)                                                                            \
+    "\"size\":[4,4,7],\"degree\":[3,2,2],\"knots\":[" u ",\"clamped\"," w                                    \
+    "],\"rest\":{\"box\":{\"min\":[-1,"                                                                      \
+    "-1,0],\"max\":[1,1,4],\"spacing\":\"" spacing "\"}}"
+
 static const double pi = 3.14159265358979323846;
 
 static ffd_status parse(const char *rest, const char *moves, ffd_lattice **lattice, ffd_error *error)
@@ -99,10 +104,8 @@ static void the_volume_lies_on_its_circles(void **state)
     static const double angles[] = {180, -180, 90, 359, 30, -1, 1e-3};
     static const char *const rests[] = {
         TWO_ARCS,
-        "\"size\":[4,4,7],\"degree\":[3,2,2],\"knots\":[\"open\",\"clamped\",[0,0,0,1,1,1.5,1.5,3,3,3]]"
-        "," REST,
-        "\"size\":[4,4,7],\"degree\":[3,2,2],\"knots\":[\"clamped\",\"clamped\",[0,0,0,1,1,2,2,3,3,3]],"
-        "\"rest\":{\"box\":{\"min\":[-1,-1,0],\"max\":[1,1,4],\"spacing\":\"uniform\"}}",
+        THREE_ARCS("\"open\"", "[0,0,0,1,1,1.5,1.5,3,3,3]", "greville"),
+        THREE_ARCS("\"clamped\"", "[0,0,0,1,1,2,2,3,3,3]", "uniform"),
     };
     for (size_t r = 0; r < COUNT(rests); r++)
         for (size_t a = 0; a < COUNT(angles); a++) {
