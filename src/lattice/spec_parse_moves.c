@@ -325,6 +325,9 @@ static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattic
     static const char *const keys[] = {"at",    "within", "weight", "falloff", "mirror",
                                        "by",    "to",     "scale",  "rotate",  "matrix",
                                        "twist", "taper",  "bend",   "pull",    SPEC_NOTES};
+    const json_cursor exact = ffd_cursor_member(cursor, "exact");
+    if (ffd_cursor_exists(exact)) /* the nearest known key would be no help */
+        return ffd_cursor_fail(exact, "unknown key \"exact\" of a move; it is one of \"bend\"");
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = read_selection(cursor, spec, move);

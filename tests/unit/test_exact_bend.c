@@ -208,6 +208,8 @@ static void what_would_be_no_circle_is_refused(void **state)
          "/moves/0/bend/exact: a bend with a falloff is not exact: what it leaves is no circle"},
         {TWO_ARCS, "{\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":9,\"exact\":1}}",
          "/moves/0/bend/exact: must be true or false, not the number 1"},
+        {TWO_ARCS, "{\"exact\":true,\"bend\":{\"axis\":\"z\",\"toward\":\"x\",\"degrees\":9}}",
+         "/moves/0/exact: unknown key \"exact\" of a move; it is one of \"bend\""},
         {TWO_ARCS, "{\"twist\":{\"axis\":\"z\",\"degrees\":9,\"exact\":true}}",
          "/moves/0/twist/exact: unknown key \"exact\"; the nearest known one is \"axis\""},
     };
