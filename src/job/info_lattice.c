@@ -199,7 +199,9 @@ static void write_unbuilt(const ffd_lattice *lattice, bool fits, json_text *json
 {
     static const char *const unknown[] = {"rest_bounds",  "deformed_bounds", "diagonal", "moved",
                                           "largest_move", "weights_moved",   "inversion"};
-    ffd_json_bool(json, "rational", lattice->spec->weights || lattice->spec->deformed_weights);
+    ffd_json_bool(json, "rational",
+                  lattice->spec->weights || lattice->spec->deformed_weights ||
+                      ffd_spec_has_exact(lattice->spec));
     write_nulls(unknown, sizeof unknown / sizeof *unknown, json);
     if (lattice->spec->open.count > 0)
         ffd_json_null(json, "moves");

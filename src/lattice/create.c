@@ -1,11 +1,11 @@
 /* create.c - a lattice from a description of the library's caller. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/vector/direction.h"
+#include "base/vector/principal.h"
 #include "base/vector/vec.h"
 #include "lattice/build.h"
-#include "lattice/direction.h"
 #include "lattice/lattice.h"
-#include "lattice/principal.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <float.h>

@@ -1,21 +1,24 @@
 #include "lattice/moves.h"
 #include "base/memory/memory.h"
-#include "base/vector/trig.h"
+#include "base/text/number.h"
 #include "base/vector/vec.h"
 #include "lattice/lattice.h"
+#include "lattice/mirror.h"
+#include "lattice/move_action.h"
+#include "lattice/move_exact.h"
 #include "lattice/shapes.h"
 #include "lattice/spec.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/* With "units": "box" what is a length or a position (by, to, about, within, and what a matrix acts
-   on) is in fractions of the rest region's sides, along them; directions, angles and factors are
-   the same in both units. */
+/* With "units": "box" what is a length or a position (by, to, about, within, what a matrix acts on, the
+   places of a pull and of a falloff) is in fractions of the rest region's sides, along them; directions,
+   angles and factors are the same in both units. */
 
 /* The moves of one lattice while they are applied. */
 typedef struct move_work {
-    const ffd_lattice *lattice;
+    ffd_lattice *lattice;
     double *points;          /* those that move */
     double *difference;      /* their displacements from rest */
     unsigned char *selected; /* of the current move, one byte a control point */
@@ -23,16 +26,10 @@ typedef struct move_work {
     rest_region region;
     double inverse[9]; /* of the region's frame; only in box units */
     double slack[3];   /* rounding of the coordinates that `within` compares */
+    mirror_tree rest;  /* where mirror images are looked up; made for the first mirrored move */
     const char *file;
     ffd_error *error;
 } move_work;
-
-/* One move in world units, with what it takes from its points. */
-typedef struct ready_move {
-    lattice_move move;
-    double first, length;         /* s0 and s1 - s0 along the axis through about */
-    double degrees, sine, cosine; /* of the last rotation: all points of a layer often turn alike */
-} ready_move;
 
 static void to_world(const move_work *work, double position[3])
 {
@@ -70,13 +67,19 @@ static void matrix_to_world(const move_work *work, double matrix[16])
     }
 }
 
+/* The vector is added to the point and to its displacement as it is. */
+static bool adds_vector(const lattice_move *move)
+{
+    return move->action == MOVE_BY || move->action == MOVE_PULL;
+}
+
 static void move_to_world(const move_work *work, lattice_move *move)
 {
     if (!work->box_units)
         return;
     if (move->has_about)
         to_world(work, move->about);
-    if (move->action == MOVE_BY)
+    if (adds_vector(move))
         mat_apply(work->region.frame, move->vector, move->vector);
     else if (move->action == MOVE_TO)
         to_world(work, move->vector);
@@ -147,19 +150,13 @@ static void find_centroid(const move_work *work, size_t count, double centroid[3
         centroid[c] = (origin ? origin[c] : 0) + sum[c] / (double)count;
 }
 
-static double along_axis(const lattice_move *move, const double p[3])
-{
-    const double from[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
-    return vec_dot(move->axis, from);
-}
-
 static void find_extent(const move_work *work, ready_move *ready)
 {
     double first = INFINITY, last = -INFINITY;
     for (size_t i = 0; i < work->lattice->count; i++) {
         if (!work->selected[i])
             continue;
-        const double s = along_axis(&ready->move, work->points + 3 * i);
+        const double s = ffd_move_along(&ready->move, work->points + 3 * i);
         first = lesser_of(first, s);
         last = larger_of(last, s);
     }
@@ -167,154 +164,131 @@ static void find_extent(const move_work *work, ready_move *ready)
     ready->length = last - first;
 }
 
-/* f = (s - s0)/(s1 - s0); 0 where the points have no extent. */
-static double fraction_of(const ready_move *ready, const double p[3])
+/* How far a rest position is from a place of the file, in radii. */
+static double radii_from(const double x[3], const double center[3], double radius)
 {
-    return ready->length > 0 ? (along_axis(&ready->move, p) - ready->first) / ready->length : 0;
+    const double away[3] = {x[0] - center[0], x[1] - center[1], x[2] - center[2]};
+    return vec_length(away) / radius;
 }
 
-static void scale(const lattice_move *move, double p[3])
+/* How far a rest position is on the way from `from` to `to`. In box units along the whole region, from its
+   lower corner. Halves, as a difference could overflow. */
+static double way_along(const move_work *work, const move_falloff *falloff, const double rest[3])
 {
+    double from_origin[3], extent = 0;
     for (int c = 0; c < 3; c++)
-        if (move->vector[c] != 1)
-            p[c] = move->about[c] + move->vector[c] * (p[c] - move->about[c]);
-}
-
-/* Across the axis: e = d - k (k.d) = -k x (k x d), and f = k x d, with d = p - about. */
-static void across_axis(const lattice_move *move, const double p[3], double e[3], double f[3])
-{
-    const double d[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
-    vec_cross(move->axis, d, f);
-    vec_cross(f, move->axis, e);
-}
-
-/* Rodrigues' rotation, p + (cos - 1) e + sin f: what the rotation leaves alone keeps its bits (the coordinate
-   along an axis x, y or z; all at whole turns), and 90 degrees about the origin are exact. */
-static void rotate(ready_move *ready, double degrees, double p[3])
-{
-    double e[3], f[3];
-    across_axis(&ready->move, p, e, f);
-    if (degrees != ready->degrees) {
-        ffd_sincos_degrees(degrees, &ready->sine, &ready->cosine);
-        ready->degrees = degrees;
+        from_origin[c] = work->box_units ? rest[c] - work->region.origin[c] : rest[c];
+    for (int a = 0; a < 3; a++) {
+        const double side[3] = {work->region.frame[a], work->region.frame[3 + a], work->region.frame[6 + a]};
+        extent += fabs(vec_dot(falloff->axis, side));
     }
-    for (int c = 0; c < 3; c++)
-        p[c] = (p[c] + (ready->cosine - 1) * e[c]) + ready->sine * f[c];
+    const double s = vec_dot(falloff->axis, from_origin) / (work->box_units ? extent : 1);
+    return (0.5 * s - 0.5 * falloff->from) / (0.5 * falloff->to - 0.5 * falloff->from);
 }
 
-static void apply_matrix(const double m[16], double p[3])
+/* What is left of the weight at a rest position: 1 - (3x^2 - 2x^3). */
+static double falloff_at(const move_work *work, const move_falloff *falloff, const double rest[3])
 {
-    const double x = p[0], y = p[1], z = p[2];
-    for (int r = 0; r < 3; r++)
-        p[r] = m[4 * r] * x + m[4 * r + 1] * y + m[4 * r + 2] * z + m[4 * r + 3];
+    double place[3];
+    coordinates_of(work, rest, place);
+    const double x = falloff->kind == FALLOFF_AXIS ? way_along(work, falloff, rest)
+                                                   : radii_from(place, falloff->center, falloff->radius);
+    if (!(x > 0))
+        return 1;
+    return x < 1 ? 1 - x * x * (3 - 2 * x) : 0;
 }
 
-/* p + (g - 1) e with g = 1 + (k-1) f. */
-static void taper(const ready_move *ready, double p[3])
+/* (1 - x^2)^2 within the radius. */
+static double pull_at(const move_work *work, const lattice_move *move, const double rest[3])
 {
-    double e[3], f[3];
-    const double more = (ready->move.amount - 1) * fraction_of(ready, p);
-    across_axis(&ready->move, p, e, f);
-    for (int c = 0; c < 3; c++)
-        p[c] += more * e[c];
+    double place[3];
+    coordinates_of(work, rest, place);
+    const double x = radii_from(place, move->point, move->radius);
+    return x < 1 ? (1 - x * x) * (1 - x * x) : 0;
 }
 
-/* s' = s0 + (R-t) sin a, t' = R - (R-t) cos a with a = (s-s0)/R = degrees f, written as the changes of s and
-   t, which are 0 at the low end and keep their digits where the angle is small and R is long: t' - t =
-   (R-t)(1 - cos a). */
-static void bend(const ready_move *ready, double p[3])
+static double weight_at(const move_work *work, const lattice_move *move, const double rest[3])
 {
-    static const double pi = 3.14159265358979323846;
-    const lattice_move *const move = &ready->move;
-    if (move->amount == 0 || !(ready->length > 0))
-        return;
-    const double from[3] = {p[0] - move->about[0], p[1] - move->about[1], p[2] - move->about[2]};
-    const double t = vec_dot(move->vector, from), s = vec_dot(move->axis, from) - ready->first;
-    const double radius = ready->length * 180 / (pi * move->amount);
-    const double degrees = move->amount * fraction_of(ready, p);
-    double sine, cosine, half_sine, half_cosine;
-    ffd_sincos_degrees(degrees, &sine, &cosine);
-    ffd_sincos_degrees(0.5 * degrees, &half_sine, &half_cosine);
-    const double lost = cosine > 0.5 ? 2 * half_sine * half_sine : 1 - cosine;
-    const double by_s = (radius - t) * sine - s, by_t = (radius - t) * lost;
-    for (int c = 0; c < 3; c++)
-        p[c] += by_s * move->axis[c] + by_t * move->vector[c];
+    double weight = move->weight;
+    if (move->falloff.kind != FALLOFF_NONE)
+        weight *= falloff_at(work, &move->falloff, rest);
+    if (move->action == MOVE_PULL)
+        weight *= pull_at(work, move, rest);
+    return weight;
 }
 
-static void act(ready_move *ready, double p[3])
+static ffd_status check_finite(const move_work *work, const lattice_move *move, size_t point)
 {
-    const lattice_move *const move = &ready->move;
-    switch (move->action) {
-    case MOVE_BY:
-        for (int c = 0; c < 3; c++)
-            p[c] += move->vector[c];
-        break;
-    case MOVE_TO:
-        for (int c = 0; c < 3; c++)
-            p[c] = move->vector[c];
-        break;
-    case MOVE_SCALE:
-        scale(move, p);
-        break;
-    case MOVE_ROTATE:
-        rotate(ready, move->amount, p);
-        break;
-    case MOVE_MATRIX:
-        apply_matrix(move->matrix, p);
-        break;
-    case MOVE_TWIST:
-        rotate(ready, move->amount * fraction_of(ready, p), p);
-        break;
-    case MOVE_TAPER:
-        taper(ready, p);
-        break;
-    case MOVE_BEND:
-        bend(ready, p);
-        break;
-    }
-}
-
-/* Moves one coordinate of a point to where the action has it. `by` adds to the displacement as it is; another
-   action adds what the point gains, and where it takes the point back to its place at rest nothing is left.
- */
-static void move_coordinate(const lattice_move *move, int c, double to, double rest, double *p,
-                            double *difference)
-{
-    const double from = *p;
-    if (move->action == MOVE_BY) {
-        *p += move->weight * move->vector[c];
-        *difference += move->weight * move->vector[c];
-        return;
-    }
-    *p = move->weight == 1 ? to : from + move->weight * (to - from);
-    if (*p != from)
-        *difference = *p == rest ? 0 : *difference + (*p - from);
-}
-
-static ffd_status move_point(const move_work *work, ready_move *ready, size_t point)
-{
-    double *const p = work->points + 3 * point, *const difference = work->difference + 3 * point;
-    double moved[3] = {p[0], p[1], p[2]};
-    act(ready, moved);
-    for (int c = 0; c < 3; c++)
-        move_coordinate(&ready->move, c, moved[c], work->lattice->rest[3 * point + (size_t)c], &p[c],
-                        &difference[c]);
-    if (vec_is_finite(p))
-        return FFD_OK;
     const size_t *const size = work->lattice->size;
-    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, ready->move.pointer,
+    if (vec_is_finite(work->points + 3 * point))
+        return FFD_OK;
+    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
                        "moves control point %zu,%zu,%zu to a position that is not finite", point % size[0],
                        point / size[0] % size[1], point / size[0] / size[1]);
 }
 
-static bool has_centre(move_action action)
+/* A mirrored move takes the image of a point, and puts the point where the image of the result is. */
+static ffd_status move_point(const move_work *work, ready_move *ready, const mirror_plane *plane,
+                             size_t point)
 {
-    return action != MOVE_BY && action != MOVE_TO && action != MOVE_MATRIX;
+    const lattice_move *const move = &ready->move;
+    const double *const rest = work->lattice->rest + 3 * point;
+    double *const p = work->points + 3 * point, *const difference = work->difference + 3 * point;
+    double from[3] = {p[0], p[1], p[2]}, from_rest[3] = {rest[0], rest[1], rest[2]};
+    if (plane) {
+        ffd_mirror_point(plane, p, from);
+        ffd_mirror_point(plane, rest, from_rest);
+    }
+    const double weight = weight_at(work, move, from_rest);
+    if (weight == 0)
+        return FFD_OK;
+    double to[3] = {from[0], from[1], from[2]};
+    ffd_move_act(ready, to);
+    for (int c = 0; c < 3; c++) {
+        const bool reflected = plane && c == plane->axis;
+        if (adds_vector(move)) {
+            const double by = weight * (reflected ? -move->vector[c] : move->vector[c]);
+            p[c] += by;
+            difference[c] += by;
+            continue;
+        }
+        const double moved = !reflected ? to[c] : to[c] == from[c] ? p[c] : plane->twice - to[c];
+        ffd_move_put(weight == 1 ? moved : p[c] + weight * (moved - p[c]), rest[c], &p[c], &difference[c]);
+    }
+    return check_finite(work, move, point);
 }
 
-static bool has_extent(move_action action)
+/* The selected points; plane: of the images of a mirrored move. */
+static ffd_status move_points(const move_work *work, ready_move *ready, const mirror_plane *plane)
 {
-    return action == MOVE_TWIST || action == MOVE_TAPER || action == MOVE_BEND;
+    const exact_bend bend = {work->lattice, work->selected, ready, plane, work->file};
+    ffd_status status = ready->move.exact ? ffd_move_bend_exactly(&bend, work->error) : FFD_OK;
+    for (size_t i = 0; i < work->lattice->count && !status; i++) {
+        if (!work->selected[i])
+            continue;
+        status = ready->move.exact ? check_finite(work, &ready->move, i) : move_point(work, ready, plane, i);
+    }
+    return status;
+}
+
+/* The action again, reflected, on the mirror images of the points. */
+static ffd_status move_images(move_work *work, ready_move *ready)
+{
+    const lattice_move *const move = &ready->move;
+    const size_t *const size = work->lattice->size, count = work->lattice->count;
+    const mirror_plane plane = ffd_mirror_plane(work->lattice, move->mirror);
+    size_t missing;
+    const ffd_status status =
+        ffd_mirror_select(work->lattice, &plane, &work->rest, work->selected, &missing, work->error);
+    if (status)
+        return status;
+    if (missing == count)
+        return move_points(work, ready, &plane);
+    return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
+                       "control point %zu,%zu,%zu has no mirror image in %c: no other rests across the plane "
+                       "%c = %s",
+                       missing % size[0], missing / size[0] % size[1], missing / size[0] / size[1],
+                       "xyz"[move->mirror], "xyz"[move->mirror], ffd_number_text(0.5 * plane.twice).text);
 }
 
 static ffd_status apply_move(move_work *work, const lattice_move *move)
@@ -324,18 +298,13 @@ static ffd_status apply_move(move_work *work, const lattice_move *move)
     if (count == 0)
         return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
                            "selects no control point: none is within these bounds at rest");
-    if (move->weight == 0)
-        return FFD_OK;
     move_to_world(work, &ready.move);
-    if (!move->has_about && has_centre(move->action))
+    if (!move->has_about && ffd_move_has_centre(move->action))
         find_centroid(work, count, ready.move.about);
-    if (has_extent(move->action))
+    if (ffd_move_has_extent(move->action))
         find_extent(work, &ready);
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < work->lattice->count && !status; i++)
-        if (work->selected[i])
-            status = move_point(work, &ready, i);
-    return status;
+    const ffd_status status = move_points(work, &ready, NULL);
+    return status || !move->has_mirror ? status : move_images(work, &ready);
 }
 
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
@@ -358,6 +327,7 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < spec->move_count && !status; i++)
         status = apply_move(&work, &spec->moves[i]);
+    ffd_mirror_tree_free(&work.rest);
     ffd_free(work.selected);
     return status;
 }

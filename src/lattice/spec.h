@@ -16,8 +16,18 @@ typedef enum move_action {
     MOVE_MATRIX,
     MOVE_TWIST,
     MOVE_TAPER,
-    MOVE_BEND
+    MOVE_BEND,
+    MOVE_PULL
 } move_action;
+
+typedef enum falloff_kind { FALLOFF_NONE, FALLOFF_AXIS, FALLOFF_BALL } falloff_kind;
+
+/* How the weight of a move falls off with the place at rest, in the file's units. */
+typedef struct move_falloff {
+    falloff_kind kind;
+    double axis[3], from, to; /* FALLOFF_AXIS; unit length; from and to differ */
+    double center[3], radius; /* FALLOFF_BALL; the radius is positive */
+} move_falloff;
 
 typedef struct lattice_move {
     move_action action;
@@ -27,10 +37,16 @@ typedef struct lattice_move {
     double within_min[3], within_max[3];
     bool has_about;
     double about[3];
-    double vector[3]; /* by, to, scale factors, toward (of unit length, perpendicular to axis) */
+    double vector[3]; /* by (also of a pull), to, scale factors, toward (of unit length, perpendicular to
+                         axis) */
     double axis[3];   /* unit length */
     double amount;    /* degrees, taper factor */
     double matrix[16];
+    double point[3], radius; /* of a pull, in the file's units */
+    bool exact;              /* of a bend: as a rational quadratic */
+    bool has_mirror;
+    int mirror; /* the coordinate that is reflected */
+    move_falloff falloff;
     char pointer[32]; /* "/moves/3", for messages that need the built points */
 } lattice_move;
 
@@ -70,6 +86,23 @@ typedef struct lattice_spec {
 static inline bool ffd_spec_full_turn(const lattice_spec *spec)
 {
     return spec->angle[1] - spec->angle[0] >= 360 - SPEC_TURN_TOLERANCE;
+}
+
+/* Whether a move makes weights, and whether one is mirrored. */
+static inline bool ffd_spec_has_exact(const lattice_spec *spec)
+{
+    for (size_t i = 0; i < spec->move_count; i++)
+        if (spec->moves[i].exact)
+            return true;
+    return false;
+}
+
+static inline bool ffd_spec_has_mirror(const lattice_spec *spec)
+{
+    for (size_t i = 0; i < spec->move_count; i++)
+        if (spec->moves[i].has_mirror)
+            return true;
+    return false;
 }
 
 /* Values of placeholders, and which of them a file had a placeholder for. */

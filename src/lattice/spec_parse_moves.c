@@ -1,7 +1,7 @@
 #include "lattice/spec_parse_moves.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
-#include "lattice/direction.h"
+#include "base/vector/direction.h"
 #include "lattice/spec_values.h"
 #include <stdio.h>
 
@@ -139,10 +139,25 @@ static ffd_status read_taper(json_cursor cursor, lattice_move *move)
     return read_axial(cursor, keys, COUNT_OF(keys), "factor", move);
 }
 
+static ffd_status read_exact(json_cursor cursor, lattice_move *move)
+{
+    if (!ffd_cursor_exists(cursor))
+        return FFD_OK;
+    move->exact = ffd_cursor_is(cursor, JSON_TRUE);
+    if (!move->exact && !ffd_cursor_is(cursor, JSON_FALSE))
+        return ffd_cursor_fail(cursor, "must be true or false, not %s", ffd_json_describe(cursor).text);
+    if (!move->exact || (move->weight == 1 && move->falloff.kind == FALLOFF_NONE))
+        return FFD_OK;
+    return ffd_cursor_fail(cursor, "a bend with %s is not exact: what it leaves is no circle",
+                           move->weight == 1 ? "a falloff" : "a weight other than 1");
+}
+
 static ffd_status read_bend(json_cursor cursor, lattice_move *move)
 {
-    static const char *const keys[] = {"axis", "toward", "degrees", "about", SPEC_NOTES};
-    const ffd_status status = read_axial(cursor, keys, COUNT_OF(keys), "degrees", move);
+    static const char *const keys[] = {"axis", "toward", "degrees", "about", "exact", SPEC_NOTES};
+    ffd_status status = read_axial(cursor, keys, COUNT_OF(keys), "degrees", move);
+    if (!status)
+        status = read_exact(ffd_cursor_member(cursor, "exact"), move);
     if (status || ffd_direction_perpendicular(move->axis, move->vector))
         return status;
     return ffd_cursor_fail(ffd_cursor_member(cursor, "toward"),
@@ -162,6 +177,27 @@ static ffd_status read_matrix(json_cursor cursor, lattice_move *move)
                            ffd_number_text(last[3]).text);
 }
 
+/* The member of an object that is a number greater than 0. */
+static ffd_status read_radius(json_cursor object, double *radius)
+{
+    const ffd_status status = ffd_json_member_double(object, "radius", radius);
+    if (status || *radius > 0)
+        return status;
+    return ffd_cursor_fail(ffd_cursor_member(object, "radius"), "radius %s is not more than 0",
+                           ffd_number_text(*radius).text);
+}
+
+static ffd_status read_pull(json_cursor cursor, lattice_move *move)
+{
+    static const char *const keys[] = {"point", "by", "radius", SPEC_NOTES};
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
+    if (!status)
+        status = ffd_json_member_doubles(cursor, "point", 3, move->point);
+    if (!status)
+        status = ffd_json_member_doubles(cursor, "by", 3, move->vector);
+    return status ? status : read_radius(cursor, &move->radius);
+}
+
 static const struct action_reader {
     const char *key;
     move_action action;
@@ -175,6 +211,7 @@ static const struct action_reader {
     {"twist", MOVE_TWIST, read_turn},
     {"taper", MOVE_TAPER, read_taper},
     {"bend", MOVE_BEND, read_bend},
+    {"pull", MOVE_PULL, read_pull},
 };
 
 static ffd_status read_action(json_cursor cursor, lattice_move *move)
@@ -192,7 +229,8 @@ static ffd_status read_action(json_cursor cursor, lattice_move *move)
         action = member;
     }
     if (!chosen)
-        return ffd_cursor_fail(cursor, "has no action: by, to, scale, rotate, matrix, twist, taper or bend");
+        return ffd_cursor_fail(cursor,
+                               "has no action: by, to, scale, rotate, matrix, twist, taper, bend or pull");
     move->action = chosen->action;
     return chosen->read(action, move);
 }
@@ -220,15 +258,85 @@ static ffd_status read_weight(json_cursor cursor, lattice_move *move)
     return ffd_cursor_fail(weight, "weight %s is not between 0 and 1", ffd_number_text(move->weight).text);
 }
 
+static ffd_status read_axis_falloff(json_cursor cursor, move_falloff *falloff)
+{
+    falloff->kind = FALLOFF_AXIS;
+    ffd_status status = ffd_spec_read_axis(cursor, "axis", falloff->axis);
+    if (!status)
+        status = ffd_json_member_double(cursor, "from", &falloff->from);
+    if (!status)
+        status = ffd_json_member_double(cursor, "to", &falloff->to);
+    if (status || falloff->from != falloff->to)
+        return status;
+    return ffd_cursor_fail(cursor, "from and to are both %s: there is nothing to fall off between",
+                           ffd_number_text(falloff->to).text);
+}
+
+/* The member that is there; the last one if none is. */
+static const char *first_member(json_cursor object, const char *const *keys, size_t count)
+{
+    size_t i = 0;
+    while (i + 1 < count && !ffd_cursor_exists(ffd_cursor_member(object, keys[i])))
+        i++;
+    return keys[i];
+}
+
+/* Along an axis, or round a centre. */
+static ffd_status read_falloff(json_cursor cursor, move_falloff *falloff)
+{
+    static const char *const keys[] = {"axis", "from", "to", "center", "radius", SPEC_NOTES};
+    if (!ffd_cursor_exists(cursor))
+        return FFD_OK;
+    ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
+    if (status)
+        return status;
+    const char *const along = first_member(cursor, keys, 3), *const round = first_member(cursor, keys + 3, 2);
+    const bool is_along = ffd_cursor_exists(ffd_cursor_member(cursor, along));
+    const bool is_round = ffd_cursor_exists(ffd_cursor_member(cursor, round));
+    if (is_along && is_round)
+        return ffd_cursor_fail(cursor,
+                               "has both \"%s\" and \"%s\"; a falloff has axis, from and to, or center and "
+                               "radius",
+                               along, round);
+    if (!is_along && !is_round)
+        return ffd_cursor_fail(cursor, "is empty; a falloff has axis, from and to, or center and radius");
+    if (is_along)
+        return read_axis_falloff(cursor, falloff);
+    falloff->kind = FALLOFF_BALL;
+    status = ffd_json_member_doubles(cursor, "center", 3, falloff->center);
+    return status ? status : read_radius(cursor, &falloff->radius);
+}
+
+static ffd_status read_mirror(json_cursor cursor, lattice_move *move)
+{
+    static const char *const names[] = {"x", "y", "z"};
+    size_t axis;
+    if (!ffd_cursor_exists(cursor))
+        return FFD_OK;
+    const ffd_status status = ffd_json_read_word(cursor, names, COUNT_OF(names), &axis);
+    move->has_mirror = true;
+    if (!status)
+        move->mirror = (int)axis;
+    return status;
+}
+
 static ffd_status read_move(json_cursor cursor, const lattice_spec *spec, lattice_move *move)
 {
-    static const char *const keys[] = {"at",     "within", "weight", "by",    "to",   "scale",
-                                       "rotate", "matrix", "twist",  "taper", "bend", SPEC_NOTES};
+    static const char *const keys[] = {"at",    "within", "weight", "falloff", "mirror",
+                                       "by",    "to",     "scale",  "rotate",  "matrix",
+                                       "twist", "taper",  "bend",   "pull",    SPEC_NOTES};
+    const json_cursor exact = ffd_cursor_member(cursor, "exact");
+    if (ffd_cursor_exists(exact)) /* the nearest known key would be no help */
+        return ffd_cursor_fail(exact, "unknown key \"exact\" of a move; it is one of \"bend\"");
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     if (!status)
         status = read_selection(cursor, spec, move);
     if (!status)
         status = read_weight(cursor, move);
+    if (!status)
+        status = read_falloff(ffd_cursor_member(cursor, "falloff"), &move->falloff);
+    if (!status)
+        status = read_mirror(ffd_cursor_member(cursor, "mirror"), move);
     return status ? status : read_action(cursor, move);
 }
 

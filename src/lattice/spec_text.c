@@ -153,6 +153,35 @@ static void write_selection(json_text *json, const lattice_move *move)
         ffd_json_number(json, "weight", move->weight);
 }
 
+static void write_falloff(json_text *json, const move_falloff *falloff)
+{
+    ffd_json_object(json, "falloff", true);
+    if (falloff->kind == FALLOFF_AXIS) {
+        ffd_json_vector(json, "axis", falloff->axis, 3);
+        ffd_json_number(json, "from", falloff->from);
+        ffd_json_number(json, "to", falloff->to);
+    } else {
+        ffd_json_vector(json, "center", falloff->center, 3);
+        ffd_json_number(json, "radius", falloff->radius);
+    }
+    ffd_json_end(json, '}');
+}
+
+static void write_mirror(json_text *json, int axis)
+{
+    const char name[2] = {"xyz"[axis], 0};
+    ffd_json_string(json, "mirror", name);
+}
+
+static void write_pull(json_text *json, const lattice_move *move)
+{
+    ffd_json_object(json, "pull", true);
+    ffd_json_vector(json, "point", move->point, 3);
+    ffd_json_vector(json, "by", move->vector, 3);
+    ffd_json_number(json, "radius", move->radius);
+    ffd_json_end(json, '}');
+}
+
 /* The actions that are objects: their members in the order of data/schema/lattice.md. */
 static void write_action_object(json_text *json, const char *key, const lattice_move *move)
 {
@@ -169,6 +198,8 @@ static void write_action_object(json_text *json, const char *key, const lattice_
         ffd_json_number(json, "degrees", move->amount);
     if (move->has_about)
         ffd_json_vector(json, "about", move->about, 3);
+    if (move->exact)
+        ffd_json_bool(json, "exact", true);
     ffd_json_end(json, '}');
 }
 
@@ -199,6 +230,9 @@ static void write_action(json_text *json, const lattice_move *move)
     case MOVE_BEND:
         write_action_object(json, "bend", move);
         break;
+    case MOVE_PULL:
+        write_pull(json, move);
+        break;
     }
 }
 
@@ -208,6 +242,10 @@ static void write_moves(json_text *json, const lattice_spec *spec)
     for (size_t i = 0; i < spec->move_count; i++) {
         ffd_json_object(json, NULL, true);
         write_selection(json, &spec->moves[i]);
+        if (spec->moves[i].falloff.kind != FALLOFF_NONE)
+            write_falloff(json, &spec->moves[i].falloff);
+        if (spec->moves[i].has_mirror)
+            write_mirror(json, spec->moves[i].mirror);
         write_action(json, &spec->moves[i]);
         ffd_json_end(json, '}');
     }

@@ -118,7 +118,7 @@ LATTICES = [
     (lattice(deformed={"pts": []}), INVALID, ':/deformed/pts: unknown key "pts"; the nearest known one is "points"'),
     (lattice(units="metres"), INVALID, ':/units: unknown word "metres"; the nearest known one is "world"'),
     (lattice(moves=[1]), INVALID, ":/moves/0: must be an object, not the number 1"),
-    (lattice(moves=[{}]), INVALID, ":/moves/0: has no action: by, to, scale, rotate, matrix, twist, taper or bend"),
+    (lattice(moves=[{}]), INVALID, ":/moves/0: has no action: by, to, scale, rotate, matrix, twist, taper, bend or pull"),
     (lattice(moves=[{"by": [1, 2]}]), INVALID, ":/moves/0/by: must be an array of 3 numbers, not an array of 2"),
     (lattice(moves=[{"by": [1, 2, 3], "to": [1, 2, 3]}]), INVALID,
      ':/moves/0: has two actions, "by" and "to"; a move has one'),

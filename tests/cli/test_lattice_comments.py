@@ -11,7 +11,9 @@ LATTICES = {
     "box": lattice(deformed={}, moves=[
         {"at": [3, "all", "all"], "by": [0.1, 0, 0]}, {"scale": {"factor": 0.9}}, {"rotate": {"axis": "z", "degrees": 5}},
         {"twist": {"axis": "z", "degrees": 10}}, {"taper": {"axis": "z", "factor": 0.9}},
-        {"bend": {"axis": "z", "toward": [1, 0, 0], "degrees": 10}}, {"within": {"min": [0, 0, 0], "max": [2, 2, 2]}, "to": [1, 1, 1]}]),
+        {"bend": {"axis": "z", "toward": [1, 0, 0], "degrees": 10}}, {"within": {"min": [0, 0, 0], "max": [2, 2, 2]}, "to": [1, 1, 1]},
+        {"falloff": {"axis": "x", "from": 0, "to": 1}, "pull": {"point": [2, 2, 2], "by": [0.1, 0, 0], "radius": 2}},
+        {"falloff": {"center": [0, 0, 0], "radius": 3}, "mirror": "x", "by": [0, 0, 0.1]}]),
     "cylinder": lattice(size=(4, 6, 4), rest={"cylinder": {"center": [0, 0, 0], "axis": [0, 0, 1], "radius": [0, 2], "height": 4}},
                         moves=[{"by": [0.5, 0, 0]}]),
     "knots": lattice(knots=[[0, 0, 0, 0, 1, 1, 1, 1], "clamped", "open"], moves=[{"by": [0.5, 0, 0]}]),
@@ -77,6 +79,10 @@ def words_of_other_programs_are_hinted_at(run):
                                ({"rotate": {"axis": "z", "angle": 10}}, "angle", "degrees"),
                                ({"twist": {"axis": "z", "angle": 10}}, "angle", "degrees"),
                                ({"bend": {"axis": "z", "toward": [1, 0, 0], "angle": 10}}, "angle", "degrees"),
+                               ({"reflect": "x", "by": [1, 0, 0]}, "reflect", "mirror"), ({"drag": {}}, "drag", "pull"),
+                               ({"fade": {}, "by": [1, 0, 0]}, "fade", "falloff"), ({"pull": {"center": [0, 0, 0]}}, "center", "point"),
+                               ({"falloff": {"about": [0, 0, 0], "radius": 1}, "by": [1, 0, 0]}, "about", "center"),
+                               ({"falloff": {"axis": "x", "start": 0, "end": 1}, "by": [1, 0, 0]}, "start", "from"),
                                ({"move": [1, 0, 0]}, "move", "by"), ({"offset": [1, 0, 0]}, "offset", "by"),
                                ({"twist": {"axis": "z", "deg": 10}}, "deg", "degrees"), ({"shear": [1, 0, 0]}, "shear", "matrix"),
                                ({"scale": {"factor": 2, "center": [0, 0, 0]}}, "center", "about")):

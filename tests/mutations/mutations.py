@@ -141,8 +141,34 @@ m("seam-tolerance", "tolerance", "shapes, embedding_file, locator",
 m("rotation", "sign", "moves, oracle moves", "+ ready->sine * f[c];", "- ready->sine * f[c];")
 m("within-slack", "tolerance", "moves, oracle moves", "x[c] >= move->within_min[c] - work->slack[c]",
   "x[c] >= move->within_min[c]")
-m("difference-of-by", "sum", "cli_translation", "*difference += move->weight * move->vector[c];",
-  "*difference = *p - rest;")
+m("difference-of-by", "sum", "cli_translation", "difference[c] += by;", "difference[c] = p[c] - rest[c];",
+  "*difference += move->weight * move->vector[c];", "*difference = *p - rest;")
+m("pull-profile", "exponent", "soft_moves, cli_moves", "return x < 1 ? (1 - x * x) * (1 - x * x) : 0;",
+  "return x < 1 ? 1 - x * x : 0;")
+m("pull-of-the-moved-place", "place", "soft_moves, cli_moves", "const double weight = weight_at(work, move, from_rest);",
+  "const double weight = weight_at(work, move, from);")
+m("falloff-curve", "formula", "soft_moves, cli_moves", "return x < 1 ? 1 - x * x * (3 - 2 * x) : 0;", "return x < 1 ? 1 - x : 0;")
+m("falloff-of-the-region", "unit", "soft_moves", "/ (work->box_units ? extent : 1);", "/ (extent > 0 ? 1 : 1);")
+m("falloff-not-mirrored", "reflection left out", "soft_moves, cli_moves", "ffd_mirror_point(plane, rest, from_rest);",
+  "from_rest[0] = rest[0];")
+m("mirrored-by", "sign", "soft_moves, cli_moves", "const double by = weight * (reflected ? -move->vector[c] : move->vector[c]);",
+  "const double by = weight * move->vector[c];")
+m("mirror-far-side", "search cut short", "soft_moves", "const bool found = is_near(look->offset) &&",
+  "const bool found = look->offset[c] < 0 &&")
+m("mirror-tree-middle", "point left out", "soft_moves", "if (is_at(look, middle) || (before ?", "if ((before ?")
+m("mirror-rounding", "tolerance", "soft_moves", "+ 16 * DBL_EPSILON * size; return (mirror_plane)", "+ 0 * size;\n    return (mirror_plane)")
+m("mirror-image-missing", "check left out", "soft_moves, cli_lattice_schema", "if (selected[i] && !has_image(all, plane, i))",
+  "if (selected[i] && !has_image(all, plane, i) && i > lattice->count)")
+m("mirror-not-written", "member left out", "lattice_file", "if (spec->moves[i].has_mirror) write_mirror",
+  "if (spec->moves[i].has_mirror && i > spec->move_count) write_mirror")
+m("exact-bend-weights", "product", "exact_bend", "lattice->deformed_weights[point] *= cosine_of_half;",
+  "lattice->deformed_weights[point] = cosine_of_half;")
+m("exact-bend-tangents", "formula", "exact_bend, cli_moves", "more = 2 * sine * sine / cosine_of_half;", "more = 2 * sine * sine;")
+m("exact-bend-of-half-a-turn", "limit", "exact_bend", "if (degrees < 180)", "if (degrees <= 180)")
+m("exact-bend-of-tapered-rows", "check left out", "exact_bend", "if (!(vec_length(away) <= a->slack))", "if (!(vec_length(away) <= INFINITY))")
+m("exact-bend-of-half-arcs", "check left out", "exact_bend", "if (a->first % 2 == 0 && a->last % 2 == 0)", "if (a->first <= a->last)")
+m("exact-bend-fades", "check left out", "exact_bend, cli_lattice_schema", "(move->weight == 1 && move->falloff.kind == FALLOFF_NONE)",
+  "move->weight == 1")
 m("bend-of-small-angles", "rounding", "moves, oracle moves",
   "cosine > 0.5 ? 2 * half_sine * half_sine : 1 - cosine", "cosine > 2 ? 2 * half_sine * half_sine : 1 - cosine")
 m("weight-of-zero", "limit", "lattice_file, cli_errors", "!status && !((*weights)[i] > 0)",

@@ -11,6 +11,7 @@ typedef enum action {
     ACT_SCALE,
     ACT_ROTATE,
     ACT_MATRIX,
+    ACT_PULL,
     ACT_TWIST,
     ACT_TAPER,
     ACT_BEND,
@@ -22,6 +23,10 @@ typedef struct move {
     action kind;
     long double weight, about[3], vector[3], axis[3], amount, matrix[12];
     long double low, high; /* the extent along the axis */
+    /* In the file's units. */
+    bool falls, falls_along;
+    double place[3], radius;                  /* of a pull */
+    double fall_place[3], fall_from, fall_to; /* the axis, or the centre with 0 and the radius */
 } move;
 
 moved_points moved_start(const sample *s, const double *rest, const double *deformed)
@@ -131,8 +136,9 @@ static void act(const move *m, long double p[3])
     switch (m->kind) {
     case ACT_BY:
     case ACT_TO:
+    case ACT_PULL:
         for (int a = 0; a < 3; a++)
-            p[a] = m->vector[a] + (m->kind == ACT_BY ? p[a] : 0);
+            p[a] = m->vector[a] + (m->kind == ACT_TO ? 0 : p[a]);
         break;
     case ACT_SCALE:
         for (int a = 0; a < 3; a++)
@@ -158,6 +164,44 @@ static void act(const move *m, long double p[3])
     }
 }
 
+/* A rest position in the file's units. */
+static void to_file(const sample *s, const double rest[3], long double out[3])
+{
+    for (int a = 0; a < 3; a++) {
+        out[a] = 0;
+        for (int r = 0; r < 3; r++)
+            out[a] += (long double)rest[r] * (s->box_units && s->has_axes ? s->box_axes[3 * a + r] : a == r);
+        if (s->box_units)
+            out[a] = (out[a] - s->box_min[a]) / ((long double)s->box_max[a] - s->box_min[a]);
+    }
+}
+
+static long double distance(const long double x[3], const double place[3])
+{
+    const long double away[3] = {x[0] - place[0], x[1] - place[1], x[2] - place[2]};
+    return sqrtl(dot(away, away));
+}
+
+/* Weight, falloff and pull at a rest position: data/schema/lattice.md 8.2 and 8.3. */
+static long double weight_at(const moved_points *all, const move *m, const double rest[3])
+{
+    long double x[3], weight = m->weight;
+    to_file(all->s, rest, x);
+    if (m->kind == ACT_PULL) {
+        const long double radii = fminl(distance(x, m->place) / m->radius, 1);
+        weight *= powl(1 - radii * radii, 2);
+    }
+    if (m->falls) {
+        const long double axis[3] = {m->fall_place[0], m->fall_place[1], m->fall_place[2]};
+        const long double at =
+            m->falls_along ? dot(axis, x) / sqrtl(dot(axis, axis)) : distance(x, m->fall_place);
+        const long double way =
+            fmaxl(fminl((at - m->fall_from) / ((long double)m->fall_to - m->fall_from), 1), 0);
+        weight *= 1 - (3 * way * way - 2 * way * way * way);
+    }
+    return weight;
+}
+
 static void apply(moved_points *all, const move *m)
 {
     for (size_t i = 0; i < all->count; i++) {
@@ -166,9 +210,10 @@ static void apply(moved_points *all, const move *m)
             continue;
         memcpy(p, point, sizeof p);
         act(m, p);
+        const long double weight = weight_at(all, m, all->rest + 3 * i);
         for (int a = 0; a < 3; a++) {
             all->size = fmaxl(all->size, fmaxl(fabsl(p[a]), fabsl(m->about[a])));
-            point[a] += m->weight * (p[a] - point[a]);
+            point[a] += weight * (p[a] - point[a]);
         }
     }
 }
@@ -383,6 +428,43 @@ static bool write_about_axis(const moved_points *all, move *m, text *out, random
     return m->kind == ACT_ROTATE || choose_extent(all, m);
 }
 
+static void choose_place(double place[3], random_source *random)
+{
+    for (int a = 0; a < 3; a++)
+        place[a] = random_range(random, -1, 1);
+}
+
+static void write_pull(const moved_points *all, move *m, text *out, random_source *random)
+{
+    double by[3];
+    choose_place(m->place, random);
+    choose_place(by, random);
+    m->radius = random_range(random, 0.2, 3);
+    to_world(all->s, by, false, m->vector);
+    text_add(out, "\"pull\":{\"point\":");
+    text_numbers(out, m->place, 3);
+    text_add(out, ",\"by\":");
+    text_numbers(out, by, 3);
+    text_add(out, ",\"radius\":%.17g}", m->radius);
+}
+
+/* Along an axis of another length, in world units; or round a place. */
+static void write_falloff(const moved_points *all, move *m, text *out, random_source *random)
+{
+    m->falls = true;
+    m->falls_along = !all->s->box_units && random_chance(random, 0.5);
+    choose_place(m->fall_place, random);
+    m->fall_to = random_range(random, 0.2, 3);
+    text_add(out, m->falls_along ? "\"falloff\":{\"axis\":" : "\"falloff\":{\"center\":");
+    text_numbers(out, m->fall_place, 3);
+    if (m->falls_along) {
+        m->fall_from = m->fall_to + (random_chance(random, 0.5) ? 1 : -1) * random_range(random, 0.2, 3);
+        text_add(out, ",\"from\":%.17g,\"to\":%.17g},", m->fall_from, m->fall_to);
+    } else {
+        text_add(out, ",\"radius\":%.17g},", m->fall_to);
+    }
+}
+
 static bool write_move(moved_points *all, move *m, text *out, random_source *random)
 {
     text_add(out, "{");
@@ -392,8 +474,12 @@ static bool write_move(moved_points *all, move *m, text *out, random_source *ran
         m->weight = weight;
         text_add(out, "\"weight\":%.17g,", weight);
     }
+    if (random_chance(random, 0.4))
+        write_falloff(all, m, out, random);
     bool usable = all->selected_count > 0;
-    if (m->kind == ACT_BY || m->kind == ACT_TO)
+    if (m->kind == ACT_PULL)
+        write_pull(all, m, out, random);
+    else if (m->kind == ACT_BY || m->kind == ACT_TO)
         write_vector(all, m, out, random);
     else if (m->kind == ACT_SCALE)
         write_scale(all, m, out, random);

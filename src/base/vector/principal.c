@@ -1,6 +1,6 @@
-#include "lattice/principal.h"
+#include "base/vector/principal.h"
+#include "base/vector/direction.h"
 #include "base/vector/vec.h"
-#include "lattice/direction.h"
 
 /* More than enough: Jacobi's sweeps converge quadratically. */
 #define SWEEPS 30

@@ -1,4 +1,4 @@
-#include "lattice/direction.h"
+#include "base/vector/direction.h"
 #include "base/vector/vec.h"
 #include <float.h>
 

@@ -1,6 +1,6 @@
 /* direction.h - unit vectors made from what people write. */
-#ifndef FFD_LATTICE_DIRECTION_H
-#define FFD_LATTICE_DIRECTION_H
+#ifndef FFD_BASE_VECTOR_DIRECTION_H
+#define FFD_BASE_VECTOR_DIRECTION_H
 
 #include <stdbool.h>
 

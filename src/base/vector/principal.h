@@ -1,6 +1,6 @@
 /* principal.h - the principal axes of a set of points. */
-#ifndef FFD_LATTICE_PRINCIPAL_H
-#define FFD_LATTICE_PRINCIPAL_H
+#ifndef FFD_BASE_VECTOR_PRINCIPAL_H
+#define FFD_BASE_VECTOR_PRINCIPAL_H
 
 #include <stddef.h>
 

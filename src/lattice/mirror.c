@@ -1,0 +1,196 @@
+#include "lattice/mirror.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include <float.h>
+
+/* Places no farther apart than this fraction of the diagonal are one; beside it the rounding of coordinates
+   far from the origin is allowed for. */
+#define SAME_PLACE 1e-9
+
+/* A range of at most so many points is looked through. */
+#define LEAF 8
+
+/* Instead of a coordinate: all points of the range are one. */
+#define ONE_PLACE 3
+
+static void find_bounds(const double *points, const uint32_t *order, size_t count, double min[3],
+                        double max[3])
+{
+    for (int c = 0; c < 3; c++) {
+        min[c] = INFINITY;
+        max[c] = -INFINITY;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const double *const p = points + 3 * (order ? order[i] : i);
+        for (int c = 0; c < 3; c++) {
+            min[c] = lesser_of(min[c], p[c]);
+            max[c] = larger_of(max[c], p[c]);
+        }
+    }
+}
+
+mirror_plane ffd_mirror_plane(const ffd_lattice *lattice, int axis)
+{
+    double min[3], max[3], side[3], size = 0;
+    find_bounds(lattice->rest, NULL, lattice->count, min, max);
+    for (int c = 0; c < 3; c++) {
+        side[c] = max[c] - min[c];
+        size = larger_of(size, larger_of(fabs(min[c]), fabs(max[c])));
+    }
+    const double tolerance = SAME_PLACE * vec_length(side) + 16 * DBL_EPSILON * size;
+    return (mirror_plane){axis, min[axis] + max[axis], larger_of(tolerance, DBL_MIN)};
+}
+
+static void swap(uint32_t *a, uint32_t *b)
+{
+    const uint32_t kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Hoare's selection: nothing before the middle is greater along c than it, nothing after it less. The pivots
+   are drawn, so that no order of points in a file makes it slow. */
+static void put_middle(mirror_tree *tree, size_t begin, size_t end, size_t middle, int c)
+{
+    uint32_t *const order = tree->order;
+    uint64_t draw = end;
+    while (end - begin > 1) {
+        draw = draw * 6364136223846793005u + 1442695040888963407u;
+        const double pivot = tree->points[3 * order[begin + (draw >> 33) % (end - begin)] + (size_t)c];
+        size_t low = begin, high = end;
+        while (low < high) {
+            while (tree->points[3 * order[low] + (size_t)c] < pivot)
+                low++;
+            while (tree->points[3 * order[high - 1] + (size_t)c] > pivot)
+                high--;
+            if (low < high)
+                swap(&order[low++], &order[--high]);
+        }
+        if (middle < high)
+            end = high;
+        else if (middle >= low)
+            begin = low;
+        else
+            return;
+    }
+}
+
+static void split_range(mirror_tree *tree, size_t begin, size_t end)
+{
+    double min[3], max[3];
+    const size_t middle = begin + (end - begin) / 2;
+    int widest = 0;
+    if (end - begin <= LEAF)
+        return;
+    find_bounds(tree->points, tree->order + begin, end - begin, min, max);
+    for (int c = 1; c < 3; c++)
+        if (max[c] - min[c] > max[widest] - min[widest])
+            widest = c;
+    if (!(max[widest] > min[widest])) {
+        tree->split[middle] = ONE_PLACE;
+        return;
+    }
+    tree->split[middle] = (unsigned char)widest;
+    put_middle(tree, begin, end, middle, widest);
+    split_range(tree, begin, middle);
+    split_range(tree, middle + 1, end);
+}
+
+/* Of all points, or of those selected. */
+static ffd_status make_tree(const ffd_lattice *lattice, const unsigned char *selected, mirror_tree *tree,
+                            ffd_error *error)
+{
+    *tree = (mirror_tree){.points = lattice->rest,
+                          .order = ffd_alloc(lattice->count, sizeof *tree->order),
+                          .split = ffd_alloc(lattice->count, sizeof *tree->split)};
+    if (!tree->order || !tree->split) {
+        ffd_mirror_tree_free(tree);
+        return ffd_fail_memory(error);
+    }
+    for (size_t i = 0; i < lattice->count; i++)
+        if (!selected || selected[i])
+            tree->order[tree->count++] = (uint32_t)i;
+    split_range(tree, 0, tree->count);
+    return FFD_OK;
+}
+
+/* One look-up: whether a point lies within the tolerance of a place. Lengths are in tolerances, whose squares
+   neither overflow nor vanish. */
+typedef struct look_up {
+    const mirror_tree *tree;
+    const double *place;
+    double tolerance;
+    double offset[3]; /* how far the range at hand is at least, along each coordinate */
+} look_up;
+
+static bool is_near(const double offset[3])
+{
+    return vec_dot(offset, offset) <= 1;
+}
+
+static bool is_at(const look_up *look, size_t place_in_order)
+{
+    const double *const p = look->tree->points + 3 * (size_t)look->tree->order[place_in_order];
+    double offset[3];
+    for (int c = 0; c < 3; c++)
+        offset[c] = (p[c] - look->place[c]) / look->tolerance;
+    return is_near(offset);
+}
+
+static bool find_in(look_up *look, size_t begin, size_t end)
+{
+    const size_t middle = begin + (end - begin) / 2;
+    if (end - begin <= LEAF) {
+        for (size_t i = begin; i < end; i++)
+            if (is_at(look, i))
+                return true;
+        return false;
+    }
+    const int c = look->tree->split[middle];
+    if (c == ONE_PLACE)
+        return is_at(look, begin);
+    const double *const p = look->tree->points + 3 * (size_t)look->tree->order[middle];
+    const double from_split = (look->place[c] - p[c]) / look->tolerance, kept = look->offset[c];
+    const bool before = from_split < 0;
+    if (is_at(look, middle) || (before ? find_in(look, begin, middle) : find_in(look, middle + 1, end)))
+        return true;
+    look->offset[c] = larger_of(kept, fabs(from_split));
+    const bool found =
+        is_near(look->offset) && (before ? find_in(look, middle + 1, end) : find_in(look, begin, middle));
+    look->offset[c] = kept;
+    return found;
+}
+
+static bool has_image(const mirror_tree *tree, const mirror_plane *plane, size_t point)
+{
+    double image[3];
+    ffd_mirror_point(plane, tree->points + 3 * point, image);
+    look_up look = {.tree = tree, .place = image, .tolerance = plane->tolerance};
+    return find_in(&look, 0, tree->count);
+}
+
+ffd_status ffd_mirror_select(const ffd_lattice *lattice, const mirror_plane *plane, mirror_tree *all,
+                             unsigned char *selected, size_t *missing, ffd_error *error)
+{
+    mirror_tree chosen;
+    ffd_status status = all->order ? FFD_OK : make_tree(lattice, NULL, all, error);
+    if (!status)
+        status = make_tree(lattice, selected, &chosen, error);
+    if (status)
+        return status;
+    *missing = lattice->count;
+    for (size_t i = 0; i < lattice->count && *missing == lattice->count; i++)
+        if (selected[i] && !has_image(all, plane, i))
+            *missing = i;
+    for (size_t i = 0; i < lattice->count && *missing == lattice->count; i++)
+        selected[i] = has_image(&chosen, plane, i);
+    ffd_mirror_tree_free(&chosen);
+    return FFD_OK;
+}
+
+void ffd_mirror_tree_free(mirror_tree *tree)
+{
+    ffd_free(tree->order);
+    ffd_free(tree->split);
+    *tree = (mirror_tree){0};
+}
