@@ -2,6 +2,7 @@
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "mesh/resource/resource_copy.h"
 #include <string.h>
 
@@ -35,12 +36,15 @@ ffd_status ffd_images_find(material_images *images, const char *name, bool *is_k
 /* Takes what an image needs from the budget. */
 static ffd_status take(const material_images *images, const char *name, uint64_t size, ffd_error *error)
 {
+    char shown[81];
     ffd_error problem = {0};
     const uint64_t all = size + strlen(name) + 1 + sizeof *images->materials->images; /* both are in memory */
     const ffd_status status = ffd_budget_take(images->budget, 1, all, &problem);
-    return status ? ffd_fail_file(error, status, ffd_path_display_name(images->mesh),
-                                  "the image \"%.80s\" %s", name, problem.message)
-                  : FFD_OK;
+    if (status == FFD_OK)
+        return FFD_OK;
+    ffd_name_shown(name, shown, sizeof shown);
+    return ffd_fail_file(error, status, ffd_path_display_name(images->mesh), "the image \"%s\" %s", shown,
+                         problem.message);
 }
 
 ffd_status ffd_images_add(material_images *images, const char *name, const unsigned char *bytes, size_t size,
