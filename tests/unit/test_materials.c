@@ -212,7 +212,34 @@ static void an_older_texture_stands_in(void **state)
     check_colour(1, 1, 1, 1, 1);
 }
 
-/* One of a GLB's own bytes, and one that is compressed as if it were numbers. */
+static void put_number(char *at, size_t number)
+{
+    for (size_t i = 0; i < 4; i++)
+        at[i] = (char)(unsigned char)(number >> 8 * i);
+}
+
+static void an_image_in_a_glb(void **state)
+{
+    (void)state;
+    static const char text[] =
+        "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":16}],\"bufferViews\":[{"
+        "\"buffer\":0,\"byteOffset\":4,\"byteLength\":11}],\"materials\":[" TEXTURED(
+            0) "],\"textures\":[{\"source\":0}],\"images\":[{\"bufferView\":0}]}";
+    char bytes[sizeof text + 64] = "glTF\2";
+    const size_t padded = (sizeof text - 1 + 3) / 4 * 4, bin = 20 + padded, size = bin + 8 + 16;
+    put_number(bytes + 8, size);
+    put_number(bytes + 12, padded);
+    memcpy(bytes + 16, "JSON", 4);
+    memset(bytes + 20, ' ', padded);
+    memcpy(bytes + 20, text, sizeof text - 1);
+    put_number(bytes + bin, 16);
+    memcpy(bytes + bin + 4, "BIN\0....\x89PNG\r\n\x1a\nbin.", 20);
+    assert_int_equal(list_bytes(FFD_FORMAT_GLB, in_folder("m.glb"), bytes, size), FFD_OK);
+    check_image(0, "image 0", "bin");
+    assert_int_equal(line_count, 0);
+}
+
+/* One as it is, and one that is compressed as if it were numbers. */
 static void images_in_buffers(void **state)
 {
     (void)state;
@@ -554,6 +581,7 @@ int main(void)
         cmocka_unit_test(alpha_of_gltf),
         cmocka_unit_test(images_of_gltf_once_each),
         cmocka_unit_test(an_older_texture_stands_in),
+        cmocka_unit_test(an_image_in_a_glb),
         cmocka_unit_test(images_in_buffers),
         cmocka_unit_test(only_extensions_have_the_image),
         cmocka_unit_test(images_that_cannot_be_had),
