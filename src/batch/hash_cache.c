@@ -10,7 +10,7 @@ static cached_file *find(hash_cache *cache, const char *path, const file_stamp *
 {
     for (size_t i = 0; i < CACHED_FILES; i++) {
         cached_file *const file = &cache->files[i];
-        if (file->path && strcmp(file->path, path) == 0 && ffd_stamp_equal(&file->stamp, stamp))
+        if (file->path && ffd_stamp_equal(&file->stamp, stamp) && strcmp(file->path, path) == 0)
             return file;
     }
     return NULL;
@@ -48,9 +48,12 @@ ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ff
     if (status)
         return status;
     *hash = ffd_hash(input.data, input.size);
-    ffd_file_unload(&input);
-    if (is_file)
-        remember(cache, path, &stamp, hash);
+    if (!is_file) {
+        ffd_file_unload(&input);
+        return FFD_OK;
+    }
+    remember(cache, path, &stamp, hash);
+    ffd_kept_put(&cache->kept, path, &stamp, &input);
     return FFD_OK;
 }
 
@@ -77,8 +80,8 @@ static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *s
         return NULL;
     for (size_t i = 0; i < CACHED_FILES; i++) {
         const cached_mesh *const mesh = &cache->meshes[i];
-        if (mesh->path && strcmp(mesh->path, source->path) == 0 && mesh->format == format &&
-            ffd_stamp_equal(&mesh->stamp, &stamp))
+        if (mesh->path && ffd_stamp_equal(&mesh->stamp, &stamp) && mesh->format == format &&
+            strcmp(mesh->path, source->path) == 0)
             return mesh;
     }
     return NULL;
@@ -116,7 +119,7 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
     if (status)
         return status;
     status = table->find_resources(source->path, &bytes, &mesh->images, error);
-    ffd_file_unload(&bytes);
+    ffd_kept_put(&cache->kept, source->path, &mesh->stamp, &bytes);
     return status;
 }
 
@@ -204,7 +207,7 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
         look->beside = table->count_beside(&bytes, from, to);
     if (table->find_resources)
         status = table->find_resources(path, &bytes, &look->copied, error);
-    ffd_file_unload(&bytes);
+    ffd_kept_put(&cache->kept, path, stamp, &bytes);
     look->path = status ? NULL : ffd_text_copy(path);
     look->stamp = *stamp;
     look->from = from;
@@ -292,5 +295,6 @@ void ffd_cache_free(hash_cache *cache)
     for (size_t i = 0; i < CACHED_FILES; i++)
         forget_mesh(&cache->meshes[i]);
     forget_look(&cache->look);
+    ffd_kept_free(&cache->kept);
     *cache = (hash_cache){0};
 }
