@@ -73,14 +73,13 @@ static void forget_mesh(cached_mesh *mesh)
     *mesh = (cached_mesh){0};
 }
 
-static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *source, ffd_format format)
+/* stamp: of the source's file as it is now. */
+static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *source, ffd_format format,
+                                    const file_stamp *stamp)
 {
-    file_stamp stamp;
-    if (!ffd_file_stamp(source->path, &stamp))
-        return NULL;
     for (size_t i = 0; i < CACHED_FILES; i++) {
         const cached_mesh *const mesh = &cache->meshes[i];
-        if (mesh->path && ffd_stamp_equal(&mesh->stamp, &stamp) && mesh->format == format &&
+        if (mesh->path && ffd_stamp_equal(&mesh->stamp, stamp) && mesh->format == format &&
             strcmp(mesh->path, source->path) == 0)
             return mesh;
     }
@@ -123,17 +122,19 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
     return status;
 }
 
+/* stamp: of the source's file before it is read; NULL: it is none. */
 static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_source *source, ffd_format format,
-                            ffd_error *error)
+                            const file_stamp *stamp, ffd_error *error)
 {
     const mesh_format *const table = ffd_format_table(format);
-    const bool is_file = ffd_file_stamp(source->path, &mesh->stamp);
     ffd_status status = FFD_OK;
+    if (stamp)
+        mesh->stamp = *stamp;
     if (table->list_files || !table->find_resources)
         status = list_by_document(mesh, source, error);
-    else if (is_file)
+    else if (stamp)
         status = list_by_bytes(cache, mesh, source, table, error);
-    if (!status && is_file)
+    if (!status && stamp)
         mesh->path = ffd_text_copy(source->path);
     mesh->format = format;
     return status;
@@ -143,13 +144,15 @@ static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_sour
 static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_format format,
                             const cached_mesh **known, ffd_error *error)
 {
-    *known = find_mesh(cache, source, format);
+    file_stamp stamp;
+    const bool is_file = ffd_file_stamp(source->path, &stamp);
+    *known = is_file ? find_mesh(cache, source, format, &stamp) : NULL;
     if (*known)
         return FFD_OK;
     cached_mesh *const mesh = &cache->meshes[cache->next_mesh];
     forget_mesh(mesh);
     *known = mesh;
-    const ffd_status status = look_into(cache, mesh, source, format, error);
+    const ffd_status status = look_into(cache, mesh, source, format, is_file ? &stamp : NULL, error);
     cache->next_mesh = (cache->next_mesh + 1) % CACHED_FILES;
     return status;
 }

@@ -80,10 +80,9 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     file_stamp stamp;
     file_input bytes;
     const bool is_file = ffd_cache_holds_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
-    ffd_status status =
-        is_file && ffd_cache_take_bytes(desc->share, source.path, &stamp, &bytes)
-            ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
-            : ffd_source_open(&source, job->threads, &job->document, error);
+    ffd_status status = is_file && ffd_cache_take_bytes(desc->share, source.path, &stamp, &bytes)
+                            ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
+                            : ffd_source_open(&source, job->threads, &job->document, error);
     if (!status)
         status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
                                      job->document, error);
