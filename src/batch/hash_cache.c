@@ -10,7 +10,7 @@ static cached_file *find(hash_cache *cache, const char *path, const file_stamp *
 {
     for (size_t i = 0; i < CACHED_FILES; i++) {
         cached_file *const file = &cache->files[i];
-        if (file->path && strcmp(file->path, path) == 0 && ffd_stamp_equal(&file->stamp, stamp))
+        if (file->path && ffd_stamp_equal(&file->stamp, stamp) && strcmp(file->path, path) == 0)
             return file;
     }
     return NULL;
@@ -48,9 +48,12 @@ ffd_status ffd_cache_hash(hash_cache *cache, const char *path, hash128 *hash, ff
     if (status)
         return status;
     *hash = ffd_hash(input.data, input.size);
-    ffd_file_unload(&input);
-    if (is_file)
-        remember(cache, path, &stamp, hash);
+    if (!is_file) {
+        ffd_file_unload(&input);
+        return FFD_OK;
+    }
+    remember(cache, path, &stamp, hash);
+    ffd_kept_put(&cache->kept, path, &stamp, &input);
     return FFD_OK;
 }
 
@@ -70,15 +73,14 @@ static void forget_mesh(cached_mesh *mesh)
     *mesh = (cached_mesh){0};
 }
 
-static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *source, ffd_format format)
+/* stamp: of the source's file as it is now. */
+static const cached_mesh *find_mesh(const hash_cache *cache, const ffd_source *source, ffd_format format,
+                                    const file_stamp *stamp)
 {
-    file_stamp stamp;
-    if (!ffd_file_stamp(source->path, &stamp))
-        return NULL;
     for (size_t i = 0; i < CACHED_FILES; i++) {
         const cached_mesh *const mesh = &cache->meshes[i];
-        if (mesh->path && strcmp(mesh->path, source->path) == 0 && mesh->format == format &&
-            ffd_stamp_equal(&mesh->stamp, &stamp))
+        if (mesh->path && ffd_stamp_equal(&mesh->stamp, stamp) && mesh->format == format &&
+            strcmp(mesh->path, source->path) == 0)
             return mesh;
     }
     return NULL;
@@ -116,21 +118,23 @@ static ffd_status list_by_bytes(hash_cache *cache, cached_mesh *mesh, const ffd_
     if (status)
         return status;
     status = table->find_resources(source->path, &bytes, &mesh->images, error);
-    ffd_file_unload(&bytes);
+    ffd_kept_put(&cache->kept, source->path, &mesh->stamp, &bytes);
     return status;
 }
 
+/* stamp: of the source's file before it is read; NULL: it is none. */
 static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_source *source, ffd_format format,
-                            ffd_error *error)
+                            const file_stamp *stamp, ffd_error *error)
 {
     const mesh_format *const table = ffd_format_table(format);
-    const bool is_file = ffd_file_stamp(source->path, &mesh->stamp);
     ffd_status status = FFD_OK;
+    if (stamp)
+        mesh->stamp = *stamp;
     if (table->list_files || !table->find_resources)
         status = list_by_document(mesh, source, error);
-    else if (is_file)
+    else if (stamp)
         status = list_by_bytes(cache, mesh, source, table, error);
-    if (!status && is_file)
+    if (!status && stamp)
         mesh->path = ffd_text_copy(source->path);
     mesh->format = format;
     return status;
@@ -140,13 +144,15 @@ static ffd_status look_into(hash_cache *cache, cached_mesh *mesh, const ffd_sour
 static ffd_status know_mesh(hash_cache *cache, const ffd_source *source, ffd_format format,
                             const cached_mesh **known, ffd_error *error)
 {
-    *known = find_mesh(cache, source, format);
+    file_stamp stamp;
+    const bool is_file = ffd_file_stamp(source->path, &stamp);
+    *known = is_file ? find_mesh(cache, source, format, &stamp) : NULL;
     if (*known)
         return FFD_OK;
     cached_mesh *const mesh = &cache->meshes[cache->next_mesh];
     forget_mesh(mesh);
     *known = mesh;
-    const ffd_status status = look_into(cache, mesh, source, format, error);
+    const ffd_status status = look_into(cache, mesh, source, format, is_file ? &stamp : NULL, error);
     cache->next_mesh = (cache->next_mesh + 1) % CACHED_FILES;
     return status;
 }
@@ -204,7 +210,7 @@ static ffd_status look_at_bytes(hash_cache *cache, const char *path, const file_
         look->beside = table->count_beside(&bytes, from, to);
     if (table->find_resources)
         status = table->find_resources(path, &bytes, &look->copied, error);
-    ffd_file_unload(&bytes);
+    ffd_kept_put(&cache->kept, path, stamp, &bytes);
     look->path = status ? NULL : ffd_text_copy(path);
     look->stamp = *stamp;
     look->from = from;
@@ -292,5 +298,6 @@ void ffd_cache_free(hash_cache *cache)
     for (size_t i = 0; i < CACHED_FILES; i++)
         forget_mesh(&cache->meshes[i]);
     forget_look(&cache->look);
+    ffd_kept_free(&cache->kept);
     *cache = (hash_cache){0};
 }

@@ -3,7 +3,7 @@
 #ifndef FFD_BATCH_HASH_CACHE_H
 #define FFD_BATCH_HASH_CACHE_H
 
-#include "base/file/input.h"
+#include "base/file/kept_file.h"
 #include "base/file/path_list.h"
 #include "base/memory/hash.h"
 #include <ffd/job.h>
@@ -42,6 +42,7 @@ typedef struct hash_cache {
     cached_mesh meshes[CACHED_FILES];
     cached_look look;
     size_t next, next_mesh; /* to be replaced */
+    kept_file kept;         /* the first small file that was read for the job under way: its mesh */
 } hash_cache;
 
 /* Hashes the file's bytes; without a cache (NULL) it reads them in any case. Errors: those of reading. */

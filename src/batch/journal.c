@@ -18,7 +18,6 @@
 #include "batch/file_table.h"
 #include <errno.h>
 #include <inttypes.h>
-#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -50,11 +49,14 @@ static const char magic[16] = "ffd-journal 2\n";
 
 enum { HEAD = 64, FIRST_SLOTS = 1024, LEAST_SLOT = 64 /* bytes, of any version */ };
 
+/* Slots that are read or written at once, where all are. */
+#define SLOTS_AT_ONCE 256
+
 /* Slots that a loop looks at however soon the program is to end: what was done is recorded. */
 #define FEW_SLOTS 1024
 
 struct job_journal {
-    FILE *file;
+    update_file *file;
     char *path;
     uint64_t slots, used;
     uint64_t end, live; /* of the file; bytes of the figures that slots refer to */
@@ -83,24 +85,19 @@ static bool is_whole(const journal_slot *slot)
     return ffd_hash_equal(&check, &slot->check);
 }
 
+static uint64_t slot_begin(uint64_t number)
+{
+    return HEAD + number * sizeof(journal_slot);
+}
+
 static uint64_t figures_begin(uint64_t slots)
 {
-    return HEAD + slots * sizeof(journal_slot);
+    return slot_begin(slots);
 }
 
-static bool seek(FILE *file, uint64_t at)
+static bool read_slot(const update_file *file, uint64_t number, journal_slot *slot)
 {
-    return at <= LONG_MAX && fseek(file, (long)at, SEEK_SET) == 0;
-}
-
-static bool seek_slot(FILE *file, uint64_t slot)
-{
-    return slot <= LONG_MAX / sizeof(journal_slot) - 1 && seek(file, HEAD + slot * sizeof(journal_slot));
-}
-
-static bool read_slot(FILE *file, uint64_t number, journal_slot *slot)
-{
-    return seek_slot(file, number) && fread(slot, sizeof *slot, 1, file) == 1;
+    return ffd_update_read(file, slot_begin(number), slot, sizeof *slot);
 }
 
 /* Where the slots of a target begin. */
@@ -110,7 +107,8 @@ static uint64_t first_slot(const hash128 *target, uint64_t slots)
 }
 
 /* Looks up the target's slot, or the one where it can be put. Returns false if there is none. */
-static bool look_up(FILE *file, uint64_t slots, const hash128 *target, uint64_t *number, journal_slot *slot)
+static bool look_up(const update_file *file, uint64_t slots, const hash128 *target, uint64_t *number,
+                    journal_slot *slot)
 {
     *number = first_slot(target, slots);
     for (uint64_t i = 0; i < slots && !is_interrupted(i); i++, *number = (*number + 1) % slots) {
@@ -122,30 +120,37 @@ static bool look_up(FILE *file, uint64_t slots, const hash128 *target, uint64_t 
     return false;
 }
 
-static bool write_slot(FILE *file, uint64_t number, const journal_slot *slot)
+static bool write_slot(update_file *file, uint64_t number, const journal_slot *slot)
 {
-    return seek_slot(file, number) && fwrite(slot, sizeof *slot, 1, file) == 1;
+    return ffd_update_write(file, slot_begin(number), slot, sizeof *slot);
+}
+
+/* How many of the slots from `first` on are read or written at once. */
+static size_t piece_of(uint64_t first, uint64_t slots)
+{
+    return slots - first < SLOTS_AT_ONCE ? (size_t)(slots - first) : SLOTS_AT_ONCE;
 }
 
 /* A new table without records. */
-static bool write_empty(FILE *file, uint64_t slots)
+static bool write_empty(update_file *file, uint64_t slots)
 {
+    static const journal_slot none[SLOTS_AT_ONCE] = {0};
     unsigned char head[HEAD] = {0};
-    const journal_slot none = {0};
     memcpy(head, magic, sizeof magic);
     store_u64(head + sizeof magic, slots);
-    bool written = fseek(file, 0, SEEK_SET) == 0 && fwrite(head, sizeof head, 1, file) == 1;
-    for (uint64_t i = 0; i < slots && written; i++)
-        written = !is_interrupted(i) && fwrite(&none, sizeof none, 1, file) == 1;
-    return written && fflush(file) == 0;
+    bool written = ffd_update_write(file, 0, head, sizeof head);
+    for (uint64_t i = 0; i < slots && written; i += SLOTS_AT_ONCE)
+        written = !is_interrupted(i) &&
+                  ffd_update_write(file, slot_begin(i), none, piece_of(i, slots) * sizeof *none);
+    return written;
 }
 
 /* Reads the figures that a slot refers to. */
-static bool read_figures(FILE *file, const journal_slot *slot, byte_buffer *figures)
+static bool read_figures(const update_file *file, const journal_slot *slot, byte_buffer *figures)
 {
     figures->size = 0;
     char *const text = slot->size <= FIGURES_MOST ? ffd_buffer_reserve(figures, slot->size + 1) : NULL;
-    if (!text || !seek(file, slot->begin) || fread(text, 1, slot->size, file) != slot->size)
+    if (!text || !ffd_update_read(file, slot->begin, text, slot->size))
         return false;
     const hash128 hash = ffd_hash(text, slot->size);
     figures->size = slot->size;
@@ -155,29 +160,24 @@ static bool read_figures(FILE *file, const journal_slot *slot, byte_buffer *figu
 /* Writes figures for the slot at the end of the file, which another run may have moved. */
 static bool write_figures(job_journal *journal, const char *figures, size_t size, journal_slot *slot)
 {
-    const long end = fseek(journal->file, 0, SEEK_END) == 0 ? ftell(journal->file) : -1;
-    if (end < 0)
+    if (!ffd_update_size(journal->file, &slot->begin))
         return false;
-    slot->begin = (uint64_t)end;
     slot->size = size;
     slot->figures = ffd_hash(figures, size);
     slot->check = check_of(slot);
     journal->end = slot->begin + size;
-    return size == 0 || fwrite(figures, size, 1, journal->file) == 1;
+    return ffd_update_write(journal->file, slot->begin, figures, size);
 }
 
 /* Reads the head of a journal of any version. *own: it is this one. Returns false if there is none. */
 static bool read_head(job_journal *journal, bool *own)
 {
     unsigned char head[HEAD];
-    if (fseek(journal->file, 0, SEEK_SET) != 0 || fread(head, sizeof head, 1, journal->file) != 1 ||
-        memcmp(head, magic, MAGIC_WORD) != 0)
+    if (!ffd_update_read(journal->file, 0, head, sizeof head) || memcmp(head, magic, MAGIC_WORD) != 0)
         return false;
     *own = memcmp(head, magic, sizeof magic) == 0;
     journal->slots = load_u64(head + sizeof magic);
-    const long end = fseek(journal->file, 0, SEEK_END) == 0 ? ftell(journal->file) : -1;
-    journal->end = end < HEAD ? HEAD : (uint64_t)end;
-    return true;
+    return ffd_update_size(journal->file, &journal->end) && journal->end >= HEAD;
 }
 
 /* Whether the slots that the head tells of are there, of this many bytes each. */
@@ -190,26 +190,29 @@ static bool has_slots(const job_journal *journal, size_t size)
 /* Counts the records. Returns false if the file cannot be read. */
 static bool read_slots(job_journal *journal)
 {
-    journal_slot slot;
+    journal_slot slots[SLOTS_AT_ONCE];
     journal->used = journal->live = 0;
-    if (fseek(journal->file, HEAD, SEEK_SET) != 0)
-        return false;
-    for (uint64_t i = 0; i < journal->slots && !is_interrupted(i); i++) {
-        if (fread(&slot, sizeof slot, 1, journal->file) != 1)
+    for (uint64_t i = 0; i < journal->slots && !is_interrupted(i); i += SLOTS_AT_ONCE) {
+        const size_t count = piece_of(i, journal->slots);
+        if (!ffd_update_read(journal->file, slot_begin(i), slots, count * sizeof *slots))
             return false;
-        journal->used += !is_free(&slot);
-        journal->live += is_whole(&slot) ? slot.size : 0;
+        for (size_t k = 0; k < count; k++) {
+            journal->used += !is_free(&slots[k]);
+            journal->live += is_whole(&slots[k]) ? slots[k].size : 0;
+        }
     }
     return true;
 }
 
 /* Whether the file that is there is a journal, of any version, even one that was cut off early. */
-static bool is_journal(FILE *file)
+static bool is_journal(const update_file *file)
 {
-    char start[sizeof magic];
-    rewind(file);
-    const size_t size = fread(start, 1, MAGIC_WORD, file);
-    return memcmp(start, magic, size) == 0;
+    char start[MAGIC_WORD];
+    uint64_t there;
+    if (!ffd_update_size(file, &there))
+        return false;
+    const size_t size = there < MAGIC_WORD ? (size_t)there : MAGIC_WORD;
+    return ffd_update_read(file, 0, start, size) && memcmp(start, magic, size) == 0;
 }
 
 static ffd_status open_table(job_journal *journal, ffd_error *error)
@@ -284,21 +287,21 @@ static bool copy_table(const job_journal *journal, job_journal *copy)
         copy->live += slot.size;
     }
     ffd_buffer_free(&figures);
-    return copied && fflush(copy->file) == 0;
+    return copied;
 }
 
 /* Replaces the table by a copy with so many slots. */
 static bool rebuild(job_journal *journal, uint64_t slots)
 {
     file_successor successor;
-    FILE *const old = journal->file;
+    update_file *old = journal->file;
     job_journal copy = {.path = journal->path, .slots = slots, .end = figures_begin(slots)};
     if (!ffd_successor_begin(&successor, journal->path))
         return false;
     copy.file = successor.file;
     const bool rebuilt = copy_table(journal, &copy) && ffd_successor_commit(&successor, &copy.file);
     if (rebuilt) {
-        fclose(old);
+        ffd_update_close(&old);
         *journal = copy;
     }
     ffd_successor_end(&successor);
@@ -327,16 +330,14 @@ bool ffd_journal_put(job_journal *journal, const hash128 *target, const job_reco
     journal->used += is_free(&there);
     journal->live += size - (is_free(&there) ? 0 : there.size);
     /* The figures are there before the slot that refers to them. */
-    return write_figures(journal, figures, size, &slot) && write_slot(journal->file, number, &slot) &&
-           fflush(journal->file) == 0;
+    return write_figures(journal, figures, size, &slot) && write_slot(journal->file, number, &slot);
 }
 
 void ffd_journal_close(job_journal **journal)
 {
     if (!*journal)
         return;
-    if ((*journal)->file)
-        fclose((*journal)->file);
+    ffd_update_close(&(*journal)->file);
     ffd_free((*journal)->path);
     ffd_free(*journal);
     *journal = NULL;

@@ -158,7 +158,7 @@ static ffd_status do_job(batch_worker *worker, const wire_task *task, ffd_deform
     desc->dry_run = task->dry;
     answer->rehearsed = task->dry;
     const share_counts before = ffd_cache_counts(worker->share);
-    ffd_cache_begin_job(worker->share, task->records);
+    ffd_cache_begin_job(worker->share, task->records, &worker->hashes.kept);
     const ffd_status status = deform(desc, result);
     answer->counts.reads = ffd_cache_counts(worker->share).reads - before.reads;
     answer->counts.searches = ffd_cache_counts(worker->share).searches - before.searches;
@@ -353,6 +353,7 @@ int ffd_worker_run(const worker_program *program)
         ffd_shown_box_clear(&answer.box);
         worker.log.size = worker.entry.size = worker.rule.size = worker.figures.size = 0;
         answer_task(&worker, &task, &answer);
+        ffd_kept_free(&worker.hashes.kept);
         going = send_answer(&worker, &answer) && !answer.retires;
         ffd_process_defer_stop(false);
     }

@@ -78,8 +78,11 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     ffd_source source = desc->input;
     source.only_positions = job->only_positions;
     file_stamp stamp;
+    file_input bytes;
     const bool is_file = ffd_cache_holds_meshes(desc->share) && ffd_file_stamp(source.path, &stamp);
-    ffd_status status = ffd_source_open(&source, job->threads, &job->document, error);
+    ffd_status status = is_file && ffd_cache_take_bytes(desc->share, source.path, &stamp, &bytes)
+                            ? ffd_source_open_bytes(&source, job->threads, &bytes, &job->document, error)
+                            : ffd_source_open(&source, job->threads, &job->document, error);
     if (!status)
         status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
                                      job->document, error);

@@ -727,7 +727,12 @@ m("shard", "off by one", "job_source, cli_batch", "source->count++ % source->des
 m("csv-quote", "operation", "cli_batch_table", "text[i] == '\"' && i + 1 < size && text[i + 1] == '\"'",
   "text[i] == '\"' && i + 1 < size && text[i + 1] == ','")
 m("changed-mesh-is-known", "check left out", "hash_cache, cli_batch_resume",
-  "mesh->format == format && ffd_stamp_equal(&mesh->stamp, &stamp))", "mesh->format == format)")
+  "mesh->path && ffd_stamp_equal(&mesh->stamp, stamp) && mesh->format == format", "mesh->path && mesh->format == format")
+m("kept-bytes-of-before", "check left out", "hash_cache",
+  "strcmp(kept->path, path) != 0 || !ffd_stamp_equal(&kept->stamp, stamp)", "strcmp(kept->path, path) != 0")
+m("kept-bytes-of-another", "check left out", "hash_cache", "|| strcmp(kept->path, path) != 0 ||", "||")
+m("end-before-the-message", "condition", "cli_batch, cli_batch_failures",
+  "while (size < 0 || (size_t)size == sizeof block);", "while (size < 0);")
 m("resume-without-outputs", "check left out", "cli_batch_resume",
   "&& ffd_hash_equal(&answer->record.outputs, &task->record.outputs);", ";")
 m("resume-does-not-replace", "operation", "cli_batch_resume", "desc->force = desc->force || task->resume;",

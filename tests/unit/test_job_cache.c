@@ -93,7 +93,7 @@ static void a_mesh_is_lent_only_while_nothing_changed(void **state)
 static bool state_of(ffd_share *share, const ffd_deform_desc *desc, hash128 *hash)
 {
     file_stamp stamp;
-    ffd_cache_begin_job(share, false);
+    ffd_cache_begin_job(share, false, NULL);
     mesh_document *document = ffd_cache_take_mesh(share, desc, false);
     if (!document) {
         assert_true(ffd_file_stamp(desc->input.path, &stamp));
@@ -126,7 +126,7 @@ static void a_mesh_that_has_changed_has_another_state(void **state)
     assert_false(ffd_hash_equal(&again, &first));
     assert_int_equal(ffd_cache_counts(share).reads, 2);
 
-    ffd_cache_begin_job(share, false); /* which fails before it reads */
+    ffd_cache_begin_job(share, false, NULL); /* which fails before it reads */
     assert_false(ffd_cache_find_state(share, &late));
     desc.in_place = true;
     assert_false(state_of(share, &desc, &late));

@@ -23,29 +23,39 @@ static void check_content(const char *name, const char *text)
 
 static void files_are_made_or_opened(void **state)
 {
-    FILE *file;
+    update_file *file;
+    char bytes[4];
+    uint64_t size;
     assert_int_equal(ffd_update_open(in_folder("new"), &file, NULL), FFD_OK);
-    assert_true(fputs("some", file) >= 0);
-    assert_int_equal(fclose(file), 0);
-    check_content("new", "some");
+    assert_true(ffd_update_write(file, 0, "some", 4));
+    check_content("new", "some"); /* before it is closed */
+    ffd_update_close(&file);
     assert_int_equal(symlink("new", in_folder("link")), 0);
     assert_int_equal(ffd_update_open(in_folder("link"), &file, NULL), FFD_OK);
-    assert_int_equal(fgetc(file), 's');
-    assert_int_equal(fseek(file, 0, SEEK_SET), 0);
-    assert_int_equal(fputc('c', file), 'c');
-    assert_int_equal(fclose(file), 0);
+    assert_true(ffd_update_read(file, 1, bytes, 3));
+    assert_memory_equal(bytes, "ome", 3);
+    assert_true(ffd_update_write(file, 0, "c", 1));
+    ffd_update_close(&file);
     check_content("new", "come");
     assert_int_equal(ffd_update_open(in_folder("new"), &file, NULL), FFD_OK);
     assert_true(ffd_update_clear(file));
-    assert_true(fputs("x", file) >= 0);
-    assert_int_equal(fclose(file), 0);
-    check_content("new", "x");
+    assert_true(ffd_update_write(file, 2, "x", 1)); /* beyond the end */
+    assert_true(ffd_update_size(file, &size));
+    assert_int_equal(size, 3);
+    assert_true(ffd_update_read(file, 0, bytes, 3));
+    assert_memory_equal(bytes, "\0\0x", 3);
+    assert_false(ffd_update_read(file, 1, bytes, 3)); /* the file ends before */
+    assert_false(ffd_update_read(file, UINT64_MAX - 1, bytes, 3));
+    assert_false(ffd_update_write(file, UINT64_MAX - 1, bytes, 3));
+    assert_false(ffd_update_write(file, INT64_MAX, bytes, 1));
+    ffd_update_close(&file);
+    ffd_update_close(&file);
     (void)state;
 }
 
 static void what_is_no_file_is_refused_at_once(void **state)
 {
-    FILE *file;
+    update_file *file;
     ffd_error error;
     assert_int_equal(mkfifo(in_folder("pipe"), 0600), 0);
     assert_int_equal(symlink("nowhere", in_folder("dangling")), 0);
@@ -64,7 +74,7 @@ static void a_successor_takes_the_place_and_the_mode(void **state)
 {
     file_successor successor;
     struct stat info;
-    FILE *file;
+    update_file *file;
     put_text("old", "old");
     put_text("old.new", "precious");
     put_text("victim", "precious");
@@ -74,16 +84,17 @@ static void a_successor_takes_the_place_and_the_mode(void **state)
     assert_int_equal(unlink(in_folder(".old.ffd-tmp")), 0);
     for (int commit = 0; commit < 2; commit++) {
         assert_true(ffd_successor_begin(&successor, in_folder("old")));
-        assert_true(fputs("newer", successor.file) >= 0);
+        assert_true(ffd_update_write(successor.file, 0, "newer", 5));
         if (commit)
             assert_true(ffd_successor_commit(&successor, &file));
         ffd_successor_end(&successor);
         check_content("old", commit ? "newer" : "old");
         assert_false(ffd_file_exists(in_folder(".old.ffd-tmp")));
     }
-    rewind(file);
-    assert_int_equal(fgetc(file), 'n');
-    fclose(file);
+    char first;
+    assert_true(ffd_update_read(file, 0, &first, 1));
+    assert_int_equal(first, 'n');
+    ffd_update_close(&file);
     assert_int_equal(stat(in_folder("old"), &info), 0);
     assert_int_equal(info.st_mode & 0777, 0640);
     check_content("old.new", "precious");

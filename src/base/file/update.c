@@ -1,4 +1,4 @@
-#define _XOPEN_SOURCE 700 /* realpath */
+#define _XOPEN_SOURCE 700 /* realpath, pread */
 #include "base/file/update.h"
 #include "base/file/path.h"
 #include "base/file/temporary.h"
@@ -8,6 +8,21 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
+
+struct update_file {
+    int fd;
+};
+
+/* Takes over the descriptor. */
+static update_file *make(int fd)
+{
+    update_file *const file = ffd_alloc(1, sizeof *file);
+    if (file)
+        file->fd = fd;
+    else
+        close(fd);
+    return file;
+}
 
 /* Opens the file that is there, else makes it. */
 static int open_or_make(const char *path)
@@ -23,7 +38,7 @@ static int open_or_make(const char *path)
     return fd;
 }
 
-ffd_status ffd_update_open(const char *path, FILE **file, ffd_error *error)
+ffd_status ffd_update_open(const char *path, update_file **file, ffd_error *error)
 {
     struct stat info;
     const int fd = open_or_make(path);
@@ -36,17 +51,69 @@ ffd_status ffd_update_open(const char *path, FILE **file, ffd_error *error)
         status = ffd_fail_errno(error, path, "cannot be written");
     else if (!S_ISREG(info.st_mode))
         status = ffd_fail_file(error, FFD_E_IO, path, "is not a file");
-    else if (!(*file = fdopen(fd, "r+b")))
-        status = ffd_fail_errno(error, path, "cannot be written");
-    if (status)
+    if (status) {
         close(fd);
-    return status;
+        return status;
+    }
+    *file = make(fd);
+    return *file ? FFD_OK : ffd_fail_memory(error);
 }
 
-bool ffd_update_clear(FILE *file)
+/* The offset as the system has it; negative if it is beyond what the system knows. */
+static off_t offset_of(uint64_t at, size_t size)
 {
-    rewind(file);
-    return ftruncate(fileno(file), 0) == 0;
+    const uint64_t most = sizeof(off_t) < sizeof at ? INT32_MAX : INT64_MAX;
+    return at <= most && size <= most - at ? (off_t)at : -1;
+}
+
+bool ffd_update_read(const update_file *file, uint64_t at, void *bytes, size_t size)
+{
+    const off_t begin = offset_of(at, size);
+    size_t done = 0;
+    while (begin >= 0 && done < size) {
+        const ssize_t got = pread(file->fd, (char *)bytes + done, size - done, begin + (off_t)done);
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return false;
+        done += got < 0 ? 0 : (size_t)got;
+    }
+    return begin >= 0;
+}
+
+bool ffd_update_write(update_file *file, uint64_t at, const void *bytes, size_t size)
+{
+    const off_t begin = offset_of(at, size);
+    size_t done = 0;
+    while (begin >= 0 && done < size) {
+        const ssize_t put = pwrite(file->fd, (const char *)bytes + done, size - done, begin + (off_t)done);
+        if (put == 0 || (put < 0 && errno != EINTR))
+            return false;
+        done += put < 0 ? 0 : (size_t)put;
+    }
+    return begin >= 0;
+}
+
+bool ffd_update_size(const update_file *file, uint64_t *size)
+{
+    struct stat info;
+    *size = 0;
+    if (fstat(file->fd, &info) != 0 || info.st_size < 0)
+        return false;
+    *size = (uint64_t)info.st_size;
+    return true;
+}
+
+bool ffd_update_clear(update_file *file)
+{
+    return ftruncate(file->fd, 0) == 0;
+}
+
+void ffd_update_close(update_file **file)
+{
+    if (*file) {
+        close((*file)->fd);
+        ffd_free(*file);
+    }
+    *file = NULL;
 }
 
 bool ffd_successor_begin(file_successor *successor, const char *path)
@@ -66,19 +133,16 @@ bool ffd_successor_begin(file_successor *successor, const char *path)
         return false;
     }
     successor->temporary = name;
-    if (successor->noted && stat(successor->target, &info) == 0 && fchmod(fd, info.st_mode & 0777) == 0)
-        successor->file = fdopen(fd, "w+b");
-    if (successor->file)
+    successor->file = make(fd);
+    if (successor->file && successor->noted && stat(successor->target, &info) == 0 &&
+        fchmod(fd, info.st_mode & 0777) == 0)
         return true;
-    close(fd);
     ffd_successor_end(successor);
     return false;
 }
 
-bool ffd_successor_commit(file_successor *successor, FILE **file)
+bool ffd_successor_commit(file_successor *successor, update_file **file)
 {
-    if (fflush(successor->file) != 0)
-        return false;
     ffd_cleanup_hold();
     const bool placed = ffd_place(successor->temporary, successor->target, true) == 0;
     if (placed)
@@ -100,8 +164,7 @@ void ffd_successor_end(file_successor *successor)
         unlink(successor->temporary);
     ffd_cleanup_strike(&successor->noted);
     ffd_cleanup_release();
-    if (successor->file)
-        fclose(successor->file);
+    ffd_update_close(&successor->file);
     ffd_free(successor->temporary);
     ffd_free(successor->target);
     *successor = (file_successor){0};

@@ -151,16 +151,16 @@ void ffd_process_wait(worker_process *const *processes, size_t count, double sec
 
 bool ffd_process_receive(worker_process *process, byte_buffer *bytes)
 {
-    struct pollfd ready = {.fd = process->channel, .events = POLLIN};
-    while (poll(&ready, 1, 0) > 0) {
-        char block[4096];
-        const ssize_t size = read(process->channel, block, sizeof block);
-        if (size < 0 && errno == EINTR)
-            continue;
-        if (size <= 0)
+    char block[4096];
+    ssize_t size;
+    do {
+        size = recv(process->channel, block, sizeof block, MSG_DONTWAIT);
+        if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK))
+            return true;
+        if (size == 0 || (size < 0 && errno != EINTR))
             return false;
-        ffd_buffer_append(bytes, block, (size_t)size);
-    }
+        ffd_buffer_append(bytes, block, size < 0 ? 0 : (size_t)size);
+    } while (size < 0 || (size_t)size == sizeof block); /* less: that was all for now */
     return true;
 }
 

@@ -47,6 +47,7 @@ struct ffd_share {
     hash128 located;         /* in the rest volume with this hash */
     bool is_located;
 
+    kept_file *kept; /* of the job under way; lent */
     bool hashes_output, has_output;
     hash128 output;  /* its hash */
     bool has_state;  /* of the mesh of the job under way: */
@@ -215,11 +216,17 @@ void ffd_cache_put_mesh(ffd_share *share, const ffd_deform_desc *desc, mesh_docu
         ffd_source_close(&document);
 }
 
-void ffd_cache_begin_job(ffd_share *share, bool hash_output)
+void ffd_cache_begin_job(ffd_share *share, bool hash_output, kept_file *kept)
 {
+    share->kept = kept;
     share->hashes_output = hash_output;
     share->has_output = false;
     share->has_state = false;
+}
+
+bool ffd_cache_take_bytes(ffd_share *share, const char *path, const file_stamp *stamp, file_input *input)
+{
+    return share && ffd_kept_take(share->kept, path, stamp, input);
 }
 
 bool ffd_cache_hashes_output(const ffd_share *share)

@@ -3,6 +3,7 @@
 #ifndef FFD_JOB_CHAIN_JOB_CACHE_H
 #define FFD_JOB_CHAIN_JOB_CACHE_H
 
+#include "base/file/kept_file.h"
 #include "base/memory/hash.h"
 #include "job/chain/chain.h"
 #include "job/chain/mesh_boxes.h"
@@ -43,8 +44,11 @@ ffd_location *ffd_cache_locations(ffd_share *share, mesh_document *document, boo
 void ffd_cache_locations_filled(ffd_share *share);
 
 /* Called before a job of which more is to be known than its result. hash_output: the bytes of its output are
-   hashed as they are written, where it is one file that refers to no other. */
-void ffd_cache_begin_job(ffd_share *share, bool hash_output);
+   hashed as they are written, where it is one file that refers to no other. kept: what the caller has read of
+   the job's files, lent until the job ends. */
+void ffd_cache_begin_job(ffd_share *share, bool hash_output, kept_file *kept);
+/* Hands over the bytes of the job's mesh, if the caller has kept them and the file has this stamp still. */
+bool ffd_cache_take_bytes(ffd_share *share, const char *path, const file_stamp *stamp, file_input *input);
 /* Whether they are. */
 bool ffd_cache_hashes_output(const ffd_share *share);
 /* Takes the hash of an output that was just written. */

@@ -48,26 +48,34 @@ static void tell_of_set_aside(const char *path, ffd_error *error)
                       error->message);
 }
 
-ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document **document, ffd_error *error)
+ffd_status ffd_source_open_bytes(const ffd_source *source, int threads, file_input *input,
+                                 mesh_document **document, ffd_error *error)
 {
-    file_input input;
     ffd_source typed = *source;
     *document = NULL;
     typed.threads = source->threads > 0 ? source->threads : threads;
     ffd_status status = ffd_source_format(source, &typed.format, error);
+    if (!status) {
+        status = ffd_format_open(ffd_format_table(typed.format), input, &typed, document, error);
+        ffd_fail_name_file(status ? error : NULL, ffd_source_name(source));
+    }
     if (status)
-        return status;
-    status = ffd_file_load(source->path, &input, error);
-    if (status) {
-        tell_of_set_aside(source->path, error);
-        return status;
-    }
-    status = ffd_format_open(ffd_format_table(typed.format), &input, &typed, document, error);
-    if (status) {
-        ffd_file_unload(&input);
-        ffd_fail_name_file(error, ffd_source_name(source));
-    }
+        ffd_file_unload(input);
     return status;
+}
+
+ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document **document, ffd_error *error)
+{
+    ffd_format format;
+    file_input input;
+    *document = NULL;
+    ffd_status status = ffd_source_format(source, &format, error);
+    if (!status) {
+        status = ffd_file_load(source->path, &input, error);
+        if (status)
+            tell_of_set_aside(source->path, error);
+    }
+    return status ? status : ffd_source_open_bytes(source, threads, &input, document, error);
 }
 
 ffd_status ffd_source_files(const ffd_source *source, const mesh_document *document, path_list *files,

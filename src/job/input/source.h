@@ -12,6 +12,9 @@ ffd_status ffd_source_format(const ffd_source *source, ffd_format *format, ffd_e
 /* Opens the document, to be closed by the caller, with the job's threads (0: all cores) unless the source has
    a number of its own. Messages name the file. */
 ffd_status ffd_source_open(const ffd_source *source, int threads, mesh_document **document, ffd_error *error);
+/* The same with the bytes of the source's file, which the document takes over, or which are unloaded. */
+ffd_status ffd_source_open_bytes(const ffd_source *source, int threads, file_input *input,
+                                 mesh_document **document, ffd_error *error);
 
 /* Adds the files that the source's document was read from: its own, then those that it refers to. A stream
    is not a file. Errors: FFD_E_MEMORY. */
