@@ -20,11 +20,12 @@ LAYERS = {
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
+    "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "mesh"},
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
-        "io/gltf/model", "mesh",
+        "io/gltf/model", "mesh", "mesh/meshopt",
     },
     "io/gltf/refer": {"io/gltf/document"},
     "io/gltf/scene": {
@@ -99,7 +100,8 @@ LAYERS = {
 OUTSIDE = [
     (r"OpenMesh/", {"io/openmesh"}),
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/model"}),
-    (r"draco/|meshoptimizer\.h", {"io/gltf/decode"}),
+    (r"draco/", {"io/gltf/decode"}),
+    (r"meshoptimizer\.h", {"mesh/meshopt"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/(?!platform/)|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",

@@ -1,4 +1,4 @@
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include <stdint.h>
 
 #define NONE 64

@@ -1,4 +1,4 @@
-#include "io/gltf/decode/meshopt_view.h"
+#include "mesh/meshopt/meshopt_view.h"
 #include "base/text/words.h"
 #include <stdbool.h>
 

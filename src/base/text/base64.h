@@ -1,6 +1,6 @@
 /* base64.h - base64 (RFC 4648, section 4). */
-#ifndef FFD_IO_GLTF_FILE_BASE64_H
-#define FFD_IO_GLTF_FILE_BASE64_H
+#ifndef FFD_BASE_TEXT_BASE64_H
+#define FFD_BASE_TEXT_BASE64_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /* meshopt_view.h - decodes a bufferView of EXT_meshopt_compression, by the meshoptimizer library. Declares
    meshopt_decode.c and meshopt_load.c too, of which a program has one. */
-#ifndef FFD_IO_GLTF_DECODE_MESHOPT_VIEW_H
-#define FFD_IO_GLTF_DECODE_MESHOPT_VIEW_H
+#ifndef FFD_MESH_MESHOPT_MESHOPT_VIEW_H
+#define FFD_MESH_MESHOPT_MESHOPT_VIEW_H
 
 #include "base/fail.h"
 #include <stddef.h>

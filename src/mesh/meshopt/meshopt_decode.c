@@ -1,7 +1,7 @@
-/* meshopt_decode.c - decodes by the meshoptimizer library; the only source that includes it. */
+/* meshopt_decode.c - decodes by the meshoptimizer library. */
 #include "base/little_endian.h"
-#include "io/gltf/decode/meshopt_filters.h"
-#include "io/gltf/decode/meshopt_view.h"
+#include "mesh/meshopt/meshopt_filters.h"
+#include "mesh/meshopt/meshopt_view.h"
 #include <meshoptimizer.h>
 
 ffd_status ffd_meshopt_ready(ffd_error *error)

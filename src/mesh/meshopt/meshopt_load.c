@@ -1,5 +1,5 @@
 /* meshopt_load.c - decodes by the module, which is loaded when it is first needed. */
-#include "io/gltf/decode/meshopt_module.h"
+#include "mesh/meshopt/meshopt_module.h"
 
 static module meshopt = {MESHOPT_IDENTITY, "meshopt", NULL};
 

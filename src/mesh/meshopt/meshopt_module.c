@@ -1,4 +1,4 @@
-#include "io/gltf/decode/meshopt_module.h"
+#include "mesh/meshopt/meshopt_module.h"
 
 FFD_API extern const meshopt_module ffd_module;
 

@@ -1,4 +1,4 @@
-#include "io/gltf/decode/meshopt_filters.h"
+#include "mesh/meshopt/meshopt_filters.h"
 #include <math.h>
 #include <stdint.h>
 

@@ -1,10 +1,10 @@
 /* meshopt_module.h - what the module with meshoptimizer shows. meshopt_module.c is part of the module;
    meshopt_load.c, in its place, of a program that loads it. */
-#ifndef FFD_IO_GLTF_DECODE_MESHOPT_MODULE_H
-#define FFD_IO_GLTF_DECODE_MESHOPT_MODULE_H
+#ifndef FFD_MESH_MESHOPT_MESHOPT_MODULE_H
+#define FFD_MESH_MESHOPT_MESHOPT_MODULE_H
 
 #include "base/system/module.h"
-#include "io/gltf/decode/meshopt_view.h"
+#include "mesh/meshopt/meshopt_view.h"
 #include <ffd/version.h>
 
 #define MESHOPT_IDENTITY                                                                                     \

@@ -1,8 +1,8 @@
 /* meshopt_filters.h - the filters of KHR_meshopt_compression that make unit vectors and rotations of
    integers. In our own code: the library's uses approximate reciprocals and fused operations where a
    processor has them, so that it gives other integers on other processors. */
-#ifndef FFD_IO_GLTF_DECODE_MESHOPT_FILTERS_H
-#define FFD_IO_GLTF_DECODE_MESHOPT_FILTERS_H
+#ifndef FFD_MESH_MESHOPT_MESHOPT_FILTERS_H
+#define FFD_MESH_MESHOPT_MESHOPT_FILTERS_H
 
 #include <stddef.h>
 
