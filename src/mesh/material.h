@@ -1,0 +1,42 @@
+/* material.h - how the surface of a mesh looks, as far as a picture shows it: base colours and their
+   textures. */
+#ifndef FFD_MESH_MATERIAL_H
+#define FFD_MESH_MATERIAL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+/* No image. */
+#define MATERIAL_NONE UINT32_MAX
+
+/* A PNG or JPEG file, not decoded. */
+typedef struct mesh_image {
+    char *name; /* for messages */
+    unsigned char *bytes;
+    size_t size;
+} mesh_image;
+
+typedef enum texture_wrap { TEXTURE_REPEAT, TEXTURE_MIRROR, TEXTURE_CLAMP } texture_wrap;
+
+typedef struct mesh_material {
+    char *name;           /* "": none */
+    double color[4];      /* base colour and alpha, 0 to 1, linear */
+    double alpha_cutoff;  /* drawn where alpha is not less; 0: everywhere */
+    uint32_t image;       /* base colour texture, or MATERIAL_NONE */
+    texture_wrap wrap[2]; /* along u and v */
+    bool is_double_sided;
+} mesh_material;
+
+/* All zeros: none. */
+typedef struct mesh_materials {
+    mesh_material *list; /* count */
+    size_t count, capacity;
+    mesh_image *images; /* image_count */
+    size_t image_count, image_capacity;
+} mesh_materials;
+
+/* Frees them; the list is empty then. */
+void ffd_materials_free(mesh_materials *materials);
+
+#endif
