@@ -729,3 +729,27 @@ m("offset-without-rounding", "term left out", "cli_snap",
 m("snap-shared-by-jobs", "cache key", "cli_snap", "ffd_hash_doubles(&link->snap, 1)", "ffd_hash_doubles(&link->snap, 0)")
 m("box-not-widened", "rounding", "cli_snap", "AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))",
   "0 * AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))")
+
+# view
+
+m("markup-in-a-script", "escape left out", "view_page", r'ffd_buffer_text(out, "\\u003c");', 'ffd_buffer_text(out, "<");')
+m("markup-in-the-title", "escape left out", "view_page", 'ffd_buffer_text(out, "&lt;");', 'ffd_buffer_text(out, "<");')
+m("turned-names", "range", "view_page", "{0x2028, 0x202e}", "{0x2028, 0x202d}")
+m("names-of-any-length", "limit left out", "view_page", "if (count == LONGEST) {", "if (count == 1000 * LONGEST) {")
+m("positions-rounded-down", "rounding", "view_page", "step > 0 ? nearbyint(x / step) : 0", "step > 0 ? floor(x / step) : 0")
+m("box-of-the-first-shape", "term left out", "view_page", "fmin(data->low[a], fmin(x, y))", "fmin(data->low[a], x)")
+m("move-of-one-axis", "operation", "view_page", "most = fmax(most, fabs(y - x));", "most = fabs(y - x);")
+m("infinite-vertices-drawn", "check left out", "view_page", "is_shown(scene->before + 3 * v) && is_shown(after + 3 * v)",
+  "is_shown(scene->before + 3 * v) && after")
+m("vertex-beyond-the-array", "off by one", "view_page", "if (indices[i] >= vertices)", "if (indices[i] > vertices)")
+m("torn-edges-simplified", "mark left out", "view_reduce", "r->torn[scene->tears[i].vertices[end]] = 1;",
+  "r->torn[scene->tears[i].vertices[end]] = 0;")
+m("flipped-mixed-with-others", "class", "view_reduce", "r->mesh->flipped && r->mesh->flipped[triangle] ? FLIPPED : PLAIN",
+  "r->mesh->flipped && r->mesh->flipped[triangle] ? PLAIN : PLAIN")
+m("borders-simplified", "option left out", "view_reduce", "FARTHEST, meshopt_SimplifyLockBorder, nullptr)", "FARTHEST, 0, nullptr)")
+m("exception-of-the-simplifier", "wrong type", "view_reduce",
+  "meshopt_SimplifyLockBorder, nullptr); return FFD_OK; } catch (...) {",
+  "meshopt_SimplifyLockBorder, nullptr);\n        return FFD_OK;\n    } catch (const char *) {")
+m("base64-gap", "multiple", "view_page", "#define RUN 3072", "#define RUN 3073")
+m("points-kept", "thinning left out", "view_reduce",
+  "mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio); ffd_free(r->kept);", "ffd_free(r->kept);")

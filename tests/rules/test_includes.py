@@ -54,6 +54,9 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
         "mesh",
     },
+    "view": {
+        "base", "base/file", "base/memory", "base/text", "json", "mesh", "mesh/meshopt",
+    },
     "job/report": {"base", "base/file", "base/memory", "base/text", "json", "mesh"},
     "spline": {"base", "base/memory", "base/text"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "spline"},
