@@ -333,6 +333,38 @@ FFD_API ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *r
    every case (not NULL). Returns result->status. Errors: all. */
 FFD_API ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
 
+/* What vertices and faces are coloured by at first. */
+typedef enum ffd_view_color {
+    FFD_VIEW_DISPLACEMENT = 0, /* how far each vertex moves */
+    FFD_VIEW_STATUS,           /* its ffd_vertex_status */
+    FFD_VIEW_DET,              /* det F there: how many times larger a volume becomes */
+    FFD_VIEW_PLAIN             /* base colours, colours of vertices */
+} ffd_view_color;
+
+/* `ffd view`: a page that shows a mesh before and after. */
+typedef struct ffd_view_desc {
+    size_t struct_size; /* sizeof(ffd_view_desc) of the caller */
+    /* The mesh and what deforms it, as ffd_check_run takes it; lattice_count may be 0: the mesh is shown as
+       it is. Its log gets the warnings. Its written has the page afterwards. */
+    const ffd_deform_desc *job;
+    /* The deformed mesh as a file, of as many vertices; NULL: it is deformed in memory. With it the lattices
+       are drawn, and deform nothing. */
+    const ffd_source *deformed;
+    const char *output; /* ends in .html or .htm */
+    bool force;         /* overwrite an existing output */
+    double camera[3]; /* the direction in which the camera is, seen from the mesh, y upwards; zeros: from the
+                         right, above and in front */
+    ffd_view_color color;
+    bool full; /* show all vertices; else at most 200,000: the mesh is simplified, and the page says so */
+} ffd_view_desc;
+
+/* Shows before and after, colours by displacement, is not full. */
+FFD_API void ffd_view_desc_init(ffd_view_desc *desc);
+/* Writes the page; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after the page was
+   written. result is filled in every case (not NULL): where lattices deform, as by ffd_check_run, with the
+   shape that default weights of morph targets show. Returns result->status. Errors: all. */
+FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
+
 /* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,
    where status_output is not NULL, the statuses (uint8, N). Both files or none. The lattice's "mesh" box is
    fitted to the mesh. counts may be NULL. */

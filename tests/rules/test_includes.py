@@ -86,6 +86,10 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/input", "job/pass", "lattice", "mesh",
     },
+    "job/view": {
+        "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
+        "job/pass", "job/report", "lattice", "mesh", "view",
+    },
     "batch": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io", "job/chain", "job/input", "job/judge",
         "job/report", "json", "lattice", "mesh",
