@@ -125,7 +125,8 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
         status = read_model(work, error);
     if (status)
         return status;
-    job->document->converted = true; /* so that what default weights of morph targets show is deformed */
+    /* What default weights of morph targets show is deformed, as for a conversion. */
+    job->document->converted = ffd_mesh_shows_shapes(job->document);
     job->details = &work->details;
     status = ffd_deform_job_run(job, result, &result->error);
     result->status = status;
