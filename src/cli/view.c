@@ -152,7 +152,7 @@ static int run(const cli_command *command, int count, char **arguments)
 
 static const cli_example examples[] = {
     {"a page of what a deformation does, for a browser", "ffd view cow.obj -l bend.json -o bend.html"},
-    {"a page of two files, the mesh before and after", "ffd view cow.obj bent.obj -l bend.json -o bent.html"},
+    {"a page of two files, the mesh before and after", "ffd view old.obj new.obj -o change.html"},
     {NULL, NULL},
 };
 

@@ -4,7 +4,7 @@ import re
 
 from harness import CUBE, LIMIT, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new", "report merge"]
+COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "report merge"]
 OPTIONS = {
     "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
@@ -14,6 +14,9 @@ OPTIONS = {
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
+    "view": {"--output", "--camera", "--color", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding",
+             "--as-morph", "--fail-on", "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict",
+             "--allow-extension"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",
                     "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "report merge": {"--output", "--interleave", "--force"},

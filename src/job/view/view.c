@@ -63,7 +63,7 @@ static ffd_status check_desc(const ffd_view_desc *desc, ffd_error *error)
     return status ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
-/* Reads the mesh as viewers show it, and says what of it a picture cannot show. */
+/* Reads the mesh as viewers show it. */
 static ffd_status read_model(view_work *work, ffd_error *error)
 {
     mesh_document *const document = work->job.document;
@@ -73,9 +73,6 @@ static ffd_status read_model(view_work *work, ffd_error *error)
     document->shown = ffd_mesh_shows_shapes(document);
     const ffd_status status = document->format->model(document, model, error);
     document->shown = false;
-    if (!status && model->nodes_left)
-        ffd_log_line(&work->job.log, FFD_LOG_WARNING, "not shown: the GPU instances of %zu %s",
-                     model->nodes_left, ffd_plural(model->nodes_left, "node", "nodes"));
     return status;
 }
 
@@ -266,6 +263,9 @@ static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
         status = deforms ? run_job(work, result, error) : read_files(work, error);
     if (status)
         return status;
+    if (work->model.nodes_left)
+        ffd_log_line(&work->job.log, FFD_LOG_WARNING, "not shown: the GPU instances of %zu %s",
+                     work->model.nodes_left, ffd_plural(work->model.nodes_left, "node", "nodes"));
     ffd_view_measure(&work->scene);
     return write_view(work, error);
 }
