@@ -92,7 +92,7 @@ def unknown_commands(run):
 
 @case
 def commands_of_later_versions_are_absent(run):
-    for words in (["fit", "a.obj", "b.obj"], ["view", "a.obj"],
+    for words in (["fit", "a.obj", "b.obj"],
                   ["lattice", "refine", "l.json"], ["lattice", "convert", "l.json"], ["lattice", "set", "l.json"]):
         refused(run, *words, says="unknown command")
 
