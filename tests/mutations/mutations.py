@@ -753,3 +753,26 @@ m("exception-of-the-simplifier", "wrong type", "view_reduce",
 m("base64-gap", "multiple", "view_page", "#define RUN 3072", "#define RUN 3073")
 m("points-kept", "thinning left out", "view_reduce",
   "mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio); ffd_free(r->kept);", "ffd_free(r->kept);")
+m("step-of-the-first-torn-edge", "order", "view", "return x->step > y->step ? -1 : x->step < y->step;", "return x->step > y->step ? 1 : -(x->step < y->step);")
+m("torn-edges-twice", "class", "view", "return a < b ? a << 32 | b : b << 32 | a; } static int compare_ends",
+  "return a << 32 | b; } static int compare_ends")
+m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->step < y->step ? 1 : compare_ends(a, b);",
+  "return x->step > y->step ? 1 : x->step < y->step ? -1 : compare_ends(a, b);")
+m("gate-without-a-page", "condition", "cli_view, view", "if (status == FFD_E_GATE) ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input)); else if (status) {",
+  "if (status) {")
+m("gate-forgotten-by-a-page", "result left out", "cli_view, view", "status = result->status; /* of the gates */", "status = FFD_OK;")
+m("weights-of-a-picture", "shape", "cli_view", "document->shown = ffd_mesh_shows_shapes(document); const ffd_status status = document->format->model",
+  "document->shown = false; const ffd_status status = document->format->model")
+m("weights-of-a-deformed-file", "shape", "cli_view", "document->shown = ffd_mesh_shows_shapes(document); for (size_t i", "for (size_t i")
+m("numbers-of-what-is-hidden", "offset", "cli_view", "number += part->vertex_count; } return FFD_OK; } static ffd_status extract",
+  "number += is_drawn(d, d->parts[i].node) ? part->vertex_count : 0; } return FFD_OK; } static ffd_status extract")
+m("last-corner-of-an-stl-vertex", "order", "cli_view", "for (size_t i = faces->corner_count; i-- > 0;) e->model->numbers",
+  "for (size_t i = 0; i < faces->corner_count; i++) e->model->numbers")
+m("page-over-an-input", "check left out", "cli_view", "const ffd_status status = check_inputs(desc, error);", "const ffd_status status = FFD_OK;")
+m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
+m("det-without-its-diagonal", "term left out", "cli_view", "f[4 * a] += 1; scene->dets", "f[4 * a] += 0; scene->dets")
+m("flipped-by-the-first-face", "index", "cli_view", "const size_t face = faces[t];", "const size_t face = faces[t / 2];")
+m("cage-at-rest-twice", "wrong array", "cli_view", "cage->deformed = copy_points(lattice->deformed, lattice->count);",
+  "cage->deformed = copy_points(lattice->rest, lattice->count);")
+m("unmarked-instances", "message left out", "cli_view", "if (work->model.nodes_left)", "if (work->model.nodes_left > 1)")
+m("left-is-right", "sign", "cli_view", '{"left", {-1, 0, 0}}', '{"left", {1, 0, 0}}')
