@@ -1,5 +1,23 @@
 #include "mesh/material.h"
 #include "base/memory/memory.h"
+#include <string.h>
+
+ffd_status ffd_materials_add(mesh_materials *materials, char *name, memory_budget *budget, ffd_error *error)
+{
+    ffd_status status = name ? FFD_OK : ffd_fail_memory(error);
+    if (!status)
+        status = ffd_budget_take(budget, 1, sizeof *materials->list + strlen(name) + 1, error);
+    if (!status && !ffd_grow((void **)&materials->list, &materials->capacity, materials->count + 1,
+                             sizeof *materials->list))
+        status = ffd_fail_memory(error);
+    if (status) {
+        ffd_free(name);
+        return status;
+    }
+    materials->list[materials->count++] =
+        (mesh_material){.name = name, .color = {1, 1, 1, 1}, .image = MATERIAL_NONE};
+    return FFD_OK;
+}
 
 void ffd_materials_free(mesh_materials *materials)
 {

@@ -3,6 +3,7 @@
 #ifndef FFD_MESH_MATERIAL_H
 #define FFD_MESH_MATERIAL_H
 
+#include "mesh/memory_budget.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -35,6 +36,16 @@ typedef struct mesh_materials {
     mesh_image *images; /* image_count */
     size_t image_count, image_capacity;
 } mesh_materials;
+
+/* What a file has for a colour's number or an opacity; what is not 0 to 1 counts as 1. */
+static inline double material_share(double number)
+{
+    return number >= 0 && number <= 1 ? number : 1;
+}
+
+/* Adds a material that says nothing: white, opaque, one-sided. Takes ownership of the name, also after a
+   failure; NULL: memory ran out for it. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_materials_add(mesh_materials *materials, char *name, memory_budget *budget, ffd_error *error);
 
 /* Frees them; the list is empty then. */
 void ffd_materials_free(mesh_materials *materials);

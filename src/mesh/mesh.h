@@ -14,6 +14,7 @@
 #include "base/text/buffer.h"
 #include "base/vector/vec.h"
 #include "mesh/flaws.h"
+#include "mesh/material.h"
 #include "mesh/memory_budget.h"
 #include "mesh/mesh_log.h"
 #include "mesh/model.h"
@@ -218,6 +219,8 @@ typedef uint64_t mesh_name_part_function(const mesh_document *document, uint64_t
 typedef ffd_status mesh_corner_normals_function(const mesh_document *document, const mesh_faces *faces,
                                                 uint32_t *normals, ffd_error *error);
 typedef ffd_status mesh_model_function(const mesh_document *document, mesh_model *model, ffd_error *error);
+typedef ffd_status mesh_list_materials_function(mesh_document *document, const mesh_log *log,
+                                                mesh_materials *materials, ffd_error *error);
 typedef ffd_status mesh_describe_function(const mesh_document *document, json_text *json, ffd_error *error);
 typedef ffd_status mesh_compare_function(const mesh_document *a, const mesh_document *b,
                                          ffd_comparison *comparison, ffd_error *error);
@@ -331,6 +334,12 @@ typedef struct mesh_format {
     /* Fills an empty model (which the caller frees in every case) with the mesh as the parts transform it,
        and with the results where there are some. */
     mesh_model_function *model;
+    /* Fills an empty list (which the caller frees in every case) with the materials of the file, and with the
+       images of their base colours. glTF: element i is number i of the file. OBJ: those of its libraries, one
+       for each name. An image that cannot be had is no failure: the log says so. What the list takes comes
+       from the document's memory budget, for as long as it is open. NULL: there are none. Errors:
+       FFD_E_MEMORY, FFD_E_LIMIT. */
+    mesh_list_materials_function *list_materials;
     mesh_describe_function *describe;
 
     /* Compares two documents of this format (see ffd_compare_run). The comparison is begun

@@ -108,6 +108,40 @@ static void check_description(const mesh_document *document)
     ffd_buffer_free(&out);
 }
 
+static void check_material(const mesh_materials *materials, const mesh_material *m)
+{
+    for (int c = 0; c < 4; c++)
+        PROMISE(m->color[c] >= 0 && m->color[c] <= 1, "a colour has %g", m->color[c]);
+    PROMISE(m->name && m->alpha_cutoff >= 0 && isfinite(m->alpha_cutoff), "the cutoff %g", m->alpha_cutoff);
+    PROMISE(m->image == MATERIAL_NONE || m->image < materials->image_count, "image %u of %zu", m->image,
+            materials->image_count);
+    PROMISE(m->wrap[0] <= TEXTURE_CLAMP && m->wrap[1] <= TEXTURE_CLAMP, "a wrap of %d and %d", m->wrap[0],
+            m->wrap[1]);
+}
+
+static void check_line(void *user, ffd_log_level level, const char *line)
+{
+    (void)user;
+    PROMISE(level == FFD_LOG_WARNING && *line && !strpbrk(line, "\r\n"), "the log says '%s'", line);
+}
+
+static void check_materials(mesh_document *document)
+{
+    const mesh_log log = {check_line, NULL};
+    mesh_materials materials = {0};
+    ffd_error error = {0};
+    if (!document->format->list_materials)
+        return;
+    const ffd_status status = document->format->list_materials(document, &log, &materials, &error);
+    PROMISE(status == FFD_OK || status == FFD_E_LIMIT, "the materials cannot be listed: %s", error.message);
+    for (size_t i = 0; i < materials.count && !status; i++)
+        check_material(&materials, &materials.list[i]);
+    for (size_t i = 0; i < materials.image_count; i++)
+        PROMISE(materials.images[i].name && materials.images[i].size >= 3, "an image of %zu bytes",
+                materials.images[i].size);
+    ffd_materials_free(&materials);
+}
+
 /* False: refused. */
 static bool take_faces(const mesh_document *document, mesh_faces *faces)
 {
@@ -330,6 +364,7 @@ static void prepare_files(void)
     if (prepared)
         return;
     prepared = true;
+    work_write("m.png", "\x89PNG\r\n\x1a\n", 8);
     work_write("empty.json", text, (size_t)snprintf(text, sizeof text, "%s]}", rest));
     work_write("moves.json", text, (size_t)snprintf(text, sizeof text, "%s%s]}", rest, moves));
 }
@@ -353,6 +388,7 @@ static void run(trial *of, const uint8_t *data, size_t size)
     if (!document)
         return;
     check_description(document);
+    check_materials(document);
     of->is_quantized = is_gltf(of->format) && is_quantized(document);
     const bool goes_on = is_small(document) && take_faces(document, &faces);
     ffd_source_close(&document);
@@ -376,4 +412,15 @@ void fuzz_mesh(ffd_format format, const uint8_t *data, size_t size)
     of.space = FFD_SPACE_MESH;
     of.normals = is_gltf(format) ? FFD_NORMALS_TRANSFORM : FFD_NORMALS_KEEP;
     run(&of, data, size);
+}
+
+void fuzz_library(const uint8_t *data, size_t size)
+{
+    static const char text[] = "mtllib m.mtl\nv 0 0 0\n";
+    const trial of = {.format = FFD_FORMAT_OBJ};
+    prepare_files();
+    work_write("m.mtl", data, size);
+    mesh_document *document = open_again(&of, "m", (const uint8_t *)text, sizeof text - 1);
+    check_materials(document);
+    ffd_source_close(&document);
 }

@@ -25,8 +25,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_mesh(FFD_FORMAT_OBJ, data, size);
     ffd_obj_list_libraries(&input, "none/m.obj", &libraries, NULL);
     check_names(&libraries, size);
-    if (ffd_mtl_has_content(data, size))
+    if (ffd_mtl_has_content(data, size)) {
         ffd_mtl_list_maps(data, size, "m.mtl", &maps, NULL);
+        fuzz_library(data, size);
+    }
     check_names(&maps, size);
     return 0;
 }

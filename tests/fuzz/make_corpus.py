@@ -62,6 +62,21 @@ def tangents():
                                   "TEXCOORD_0": b.accessor([(0, 1)] * 8, "VEC2")}, "indices": b.indices(component=5121)})
 
 
+def materials():
+    b = plain()
+    view = b.view(b"\x89PNG\r\n\x1a\n...")
+    colours = [{"baseColorFactor": [1, 0.5, 0, 1], "baseColorTexture": {"index": i}} for i in range(4)]
+    b.asset |= {
+        "materials": [{"name": "a", "pbrMetallicRoughness": c, "alphaMode": "MASK", "alphaCutoff": 0.25} for c in colours]
+                     + [{"extensions": {"KHR_materials_pbrSpecularGlossiness": {"diffuseTexture": {"index": 1}}},
+                         "alphaMode": "BLEND", "doubleSided": True}],
+        "textures": [{"source": i, "sampler": 0} for i in range(3)] + [{"extensions": {"EXT_texture_webp": {"source": 0}}}],
+        "samplers": [{"wrapS": 33071, "wrapT": 33648}],
+        "images": [{"uri": "m.png"}, {"uri": "data:image/png;base64,iVBORw0KGgo="}, {"bufferView": view, "name": "b"}]}
+    b.asset["meshes"][0]["primitives"][0]["material"] = 2
+    return b
+
+
 def modes():
     b = Builder()
     position = b.positions()
@@ -188,7 +203,7 @@ def flawed():
 
 
 ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, nodes, instanced, surroundings,
-          strange, flawed]
+          strange, flawed, materials]
 
 
 def glb_of(asset, data):
@@ -210,6 +225,8 @@ OBJ = {
     "libraries": "mtllib a b.mtl c.mtl \\\n d.mtl\nmtllib e.mat\r\n# mtllib f.mtl\\\nmtllib g\rv 0 0 0\nusemtl h\n",
     "maps": "newmtl a\nmap_Kd -s 1 1 1 -o 0 0 0 two words.png\nbump -bm 1 b.png\nrefl -type cube_top c.png\r\n"
             "map_Ks\td.png\rmap_d -imfchan m e.png",
+    "materials": "newmtl a b\nKd 0 0 0\nd -halo 0.5\nmap_Kd -clamp on m.png\nnewmtl c\nKd 0.5 1 .25\nTr 0.5\n"
+                 "map_Kd /x.png\nnewmtl a b\nmap_Kd none.png\nnewmtl\nKd xyz 1 1 1\n",
     "plain": CUBE + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\n",
     "normals": "vn 0 0 1\n" + CUBE + "vn 1 0 0\nvt 0 1\nf 1/1/1 2/1/1 4/1/2\nf 1//1 3//2 4//2\nf 2 3/1 4\n",
     "negative": CUBE + "vn 0 0 1\nvn 0 1 0\nf -1//-1 -2//-1 -3//-2\nv 0 0 0\nf -1 -2 -3\nl 1 -1\np -1\n",

@@ -271,6 +271,17 @@ m("copy-out-of-the-folder", "check left out", "gltf_save, cli_materials", "*left
   "*left = NULL;\n    if (ffd_path_leads_out(resource->path) && !c->mesh) {")
 m("output-over-a-copy", "check left out", "gltf_save", "strcmp(resource->path, ffd_path_name(target)) == 0",
   "strcmp(resource->path, target) == 0")
+m("image-loaded-twice", "cache left out", "materials", "*image = images->numbers[number]; else",
+  "*image = MATERIAL_NONE;\n    else")
+m("images-not-in-the-budget", "limit", "materials", "ffd_budget_take(images->budget, 1, all, &problem)",
+  "ffd_budget_take(images->budget, 0, all, &problem)")
+m("other-images-kept", "check left out", "materials", "if (!is_shown(bytes, size)) {", "if (!is_shown(bytes, size) && size < 4) {")
+m("fourth-image-said", "message", "materials", "for (size_t i = 0; i < LEFT_SHOWN && i < left->count; i++)",
+  "for (size_t i = 0; i + 1 < LEFT_SHOWN && i < left->count; i++)")
+m("colours-beyond-one", "check left out", "materials", "return number >= 0 && number <= 1 ? number : 1;",
+  "return number >= 0 ? number : 1;")
+m("image-left-behind", "freed resource", "materials", "ffd_free(materials->images); *materials = (mesh_materials){0};",
+  "ffd_free(materials->images);")
 
 # io
 
@@ -313,7 +324,8 @@ m("library-of-a-continued-line", "check left out", "obj_resources", "return !is_
 m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, letter, last)) {",
   "if (begins_statement(first, letter, end)) {")
 m("words-of-an-option", "wrong constant", "obj_resources, cli_materials", '{"-mm", 2, false}', '{"-mm", 1, false}')
-m("map-beside-the-mesh", "condition", "cli_materials", "if (!is_there(c, path)) status = find_path(",
+m("map-beside-the-mesh", "condition", "materials, cli_materials", "if (status || !*path || is_there(folder, *path)) return status;",
+  "if (status || !*path || !is_there(folder, *path))\n        return status;", "if (!is_there(c, path)) status = find_path(",
   "if (is_there(c, path))\n        status = find_path(")
 m("library-of-any-text", "check left out", "obj_resources, cli_materials", 'return ffd_text_is_any_case(word, "newmtl");',
   "return word.first < word.last;")
@@ -328,6 +340,16 @@ m("libraries-of-an-input", "condition", "cli_materials, cli_batch_neighbours",
 m("many-maps", "limit", "cli_materials", "if (names->count > OBJ_RESOURCES_MAX)", "if (names->count > OBJ_RESOURCES_MAX + 1)")
 m("statements-alike", "condition", "cli_materials, obj_resources", "if (!status && found->statements.count > before)",
   "if (!status && found->statements.count == before)")
+m("last-definition-of-a-material", "order", "materials", "d->counts = number == known; if (!d->counts)",
+  "d->counts = true;\n    if (number != known)")
+m("colours-of-libraries-linear", "term left out", "materials", "has_map && is_black ? 1 : ffd_srgb_to_linear(d->diffuse[c])",
+  "has_map && is_black ? 1 : d->diffuse[c]")
+m("black-under-a-map", "condition", "materials", "has_map && is_black ? 1 :", "has_map && !is_black ? 1 :")
+m("opacity-turned", "sign", "materials", "d->has_opacity ? d->opacity : 1 - d->clearness", "d->has_opacity ? d->opacity : d->clearness")
+m("clearness-over-opacity", "order", "materials", "d->has_opacity ? d->opacity : 1 - d->clearness",
+  "d->clearness > 0 ? 1 - d->clearness : d->opacity")
+m("map-not-clamped", "condition", "materials", '*is_clamped = ffd_text_is_any_case(*word, "on");',
+  '*is_clamped = ffd_text_is_any_case(*word, "off");')
 
 # io/gltf
 
@@ -436,6 +458,17 @@ m("lower-half-of-an-octahedron", "term left out", "meshopt", "const double outsi
   "const double outside = z < 0 ? 0 : 0;")
 m("largest-of-a-quaternion", "index", "meshopt", "to[(largest + 1 + a) % 4] = to_integer(", "to[(largest + 3 - a) % 4] = to_integer(")
 m("double-precision", "error code", "gltf", '!is_used(c->tree, "KHR_accessor_float64")', '!is_used(c->tree, "KHR_accessor_float32")')
+m("older-texture-first", "order", "materials", "if (first.texture != JSON_NONE) return first;",
+  "if (first.texture != JSON_NONE && second.texture == JSON_NONE)\n        return first;")
+m("older-texture-left-out", "condition", "materials", "second.texture != JSON_NONE || first.factor == JSON_NONE ? second : first",
+  "first.factor == JSON_NONE ? second : first")
+m("mask-without-cutoff", "default", "materials", "return is_valid ? number : HALF;", "return is_valid ? number : 0;")
+m("wraps-exchanged", "index", "materials", 'material->wrap[1] = read_wrap(d, d->sampler_values.values[sampler], "wrapT");',
+  'material->wrap[1] = read_wrap(d, d->sampler_values.values[sampler], "wrapS");')
+m("mirror-is-clamp", "constant", "materials", "mode == MIRRORED_REPEAT ? TEXTURE_MIRROR", "mode == MIRRORED_REPEAT ? TEXTURE_CLAMP")
+m("compressed-image-as-it-is", "wrong source", "materials", "view == GLTF_NONE ? NULL : ffd_gltf_view_bytes(d, view);",
+  "view == GLTF_NONE\n                                           ? NULL\n                                           : d->buffers[0].data + d->model.views[view].offset;")
+m("image-of-a-view-twice", "cache left out", "materials", 'v == GLTF_NONE ? image : v);', 'image);')
 
 # io/ply
 

@@ -21,7 +21,7 @@ LAYERS = {
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
-    "mesh/resource": {"base", "base/file", "base/memory", "base/system", "mesh"},
+    "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
@@ -38,7 +38,7 @@ LAYERS = {
     },
     "io/gltf": {
         "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/model", "io/gltf/save", "io/gltf/scene", "json", "mesh",
+        "io/gltf/file", "io/gltf/model", "io/gltf/save", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},

@@ -5,6 +5,7 @@
 #include "io/gltf/gltf_compare.h"
 #include "io/gltf/gltf_describe.h"
 #include "io/gltf/gltf_extract.h"
+#include "io/gltf/gltf_materials.h"
 #include "io/gltf/gltf_open.h"
 #include "io/gltf/save/gltf_output_names.h"
 #include "io/gltf/save/gltf_resources.h"
@@ -91,6 +92,7 @@ const mesh_format ffd_gltf_format = {
     .name_part = ffd_gltf_name_part,
     .corner_normals = ffd_gltf_corner_normals,
     .model = ffd_gltf_extract,
+    .list_materials = ffd_gltf_list_materials,
     .describe = ffd_gltf_describe,
     .compare = ffd_gltf_compare,
 };

@@ -71,7 +71,8 @@ static ffd_status list_all_values(gltf_document *d, ffd_error *error)
     } lists[] = {{"buffers", &d->buffer_values},     {"bufferViews", &d->view_values},
                  {"accessors", &d->accessor_values}, {"meshes", &d->mesh_values},
                  {"nodes", &d->node_values},         {"skins", &d->skin_values},
-                 {"materials", &d->material_values}, {"images", &d->image_values}};
+                 {"materials", &d->material_values}, {"images", &d->image_values},
+                 {"textures", &d->texture_values},   {"samplers", &d->sampler_values}};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < sizeof lists / sizeof *lists && status == FFD_OK; i++)
         status = list_values(d, lists[i].key, lists[i].list, error);
@@ -269,9 +270,10 @@ static void free_decoded(gltf_document *d)
 
 static void free_document(gltf_document *d)
 {
-    gltf_values *const lists[] = {&d->buffer_values,   &d->view_values,  &d->accessor_values,
-                                  &d->mesh_values,     &d->node_values,  &d->skin_values,
-                                  &d->material_values, &d->image_values, &d->primitive_values};
+    gltf_values *const lists[] = {&d->buffer_values,   &d->view_values,     &d->accessor_values,
+                                  &d->mesh_values,     &d->node_values,     &d->skin_values,
+                                  &d->material_values, &d->image_values,    &d->texture_values,
+                                  &d->sampler_values,  &d->primitive_values};
     for (size_t i = 0; d->parts && i < ffd_gltf_part_count(d); i++) {
         for (int s = 0; s < GLTF_DEFORMED; s++)
             ffd_gltf_free_result(&d->parts[i].streams[s]);

@@ -1,5 +1,6 @@
 #include "io/obj/obj_format.h"
 #include "io/obj/obj_document.h"
+#include "io/obj/resource/obj_materials.h"
 #include "io/obj/resource/obj_resources.h"
 #include <float.h>
 
@@ -27,6 +28,7 @@ const mesh_format ffd_obj_format = {
     .name_part = ffd_obj_name_part,
     .corner_normals = ffd_obj_corner_normals,
     .model = ffd_obj_model,
+    .list_materials = ffd_obj_list_materials,
     .describe = ffd_obj_describe,
     .compare = ffd_obj_compare,
 };

@@ -15,6 +15,7 @@ void *ffd_file_document_make(size_t size, const file_input *input, const ffd_sou
     }
     d->input = *input;
     d->name = name;
+    d->has_folder = !ffd_file_is_stream(source->path);
     d->base.flaws.strict = source->strict;
     return d;
 }

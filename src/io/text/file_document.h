@@ -9,7 +9,8 @@ typedef struct file_document {
     mesh_document base;
     mesh_part part;
     file_input input;
-    char *name; /* for messages */
+    char *name;      /* for messages */
+    bool has_folder; /* the name is the path of a file, and what the file names is beside it */
     /* 3 numbers a vector. */
     double *positions;
     double *directions;     /* normals; NULL: there are none, or they are not held */

@@ -117,7 +117,7 @@ typedef struct gltf_document {
     glb_layout glb;
     json_span tree;
     gltf_values buffer_values, view_values, accessor_values, mesh_values, node_values, skin_values,
-        material_values, image_values;
+        material_values, image_values, texture_values, sampler_values;
     gltf_values primitive_values; /* of all meshes */
     size_t *first_primitive;      /* of a mesh, in them */
     gltf_model model;

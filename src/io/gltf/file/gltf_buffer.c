@@ -86,6 +86,20 @@ static ffd_status load_data_uri(const loader *l, char *uri, size_t size, gltf_bu
     return FFD_OK;
 }
 
+ffd_status ffd_gltf_load_data_uri(const json_span *tree, uint32_t uri, const char *name, gltf_buffer *buffer,
+                                  ffd_error *error)
+{
+    const loader l = {.tree = tree, .uri = uri, .name = name, .error = error};
+    size_t size;
+    char *const text = ffd_json_span_string(tree, uri, &size);
+    *buffer = (gltf_buffer){.kind = BUFFER_EMPTY};
+    const ffd_status status = text ? load_data_uri(&l, text, size, buffer) : ffd_fail_memory(error);
+    if (status)
+        ffd_gltf_free_buffer(buffer);
+    ffd_free(text);
+    return status;
+}
+
 static ffd_status load_file(const loader *l, char *uri, size_t size, gltf_buffer *buffer)
 {
     if (ffd_file_is_stream(l->model))

@@ -40,6 +40,11 @@ ffd_status ffd_gltf_load_buffer(const json_span *tree, uint32_t value, const uns
                                 size_t bin_size, const char *model, const char *name, size_t *most_read,
                                 gltf_buffer *buffer, ffd_error *error);
 
+/* Decodes a data URI, a string of the JSON, into *buffer, which is empty after a failure. Errors:
+   FFD_E_INVALID, FFD_E_MEMORY. */
+ffd_status ffd_gltf_load_data_uri(const json_span *tree, uint32_t uri, const char *name, gltf_buffer *buffer,
+                                  ffd_error *error);
+
 /* Frees what the buffer owns and empties it. */
 void ffd_gltf_free_buffer(gltf_buffer *buffer);
 

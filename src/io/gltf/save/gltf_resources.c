@@ -29,10 +29,8 @@ static ffd_status normalize(const char *mesh, char *name, char **path, ffd_error
     return *path ? FFD_OK : ffd_fail_memory(error);
 }
 
-/* Finds the normalized path, relative to the model, that an image's URI names; NULL with FFD_OK: not a
-   file beside the model. */
-static ffd_status find_path(const json_span *tree, uint32_t image, const char *mesh, char **path,
-                            ffd_error *error)
+ffd_status ffd_gltf_image_path(const json_span *tree, uint32_t image, const char *mesh, char **path,
+                               ffd_error *error)
 {
     *path = NULL;
     const uint32_t uri = ffd_json_span_member(tree, image, "uri");
@@ -55,7 +53,7 @@ static ffd_status find_path(const json_span *tree, uint32_t image, const char *m
 
 static ffd_status image_path(const gltf_document *d, size_t image, char **path, ffd_error *error)
 {
-    return find_path(&d->tree, d->image_values.values[image], d->path, path, error);
+    return ffd_gltf_image_path(&d->tree, d->image_values.values[image], d->path, path, error);
 }
 
 /* Adds the images of a JSON text that may be copied, by their names. */
@@ -65,7 +63,7 @@ static ffd_status find_images(const json_span *tree, const char *mesh, path_list
     uint32_t image = ffd_json_span_first(tree, ffd_json_span_member(tree, 0, "images"));
     for (; image != JSON_NONE && !status; image = ffd_json_span_after(tree, image)) {
         char *relative, *path = NULL;
-        status = find_path(tree, image, mesh, &relative, error);
+        status = ffd_gltf_image_path(tree, image, mesh, &relative, error);
         if (relative && ffd_image_has_name(relative) && !ffd_image_is_hidden(relative)) {
             path = ffd_path_beside(mesh, relative);
             status = path ? ffd_paths_add(files, path, error) : ffd_fail_memory(error);

@@ -1,7 +1,6 @@
 #include "io/obj/resource/mtl_file.h"
 #include "base/file/path.h"
 #include "io/obj/resource/resource_names.h"
-#include "io/text/text_scan.h"
 #include <string.h>
 
 const resource_kind ffd_resource_library = {
@@ -71,13 +70,16 @@ static const map_option *option_of(text_word word)
 }
 
 /* Moves to the first word that is no option and belongs to none. */
-static bool pass_options(text_scan *scan, text_word *word)
+static bool pass_options(text_scan *scan, text_word *word, bool *is_clamped)
 {
     const map_option *option;
     bool there = ffd_text_word(scan, word);
     while (there && (option = option_of(*word))) {
         double number;
+        const bool is_clamp = ffd_text_is_any_case(*word, "-clamp");
         there = ffd_text_word(scan, word);
+        if (is_clamp)
+            *is_clamped = ffd_text_is_any_case(*word, "on");
         for (int i = 0; there && i < option->words && (!option->numbers || ffd_text_number(*word, &number));
              i++)
             there = ffd_text_word(scan, word);
@@ -85,19 +87,30 @@ static bool pass_options(text_scan *scan, text_word *word)
     return there;
 }
 
+bool ffd_mtl_read_map(text_scan *scan, mtl_map *map)
+{
+    text_word word;
+    *map = (mtl_map){0};
+    if (!pass_options(scan, &map->name, &map->is_clamped))
+        return false;
+    while (ffd_text_word(scan, &word)) /* the name goes on to the end of the line, blanks included */
+        map->name.last = word.last;
+    return true;
+}
+
 ffd_status ffd_mtl_list_maps(const unsigned char *bytes, size_t size, const char *path, intern_table *names,
                              ffd_error *error)
 {
     text_scan scan;
-    text_word word, name;
+    text_word word;
+    mtl_map map;
     ffd_status status = FFD_OK;
     ffd_text_begin(&scan, bytes, ffd_text_size(bytes, size), false);
     do {
-        if (!ffd_text_word(&scan, &word) || !names_map(word) || !pass_options(&scan, &name))
+        if (!ffd_text_word(&scan, &word) || !names_map(word) || !ffd_mtl_read_map(&scan, &map))
             continue;
-        while (ffd_text_word(&scan, &word)) /* the name goes on to the end of the line, blanks included */
-            name.last = word.last;
-        status = ffd_obj_add_name(names, name.first, (size_t)(name.last - name.first), path, error);
+        status =
+            ffd_obj_add_name(names, map.name.first, (size_t)(map.name.last - map.name.first), path, error);
     } while (!status && ffd_text_next_line(&scan));
     return status;
 }

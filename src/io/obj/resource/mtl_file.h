@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "base/memory/intern.h"
+#include "io/text/text_scan.h"
 #include "mesh/resource/resource_list.h"
 
 extern const resource_kind ffd_resource_library;
@@ -12,6 +13,13 @@ extern const resource_kind ffd_resource_library;
 bool ffd_mtl_has_name(const char *path);
 /* Whether the bytes are text whose first statement is newmtl, or that has none. */
 bool ffd_mtl_has_content(const unsigned char *bytes, size_t size);
+/* A map that a statement names. */
+typedef struct mtl_map {
+    text_word name;  /* may hold blanks */
+    bool is_clamped; /* -clamp on */
+} mtl_map;
+/* Takes the map of a statement from behind its keyword on. False: it names none. */
+bool ffd_mtl_read_map(text_scan *scan, mtl_map *map);
 /* Lists the names of the maps of a library, as they are written. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_mtl_list_maps(const unsigned char *bytes, size_t size, const char *path, intern_table *names,
                              ffd_error *error);

@@ -1,75 +1,21 @@
 #include "io/obj/resource/obj_resources.h"
-#include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/obj/resource/mtl_file.h"
 #include "io/obj/resource/obj_libraries.h"
+#include "io/obj/resource/obj_paths.h"
 #include "io/obj/resource/resource_names.h"
 #include "mesh/resource/image_file.h"
 #include "mesh/resource/resource_copy.h"
 #include <string.h>
 
-/* Whether a name leads to one file wherever it is read: "/x", "C:\x", "\\server\x". */
-static bool is_absolute(const char *name)
-{
-    const char letter = (char)(name[0] | 0x20);
-    return name[0] == '/' || name[0] == '\\' || (letter >= 'a' && letter <= 'z' && name[1] == ':');
-}
-
-/* Finds the path, relative to the mesh's folder and normalized, of a name in the file `base`, which is
-   relative to that folder too. NULL with FFD_OK: the name is absolute, or that of a folder. */
-static ffd_status find_path(const resource_copier *c, const char *base, const char *name, char **path,
-                            ffd_error *error)
-{
-    bool turned;
-    char *beside = NULL;
-    *path = NULL;
-    if (is_absolute(name))
-        return FFD_OK;
-    beside = ffd_path_beside(base, name);
-    ffd_status status = beside ? ffd_path_turn_slashes(beside, c->from, &turned, error) : FFD_E_MEMORY;
-    if (!status)
-        *path = ffd_path_normalize(beside);
-    ffd_free(beside);
-    if (!*path)
-        return ffd_fail_memory(error);
-    if (**path == 0) {
-        ffd_free(*path);
-        *path = NULL;
-    }
-    return FFD_OK;
-}
-
-/* Whether there is a file at a path below the mesh's folder. */
-static bool is_there(const resource_copier *c, const char *path)
-{
-    char *const file = ffd_path_leads_out(path) ? NULL : ffd_path_join(c->from, path);
-    const bool there = file && ffd_file_exists(file);
-    ffd_free(file);
-    return there;
-}
-
-/* Adds a map of a library. Names count from the library's folder; some programs write them from that of the
-   mesh. */
+/* Adds a map of a library. */
 static ffd_status add_map(const resource_copier *c, resource_list *list, const char *library,
                           const char *name, ffd_error *error)
 {
-    char *path, *other = NULL;
-    ffd_status status = find_path(c, library, name, &path, error);
-    if (status || !path)
-        return status;
-    if (!is_there(c, path))
-        status = find_path(c, "", name, &other, error);
-    if (other && is_there(c, other)) {
-        char *const wrong = path;
-        path = other;
-        other = wrong;
-    }
-    ffd_free(other);
-    if (!status)
-        return ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
-    ffd_free(path);
-    return status;
+    char *path;
+    const ffd_status status = ffd_obj_find_map(c->from, library, name, &path, error);
+    return status || !path ? status : ffd_resources_add(list, &ffd_resource_image, list->count, path, error);
 }
 
 /* Adds the maps of a library that may be copied. */
@@ -99,7 +45,7 @@ static ffd_status list_all(const resource_copier *c, const file_input *input, bo
     ffd_status status = ffd_obj_list_libraries(input, c->mesh, &names, error);
     for (uint32_t i = 0; i < names.count && !status; i++) {
         char *path;
-        status = find_path(c, "", ffd_intern_key(&names, i), &path, error);
+        status = ffd_obj_find_path(c->from, "", ffd_intern_key(&names, i), &path, error);
         if (!status && path)
             status = ffd_resources_add(list, &ffd_resource_library, i, path, error);
     }

@@ -1,0 +1,163 @@
+#include "io/gltf/gltf_materials.h"
+#include "base/file/input.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "io/gltf/gltf_images.h"
+#include <float.h>
+#include <stdio.h>
+
+/* The default of alphaCutoff, and what blended surfaces are drawn by. */
+#define HALF 0.5
+
+typedef struct reader {
+    const gltf_document *document;
+    material_images images;
+    ffd_error *error;
+} reader;
+
+/* What says the colour of a material, each perhaps JSON_NONE. */
+typedef struct base_colour {
+    uint32_t factor, texture;
+} base_colour;
+
+/* An older extension's diffuse colour stands in where only it has a texture, or a factor: so do the texture
+   coordinates of the model. */
+static base_colour find_colour(const gltf_document *d, uint32_t material)
+{
+    const json_span *const tree = &d->tree;
+    const uint32_t base = ffd_json_span_member(tree, material, "pbrMetallicRoughness");
+    const uint32_t older = ffd_gltf_extension(d, material, "KHR_materials_pbrSpecularGlossiness");
+    const base_colour first = {ffd_json_span_member(tree, base, "baseColorFactor"),
+                               ffd_json_span_member(tree, base, "baseColorTexture")};
+    const base_colour second = {ffd_json_span_member(tree, older, "diffuseFactor"),
+                                ffd_json_span_member(tree, older, "diffuseTexture")};
+    if (first.texture != JSON_NONE)
+        return first;
+    return second.texture != JSON_NONE || first.factor == JSON_NONE ? second : first;
+}
+
+/* Keeps what is not a number, or not 0 to 1. */
+static void read_factor(const json_span *tree, uint32_t array, double color[4])
+{
+    double number;
+    if (array == JSON_NONE || tree->values[array].kind != JSON_ARRAY)
+        return;
+    uint32_t value = ffd_json_span_first(tree, array);
+    for (int c = 0; c < 4 && value != JSON_NONE; c++, value = ffd_json_span_after(tree, value))
+        if (ffd_json_span_number(tree, value, &number))
+            color[c] = material_share(number);
+}
+
+static double read_cutoff(const gltf_document *d, uint32_t material)
+{
+    const uint32_t mode = ffd_json_span_member(&d->tree, material, "alphaMode");
+    const uint32_t cutoff = ffd_json_span_member(&d->tree, material, "alphaCutoff");
+    double number;
+    if (mode == JSON_NONE || d->tree.values[mode].kind != JSON_STRING)
+        return 0;
+    if (ffd_json_span_string_is(&d->tree, mode, "BLEND"))
+        return HALF;
+    if (!ffd_json_span_string_is(&d->tree, mode, "MASK"))
+        return 0;
+    const bool is_valid = ffd_json_span_number(&d->tree, cutoff, &number) && number >= 0 && number <= DBL_MAX;
+    return is_valid ? number : HALF;
+}
+
+static texture_wrap read_wrap(const gltf_document *d, uint32_t sampler, const char *key)
+{
+    enum { CLAMP_TO_EDGE = 33071, MIRRORED_REPEAT = 33648 };
+    const size_t mode = ffd_gltf_index(d, ffd_json_span_member(&d->tree, sampler, key), MIRRORED_REPEAT + 1);
+    return mode == CLAMP_TO_EDGE ? TEXTURE_CLAMP : mode == MIRRORED_REPEAT ? TEXTURE_MIRROR : TEXTURE_REPEAT;
+}
+
+/* Why a texture without a source that is there has no image. */
+static const char *why_no_image(const gltf_document *d, uint32_t texture)
+{
+    static const char *const extensions[][2] = {
+        {"KHR_texture_basisu", "has an image of KHR_texture_basisu only"},
+        {"EXT_texture_webp", "has an image of EXT_texture_webp only"},
+        {"EXT_texture_avif", "has an image of EXT_texture_avif only"},
+        {"MSFT_texture_dds", "has an image of MSFT_texture_dds only"}};
+    for (size_t i = 0; i < sizeof extensions / sizeof *extensions; i++)
+        if (ffd_gltf_has_extension(d, texture, extensions[i][0]))
+            return extensions[i][1];
+    return ffd_json_span_member(&d->tree, texture, "source") == JSON_NONE
+               ? "has no image"
+               : "names an image that is not there";
+}
+
+/* Says, once, why a texture (GLTF_NONE: one that is not there) has no image. */
+static ffd_status leave_texture(reader *r, size_t number, const char *why)
+{
+    char name[40] = "a texture", key[sizeof name + 1];
+    uint32_t none;
+    bool is_known;
+    if (number != GLTF_NONE)
+        snprintf(name, sizeof name, "texture %zu", number);
+    snprintf(key, sizeof key, "/%s", name); /* no path of a file: these are relative */
+    const ffd_status status = ffd_images_find(&r->images, key, &is_known, &none, r->error);
+    if (!status && !is_known)
+        ffd_left_add(&r->images.left, name, why);
+    return status;
+}
+
+static ffd_status read_texture(reader *r, uint32_t info, mesh_material *material)
+{
+    const gltf_document *const d = r->document;
+    const size_t number =
+        ffd_gltf_index(d, ffd_json_span_member(&d->tree, info, "index"), d->texture_values.count);
+    if (number == GLTF_NONE)
+        return leave_texture(r, GLTF_NONE, "that a material names is not there");
+    const uint32_t texture = d->texture_values.values[number];
+    const size_t sampler =
+        ffd_gltf_index(d, ffd_json_span_member(&d->tree, texture, "sampler"), d->sampler_values.count);
+    const size_t image =
+        ffd_gltf_index(d, ffd_json_span_member(&d->tree, texture, "source"), d->image_values.count);
+    if (sampler != GLTF_NONE) {
+        material->wrap[0] = read_wrap(d, d->sampler_values.values[sampler], "wrapS");
+        material->wrap[1] = read_wrap(d, d->sampler_values.values[sampler], "wrapT");
+    }
+    return image == GLTF_NONE ? leave_texture(r, number, why_no_image(d, texture))
+                              : ffd_gltf_load_image(d, &r->images, image, &material->image, r->error);
+}
+
+static char *name_of(const gltf_document *d, uint32_t material)
+{
+    const uint32_t name = ffd_json_span_member(&d->tree, material, "name");
+    const bool has_name = name != JSON_NONE && d->tree.values[name].kind == JSON_STRING;
+    return has_name ? ffd_json_span_string(&d->tree, name, NULL) : ffd_text_copy("");
+}
+
+static ffd_status read_material(reader *r, uint32_t value)
+{
+    const gltf_document *const d = r->document;
+    mesh_materials *const materials = r->images.materials;
+    const ffd_status status = ffd_materials_add(materials, name_of(d, value), r->images.budget, r->error);
+    if (status)
+        return status;
+    mesh_material *const m = &materials->list[materials->count - 1];
+    const base_colour colour = find_colour(d, value);
+    const uint32_t sides = ffd_json_span_member(&d->tree, value, "doubleSided");
+    read_factor(&d->tree, colour.factor, m->color);
+    m->alpha_cutoff = read_cutoff(d, value);
+    m->is_double_sided = sides != JSON_NONE && d->tree.values[sides].kind == JSON_TRUE;
+    return colour.texture == JSON_NONE ? FFD_OK : read_texture(r, colour.texture, m);
+}
+
+ffd_status ffd_gltf_list_materials(mesh_document *document, const mesh_log *log, mesh_materials *materials,
+                                   ffd_error *error)
+{
+    const gltf_document *const d = ffd_gltf_of(document);
+    const bool has_folder = !ffd_file_is_stream(d->path);
+    char *const folder = has_folder ? ffd_path_folder(d->path) : NULL;
+    reader r = {
+        .document = d,
+        .images = {.materials = materials, .budget = &document->budget, .mesh = d->path, .folder = folder},
+        .error = error};
+    ffd_status status = folder || !has_folder ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; i < d->material_values.count && !status; i++)
+        status = read_material(&r, d->material_values.values[i]);
+    ffd_images_end(&r.images, log);
+    ffd_free(folder);
+    return status;
+}

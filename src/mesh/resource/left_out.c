@@ -1,0 +1,30 @@
+#include "mesh/resource/left_out.h"
+#include "base/text/words.h"
+#include <stdio.h>
+
+/* Of a name, with its end. */
+#define NAME_SIZE 81
+
+void ffd_left_add(left_out *left, const char *name, const char *why)
+{
+    char shown[NAME_SIZE];
+    if (left->count < LEFT_SHOWN) {
+        ffd_name_shown(name, shown, sizeof shown);
+        snprintf(left->shown[left->count], sizeof left->shown[left->count], "\"%s\" %s", shown, why);
+    }
+    left->count++;
+}
+
+void ffd_left_say(const left_out *left, const char *one, const char *many, const mesh_log *log)
+{
+    char text[sizeof left->shown + 60] = "";
+    size_t length = 0;
+    for (size_t i = 0; i < LEFT_SHOWN && i < left->count; i++)
+        length +=
+            (size_t)snprintf(text + length, sizeof text - length, "%s%s", i > 0 ? ", " : "", left->shown[i]);
+    if (left->count > LEFT_SHOWN)
+        snprintf(text + length, sizeof text - length, " and %zu more", left->count - LEFT_SHOWN);
+    if (left->count > 0)
+        ffd_log_line(log, FFD_LOG_WARNING, "%zu %s: %s", left->count, ffd_plural(left->count, one, many),
+                     text);
+}

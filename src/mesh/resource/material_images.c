@@ -1,0 +1,112 @@
+#include "mesh/resource/material_images.h"
+#include "base/file/input.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "mesh/resource/resource_copy.h"
+#include <string.h>
+
+static bool begins_with(const unsigned char *bytes, size_t size, const char *mark, size_t mark_size)
+{
+    return size >= mark_size && memcmp(bytes, mark, mark_size) == 0;
+}
+
+static bool is_shown(const unsigned char *bytes, size_t size)
+{
+    return begins_with(bytes, size, "\x89PNG\r\n\x1a\n", 8) || begins_with(bytes, size, "\xff\xd8\xff", 3);
+}
+
+ffd_status ffd_images_find(material_images *images, const char *name, bool *is_known, uint32_t *image,
+                           ffd_error *error)
+{
+    const size_t known = images->known.count;
+    uint32_t number;
+    *image = MATERIAL_NONE;
+    if (!ffd_intern(&images->known, name, strlen(name), &number) ||
+        !ffd_grow((void **)&images->numbers, &images->capacity, images->known.count, sizeof *images->numbers))
+        return ffd_fail_memory(error);
+    *is_known = number < known;
+    if (*is_known)
+        *image = images->numbers[number];
+    else
+        images->numbers[number] = MATERIAL_NONE;
+    return FFD_OK;
+}
+
+/* Takes what an image needs from the budget. */
+static ffd_status take(const material_images *images, const char *name, uint64_t size, ffd_error *error)
+{
+    char shown[81];
+    ffd_error problem = {0};
+    const uint64_t all = size + strlen(name) + 1 + sizeof *images->materials->images; /* both are in memory */
+    const ffd_status status = ffd_budget_take(images->budget, 1, all, &problem);
+    if (status == FFD_OK)
+        return FFD_OK;
+    ffd_name_shown(name, shown, sizeof shown);
+    return ffd_fail_file(error, status, ffd_path_display_name(images->mesh), "the image \"%s\" %s", shown,
+                         problem.message);
+}
+
+ffd_status ffd_images_add(material_images *images, const char *name, const unsigned char *bytes, size_t size,
+                          uint32_t *image, ffd_error *error)
+{
+    mesh_materials *const m = images->materials;
+    *image = MATERIAL_NONE;
+    if (!is_shown(bytes, size)) {
+        ffd_left_add(&images->left, name, "is neither PNG nor JPEG");
+        return FFD_OK;
+    }
+    const ffd_status status = take(images, name, size, error);
+    if (status)
+        return status;
+    const bool grown =
+        ffd_grow((void **)&m->images, &m->image_capacity, m->image_count + 1, sizeof *m->images);
+    const mesh_image made = {ffd_text_copy(name), ffd_alloc(size, 1), size};
+    if (!grown || !made.name || !made.bytes) {
+        ffd_free(made.name);
+        ffd_free(made.bytes);
+        return ffd_fail_memory(error);
+    }
+    memcpy(made.bytes, bytes, size);
+    *image = images->numbers[images->known.count - 1] = (uint32_t)m->image_count;
+    m->images[m->image_count++] = made;
+    return FFD_OK;
+}
+
+ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *image, ffd_error *error)
+{
+    const resource_copier from = {.mesh = images->mesh, .from = images->folder};
+    const mesh_resource resource = {.path = (char *)path, .kind = &ffd_resource_image};
+    file_input bytes = {0};
+    const char *left;
+    ffd_error refused;
+    bool is_known;
+    ffd_status status = ffd_images_find(images, path, &is_known, image, error);
+    if (status || is_known)
+        return status;
+    if (!images->folder) {
+        ffd_left_add(&images->left, path, "is a file, and standard input has no folder");
+        return FFD_OK;
+    }
+    status = ffd_resource_load(&from, &resource, &bytes, &left, &refused, error);
+    if (status)
+        return status;
+    if (left || refused.status) {
+        ffd_left_add(&images->left, path,
+                     left                       ? left
+                     : ffd_path_leads_out(path) ? "is outside the model's folder"
+                                                : "cannot be read");
+        return FFD_OK;
+    }
+    status = ffd_images_add(images, path, bytes.data, bytes.size, image, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
+void ffd_images_end(material_images *images, const mesh_log *log)
+{
+    ffd_left_say(&images->left, "image of a material cannot be shown", "images of materials cannot be shown",
+                 log);
+    ffd_intern_free(&images->known);
+    ffd_free(images->numbers);
+}
