@@ -29,7 +29,7 @@ layout ffd_layout_make(const picture *of)
     /* Letters of a size that a tenth of the height holds well, in halves of a pixel, so that they are sharp.
      */
     by.dot = larger_of(1, lesser_of(4, floor(lesser_of(of->height / 430.0, panel / 240) * 2) / 2));
-    by.line = larger_of(1, lesser_of(3, lesser_of(of->height, panel) / 600));
+    by.line = larger_of(0.6, lesser_of(3, lesser_of(of->height, panel) / 500));
     by.margin = MARGIN * by.dot;
     by.top = by.margin;
     by.bottom = of->height - by.margin;
@@ -83,7 +83,14 @@ static void draw_bar(const layout *by, const linear_tables *tables, const stroke
         fill(into, left + width * number / count, top, left + width * (number + 1) / count, bottom,
              from_bytes(tables, scale->colors[i]));
     }
+    /* Labels that would touch each other are left out but for both ends. */
+    double room = 0;
+    for (size_t i = 0; i < scale->label_count; i++)
+        room = larger_of(room, by->dot * (ffd_letters_width(scale->labels[i]) + LETTER_STEP));
+    const bool is_full = room * ((double)scale->label_count - 1) > width;
     for (size_t i = 0; i < scale->label_count; i++) {
+        if (is_full && i > 0 && i + 1 < scale->label_count)
+            continue;
         const double share = scale->label_count > 1 ? (double)i / (double)(scale->label_count - 1) : 0.5;
         write_middle(by, into, scale->labels[i], left + share * width, bottom + GAP * by->dot,
                      from_bytes(tables, ink));

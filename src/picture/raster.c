@@ -8,8 +8,8 @@ typedef float depths __attribute__((vector_size(16)));
 
 /* A triangle of less than this many parts of a pixel a side has edges that fit in 32 bits. */
 #define SMALL (1 << 14)
-/* One of less than two pixels has one colour. */
-#define FLAT (2 * SUBPIXELS)
+/* One of less than four pixels a side has one colour. */
+#define FLAT (4 * SUBPIXELS)
 
 static const int32_t sample_x[SAMPLES] = SAMPLE_X, sample_y[SAMPLES] = SAMPLE_Y;
 
@@ -85,11 +85,9 @@ static void set_depths(setup *s)
     low = c->z < low ? c->z : low;
     high = b->z > high ? b->z : high;
     high = c->z > high ? c->z : high;
-    for (int i = 0; i < SAMPLES; i++) {
-        s->z_steps[i] = (float)(s->z_across * sample_x[i] + s->z_down * sample_y[i]);
-        s->nearest[i] = low;
-        s->farthest[i] = high;
-    }
+    s->z_steps = (float)s->z_across * (depths)SAMPLE_X + (float)s->z_down * (depths)SAMPLE_Y;
+    s->nearest = low - (depths){0};
+    s->farthest = high - (depths){0};
 }
 
 /* Returns false where no sample can be in it; *side: 0, or 1 where its back is seen. */
@@ -197,15 +195,16 @@ typedef struct brush {
 
 static bool pick_color(brush *b, const setup *s, int64_t x, int64_t y, numbers drawn)
 {
-    double weights[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+    double weights[3];
     if (b->is_begun && s->is_flat)
         return b->is_drawn;
     if (!b->is_begun)
         b->shade = ffd_shade_begin(b->shade.surface, b->shade.tables, b->shade.triangle, b->shade.side);
     b->is_begun = true;
-    if (!s->is_flat)
-        weigh(s, x, y, drawn, weights);
-    return b->is_drawn = ffd_shade_color(&b->shade, weights, &b->color);
+    if (s->is_flat)
+        return b->is_drawn = ffd_shade_middle(&b->shade, &b->color);
+    weigh(s, x, y, drawn, weights);
+    return ffd_shade_color(&b->shade, weights, &b->color);
 }
 
 /* Draws those of a pixel's samples that are in the triangle and nearer than what is there. */

@@ -78,6 +78,41 @@ static void multiply_vertices(const shade *of, const uint32_t *triangle, const d
     color[3] *= sum[3] * (1.0 / 255);
 }
 
+/* ffd_shade_color in the middle of a triangle that is neither textured nor cut away, by integers: most
+   triangles of a large mesh are smaller than a pixel, and are drawn so. */
+static uint64_t middle_color(const shade *of)
+{
+    const surface *const from = of->surface;
+    const uint32_t *const t = from->triangles + 3 * of->triangle;
+    uint32_t parts[3];
+    uint64_t light = 0;
+    const uint8_t *bytes[3] = {NULL};
+    for (int k = 0; k < 3; k++) {
+        light += from->vertices[t[k]].light[of->side];
+        if (from->mesh->colors)
+            bytes[k] = from->mesh->colors + 4 * (size_t)surface_origin(from, t[k]);
+    }
+    for (int c = 0; c < 3; c++) {
+        uint64_t part = linear_from(of->material->color[c]) * light / (3 * LIGHT_ONE);
+        if (bytes[0]) {
+            const uint16_t *const table = of->tables->light;
+            const uint64_t sum = (uint64_t)table[bytes[0][c]] + table[bytes[1][c]] + table[bytes[2][c]];
+            part = part * sum / (3 * LINEAR_ONE);
+        }
+        parts[c] = (uint32_t)(part < LINEAR_ONE ? part : LINEAR_ONE);
+    }
+    return linear_pack(parts[0], parts[1], parts[2]);
+}
+
+bool ffd_shade_middle(const shade *of, uint64_t *color)
+{
+    static const double thirds[3] = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+    if (has_texture(of) || of->material->alpha_cutoff > 0)
+        return ffd_shade_color(of, thirds, color);
+    *color = middle_color(of);
+    return true;
+}
+
 bool ffd_shade_color(const shade *of, const double weights[3], uint64_t *color)
 {
     const uint32_t *const t = of->surface->triangles + 3 * of->triangle;

@@ -23,4 +23,7 @@ shade ffd_shade_begin(const surface *of, const linear_tables *tables, size_t tri
    material is cut away. */
 bool ffd_shade_color(const shade *of, const double weights[3], uint64_t *color);
 
+/* The same in the middle of the triangle. */
+bool ffd_shade_middle(const shade *of, uint64_t *color);
+
 #endif

@@ -12,9 +12,9 @@ typedef struct lamp {
     double light;
 } lamp;
 
-static const lamp lamps[] = {{{-0.48, 0.64, 0.6}, 0.62}, {{0.8, 0, 0.6}, 0.24}, {{0, 1, 0}, 0.12}};
+static const lamp lamps[] = {{{-0.48, 0.64, 0.6}, 0.80}, {{0.8, 0, 0.6}, 0.26}, {{0, 1, 0}, 0.12}};
 #define LAMPS (sizeof lamps / sizeof *lamps)
-#define AMBIENT 0.20
+#define AMBIENT 0.22
 /* Light reaches round the edge by this cosine: no part of a shape is black. */
 #define WRAP 0.35
 /* The back of a surface is a little darker. */
