@@ -1,10 +1,12 @@
-/* picture.c - how long a picture of a large mesh takes on one core, beside a copy of the bytes that it is made of.
+/* picture.c - how long a picture of a large mesh takes on one core, beside a copy of the bytes that it is
+   made of: into memory that is new, as that of a picture is, and into the same memory again and again.
 
        picture RUNS TRIANGLES WIDTH HEIGHT
    Prints a line for each: median, least and greatest of the seconds of RUNS runs. */
 #include "../support/picture_shapes.h"
 #include "base/memory/memory.h"
 #include "base/system/clock.h"
+#include <malloc.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -36,6 +38,8 @@ int main(int argc, char **argv)
 {
     if (argc != 5)
         return 2;
+    /* The C library would keep what is freed, and with it the pages. */
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
     const int runs = atoi(argv[1]) < MOST_RUNS ? atoi(argv[1]) : MOST_RUNS;
     size_t side = 2;
     while (2 * side * side < (size_t)atol(argv[2]))
@@ -45,28 +49,39 @@ int main(int argc, char **argv)
         memcpy(s.colors + 4 * v, (uint8_t[]){(uint8_t)(v % 200), (uint8_t)(v / side % 256), 180, 255}, 4);
     s.mesh.colors = s.colors;
     const picture_panel panel = {.meshes = &s.mesh, .mesh_count = 1};
-    picture p = {.width = (uint32_t)atol(argv[3]), .height = (uint32_t)atol(argv[4]), .panels = &panel,
-                 .panel_count = 1, .threads = 1};
+    picture p = {.width = (uint32_t)atol(argv[3]),
+                 .height = (uint32_t)atol(argv[4]),
+                 .panels = &panel,
+                 .panel_count = 1,
+                 .threads = 1};
     ffd_camera_parse("iso", &p.camera);
     const size_t pixels = (size_t)p.width * p.height;
     const size_t size = s.mesh.vertex_count * 28 + s.mesh.triangle_count * 12 + pixels * 3;
-    uint8_t *const to = malloc(size), *const from = calloc(pixels, 3);
-    double drawn[MOST_RUNS], copied[MOST_RUNS];
+    uint8_t *const again = malloc(size), *const from = calloc(pixels, 3);
+    double drawn[MOST_RUNS], copied[MOST_RUNS], copied_again[MOST_RUNS];
     ffd_error error;
-    for (int i = 0; to && from && i < runs; i++) {
-        uint8_t *image;
+    for (int i = 0; again && from && i < runs; i++) {
+        uint8_t *image, *to;
         const double begin = ffd_clock_seconds();
         if (ffd_picture_draw(&p, NULL, &image, &error))
             return 1;
         const double middle = ffd_clock_seconds();
+        to = malloc(size);
+        if (!to)
+            return 1;
         copy_all(&s, pixels, to, from);
-        copied[i] = ffd_clock_seconds() - middle;
+        free(to);
+        const double copied_once = ffd_clock_seconds();
+        copy_all(&s, pixels, again, from);
+        copied_again[i] = ffd_clock_seconds() - copied_once;
+        copied[i] = copied_once - middle;
         drawn[i] = middle - begin;
         ffd_free(image);
     }
     tell("copy", copied, runs);
+    tell("copy-again", copied_again, runs);
     tell("picture", drawn, runs);
-    free(to);
+    free(again);
     free(from);
     shape_free(&s);
     return 0;

@@ -1,4 +1,5 @@
-/* picture_shapes.h - meshes and cages for pictures, made by + - * / and square roots only: the same everywhere. */
+/* picture_shapes.h - meshes and cages for pictures, made by + - * / and square roots only: the same
+ * everywhere. */
 #ifndef FFD_TESTS_PICTURE_SHAPES_H
 #define FFD_TESTS_PICTURE_SHAPES_H
 
@@ -16,8 +17,11 @@ typedef struct shape {
 
 static inline shape shape_of(size_t vertices, size_t triangles)
 {
-    shape s = {malloc(vertices * 3 * sizeof(double)), malloc(triangles * 3 * sizeof(uint32_t)),
-               malloc(triangles * 6 * sizeof(float)), calloc(vertices, 4), {0}};
+    shape s = {malloc(vertices * 3 * sizeof(double)),
+               malloc(triangles * 3 * sizeof(uint32_t)),
+               malloc(triangles * 6 * sizeof(float)),
+               calloc(vertices, 4),
+               {0}};
     if (!s.positions || !s.triangles || !s.texcoords || !s.colors)
         abort();
     s.mesh = (picture_mesh){.positions = s.positions,
@@ -42,8 +46,8 @@ static inline void shape_corner(shape *s, size_t corner, size_t vertex, double u
     s->texcoords[2 * corner + 1] = (float)v;
 }
 
-/* Two triangles for each field of columns x rows vertices, counter-clockwise where columns run to the right and rows
-   upwards. */
+/* Two triangles for each field of columns x rows vertices, counter-clockwise where columns run to the right
+   and rows upwards. */
 static inline void shape_weave(shape *s, size_t columns, size_t rows)
 {
     size_t corner = 0;
