@@ -3,6 +3,7 @@
 #include "base/vector/trig.h"
 #include "base/vector/vec.h"
 #include "mesh/bounds.h"
+#include <float.h>
 #include <string.h>
 
 /* Degrees: turned from +z to +x, and upwards. */
@@ -77,7 +78,7 @@ projection ffd_camera_fit(const camera *from, const ffd_bounds *seen, double x, 
     for (int a = 0; a < 3; a++)
         if (seen->min[a] <= seen->max[a]) {
             middle[a] = seen->min[a] / 2 + seen->max[a] / 2;
-            extent[a] = 2 * (seen->max[a] / 2 - seen->min[a] / 2);
+            extent[a] = lesser_of(2 * (seen->max[a] / 2 - seen->min[a] / 2), DBL_MAX);
         }
     const double room = larger_of(lesser_of(width, height), 1), most = larger_of(extent[0], extent[1]);
     double scale = room / (most > LEAST_EXTENT ? most : larger_of(extent[2], 1));
