@@ -1,0 +1,83 @@
+#include "picture/bands.h"
+#include "base/memory/memory.h"
+#include "base/system/thread.h"
+
+/* Items that one thread looks at in a row: each such share has its own counts. */
+#define LEAST_SHARE ((size_t)1 << 16)
+#define MOST_SHARES 64
+
+typedef struct band_work {
+    int64_t top, bottom;
+    band_rows rows;
+    const void *context;
+    bands *result;
+    size_t *next; /* of each share and band: how many, then where */
+    bool fills;
+} band_work;
+
+static void visit(void *context, size_t share, size_t begin, size_t end, int worker)
+{
+    const band_work *const work = context;
+    size_t *const next = work->next + share * work->result->count;
+    (void)worker;
+    for (size_t i = begin; i < end; i++) {
+        int64_t first, last;
+        if (!work->rows(work->context, i, &first, &last) || last < work->top || first >= work->bottom)
+            continue;
+        first = first < work->top ? work->top : first;
+        last = last >= work->bottom ? work->bottom - 1 : last;
+        const size_t end_band = (size_t)(last - work->top) / BAND_ROWS;
+        for (size_t band = (size_t)(first - work->top) / BAND_ROWS; band <= end_band; band++) {
+            if (work->fills)
+                work->result->items[next[band]] = (uint32_t)i;
+            next[band]++;
+        }
+    }
+}
+
+/* Counts become places: by band, in a band by share. */
+static size_t place(const band_work *work, size_t shares)
+{
+    size_t sum = 0;
+    for (size_t band = 0; band < work->result->count; band++) {
+        work->result->starts[band] = sum;
+        for (size_t share = 0; share < shares; share++) {
+            size_t *const next = &work->next[share * work->result->count + band];
+            const size_t count = *next;
+            *next = sum;
+            sum += count;
+        }
+    }
+    work->result->starts[work->result->count] = sum;
+    return sum;
+}
+
+ffd_status ffd_bands_make(int64_t top, int64_t bottom, size_t count, band_rows rows, const void *context,
+                          int threads, bands *result, ffd_error *error)
+{
+    const size_t least = count / MOST_SHARES + 1, share = least > LEAST_SHARE ? least : LEAST_SHARE;
+    const size_t shares = count / share + 1;
+    *result = (bands){.count = (size_t)(bottom - top + BAND_ROWS - 1) / BAND_ROWS};
+    band_work work = {.top = top, .bottom = bottom, .rows = rows, .context = context, .result = result};
+    result->starts = ffd_alloc_zero(result->count + 1, sizeof *result->starts);
+    work.next = ffd_alloc_zero(shares * result->count, sizeof *work.next);
+    if (result->starts && work.next) {
+        ffd_parallel_tiles(count, share, threads, visit, &work);
+        result->items = ffd_alloc(place(&work, shares), sizeof *result->items);
+        work.fills = true;
+        if (result->items)
+            ffd_parallel_tiles(count, share, threads, visit, &work);
+    }
+    ffd_free(work.next);
+    if (result->items)
+        return FFD_OK;
+    ffd_bands_free(result);
+    return ffd_fail_memory(error);
+}
+
+void ffd_bands_free(bands *of)
+{
+    ffd_free(of->starts);
+    ffd_free(of->items);
+    *of = (bands){.count = 0};
+}
