@@ -341,28 +341,33 @@ typedef enum ffd_view_color {
     FFD_VIEW_PLAIN             /* base colours, colours of vertices */
 } ffd_view_color;
 
-/* `ffd view`: a page that shows a mesh before and after. */
+/* `ffd view`: a page or a picture that shows a mesh before and after. */
 typedef struct ffd_view_desc {
     size_t struct_size; /* sizeof(ffd_view_desc) of the caller */
     /* The mesh and what deforms it, as ffd_check_run takes it; lattice_count may be 0: the mesh is shown as
-       it is. Its log gets the warnings. Its written has the page afterwards. */
+       it is. Its log gets the warnings. Its written has the output afterwards. */
     const ffd_deform_desc *job;
     /* The deformed mesh as a file, of as many vertices; NULL: it is deformed in memory. With it the lattices
        are drawn, and deform nothing. */
     const ffd_source *deformed;
-    const char *output; /* ends in .html or .htm */
+    const char *output; /* a page: ends in .html or .htm; a picture: in .png */
     bool force;         /* overwrite an existing output */
     double camera[3]; /* the direction in which the camera is, seen from the mesh, y upwards; zeros: from the
                          right, above and in front */
     ffd_view_color color;
-    bool full; /* show all vertices; else at most 200,000: the mesh is simplified, and the page says so */
+    bool full; /* a page shows all vertices; else at most 200,000: the mesh is simplified, and the page says
+                  so */
+    /* Of a picture, or of each in a row, in pixels; 0: 1600 and 900. A page is as large as its window. */
+    uint32_t width, height;
+    uint32_t frames; /* pictures in a row, from rest to deformed: 2 to 64; 0: before and after share one */
 } ffd_view_desc;
 
 /* Shows before and after, colours by displacement, is not full. */
 FFD_API void ffd_view_desc_init(ffd_view_desc *desc);
-/* Writes the page; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after the page was
-   written. result is filled in every case (not NULL): where lattices deform, as by ffd_check_run, with the
-   shape that default weights of morph targets show. Returns result->status. Errors: all. */
+/* Writes the output; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after it was
+   written. An image of the mesh that is missing or broken is grey in a picture, and warned of. result is
+   filled in every case (not NULL): where lattices deform, as by ffd_check_run, with the shape that default
+   weights of morph targets show. Returns result->status. Errors: all. */
 FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 
 /* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,

@@ -3,11 +3,10 @@
 #define FFD_PICTURE_TEXTURE_H
 
 #include "base/fail.h"
+#include "mesh/material.h"
 #include "picture/image/image.h"
 #include "picture/linear.h"
 #include <stdint.h>
-
-typedef enum texture_wrap { TEXTURE_REPEAT, TEXTURE_MIRROR, TEXTURE_CLAMP } texture_wrap;
 
 #define TEXTURE_MOST_LEVELS 32
 

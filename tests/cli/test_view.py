@@ -9,6 +9,7 @@ from bspline import BoxVolume
 from harness import (CUBE, CUBE_CORNERS, EMBEDDING, INVALID, IO, LIMIT, NO, UNSUPPORTED, USAGE, case, check, equal, glb,
                      gltf_json, lattice, main, near)
 from page import read_page
+from png import make_png, read_png
 
 SHIFT = [{"by": [1, 0, 0]}]
 TWIST = [{"twist": {"axis": "z", "degrees": 50}}]
@@ -405,6 +406,166 @@ def large_meshes_are_simplified_unless_all_is_wanted(run):
     equal(len(view(run, "a.ply", "-l", "l.json", "--full").before), side * side, "all")
 
 
+def picture(run, *arguments, name="p.png", **options):
+    """Views and returns the rows of pixels."""
+    run.ffd("view", *arguments, "-o", name, "--force", **options)
+    return read_png(run.read(name))
+
+
+def halves(rows):
+    middle = len(rows[0]) // 2
+    return [row[:middle] for row in rows], [row[middle + 2:] for row in rows]
+
+
+def count(rows, is_wanted):
+    return sum(is_wanted(*pixel) for row in rows for pixel in row)
+
+
+def is_red(r, g, b):
+    return r > 1.6 * max(g, b)
+
+
+def is_blue(r, g, b):
+    return b > 1.6 * max(r, g)
+
+
+def is_magenta(r, g, b):
+    return r > 1.6 * g and b > 1.6 * g
+
+
+def is_green(r, g, b):
+    return g > 1.6 * max(r, b)
+
+
+def is_grey(r, g, b):
+    return max(r, g, b) - min(r, g, b) < 24
+
+
+@case
+def pictures_have_the_size_that_is_asked_for(run):
+    work = start(run)
+    for options, width, height in (([], 1600, 900), (["--size", "300x200"], 300, 200), (["--size", "16x16"], 16, 16),
+                                   (["--size", "100x80", "--frames", "3"], 300, 80)):
+        rows = picture(run, *work, *options)
+        equal([len(rows[0]), len(rows)], [width, height], str(options))
+    for option, values in (("--size", ("300", "300x", "15x900", "900x32768", "x", "300x200x3", "-3x4", "1e3x100")),
+                           ("--frames", ("0", "1", "65", "x", "2.5"))):
+        for value in values:
+            run.ffd("view", *work, "-o", "q.png", f"{option}={value}", code=USAGE, err=re.compile(option))
+    run.ffd("view", *work, "-o", "q.png", "--frames", "64", code=USAGE, err=re.compile("102400 x 900 pixels"))
+    run.ffd("view", *work, "-o", "q.png", "--size", "30000x30000", code=USAGE, err=re.compile("is not possible"))
+    check(not run.exists("q.png"), "a picture")
+
+
+@case
+def pictures_are_the_same_for_any_threads(run):
+    work = start(run)
+    view_all = [*work, "--size", "320x200", "-o", "p.png", "--force"]
+    run.ffd("view", *view_all, "--threads", "1")
+    first = run.read("p.png")
+    for options in (["--threads", "2"], ["--threads", "7"], ["--isa", "scalar"]):
+        run.ffd("view", *view_all, *options)
+        check(run.read("p.png") == first, str(options))
+
+
+@case
+def before_is_left_of_after_with_the_cage(run):
+    start(run, [{"by": [0, 0, 2]}])
+    before, after = halves(picture(run, "a.obj", "-l", "l.json", "--camera", "top", "--size", "400x200"))
+    for rows in (before, after):
+        check(count(rows, is_blue) > 100, "the lattice's lines")
+    # All moves by the largest displacement, whose colour is yellow; before is as the mesh is.
+    is_yellow = lambda r, g, b: r > 1.6 * b and g > 1.6 * b
+    check(count(before[:150], is_yellow) == 0, "nothing has moved before")
+    check(count(after[:150], is_yellow) > 1000, "what moved is coloured")
+    check(count([row[60:340] for row in picture(run, "a.obj", "-l", "l.json", "--size", "400x200")][160:], is_yellow) > 10, "the scale")
+    # Seen from the top it goes down in the picture, towards +z.
+    mean = [sum(y for y, row in enumerate(rows[20:150]) for p in row if found(*p)) / count(rows[20:150], found)
+            for rows, found in ((before, lambda r, g, b: is_grey(r, g, b) and r < 215), (after, is_yellow))]
+    check(mean[1] > mean[0] + 10, mean)
+
+
+@case
+def a_mesh_alone_is_one_picture(run):
+    start(run)
+    rows = picture(run, "a.obj", "--camera", "front", "--size", "300x200")
+    check(is_grey(*rows[100][150]) and rows[100][150][0] < 235, f"the cube is in the middle: {rows[100][150]}")
+    run.ffd("view", "a.obj", "a.obj", "-o", "q.png")
+    check(len(read_png(run.read("q.png"))[0]) == 1600, "two files")
+
+
+@case
+def what_went_wrong_is_marked_in_pictures(run):
+    start(run, [{"scale": {"factor": [-1, 1, 1], "about": [0, 0, 0]}}])
+    before, after = halves(picture(run, "a.obj", "-l", "l.json", "--size", "400x200"))
+    check(count(before, is_magenta) == 0 and count(after, is_magenta) > 1000, "flipped faces")
+    start(run, [{"by": [0, 0, 0.25]}], strip(3), rest={"box": {"min": [-10, -10, -10], "max": [1.5, 10, 10]}})
+    before, after = halves(picture(run, "a.obj", "a.obj", "--size", "400x200"))
+    equal(count(after, is_red), 0, "nothing is torn")
+    before, after = halves(picture(run, "a.obj", "-l", "l.json", "--size", "800x800", "--camera", "front", lines=1))
+    check(count(before, is_red) == 0 and count(after, is_red) > 5, "torn edges")
+
+
+@case
+def statuses_and_det_f_colour_pictures(run):
+    start(run, [{"scale": {"factor": [2, 1, 1], "about": [0, 0, 0]}}])
+    run.write("far.obj", CUBE.replace("v 1 1 1\n", "v 1 1 9\n"))
+    for color, found in (("status", is_blue), ("det", is_red)):
+        rows = halves(picture(run, "a.obj", "-l", "l.json", "--color", color, "--size", "400x200", "--camera", "front"))
+        check(count([row[90:110] for row in rows[1][85:100]], found) > 100, color)
+    picture(run, "far.obj", "-l", "l.json", "--color", "status", lines=1)
+
+
+@case
+def a_violated_gate_still_has_its_picture(run):
+    work = start(run, [{"at": [1, 1, 1], "by": [30, 30, 30]}])
+    run.ffd("view", *work, "--fail-on", "folds", "-o", "p.png", "--size", "64x64", code=NO, lines=1)
+    equal(len(read_png(run.read("p.png"))), 64)
+    run.ffd("view", *work, "-o", "p.png", code=IO, err=re.compile("--force"))
+
+
+def textured(run, png):
+    """A square in z = 0 with a texture, as OBJ."""
+    run.write("t.png", png)
+    run.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd t.png\n")
+    run.write("t.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n")
+
+
+@case
+def textures_are_drawn_and_broken_ones_are_grey(run):
+    """Left half red, right half green; the upper row is the image's first."""
+    textured(run, make_png([[(220, 20, 20)] * 8 + [(20, 200, 20)] * 8] * 16))
+    look = ["t.obj", "--camera", "front", "--size", "200x200"]
+    rows = picture(run, *look)
+    check(is_red(*rows[100][70]) and is_green(*rows[100][130]), rows[100][70], rows[100][130])
+    textured(run, make_png([[(220, 20, 20)] * 16] * 8 + [[(20, 200, 20)] * 16] * 8))
+    rows = picture(run, *look)
+    check(is_red(*rows[70][100]) and is_green(*rows[130][100]), rows[70][100], rows[130][100])
+    whole = make_png([[(220, 20, 20)] * 64] * 64)
+    bomb = whole[:16] + struct.pack(">II", 30000, 30000) + whole[24:]
+    for broken in (whole[:60], bomb, whole[:40] + b"x" * 20 + whole[60:]):
+        textured(run, broken)
+        rows = picture(run, *look, err=re.compile("t.obj: grey in the picture: 1 image"))
+        check(is_grey(*rows[100][100]), rows[100][100])
+    run.remove("t.png")
+    rows = picture(run, *look, lines=1)
+    check(is_grey(*rows[100][100]), "missing")
+
+
+@case
+def colours_of_vertices_are_drawn(run):
+    run.write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3 4\n")
+    check(is_red(*picture(run, "a.obj", "--camera", "front", "--size", "100x100")[50][50]), "red")
+
+
+@case
+def lines_and_points_are_drawn(run):
+    for content in ("v 0 0 0\nv 1 0 0\nv 1 1 0\nl 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 1 1 0\np 1 2 3\n", "v 0 0 0\nv 1 0 0\nv 1 1 0\n"):
+        run.write("a.obj", content)
+        rows = picture(run, "a.obj", "--camera", "front", "--size", "600x600")
+        check(count(rows, lambda r, g, b: r < 120) >= 3, content)
+
+
 @case
 def empty_meshes(run):
     run.write("l.json", lattice(moves=SHIFT))
@@ -413,6 +574,9 @@ def empty_meshes(run):
     equal(len(view(run, "a.off", err=lambda said: None).before), 0)
     run.write("b.obj", "v 0 0 0\nv 1 nan 0\n")
     equal(view(run, "b.obj", "-l", "l.json", err=lambda said: None).scene["notFinite"], 1)
+    for name in ("a.off", "b.obj"):
+        picture(run, name, "-l", "l.json", err=lambda said: None)
+        picture(run, name, err=lambda said: None)
 
 
 main()

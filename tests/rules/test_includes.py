@@ -55,7 +55,7 @@ LAYERS = {
         "mesh",
     },
     "view": {
-        "base", "base/file", "base/memory", "base/text", "json", "mesh", "mesh/meshopt",
+        "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
     },
     "job/report": {"base", "base/file", "base/memory", "base/text", "json", "mesh"},
     "spline": {"base", "base/memory", "base/text"},

@@ -14,6 +14,7 @@
 #include "job/view/view_marks.h"
 #include "job/view/view_mesh.h"
 #include "view/page.h"
+#include "view/view_picture.h"
 #include <math.h>
 #include <string.h>
 
@@ -48,18 +49,40 @@ static ffd_status check_inputs(const ffd_view_desc *desc, ffd_error *error)
                     : FFD_OK;
 }
 
-static ffd_status check_desc(const ffd_view_desc *desc, ffd_error *error)
+static bool is_page(const char *path)
 {
+    return ffd_path_has_ending(path, ".html") || ffd_path_has_ending(path, ".htm");
+}
+
+static view_picture_options describe_picture(const view_work *work)
+{
+    const ffd_view_desc *const desc = work->desc;
+    return (view_picture_options){.width = desc->width,
+                                  .height = desc->height,
+                                  .frames = desc->frames,
+                                  .color = (view_page_color)desc->color,
+                                  .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
+                                  .threads = work->job.threads,
+                                  .budget = work->job.document ? &work->job.document->budget : NULL,
+                                  .log = &work->job.log};
+}
+
+static ffd_status check_desc(const view_work *work, ffd_error *error)
+{
+    const ffd_view_desc *const desc = work->desc;
+    const view_picture_options picture = describe_picture(work);
     if (desc->struct_size != sizeof *desc || !desc->output || (desc->deformed && !desc->deformed->path))
         return ffd_fail(error, FFD_E_ARGUMENT, "the view's description is not complete");
     for (int a = 0; a < 3; a++)
         if (!isfinite(desc->camera[a]))
             return ffd_fail(error, FFD_E_ARGUMENT, "the camera's direction is not finite");
-    if (!ffd_path_has_ending(desc->output, ".html") && !ffd_path_has_ending(desc->output, ".htm"))
+    if (!is_page(desc->output) && !ffd_path_has_ending(desc->output, ".png"))
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
-                             "the ending \"%s\" is not that of a page (.html .htm)",
+                             "the ending \"%s\" is not that of a page or a picture (.html .htm .png)",
                              ffd_path_ending(desc->output));
-    const ffd_status status = check_inputs(desc, error);
+    ffd_status status = ffd_view_picture_check(&picture, error);
+    if (!status)
+        status = check_inputs(desc, error);
     return status ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
@@ -73,7 +96,9 @@ static ffd_status read_model(view_work *work, ffd_error *error)
     document->shown = ffd_mesh_shows_shapes(document);
     const ffd_status status = document->format->model(document, model, error);
     document->shown = false;
-    return status;
+    if (status || !document->format->list_materials)
+        return status;
+    return document->format->list_materials(document, &work->job.log, &work->scene.materials, error);
 }
 
 /* The report of this job alone; without times, so that the same job makes the same page. */
@@ -230,14 +255,25 @@ static ffd_status read_files(view_work *work, ffd_error *error)
     return status ? status : load_cages(work, error);
 }
 
-/* Writes the page. */
-static ffd_status write_view(view_work *work, ffd_error *error)
+static ffd_status write_page(const view_work *work, file_output *output, ffd_error *error)
 {
     const ffd_view_desc *const desc = work->desc;
     const view_page_options options = {.full = desc->full,
                                        .color = (view_page_color)desc->color,
                                        .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
                                        .log = &work->job.log};
+    return ffd_view_page_write(&work->scene, &options, output, error);
+}
+
+static ffd_status write_picture(const view_work *work, file_output *output, ffd_error *error)
+{
+    const view_picture_options options = describe_picture(work);
+    return ffd_view_picture_write(&work->scene, &options, output, error);
+}
+
+static ffd_status write_view(view_work *work, ffd_error *error)
+{
+    const ffd_view_desc *const desc = work->desc;
     file_output *output;
     ffd_status status = ffd_output_create(&output, error);
     if (status)
@@ -245,7 +281,7 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     ffd_output_record(output, ffd_written_list(desc->job->written));
     status = ffd_output_begin(output, desc->output, desc->force, error);
     if (!status)
-        status = ffd_view_page_write(&work->scene, &options, output, error);
+        status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
     status = ffd_mapping_judge(work->job.losses, status, error);
     if (!status)
         status = ffd_output_commit(output, error);
@@ -256,7 +292,7 @@ static ffd_status write_view(view_work *work, ffd_error *error)
 static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
-    ffd_status status = check_desc(work->desc, error);
+    ffd_status status = check_desc(work, error);
     if (!status)
         status = name_scene(work, error);
     if (!status)
