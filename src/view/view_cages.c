@@ -61,13 +61,14 @@ static picture_cage *add(view_cages *c, const uint8_t color[3], double radius)
     return to;
 }
 
-static void add_lines(const view_scene *scene, const double *positions, view_cages *c)
+static void add_lines(const view_scene *scene, const double *positions, uint32_t height, view_cages *c)
 {
     picture_cage *const to = add(c, line_color, -1);
     to->points = positions;
     to->point_count = scene->vertex_count;
     to->segments = scene->segments;
     to->segment_count = scene->segment_count;
+    to->width = 1 + height / 900.0;
 }
 
 /* A mesh of vertices alone is drawn as points. */
@@ -81,7 +82,7 @@ static ffd_status add_points(const view_scene *scene, const double *positions, u
         return ffd_fail_memory(error);
     for (size_t i = 0; i < count; i++)
         memcpy(points + 3 * i, positions + 3 * (is_alone ? i : scene->points[i]), 3 * sizeof *points);
-    picture_cage *const to = add(c, line_color, height / 600.0);
+    picture_cage *const to = add(c, line_color, 1 + height / 900.0);
     to->points = points;
     to->point_count = count;
     return FFD_OK;
@@ -100,7 +101,7 @@ static ffd_status add_tears(const view_scene *scene, const double *positions, ui
     to->point_count = scene->vertex_count;
     to->segments = segments;
     to->segment_count = scene->tear_count;
-    to->width = height / 350.0;
+    to->width = 1 + height / 600.0;
     return FFD_OK;
 }
 
@@ -134,7 +135,7 @@ ffd_status ffd_view_cages_make(const view_scene *scene, double share, const doub
     for (size_t i = 0; i < scene->cage_count && !status; i++)
         status = add_lattice(&scene->cages[i], share, c, error);
     if (!status && scene->segment_count)
-        add_lines(scene, positions, c);
+        add_lines(scene, positions, height, c);
     if (!status)
         status = add_points(scene, positions, height, c, error);
     if (!status && share > 0)
