@@ -320,6 +320,7 @@ typedef struct ffd_job_result {
     ffd_flaw flaws[FFD_FLAWS];                /* flaw_count, of the input */
     size_t flaw_count;
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
+    const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
 } ffd_job_result;
 
@@ -360,14 +361,16 @@ typedef struct ffd_view_desc {
     /* Of a picture, or of each in a row, in pixels; 0: 1600 and 900. A page is as large as its window. */
     uint32_t width, height;
     uint32_t frames; /* pictures in a row, from rest to deformed: 2 to 64; 0: before and after share one */
+    bool as_stored;  /* shapes are those that the file stores, as ffd_check_run judges them; else those that
+                        default weights of morph targets show */
 } ffd_view_desc;
 
 /* Shows before and after, colours by displacement, is not full. */
 FFD_API void ffd_view_desc_init(ffd_view_desc *desc);
 /* Writes the output; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after it was
    written. An image of the mesh that is missing or broken is grey in a picture, and warned of. result is
-   filled in every case (not NULL): where lattices deform, as by ffd_check_run, with the shape that default
-   weights of morph targets show. Returns result->status. Errors: all. */
+   filled in every case (not NULL): where lattices deform, as by ffd_check_run, of the shapes that are
+   shown, and with picture. Returns result->status. Errors: all. */
 FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 
 /* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,

@@ -3,6 +3,7 @@
 #include "view/view_cages.h"
 #include "view/view_palette.h"
 #include "view/view_surface.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -26,6 +27,7 @@ typedef struct picture_work {
     const view_picture_options *options;
     view_palette palette;
     view_surface surface;
+    uint8_t *used;           /* one a vertex: something is drawn of it; NULL: of all */
     uint32_t *twins, *white; /* white: the material of each triangle that is coloured by a palette */
     step *steps;
     picture_panel *panels;
@@ -70,16 +72,45 @@ static size_t count_steps(const view_scene *scene, const view_picture_options *o
     return scene->statuses || scene->output || scene->cage_count ? 2 : 1;
 }
 
+/* Marks the vertices that something is drawn of: a picture makes room for no others. *used stays NULL where
+   all are. */
+static ffd_status find_used(const view_scene *scene, uint8_t **used, ffd_error *error)
+{
+    const struct {
+        const uint32_t *list;
+        size_t count;
+    } uses[] = {{scene->triangles, 3 * scene->triangle_count},
+                {scene->segments, 2 * scene->segment_count},
+                {scene->points, scene->point_count}};
+    size_t found = 0;
+    uint8_t *const marks = ffd_alloc_zero(scene->vertex_count, 1);
+    if (!marks)
+        return ffd_fail_memory(error);
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
+        for (size_t i = 0; i < uses[k].count; i++) {
+            found += !marks[uses[k].list[i]];
+            marks[uses[k].list[i]] = 1;
+        }
+    if (found > 0 && found < scene->vertex_count)
+        *used = marks;
+    else
+        ffd_free(marks);
+    return FFD_OK;
+}
+
 static ffd_status place(picture_work *w, step *s)
 {
     const view_scene *const scene = w->scene;
-    if (s->share <= 0 || s->share >= 1) {
+    if (!w->used && (s->share <= 0 || s->share >= 1)) {
         s->positions = s->share <= 0 ? scene->before : scene->after;
         return FFD_OK;
     }
     s->positions = ffd_alloc(scene->vertex_count, 3 * sizeof *s->positions);
     for (size_t i = 0; s->positions && i < 3 * scene->vertex_count; i++)
-        s->positions[i] = scene->before[i] + s->share * (scene->after[i] - scene->before[i]);
+        s->positions[i] = w->used && !w->used[i / 3] ? NAN
+                          : s->share >= 1
+                              ? scene->after[i]
+                              : scene->before[i] + s->share * (scene->after[i] - scene->before[i]);
     return s->positions ? FFD_OK : ffd_fail_memory(w->error);
 }
 
@@ -185,6 +216,8 @@ static ffd_status make_steps(picture_work *w)
         return ffd_fail_memory(w->error);
     ffd_view_palette_make(scene, w->options->color, &w->palette);
     status = ffd_picture_twins(scene->before, scene->vertex_count, w->twins, w->error);
+    if (!status)
+        status = find_used(scene, &w->used, w->error);
     for (size_t i = 0; i < w->step_count && !status; i++)
         status = make_step(w, i);
     return status;
@@ -201,6 +234,7 @@ static void free_steps(picture_work *w)
     }
     ffd_free(w->steps);
     ffd_free(w->panels);
+    ffd_free(w->used);
     ffd_free(w->twins);
     ffd_free(w->white);
     ffd_view_surface_free(&w->surface);

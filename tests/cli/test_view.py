@@ -134,7 +134,9 @@ def a_violated_gate_still_has_its_page(run):
                 err=re.compile(says))
         page = read_page(run, "p.html")
         equal([page.report["jobs"][0]["status"], page.report["jobs"][0]["exit"]], ["failed", 1], gate)
-        equal(page.report, json.loads(run.text("r.json")), "the report on its own")
+        told = json.loads(run.text("r.json"))
+        equal(told["jobs"][0].pop("picture"), "p.html", "what was written")
+        equal(page.report, told, "the report on its own")
     equal(len(page.before), 8, "the mesh is there")
 
 
@@ -366,6 +368,10 @@ def default_weights_of_morph_targets_are_shown(run):
     same_places(page.after, [[p[0] + 1, p[1], 1] for p in page.before], "and moved by 1 along x")
     page = view(run, "a.glb", "a.glb")
     same_places(page.after, page.before, "two files")
+    run.ffd("check", "a.glb", "-l", "l.json", "--picture", "q.html")
+    page = read_page(run, "q.html")
+    equal(page.report, report(run, "a.glb", "-l", "l.json"), "a check looks at what the file stores")
+    same_places(page.before, [[*p[:2], 0] for p in page.before], "and so does its picture")
 
 
 @case
@@ -528,6 +534,28 @@ def a_violated_gate_still_has_its_picture(run):
     run.ffd("view", *work, "-o", "p.png", code=IO, err=re.compile("--force"))
 
 
+@case
+def a_check_has_its_picture(run):
+    """Its figures and what it prints are those of a check without one, and the report names it."""
+    work = start(run)
+    plain, told = run.ffd("check", *work).text, report(run, *work)
+    run.ffd("check", *work, "--picture", "p.png", "--report", "p.json", "--report-stable", out=plain)
+    equal(struct.unpack_from(">II", run.read("p.png"), 16), (1600, 900), "the picture")
+    found = json.loads(run.text("p.json"))
+    equal(found["jobs"][0].pop("picture"), "p.png", "the report's picture")
+    equal(found, told, "the figures")
+    run.ffd("check", *work, "--picture", "p.png", code=IO, err=re.compile("p.png.*--force"))
+    run.ffd("check", *work, "--picture", "p.png", "--force", "-q", out="")
+    run.ffd("check", *work, "--picture", "p.html", out=plain)
+    equal(read_page(run, "p.html").report, told, "the page's report")
+    run.write("b.obj", CUBE)
+    run.ffd("check", "a.obj", "b.obj", "-l", "l.json", "--picture", "q.png", code=USAGE, err=re.compile("--picture is of one mesh"))
+    run.ffd("check", *work, "--picture", "q.txt", code=USAGE, err=re.compile("is not that of a page or a picture"))
+    start(run, [{"at": [1, 1, 1], "by": [30, 30, 30]}])
+    run.ffd("check", *work, "--picture", "q.png", "--fail-on", "folds", code=NO, lines=1)
+    check(run.exists("q.png"), "the picture of what a gate refuses")
+
+
 def textured(run, png):
     """A square in z = 0 with a texture, as OBJ."""
     run.write("t.png", png)
@@ -560,6 +588,14 @@ def textures_are_drawn_and_broken_ones_are_grey(run):
 def colours_of_vertices_are_drawn(run):
     run.write("a.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nf 1 2 3 4\n")
     check(is_red(*picture(run, "a.obj", "--camera", "front", "--size", "100x100")[50][50]), "red")
+
+
+@case
+def what_nothing_uses_takes_no_room(run):
+    start(run)
+    run.write("far.obj", CUBE + "v 1e6 1e6 1e6\n")
+    look = ["--camera", "front", "--size", "100x100"]
+    check(picture(run, "far.obj", *look) == picture(run, "a.obj", *look), "the same picture")
 
 
 @case

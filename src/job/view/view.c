@@ -86,19 +86,27 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
     return status ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
-/* Reads the mesh as viewers show it. */
+/* Whether what the default weights of morph targets show is not what the file stores, and wanted. */
+static bool shows_shapes(const view_work *work, const mesh_document *document)
+{
+    return !work->desc->as_stored && ffd_mesh_shows_shapes(document);
+}
+
+/* Reads the mesh as it is to be shown. */
 static ffd_status read_model(view_work *work, ffd_error *error)
 {
     mesh_document *const document = work->job.document;
     mesh_model *const model = &work->model;
     model->budget = &document->budget;
     model->wants_details = true;
-    document->shown = ffd_mesh_shows_shapes(document);
+    document->shown = shows_shapes(work, document);
     const ffd_status status = document->format->model(document, model, error);
     document->shown = false;
     if (status || !document->format->list_materials)
         return status;
-    return document->format->list_materials(document, &work->job.log, &work->scene.materials, error);
+    /* A page has no images. */
+    const mesh_log *const log = is_page(work->desc->output) ? NULL : &work->job.log;
+    return document->format->list_materials(document, log, &work->scene.materials, error);
 }
 
 /* The report of this job alone; without times, so that the same job makes the same page. */
@@ -148,7 +156,7 @@ static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *er
     if (status)
         return status;
     /* What default weights of morph targets show is deformed, as for a conversion. */
-    job->document->converted = ffd_mesh_shows_shapes(job->document);
+    job->document->converted = shows_shapes(work, job->document);
     job->details = &work->details;
     status = ffd_deform_job_run(job, result, &result->error);
     result->status = status;
@@ -198,7 +206,8 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
 }
 
 /* Reads the positions of all vertices, in the order of `ffd embed`. */
-static ffd_status read_positions(mesh_document *document, double **positions, ffd_error *error)
+static ffd_status read_positions(const view_work *work, mesh_document *document, double **positions,
+                                 ffd_error *error)
 {
     const size_t count = (size_t)ffd_mesh_vertex_count(document);
     size_t first = 0;
@@ -208,7 +217,7 @@ static ffd_status read_positions(mesh_document *document, double **positions, ff
     *positions = ffd_alloc(count, 3 * sizeof **positions);
     if (!*positions)
         return ffd_fail_memory(error);
-    document->shown = ffd_mesh_shows_shapes(document);
+    document->shown = shows_shapes(work, document);
     for (size_t i = 0; i < document->part_count; i++) {
         const mesh_part *const part = &document->parts[i];
         if (part->repeats_positions)
@@ -233,7 +242,7 @@ static ffd_status read_deformed(view_work *work, ffd_error *error)
                                (unsigned long long)ffd_mesh_vertex_count(other),
                                ffd_source_name(&work->desc->job->input), (unsigned long long)count);
     if (!status)
-        status = read_positions(other, &positions, error);
+        status = read_positions(work, other, &positions, error);
     if (!status)
         status = ffd_view_place_after(&work->model, positions, &work->scene, error);
     ffd_source_close(&other);
@@ -322,10 +331,12 @@ ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_e
     ffd_status status = ffd_deform_job_begin(&work.job, desc->job ? desc->job : &none, true, result);
     if (!status) {
         status = run(&work, result, &own);
-        if (status)
+        if (status) {
             result->error = own;
-        else
+        } else {
+            result->picture = desc->output;
             status = result->status; /* of the gates */
+        }
     }
     free_work(&work);
     return ffd_deform_job_end(&work.job, status, result, error);
