@@ -13,7 +13,7 @@
 #include <ffd/job.h>
 #include <math.h>
 
-static char mesh[64], other[64], lattice[64], page[64];
+static char mesh[64], other[64], lattice[64], page[64], drawn[64];
 static const char *const lattices[] = {lattice};
 
 /* A square and a triangle beside it; the vertices from x = 2.5 on are outside. */
@@ -35,6 +35,7 @@ static int set_up(void **state)
     strcpy(other, in_folder("b.obj"));
     strcpy(lattice, in_folder("l.json"));
     strcpy(page, in_folder("p.html"));
+    strcpy(drawn, in_folder("p.png"));
     return 0;
 }
 
@@ -84,6 +85,14 @@ static void descriptions_that_are_not_complete(void **state)
     refuse(&view);
     view = describe(&job);
     view.camera[1] = NAN;
+    refuse(&view);
+    view = describe(&job);
+    view.frames = 1;
+    refuse(&view);
+    view.frames = 65;
+    refuse(&view);
+    view.frames = 0;
+    view.width = 40000;
     refuse(&view);
     view = describe(&job);
     view.deformed = &nowhere;
@@ -146,11 +155,12 @@ static void fail_everywhere(const ffd_view_desc *view)
         if (status) {
             assert_int_equal(status, FFD_E_MEMORY);
             assert_non_null(strstr(error.message, "out of memory"));
-            assert_int_not_equal(access(page, F_OK), 0);
+            assert_int_not_equal(access(view->output, F_OK), 0);
+            assert_null(result.picture);
         }
     }
     assert_true(failures > 20);
-    unlink(page);
+    unlink(view->output);
 }
 
 static void memory_ends_anywhere(void **state)
@@ -160,6 +170,12 @@ static void memory_ends_anywhere(void **state)
     ffd_view_desc view = describe(&job);
     fail_everywhere(&view);
     view.deformed = &deformed;
+    fail_everywhere(&view);
+    view.output = drawn;
+    view.width = view.height = 40;
+    fail_everywhere(&view);
+    view.deformed = NULL;
+    view.frames = 3;
     fail_everywhere(&view);
     (void)state;
 }
