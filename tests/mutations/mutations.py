@@ -794,9 +794,10 @@ m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->st
 m("gate-without-a-page", "condition", "cli_view, view", "if (status == FFD_E_GATE) ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input)); else if (status) {",
   "if (status) {")
 m("gate-forgotten-by-a-page", "result left out", "cli_view, view", "status = result->status; /* of the gates */", "status = FFD_OK;")
-m("weights-of-a-picture", "shape", "cli_view", "document->shown = ffd_mesh_shows_shapes(document); const ffd_status status = document->format->model",
+m("weights-of-a-picture", "shape", "cli_view", "document->shown = shows_shapes(work, document); const ffd_status status = document->format->model",
   "document->shown = false; const ffd_status status = document->format->model")
-m("weights-of-a-deformed-file", "shape", "cli_view", "document->shown = ffd_mesh_shows_shapes(document); for (size_t i", "for (size_t i")
+m("weights-of-a-deformed-file", "shape", "cli_view", "document->shown = shows_shapes(work, document); for (size_t i",
+  "document->shown = work->desc->full; for (size_t i")
 m("numbers-of-what-is-hidden", "offset", "cli_view", "number += part->vertex_count; } return FFD_OK; } static ffd_status extract",
   "number += is_drawn(d, d->parts[i].node) ? part->vertex_count : 0; } return FFD_OK; } static ffd_status extract")
 m("last-corner-of-an-stl-vertex", "order", "cli_view", "for (size_t i = faces->corner_count; i-- > 0;) e->model->numbers",
