@@ -31,9 +31,10 @@ typedef struct picture_mesh {
     size_t vertex_count;
     const uint32_t *triangles; /* 3 vertices each, counter-clockwise from outside */
     size_t triangle_count;
-    const float *texcoords;    /* 2 a corner, v upwards; NULL: none */
-    const uint8_t *colors;     /* red, green, blue, alpha a vertex, sRGB; NULL: none */
-    const uint32_t *materials; /* one a triangle; NULL, or a number that is not in the list: grey */
+    const float *texcoords; /* 2 a corner, v upwards; NULL: none */
+    const uint8_t *colors;  /* red, green, blue, alpha a vertex, sRGB; NULL: none */
+    const uint32_t
+        *materials; /* one a triangle; NULL, or a number that is not in the list: grey, under colours white */
     const picture_material *material_list;
     size_t material_count;
     const uint32_t *twins; /* of each vertex the first one at its place, so that light does not break at seams

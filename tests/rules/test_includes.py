@@ -21,6 +21,10 @@ LAYERS = {
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "mesh"},
+    "picture/image": {"base", "base/memory", "base/system", "mesh"},
+    "picture": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
+    },
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
@@ -100,6 +104,7 @@ OUTSIDE = [
     (r"OpenMesh/", {"io/openmesh"}),
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/model"}),
     (r"draco/|meshoptimizer\.h", {"io/gltf/decode"}),
+    (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/(?!platform/)|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",
