@@ -271,17 +271,3 @@ void ffd_raster_corners(const surface *of, const linear_tables *tables, size_t t
     else
         draw_large(&s, &b, into);
 }
-
-void ffd_raster_triangle(const surface *of, const linear_tables *tables, size_t triangle, samples *into)
-{
-    raster_corner corners[3];
-    for (int k = 0; k < 3; k++) {
-        const surface_vertex *const v = &of->vertices[of->triangles[3 * triangle + (size_t)k]];
-        if (v->x == VERTEX_FAR) {
-            ffd_raster_clipped(of, tables, triangle, into);
-            return;
-        }
-        corners[k] = (raster_corner){v->x, v->y, v->z};
-    }
-    ffd_raster_corners(of, tables, triangle, corners, false, into);
-}

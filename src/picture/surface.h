@@ -3,7 +3,8 @@
 #ifndef FFD_PICTURE_SURFACE_H
 #define FFD_PICTURE_SURFACE_H
 
-#include "picture/picture.h"
+#include "base/fail.h"
+#include "picture/picture_scene.h"
 
 /* Parts of a pixel that coordinates are rounded to. */
 #define SUBPIXELS 256
