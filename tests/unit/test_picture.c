@@ -113,7 +113,7 @@ static void normals_break_at_creases_only(void **state)
     surface_normals found;
     ffd_error error;
     (void)state;
-    assert_int_equal(ffd_surface_normals(&cube.mesh, 100, &found, &error), FFD_OK);
+    assert_int_equal(ffd_surface_normals(&cube.mesh, 100, NULL, &found, &error), FFD_OK);
     /* Three faces at each of eight corners. */
     assert_int_equal(found.split_count, 16);
     for (size_t t = 0; t < 12; t++)
@@ -135,7 +135,7 @@ static void normals_break_at_creases_only(void **state)
     uint32_t twins[800];
     assert_int_equal(ffd_picture_twins(ball.positions, 800, twins, &error), FFD_OK);
     ball.mesh.twins = twins;
-    assert_int_equal(ffd_surface_normals(&ball.mesh, 100, &found, &error), FFD_OK);
+    assert_int_equal(ffd_surface_normals(&ball.mesh, 100, NULL, &found, &error), FFD_OK);
     assert_null(found.triangles);
     for (size_t r = 0; r < 20; r++) {
         assert_int_equal(twins[40 * r + 39], r == 0 || r == 19 ? twins[40 * r] : 40 * r);
@@ -466,6 +466,27 @@ static void what_is_wrong_with_a_mesh_is_left_out(void **state)
     free_scene(&s);
 }
 
+/* A cube has as few vertices as can be, and a crease at each: 36 corners that want their own. */
+static void the_budget_holds_for_creases_and_lists_too(void **state)
+{
+    scene s;
+    ffd_error error;
+    uint8_t *pixels;
+    (void)state;
+    make_scene(&s, 0);
+    memory_budget budget = ffd_budget_make(0);
+    const uint64_t least = budget.taken + 3 * 160 * 120 + 8 * 48 + 12 * 24;
+    budget.most = least - 1;
+    assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
+    budget.most = budget.taken + 36 * 64 - 1;
+    s.picture.width = s.picture.height = 16;
+    assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
+    budget.most++;
+    assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_OK);
+    ffd_free(pixels);
+    free_scene(&s);
+}
+
 static void memory_may_run_out_anywhere(void **state)
 {
     scene s;
@@ -503,6 +524,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(any_number_of_threads_draws_the_same),
         cmocka_unit_test(pictures_look_as_ever),
         cmocka_unit_test(what_is_wrong_with_a_mesh_is_left_out),
+        cmocka_unit_test(the_budget_holds_for_creases_and_lists_too),
         cmocka_unit_test(memory_may_run_out_anywhere),
     };
     if (argc != 2)
