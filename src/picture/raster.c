@@ -233,9 +233,12 @@ static ALWAYS_INLINE void draw_pixel(setup *s, brush *b, int64_t px, int64_t py,
         return;
     at = (depths)(((numbers)at & drawn) | ((numbers)there & ~drawn));
     memcpy(into->depth + first, &at, sizeof at);
-    for (int i = 0; i < SAMPLES; i++)
-        if (drawn[i])
-            into->color[first + (size_t)i] = b->color;
+    /* Without branches, which nothing could foresee. */
+    uint64_t *const colors = into->color + first;
+    for (int i = 0; i < SAMPLES; i++) {
+        const uint64_t which = (uint64_t)(int64_t)drawn[i];
+        colors[i] = (colors[i] & ~which) | (b->color & which);
+    }
 }
 
 static void draw_small(setup *s, brush *b, samples *into)
