@@ -52,27 +52,36 @@ static size_t place(const band_work *work, size_t shares)
     return sum;
 }
 
+static ffd_status fill(band_work *work, size_t count, size_t share, const band_means *means, ffd_error *error)
+{
+    ffd_parallel_tiles(count, share, means->threads, visit, work);
+    const size_t total = place(work, count / share + 1);
+    const ffd_status status =
+        means->budget ? ffd_budget_check(means->budget, total, sizeof *work->result->items, error) : FFD_OK;
+    if (status)
+        return status;
+    work->result->items = ffd_alloc(total, sizeof *work->result->items);
+    if (!work->result->items)
+        return ffd_fail_memory(error);
+    work->fills = true;
+    ffd_parallel_tiles(count, share, means->threads, visit, work);
+    return FFD_OK;
+}
+
 ffd_status ffd_bands_make(int64_t top, int64_t bottom, size_t count, band_rows rows, const void *context,
-                          int threads, bands *result, ffd_error *error)
+                          const band_means *means, bands *result, ffd_error *error)
 {
     const size_t least = count / MOST_SHARES + 1, share = least > LEAST_SHARE ? least : LEAST_SHARE;
-    const size_t shares = count / share + 1;
     *result = (bands){.count = (size_t)(bottom - top + BAND_ROWS - 1) / BAND_ROWS};
     band_work work = {.top = top, .bottom = bottom, .rows = rows, .context = context, .result = result};
     result->starts = ffd_alloc_zero(result->count + 1, sizeof *result->starts);
-    work.next = ffd_alloc_zero(shares * result->count, sizeof *work.next);
-    if (result->starts && work.next) {
-        ffd_parallel_tiles(count, share, threads, visit, &work);
-        result->items = ffd_alloc(place(&work, shares), sizeof *result->items);
-        work.fills = true;
-        if (result->items)
-            ffd_parallel_tiles(count, share, threads, visit, &work);
-    }
+    work.next = ffd_alloc_zero((count / share + 1) * result->count, sizeof *work.next);
+    const ffd_status status =
+        result->starts && work.next ? fill(&work, count, share, means, error) : ffd_fail_memory(error);
     ffd_free(work.next);
-    if (result->items)
-        return FFD_OK;
-    ffd_bands_free(result);
-    return ffd_fail_memory(error);
+    if (status)
+        ffd_bands_free(result);
+    return status;
 }
 
 void ffd_bands_free(bands *of)

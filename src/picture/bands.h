@@ -3,7 +3,7 @@
 #ifndef FFD_PICTURE_BANDS_H
 #define FFD_PICTURE_BANDS_H
 
-#include "base/fail.h"
+#include "mesh/memory_budget.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -20,9 +20,16 @@ typedef struct bands {
     uint32_t *items;
 } bands;
 
-/* Sorts `count` items, below 2^32, into the bands of rows [top, bottom). Errors: FFD_E_MEMORY. */
+/* What work may take. */
+typedef struct band_means {
+    int threads;
+    const memory_budget *budget; /* or NULL: any amount */
+} band_means;
+
+/* Sorts `count` items, below 2^32, into the bands of rows [top, bottom). Errors: FFD_E_MEMORY, FFD_E_LIMIT.
+ */
 ffd_status ffd_bands_make(int64_t top, int64_t bottom, size_t count, band_rows rows, const void *context,
-                          int threads, bands *result, ffd_error *error);
+                          const band_means *means, bands *result, ffd_error *error);
 /* Frees what they hold; leaves empty ones. */
 void ffd_bands_free(bands *of);
 

@@ -9,6 +9,7 @@ static const uint8_t ink[3] = {52, 58, 66}, divider[3] = {203, 209, 216};
 /* In dots: heights of the parts of a scale, and gaps. */
 #define BAR_HEIGHT 6
 #define GAP 4
+#define TITLE_GAP 5
 #define MARGIN 8
 
 static uint64_t from_bytes(const linear_tables *tables, const uint8_t color[3])
@@ -18,8 +19,8 @@ static uint64_t from_bytes(const linear_tables *tables, const uint8_t color[3])
 
 static double scale_height(const picture_scale *scale)
 {
-    return (scale->title ? LETTER_ROWS + GAP : 0) + BAR_HEIGHT + (scale->is_fields ? 1 : GAP + LETTER_ROWS) +
-           MARGIN;
+    return (scale->title ? LETTER_ROWS + TITLE_GAP : 0) + BAR_HEIGHT +
+           (scale->is_fields ? 1 : GAP + LETTER_ROWS) + MARGIN;
 }
 
 layout ffd_layout_make(const picture *of)
@@ -28,7 +29,7 @@ layout ffd_layout_make(const picture *of)
     layout by = {.of = of};
     /* Letters of a size that a tenth of the height holds well, in halves of a pixel, so that they are sharp.
      */
-    by.dot = larger_of(1, lesser_of(4, floor(lesser_of(of->height / 430.0, panel / 240) * 2) / 2));
+    by.dot = larger_of(1, lesser_of(4, floor(lesser_of(of->height / 360.0, panel / 240) * 2) / 2));
     by.line = larger_of(0.6, lesser_of(3, lesser_of(of->height, panel) / 500));
     by.margin = MARGIN * by.dot;
     by.top = by.margin;
@@ -122,7 +123,7 @@ static void draw_scale(const layout *by, const linear_tables *tables, const stro
         return;
     if (scale->title) {
         write_middle(by, into, scale->title, by->of->width / 2.0, top, from_bytes(tables, ink));
-        top += floor((LETTER_ROWS + GAP) * by->dot);
+        top += floor((LETTER_ROWS + TITLE_GAP) * by->dot);
     }
     if (scale->is_fields)
         draw_fields(by, tables, into, top);

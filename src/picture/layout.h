@@ -3,7 +3,7 @@
 #define FFD_PICTURE_LAYOUT_H
 
 #include "picture/linear.h"
-#include "picture/picture.h"
+#include "picture/picture_scene.h"
 #include "picture/strokes.h"
 
 typedef struct layout {

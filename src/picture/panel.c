@@ -36,16 +36,16 @@ static bool disc_rows(const void *context, size_t item, int64_t *first, int64_t 
 }
 
 static ffd_status make_mesh(const picture_mesh *mesh, const projection *by, const picture *of,
-                            panel_mesh *result, ffd_error *error)
+                            const band_means *means, panel_mesh *result, ffd_error *error)
 {
-    const ffd_status status = ffd_surface_make(mesh, by, of->threads, &result->surface, error);
+    const ffd_status status = ffd_surface_make(mesh, by, means, &result->surface, error);
     return status ? status
                   : ffd_bands_make(0, of->height, mesh->triangle_count, ffd_raster_rows, &result->surface,
-                                   of->threads, &result->triangles, error);
+                                   means, &result->triangles, error);
 }
 
 static ffd_status make_cage(const picture_cage *cage, const projection *by, const layout *in,
-                            panel_cage *result, ffd_error *error)
+                            const band_means *means, panel_cage *result, ffd_error *error)
 {
     const double width = cage->width > 0 ? cage->width : in->line;
     *result =
@@ -58,14 +58,14 @@ static ffd_status make_cage(const picture_cage *cage, const projection *by, cons
     for (size_t i = 0; i < cage->point_count; i++)
         projection_apply(by, cage->points + 3 * i, result->points + 3 * i);
     const ffd_status status = ffd_bands_make(0, in->of->height, cage->segment_count, segment_rows, result,
-                                             in->of->threads, &result->segments, error);
+                                             means, &result->segments, error);
     return status ? status
                   : ffd_bands_make(0, in->of->height, result->radius > 0 ? cage->point_count : 0, disc_rows,
-                                   result, in->of->threads, &result->discs, error);
+                                   result, means, &result->discs, error);
 }
 
-ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, panel *result,
-                          ffd_error *error)
+ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, const band_means *means,
+                          panel *result, ffd_error *error)
 {
     const picture_panel *const of = &by->of->panels[number];
     *result = (panel){.of = of,
@@ -80,9 +80,9 @@ ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *see
                                          (by->top + by->bottom) / 2, width, by->bottom - by->top);
     ffd_status status = result->meshes && result->cages ? FFD_OK : ffd_fail_memory(error);
     for (size_t i = 0; !status && i < of->mesh_count; i++)
-        status = make_mesh(&of->meshes[i], &to, by->of, &result->meshes[i], error);
+        status = make_mesh(&of->meshes[i], &to, by->of, means, &result->meshes[i], error);
     for (size_t i = 0; !status && i < of->cage_count; i++)
-        status = make_cage(&of->cages[i], &to, by, &result->cages[i], error);
+        status = make_cage(&of->cages[i], &to, by, means, &result->cages[i], error);
     if (status)
         ffd_panel_free(result);
     return status;

@@ -26,9 +26,10 @@ typedef struct panel {
     panel_cage *cages;
 } panel;
 
-/* Makes panel `number` of a picture ready. Errors: FFD_E_MEMORY; nothing is left to free then. */
-ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, panel *result,
-                          ffd_error *error);
+/* Makes panel `number` of a picture ready. Errors: FFD_E_MEMORY, FFD_E_LIMIT; nothing is left to free then.
+ */
+ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, const band_means *means,
+                          panel *result, ffd_error *error);
 /* Frees what it holds; leaves an empty one. */
 void ffd_panel_free(panel *of);
 /* Draws the surfaces in a band of rows into samples of the panel's columns. */

@@ -18,7 +18,7 @@ typedef struct drawing {
     panel *panels;
     size_t panels_made;
     scratch *scratch;
-    int threads;
+    band_means means;
     uint8_t *pixels;
 } drawing;
 
@@ -83,11 +83,11 @@ static ffd_status make(drawing *d, ffd_error *error)
     const picture *const of = d->of;
     const size_t widest = of->width / of->panel_count + 1;
     d->panels = ffd_alloc_zero(of->panel_count, sizeof *d->panels);
-    d->scratch = ffd_alloc_zero((size_t)d->threads, sizeof *d->scratch);
+    d->scratch = ffd_alloc_zero((size_t)d->means.threads, sizeof *d->scratch);
     d->pixels = ffd_alloc_whole((size_t)of->width * of->height, 3);
     if (!d->panels || !d->scratch || !d->pixels)
         return ffd_fail_memory(error);
-    for (int t = 0; t < d->threads; t++) {
+    for (int t = 0; t < d->means.threads; t++) {
         scratch *const s = &d->scratch[t];
         s->depth = ffd_alloc(widest * BAND_ROWS * SAMPLES, sizeof *s->depth);
         s->color = ffd_alloc(widest * BAND_ROWS * SAMPLES, sizeof *s->color);
@@ -97,7 +97,7 @@ static ffd_status make(drawing *d, ffd_error *error)
     }
     ffd_status status = FFD_OK;
     for (size_t p = 0; !status && p < of->panel_count; p++) {
-        status = ffd_panel_make(&d->layout, p, &d->seen, &d->panels[p], error);
+        status = ffd_panel_make(&d->layout, p, &d->seen, &d->means, &d->panels[p], error);
         d->panels_made += !status;
     }
     return status;
@@ -172,13 +172,21 @@ static void free_drawing(drawing *d)
 {
     for (size_t p = 0; p < d->panels_made; p++)
         ffd_panel_free(&d->panels[p]);
-    for (int t = 0; d->scratch && t < d->threads; t++) {
+    for (int t = 0; d->scratch && t < d->means.threads; t++) {
         ffd_free(d->scratch[t].depth);
         ffd_free(d->scratch[t].color);
         ffd_free(d->scratch[t].pixels);
     }
     ffd_free(d->panels);
     ffd_free(d->scratch);
+}
+
+/* As many as are asked for, and as the budget has scratch for. */
+static int thread_count(const picture *of, const memory_budget *budget)
+{
+    const uint64_t pixel = SAMPLES * (sizeof(float) + sizeof(uint64_t)) + sizeof(uint64_t);
+    const int threads = of->threads > 1 ? of->threads : 1;
+    return budget ? ffd_budget_threads(budget, threads, (uint64_t)of->width * BAND_ROWS * pixel) : threads;
 }
 
 ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint8_t **pixels,
@@ -188,12 +196,12 @@ ffd_status ffd_picture_draw(const picture *of, const memory_budget *budget, uint
     ffd_status status = check_size(of, budget, error);
     if (status)
         return status;
-    drawing d = {.of = of, .layout = ffd_layout_make(of), .threads = of->threads > 1 ? of->threads : 1};
+    drawing d = {.of = of, .layout = ffd_layout_make(of), .means = {thread_count(of, budget), budget}};
     ffd_linear_fill(&d.tables);
     d.seen = find_bounds(of);
     status = make(&d, error);
     if (!status)
-        ffd_parallel_tiles(of->height, BAND_ROWS, d.threads, draw_band, &d);
+        ffd_parallel_tiles(of->height, BAND_ROWS, d.means.threads, draw_band, &d);
     free_drawing(&d);
     if (status)
         ffd_free(d.pixels);

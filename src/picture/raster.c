@@ -23,11 +23,12 @@ typedef struct setup {
     raster_corner corners[3]; /* clockwise as it is seen */
     int order[3];             /* which corner of the triangle each is */
     edge edges[3];            /* each opposite to the corner of its number */
-    double inverse;           /* of twice the area */
+    int64_t area;             /* twice that of the triangle */
+    double inverse;           /* of it */
     double z_across, z_down;  /* for a part of a pixel */
     depths z_steps, nearest, farthest;
     int64_t left, right, top, bottom; /* pixels */
-    bool is_small, is_flat;
+    bool is_small, is_flat, has_depths;
 } setup;
 
 static int64_t least(int64_t a, int64_t b)
@@ -74,8 +75,11 @@ static edge edge_between(const raster_corner *from, const raster_corner *to)
     return (edge){from->x, from->y, dx, dy, is_own ? 0 : -1};
 }
 
+/* For the first pixel that has a sample in the triangle: many a small one has none. */
 static void set_depths(setup *s)
 {
+    s->has_depths = true;
+    s->inverse = 1.0 / (double)s->area;
     const raster_corner *const a = &s->corners[0], *const b = &s->corners[1], *const c = &s->corners[2];
     const double bz = (double)b->z - a->z, cz = (double)c->z - a->z;
     s->z_across = (bz * ((double)c->y - a->y) - cz * ((double)b->y - a->y)) * s->inverse;
@@ -104,7 +108,7 @@ static bool set_up(const raster_corner corners[3], const samples *into, setup *s
         s->corners[k] = corners[s->order[k]];
     }
     area = area > 0 ? area : -area;
-    s->inverse = 1.0 / (double)area;
+    s->area = area;
     const raster_corner *const a = &s->corners[0], *const b = &s->corners[1], *const c = &s->corners[2];
     const int64_t low_x = least(least(a->x, b->x), c->x), high_x = most(most(a->x, b->x), c->x),
                   low_y = least(least(a->y, b->y), c->y), high_y = most(most(a->y, b->y), c->y);
@@ -122,7 +126,7 @@ static bool set_up(const raster_corner corners[3], const samples *into, setup *s
     s->edges[0] = edge_between(b, c);
     s->edges[1] = edge_between(c, a);
     s->edges[2] = edge_between(a, b);
-    set_depths(s);
+    s->has_depths = false;
     return true;
 }
 
@@ -140,13 +144,13 @@ static numbers inside_by_64(const setup *s, int64_t x, int64_t y)
     return inside;
 }
 
-/* The same for small ones: the edges at the samples of the first pixel of a row, and how they change. */
+/* The same for small ones: the edges at the samples of a pixel, and how they change. */
 typedef struct walk {
     numbers at[3];
-    int32_t across[3];
+    int32_t across[3], down[3];
 } walk;
 
-static ALWAYS_INLINE walk walk_row(const setup *s, int64_t x, int64_t y)
+static ALWAYS_INLINE walk walk_from(const setup *s, int64_t x, int64_t y)
 {
     static const numbers sx = SAMPLE_X, sy = SAMPLE_Y;
     walk w;
@@ -154,6 +158,7 @@ static ALWAYS_INLINE walk walk_row(const setup *s, int64_t x, int64_t y)
         const edge *const e = &s->edges[k];
         w.at[k] = e->dx * ((int32_t)(y - e->y) + sy) - e->dy * ((int32_t)(x - e->x) + sx) + e->bias;
         w.across[k] = -e->dy * SUBPIXELS;
+        w.down[k] = e->dx * SUBPIXELS;
     }
     return w;
 }
@@ -208,13 +213,15 @@ static bool pick_color(brush *b, const setup *s, int64_t x, int64_t y, numbers d
 }
 
 /* Draws those of a pixel's samples that are in the triangle and nearer than what is there. */
-static ALWAYS_INLINE void draw_pixel(const setup *s, brush *b, int64_t px, int64_t py, numbers inside,
+static ALWAYS_INLINE void draw_pixel(setup *s, brush *b, int64_t px, int64_t py, numbers inside,
                                      samples *into)
 {
     const int64_t x = px * SUBPIXELS, y = py * SUBPIXELS;
     const size_t first =
         SAMPLES * ((size_t)(py - into->top) * (size_t)into->width + (size_t)(px - into->left));
     const raster_corner *const a = &s->corners[0];
+    if (!s->has_depths)
+        set_depths(s);
     const float z = (float)(a->z + s->z_across * (double)(x - a->x) + s->z_down * (double)(y - a->y));
     depths there, at = z + s->z_steps;
     memcpy(&there, into->depth + first, sizeof there);
@@ -226,26 +233,33 @@ static ALWAYS_INLINE void draw_pixel(const setup *s, brush *b, int64_t px, int64
         return;
     at = (depths)(((numbers)at & drawn) | ((numbers)there & ~drawn));
     memcpy(into->depth + first, &at, sizeof at);
-    for (int i = 0; i < SAMPLES; i++)
-        if (drawn[i])
-            into->color[first + (size_t)i] = b->color;
-}
-
-static void draw_small(const setup *s, brush *b, samples *into)
-{
-    for (int64_t py = s->top; py <= s->bottom; py++) {
-        walk w = walk_row(s, s->left * SUBPIXELS, py * SUBPIXELS);
-        for (int64_t px = s->left; px <= s->right; px++) {
-            const numbers inside = (w.at[0] | w.at[1] | w.at[2]) >= 0;
-            if (any(inside))
-                draw_pixel(s, b, px, py, inside, into);
-            for (int k = 0; k < 3; k++)
-                w.at[k] += w.across[k];
-        }
+    /* Without branches, which nothing could foresee. */
+    uint64_t *const colors = into->color + first;
+    for (int i = 0; i < SAMPLES; i++) {
+        const uint64_t which = (uint64_t)(int64_t)drawn[i];
+        colors[i] = (colors[i] & ~which) | (b->color & which);
     }
 }
 
-static void draw_large(const setup *s, brush *b, samples *into)
+static void draw_small(setup *s, brush *b, samples *into)
+{
+    walk w = walk_from(s, s->left * SUBPIXELS, s->top * SUBPIXELS);
+    for (int64_t py = s->top; py <= s->bottom; py++) {
+        numbers first = w.at[0], second = w.at[1], third = w.at[2];
+        for (int64_t px = s->left; px <= s->right; px++) {
+            const numbers inside = (first | second | third) >= 0;
+            if (any(inside))
+                draw_pixel(s, b, px, py, inside, into);
+            first += w.across[0];
+            second += w.across[1];
+            third += w.across[2];
+        }
+        for (int k = 0; k < 3; k++)
+            w.at[k] += w.down[k];
+    }
+}
+
+static void draw_large(setup *s, brush *b, samples *into)
 {
     for (int64_t py = s->top; py <= s->bottom; py++)
         for (int64_t px = s->left; px <= s->right; px++) {
@@ -270,18 +284,4 @@ void ffd_raster_corners(const surface *of, const linear_tables *tables, size_t t
         draw_small(&s, &b, into);
     else
         draw_large(&s, &b, into);
-}
-
-void ffd_raster_triangle(const surface *of, const linear_tables *tables, size_t triangle, samples *into)
-{
-    raster_corner corners[3];
-    for (int k = 0; k < 3; k++) {
-        const surface_vertex *const v = &of->vertices[of->triangles[3 * triangle + (size_t)k]];
-        if (v->x == VERTEX_FAR) {
-            ffd_raster_clipped(of, tables, triangle, into);
-            return;
-        }
-        corners[k] = (raster_corner){v->x, v->y, v->z};
-    }
-    ffd_raster_corners(of, tables, triangle, corners, false, into);
 }

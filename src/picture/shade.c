@@ -1,13 +1,14 @@
 #include "picture/shade.h"
 #include <math.h>
 
-/* Of what has no material. */
+/* Of what has no material; where it has colours, they are as a scale shows them. */
 static const picture_material grey = {.color = {0.47, 0.49, 0.52, 1}, .is_double_sided = true};
+static const picture_material white = {.color = {1, 1, 1, 1}, .is_double_sided = true};
 
 const picture_material *ffd_shade_material(const picture_mesh *mesh, size_t triangle)
 {
     if (!mesh->materials || mesh->materials[triangle] >= mesh->material_count)
-        return &grey;
+        return mesh->colors ? &white : &grey;
     return &mesh->material_list[mesh->materials[triangle]];
 }
 

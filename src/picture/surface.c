@@ -90,11 +90,11 @@ static void make_vertices(void *context, size_t tile, size_t begin, size_t end, 
     }
 }
 
-ffd_status ffd_surface_make(const picture_mesh *mesh, const projection *by, int threads, surface *result,
-                            ffd_error *error)
+ffd_status ffd_surface_make(const picture_mesh *mesh, const projection *by, const band_means *means,
+                            surface *result, ffd_error *error)
 {
     surface_normals found;
-    const ffd_status status = ffd_surface_normals(mesh, by->scale, &found, error);
+    const ffd_status status = ffd_surface_normals(mesh, by->scale, means->budget, &found, error);
     if (status)
         return status;
     const size_t count = mesh->vertex_count + found.split_count;
@@ -108,7 +108,7 @@ ffd_status ffd_surface_make(const picture_mesh *mesh, const projection *by, int 
     if (result->vertices) {
         vertex_work work = {.surface = result, .normals = found.normals};
         turn_lamps(&by->camera, &work);
-        ffd_parallel_tiles(count, TILE, threads, make_vertices, &work);
+        ffd_parallel_tiles(count, TILE, means->threads, make_vertices, &work);
     }
     ffd_free(found.normals);
     if (result->vertices)

@@ -3,7 +3,8 @@
 #ifndef FFD_PICTURE_SURFACE_H
 #define FFD_PICTURE_SURFACE_H
 
-#include "picture/picture.h"
+#include "picture/bands.h"
+#include "picture/picture_scene.h"
 
 /* Parts of a pixel that coordinates are rounded to. */
 #define SUBPIXELS 256
@@ -42,13 +43,13 @@ typedef struct surface_normals {
     uint32_t *triangles; /* of the mesh, with the split ones; NULL: none are */
 } surface_normals;
 
-/* Fills normals, of a mesh that is so many pixels in size for a unit. Errors: FFD_E_MEMORY. */
-ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, surface_normals *result,
-                               ffd_error *error);
+/* Fills normals, of a mesh that is so many pixels in size for a unit. Errors: FFD_E_MEMORY, FFD_E_LIMIT. */
+ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, const memory_budget *budget,
+                               surface_normals *result, ffd_error *error);
 
-/* Errors: FFD_E_MEMORY; nothing is left to free then. */
-ffd_status ffd_surface_make(const picture_mesh *mesh, const projection *by, int threads, surface *result,
-                            ffd_error *error);
+/* Errors: FFD_E_MEMORY, FFD_E_LIMIT; nothing is left to free then. */
+ffd_status ffd_surface_make(const picture_mesh *mesh, const projection *by, const band_means *means,
+                            surface *result, ffd_error *error);
 /* Frees what it holds; leaves an empty one. */
 void ffd_surface_free(surface *of);
 

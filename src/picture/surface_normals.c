@@ -12,6 +12,10 @@
  * mistake. */
 #define MOST_FACES 64
 
+/* What each corner at a crease may take: its place in the list, its own triangle's vertex, a vertex of its
+ * own. */
+#define SPLIT_BYTES 64
+
 typedef struct crease_work {
     const picture_mesh *mesh;
     double scale;
@@ -172,29 +176,32 @@ static bool split_place(crease_work *work, const size_t *corners, size_t count)
     return true;
 }
 
-static bool split_places(crease_work *work)
+static ffd_status split_places(crease_work *work, const memory_budget *budget, ffd_error *error)
 {
     const picture_mesh *const mesh = work->mesh;
     size_t total = 0;
     work->first = ffd_alloc_zero(mesh->vertex_count + 1, sizeof *work->first);
     if (!work->first)
-        return false;
+        return ffd_fail_memory(error);
     visit_corners(work, false);
     for (size_t v = 0; v <= mesh->vertex_count; v++) {
         total += work->first[v];
         work->first[v] = total;
     }
+    const ffd_status status = budget ? ffd_budget_check(budget, total, SPLIT_BYTES, error) : FFD_OK;
+    if (status)
+        return status;
     work->corners = ffd_alloc(total, sizeof *work->corners);
     work->result->triangles = ffd_alloc(mesh->triangle_count, 3 * sizeof *mesh->triangles);
     if (!work->corners || !work->result->triangles)
-        return false;
+        return ffd_fail_memory(error);
     memcpy(work->result->triangles, mesh->triangles, 3 * mesh->triangle_count * sizeof *mesh->triangles);
     visit_corners(work, true);
     for (size_t v = 0; v < mesh->vertex_count; v++)
         if (work->has_crease[v] &&
             !split_place(work, work->corners + work->first[v], work->first[v + 1] - work->first[v]))
-            return false;
-    return true;
+            return ffd_fail_memory(error);
+    return FFD_OK;
 }
 
 /* Every vertex has the normal of its place. */
@@ -204,8 +211,8 @@ static void spread(const picture_mesh *mesh, float *normals)
         memcpy(normals + 3 * v, normals + 3 * (size_t)mesh->twins[v], 3 * sizeof *normals);
 }
 
-ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, surface_normals *result,
-                               ffd_error *error)
+ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, const memory_budget *budget,
+                               surface_normals *result, ffd_error *error)
 {
     *result = (surface_normals){.normals = ffd_alloc_zero(mesh->vertex_count, 3 * sizeof(float))};
     crease_work work = {.mesh = mesh,
@@ -213,21 +220,21 @@ ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, surface_n
                         .result = result,
                         .normal_capacity = mesh->vertex_count,
                         .has_crease = ffd_alloc_zero(mesh->vertex_count, 1)};
-    bool is_done = result->normals && work.has_crease;
-    if (is_done) {
+    ffd_status status = result->normals && work.has_crease ? FFD_OK : ffd_fail_memory(error);
+    if (!status) {
         add_faces(mesh, scale, result->normals);
         const bool any = find_creases(&work);
         spread(mesh, result->normals);
-        is_done = !any || split_places(&work);
+        status = any ? split_places(&work, budget, error) : FFD_OK;
     }
     ffd_free(work.has_crease);
     ffd_free(work.first);
     ffd_free(work.corners);
-    if (is_done)
+    if (status == FFD_OK)
         return FFD_OK;
     ffd_free(result->normals);
     ffd_free(result->origins);
     ffd_free(result->triangles);
     *result = (surface_normals){.normals = NULL};
-    return ffd_fail_memory(error);
+    return status;
 }

@@ -61,9 +61,9 @@ int main(int argc, char **argv)
     double drawn[MOST_RUNS], copied[MOST_RUNS], copied_again[MOST_RUNS];
     ffd_error error;
     for (int i = 0; again && from && i < runs; i++) {
-        uint8_t *image, *to;
+        uint8_t *drawing, *to;
         const double begin = ffd_clock_seconds();
-        if (ffd_picture_draw(&p, NULL, &image, &error))
+        if (ffd_picture_draw(&p, NULL, &drawing, &error))
             return 1;
         const double middle = ffd_clock_seconds();
         to = malloc(size);
@@ -76,7 +76,7 @@ int main(int argc, char **argv)
         copied_again[i] = ffd_clock_seconds() - copied_once;
         copied[i] = copied_once - middle;
         drawn[i] = middle - begin;
-        ffd_free(image);
+        ffd_free(drawing);
     }
     tell("copy", copied, runs);
     tell("copy-again", copied_again, runs);

@@ -283,6 +283,33 @@ m("colours-beyond-one", "check left out", "materials", "return number >= 0 && nu
 m("image-left-behind", "freed resource", "materials", "ffd_free(materials->images); *materials = (mesh_materials){0};",
   "ffd_free(materials->images);")
 
+# picture
+
+m("edges-of-neither", "fill rule", "picture_raster", "const bool is_own = dy < 0 || (dy == 0 && dx > 0);", "const bool is_own = dy < 0 && dx != 0;")
+m("edges-of-both", "fill rule", "picture_raster", "return (edge){from->x, from->y, dx, dy, is_own ? 0 : -1};",
+  "return (edge){from->x, from->y, dx, dy, is_own ? 0 : 0};")
+m("large-edges-in-32-bits", "overflow", "picture_raster", "s->is_small = size < SMALL;", "s->is_small = size < 64 * SMALL;")
+m("samples-at-the-border-forgotten", "bound", "picture_raster", "*last = (high - SAMPLE_MARGIN) >> 8;", "*last = (high - 2 * SAMPLE_MARGIN) >> 8;")
+m("last-drawn-in-front", "depth", "picture_raster, picture", "const numbers drawn = inside & (at < there);", "const numbers drawn = inside & (at <= there);")
+m("far-plane-not-cut", "clipping", "picture_raster", "to->points[to->count][axis] = sign * GUARD;", "to->points[to->count][axis] = GUARD;")
+m("back-drawn-too", "culling", "picture_raster", "if (side && !ffd_shade_material(of->mesh, triangle)->is_double_sided)",
+  "if (side && ffd_shade_material(of->mesh, triangle)->alpha_cutoff > 9)")
+m("seam-in-the-light", "normals", "picture", "return mesh->twins ? mesh->twins[vertex] : vertex;", "return mesh->twins && vertex == 0 ? mesh->twins[vertex] : vertex;")
+m("no-creases", "normals", "picture", "#define MEAN_SQUARE 0.75", "#define MEAN_SQUARE 0.05")
+m("levels-not-chosen", "texture", "picture", "while (level + 1 < of->level_count && size >= 2 * step)", "while (level + 1 < of->level_count && size >= 1e9 * step)")
+m("mirror-as-repeat", "texture", "picture", "return x > 1 ? 2 - x : x;", "return x > 1 ? x - 1 : x;")
+m("transparent-colour-bleeds", "texture", "picture", "alpha ? sum[c] / alpha : plain[c] / count", "alpha ? plain[c] / count : plain[c] / count")
+m("left-is-right", "camera", "picture", "{\"left\", -90, 0}", "{\"left\", 90, 0}")
+m("fit-to-one-side", "camera", "picture", "scale = lesser_of(across, upwards);", "scale = larger_of(across, upwards);")
+m("hidden-lines-as-others", "depth", "picture", "strength * (seen + (1 - seen) * with->hidden)", "strength * (seen + (1 - seen))")
+m("crease-memory-not-counted", "limit", "picture", "budget ? ffd_budget_check(budget, total, SPLIT_BYTES, error) : FFD_OK",
+  "budget ? ffd_budget_check(budget, total, 1, error) : FFD_OK")
+m("image-size-not-checked", "limit", "picture_image", "return budget ? ffd_budget_check(budget, width * height, bytes_a_pixel, error) : FFD_OK;",
+  "return budget ? ffd_budget_check(budget, width, bytes_a_pixel, error) : FFD_OK;")
+m("coefficients-not-counted", "limit", "picture_image", "jpeg_has_multiple_scans(jpeg) ? COEFFICIENT_BYTES", "jpeg_has_multiple_scans(jpeg) ? 0")
+m("cut-jpeg-taken", "error left out", "picture_image", "if (jpeg->err->msg_code == failures[i])", "if (jpeg->err->msg_code == -failures[i])")
+m("end-of-png-not-read", "error left out", "picture_image", "png_read_end(png, NULL);", "png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_DEFAULT);")
+
 # io
 
 m("splice-copied", "off by one", "obj, ply, off, stl",

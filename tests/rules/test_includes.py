@@ -22,6 +22,10 @@ LAYERS = {
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
     "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
+    "picture/image": {"base", "base/memory", "base/system", "mesh"},
+    "picture": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
+    },
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
@@ -56,6 +60,7 @@ LAYERS = {
     },
     "view": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
+        "picture/image",
     },
     "job/report": {"base", "base/file", "base/memory", "base/text", "json", "mesh"},
     "spline": {"base", "base/memory", "base/text"},
@@ -109,6 +114,8 @@ OUTSIDE = [
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/model"}),
     (r"draco/", {"io/gltf/decode"}),
     (r"meshoptimizer\.h", {"mesh/meshopt"}),
+    (r"draco/|meshoptimizer\.h", {"io/gltf/decode"}),
+    (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/(?!platform/)|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",

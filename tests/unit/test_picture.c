@@ -113,7 +113,7 @@ static void normals_break_at_creases_only(void **state)
     surface_normals found;
     ffd_error error;
     (void)state;
-    assert_int_equal(ffd_surface_normals(&cube.mesh, 100, &found, &error), FFD_OK);
+    assert_int_equal(ffd_surface_normals(&cube.mesh, 100, NULL, &found, &error), FFD_OK);
     /* Three faces at each of eight corners. */
     assert_int_equal(found.split_count, 16);
     for (size_t t = 0; t < 12; t++)
@@ -135,7 +135,7 @@ static void normals_break_at_creases_only(void **state)
     uint32_t twins[800];
     assert_int_equal(ffd_picture_twins(ball.positions, 800, twins, &error), FFD_OK);
     ball.mesh.twins = twins;
-    assert_int_equal(ffd_surface_normals(&ball.mesh, 100, &found, &error), FFD_OK);
+    assert_int_equal(ffd_surface_normals(&ball.mesh, 100, NULL, &found, &error), FFD_OK);
     assert_null(found.triangles);
     for (size_t r = 0; r < 20; r++) {
         assert_int_equal(twins[40 * r + 39], r == 0 || r == 19 ? twins[40 * r] : 40 * r);
@@ -152,15 +152,15 @@ static void normals_break_at_creases_only(void **state)
     shape_free(&ball);
 }
 
-/* Columns of black and white, by turns. */
-static texture make_stripes(uint32_t width, uint32_t height)
+/* Columns of black and white, so many texels each, by turns. */
+static texture make_stripes(uint32_t width, uint32_t height, uint32_t each)
 {
     image stripes = {width, height, ffd_alloc((size_t)width * height, 4)};
     texture made;
     ffd_error error;
     assert_non_null(stripes.pixels);
     for (size_t i = 0; i < (size_t)width * height; i++)
-        memset(stripes.pixels + 4 * i, i % width % 2 ? 255 : 0, 3);
+        memset(stripes.pixels + 4 * i, i % width / each % 2 ? 255 : 0, 3);
     for (size_t i = 0; i < (size_t)width * height; i++)
         stripes.pixels[4 * i + 3] = 255;
     assert_int_equal(ffd_texture_make(&stripes, &made, &error), FFD_OK);
@@ -170,7 +170,7 @@ static texture make_stripes(uint32_t width, uint32_t height)
 static void a_texture_far_away_is_the_mean_of_its_light(void **state)
 {
     static const texture_wrap wrap[2] = {TEXTURE_REPEAT, TEXTURE_REPEAT};
-    texture stripes = make_stripes(64, 37);
+    texture stripes = make_stripes(64, 37, 1);
     linear_tables tables;
     double c[4];
     (void)state;
@@ -194,11 +194,18 @@ static void a_texture_far_away_is_the_mean_of_its_light(void **state)
     ffd_texture_sample(&stripes, &tables, wrap, NAN, HUGE_VAL, 1, c);
     assert_true(c[0] >= 0 && c[0] <= 1);
     ffd_texture_free(&stripes);
+    /* Halves are seen until a pixel spans all. */
+    texture halves = make_stripes(64, 64, 32);
+    for (double size = 1; size < 100; size *= 2) {
+        ffd_texture_sample(&halves, &tables, wrap, 0.75, 0.5, size, c);
+        assert_true(fabs(c[0] - (size < 64 ? 1 : 0.5)) < 0.003);
+    }
+    ffd_texture_free(&halves);
 }
 
 static void textures_go_on_as_they_are_told(void **state)
 {
-    texture stripes = make_stripes(4, 1); /* black, white, black, white */
+    texture stripes = make_stripes(4, 1, 1); /* black, white, black, white */
     linear_tables tables;
     static const struct {
         texture_wrap wrap;
@@ -340,7 +347,7 @@ static void make_scene(scene *s, int which)
     s->ball = shape_ball(49, 25, which == 2 ? 0 : 4, which == 2 ? 0 : 0.2);
     s->cube = shape_cube();
     s->cage = shape_box_cage(3, 1.2);
-    s->texture = make_stripes(16, 16);
+    s->texture = make_stripes(16, 16, 1);
     s->material =
         (picture_material){.color = {1, 0.8, 0.5, 1}, .texture = &s->texture, .is_double_sided = true};
     s->cube.mesh.texcoords = s->cube.texcoords;
@@ -466,6 +473,27 @@ static void what_is_wrong_with_a_mesh_is_left_out(void **state)
     free_scene(&s);
 }
 
+/* A cube has as few vertices as can be, and a crease at each: 36 corners that want their own. */
+static void the_budget_holds_for_creases_and_lists_too(void **state)
+{
+    scene s;
+    ffd_error error;
+    uint8_t *pixels;
+    (void)state;
+    make_scene(&s, 0);
+    memory_budget budget = ffd_budget_make(0);
+    const uint64_t least = budget.taken + 3 * 160 * 120 + 8 * 48 + 12 * 24;
+    budget.most = least - 1;
+    assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
+    budget.most = budget.taken + 36 * 64 - 1;
+    s.picture.width = s.picture.height = 16;
+    assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
+    budget.most++;
+    assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_OK);
+    ffd_free(pixels);
+    free_scene(&s);
+}
+
 static void memory_may_run_out_anywhere(void **state)
 {
     scene s;
@@ -503,6 +531,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(any_number_of_threads_draws_the_same),
         cmocka_unit_test(pictures_look_as_ever),
         cmocka_unit_test(what_is_wrong_with_a_mesh_is_left_out),
+        cmocka_unit_test(the_budget_holds_for_creases_and_lists_too),
         cmocka_unit_test(memory_may_run_out_anywhere),
     };
     if (argc != 2)

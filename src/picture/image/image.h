@@ -1,5 +1,6 @@
-/* image.h - PNG and JPEG: decoding both, writing PNG. image.c looks at the first bytes; png.c and jpeg.c use
-   the libraries and are part of a module; image_load.c, in their place, loads it. */
+/* image.h - PNG and JPEG: decoding both, writing PNG. image.c looks at the first bytes, image_size.c at the
+   size. png.c and jpeg.c use the libraries and are part of a module; image_load.c, in their place, loads it.
+ */
 #ifndef FFD_PICTURE_IMAGE_IMAGE_H
 #define FFD_PICTURE_IMAGE_IMAGE_H
 

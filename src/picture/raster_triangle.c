@@ -1,4 +1,4 @@
-/* raster_clip.c - triangles that reach far beyond the picture. */
+/* raster_triangle.c - triangles of a surface, and those that reach far beyond the picture. */
 #include "base/vector/vec.h"
 #include "picture/raster.h"
 
@@ -41,7 +41,8 @@ static raster_corner corner_at(const double point[3])
                            (int32_t)floor(point[1] * SUBPIXELS + 0.5), (float)point[2]};
 }
 
-void ffd_raster_clipped(const surface *of, const linear_tables *tables, size_t triangle, samples *into)
+/* Draws the part of a triangle that is within the guard, where a corner is not. */
+static void draw_clipped(const surface *of, const linear_tables *tables, size_t triangle, samples *into)
 {
     cut polygons[2] = {{.count = 3}};
     for (int k = 0; k < 3; k++) {
@@ -61,4 +62,18 @@ void ffd_raster_clipped(const surface *of, const linear_tables *tables, size_t t
                                           corner_at(polygons[now].points[i])};
         ffd_raster_corners(of, tables, triangle, corners, true, into);
     }
+}
+
+void ffd_raster_triangle(const surface *of, const linear_tables *tables, size_t triangle, samples *into)
+{
+    raster_corner corners[3];
+    for (int k = 0; k < 3; k++) {
+        const surface_vertex *const v = &of->vertices[of->triangles[3 * triangle + (size_t)k]];
+        if (v->x == VERTEX_FAR) {
+            draw_clipped(of, tables, triangle, into);
+            return;
+        }
+        corners[k] = (raster_corner){v->x, v->y, v->z};
+    }
+    ffd_raster_corners(of, tables, triangle, corners, false, into);
 }
