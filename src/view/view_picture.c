@@ -1,5 +1,6 @@
 #include "view/view_picture.h"
 #include "base/memory/memory.h"
+#include "picture/image/image.h"
 #include "view/view_cages.h"
 #include "view/view_palette.h"
 #include "view/view_surface.h"

@@ -114,7 +114,6 @@ OUTSIDE = [
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/model"}),
     (r"draco/", {"io/gltf/decode"}),
     (r"meshoptimizer\.h", {"mesh/meshopt"}),
-    (r"draco/|meshoptimizer\.h", {"io/gltf/decode"}),
     (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
