@@ -298,6 +298,15 @@ static ffd_status write_view(view_work *work, ffd_error *error)
     return status;
 }
 
+/* Frees what the scene was made of. */
+static void free_sources(view_work *work)
+{
+    ffd_details_free(&work->details);
+    ffd_model_free(&work->model);
+    ffd_free(work->faces);
+    work->faces = NULL;
+}
+
 static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
@@ -312,15 +321,14 @@ static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
         ffd_log_line(&work->job.log, FFD_LOG_WARNING, "not shown: the GPU instances of %zu %s",
                      work->model.nodes_left, ffd_plural(work->model.nodes_left, "node", "nodes"));
     ffd_view_measure(&work->scene);
+    free_sources(work); /* drawing has its own need of memory */
     return write_view(work, error);
 }
 
 static void free_work(view_work *work)
 {
-    ffd_details_free(&work->details);
-    ffd_model_free(&work->model);
+    free_sources(work);
     ffd_view_scene_free(&work->scene);
-    ffd_free(work->faces);
 }
 
 ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error)
