@@ -191,7 +191,7 @@ static ffd_status make_step(picture_work *w, size_t number)
         ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options), &s->cages, w->error);
     w->panels[number] = (picture_panel){.caption = w->step_count > 1 ? s->caption : NULL,
                                         .meshes = s->meshes,
-                                        .mesh_count = MESHES,
+                                        .mesh_count = w->scene->vertex_count ? MESHES : 0,
                                         .cages = s->cages.list,
                                         .cage_count = s->cages.count};
     return status;
