@@ -485,7 +485,7 @@ static void the_budget_holds_for_creases_and_lists_too(void **state)
     (void)state;
     make_scene(&s, 0);
     memory_budget budget = ffd_budget_make(0);
-    const uint64_t least = budget.taken + 3 * 160 * 120 + 8 * 48 + 12 * 36;
+    const uint64_t least = budget.taken + 3 * 160 * 120 + 8 * 48 + 12 * 40;
     budget.most = least - 1;
     assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
     budget.most = budget.taken + 36 * 64 - 1;
