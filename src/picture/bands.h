@@ -26,7 +26,8 @@ typedef struct band_means {
     const memory_budget *budget; /* or NULL: any amount */
 } band_means;
 
-/* Sorts `count` items, below 2^32, into the bands of rows [top, bottom). Errors: FFD_E_MEMORY, FFD_E_LIMIT.
+/* Sorts `count` items, below 2^32, into the bands of rows [top, bottom), fewer than
+   2^18. Errors: FFD_E_MEMORY, FFD_E_LIMIT.
  */
 ffd_status ffd_bands_make(int64_t top, int64_t bottom, size_t count, band_rows rows, const void *context,
                           const band_means *means, bands *result, ffd_error *error);

@@ -24,7 +24,7 @@ typedef struct drawing {
 
 /* Bytes that are taken for each vertex, triangle and point of a cage: places, light and lists. */
 #define VERTEX_BYTES 48
-#define TRIANGLE_BYTES 24
+#define TRIANGLE_BYTES 40
 #define POINT_BYTES 64
 
 static ffd_status check_size(const picture *of, const memory_budget *budget, ffd_error *error)

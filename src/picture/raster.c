@@ -204,7 +204,7 @@ static bool pick_color(brush *b, const setup *s, int64_t x, int64_t y, numbers d
     if (b->is_begun && s->is_flat)
         return b->is_drawn;
     if (!b->is_begun)
-        b->shade = ffd_shade_begin(b->shade.surface, b->shade.tables, b->shade.triangle, b->shade.side);
+        ffd_shade_begin(&b->shade);
     b->is_begun = true;
     if (s->is_flat)
         return b->is_drawn = ffd_shade_middle(&b->shade, &b->color);

@@ -39,16 +39,11 @@ static double texel_size(const shade *of)
     return sqrt(sum / 2);
 }
 
-shade ffd_shade_begin(const surface *of, const linear_tables *tables, size_t triangle, int side)
+void ffd_shade_begin(shade *of)
 {
-    shade begun = {.surface = of,
-                   .tables = tables,
-                   .triangle = triangle,
-                   .material = ffd_shade_material(of->mesh, triangle),
-                   .side = side};
-    if (has_texture(&begun))
-        begun.texel_size = texel_size(&begun);
-    return begun;
+    of->material = ffd_shade_material(of->surface->mesh, of->triangle);
+    if (has_texture(of))
+        of->texel_size = texel_size(of);
 }
 
 static void multiply_texture(const shade *of, const double weights[3], double color[4])

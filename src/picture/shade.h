@@ -17,8 +17,8 @@ typedef struct shade {
 
 /* The material of a triangle: never NULL. */
 const picture_material *ffd_shade_material(const picture_mesh *mesh, size_t triangle);
-/* Begins with a triangle whose side is known. */
-shade ffd_shade_begin(const surface *of, const linear_tables *tables, size_t triangle, int side);
+/* Finds the material of a triangle, whose number and side are given, and how large its texels are. */
+void ffd_shade_begin(shade *of);
 /* The colour where the corners have these weights, whose sum is 1, as linear_pack. Returns false where the
    material is cut away. */
 bool ffd_shade_color(const shade *of, const double weights[3], uint64_t *color);

@@ -21,6 +21,7 @@ typedef struct crease_work {
     double scale;
     surface_normals *result;
     size_t normal_capacity, origin_capacity;
+    float *faces;        /* 3 a triangle; 0: it has no normal */
     uint8_t *has_crease; /* by place */
     size_t *first;       /* by place: behind the last of its corners, where it has a crease */
     size_t *corners;     /* 3 times the triangle, and which corner of it */
@@ -60,16 +61,23 @@ static bool face_normal(const picture_mesh *mesh, double scale, size_t triangle,
     return square > 0 && square < 1e30;
 }
 
-static void add_faces(const picture_mesh *mesh, double scale, float *normals)
+/* Sums up the faces at each place; keeps them, for they are looked at again. */
+static void add_faces(const crease_work *work)
 {
+    const picture_mesh *const mesh = work->mesh;
     double n[3];
-    for (size_t t = 0; t < mesh->triangle_count; t++)
-        if (face_normal(mesh, scale, t, n))
-            for (int c = 0; c < 3; c++) {
-                float *const sum = normals + 3 * (size_t)place_of(mesh, mesh->triangles[3 * t + (size_t)c]);
-                for (int a = 0; a < 3; a++)
-                    sum[a] += (float)n[a];
-            }
+    for (size_t t = 0; t < mesh->triangle_count; t++) {
+        float *const face = work->faces + 3 * t;
+        if (!face_normal(mesh, work->scale, t, n))
+            n[0] = n[1] = n[2] = 0;
+        for (int a = 0; a < 3; a++)
+            face[a] = (float)n[a];
+        for (size_t c = 0; c < 3 && vec_dot(n, n) > 0; c++) {
+            float *const sum = work->result->normals + 3 * (size_t)place_of(mesh, mesh->triangles[3 * t + c]);
+            for (int a = 0; a < 3; a++)
+                sum[a] += face[a];
+        }
+    }
 }
 
 static bool is_within(const double a[3], const double b[3], double cosine_square)
@@ -83,11 +91,10 @@ static bool find_creases(const crease_work *work)
 {
     const picture_mesh *const mesh = work->mesh;
     bool any = false;
-    double n[3];
     for (size_t t = 0; t < mesh->triangle_count; t++) {
-        if (!face_normal(mesh, work->scale, t, n))
-            continue;
-        for (size_t c = 0; c < 3; c++) {
+        const float *const face = work->faces + 3 * t;
+        const double n[3] = {face[0], face[1], face[2]}, square = vec_dot(n, n);
+        for (size_t c = 0; c < 3 && square > 0; c++) {
             const uint32_t v = place_of(mesh, mesh->triangles[3 * t + c]);
             const float *const sum = work->result->normals + 3 * (size_t)v;
             const double mean[3] = {sum[0], sum[1], sum[2]};
@@ -219,15 +226,17 @@ ffd_status ffd_surface_normals(const picture_mesh *mesh, double scale, const mem
                         .scale = scale,
                         .result = result,
                         .normal_capacity = mesh->vertex_count,
+                        .faces = ffd_alloc_whole(mesh->triangle_count, 3 * sizeof(float)),
                         .has_crease = ffd_alloc_zero(mesh->vertex_count, 1)};
-    ffd_status status = result->normals && work.has_crease ? FFD_OK : ffd_fail_memory(error);
+    ffd_status status = result->normals && work.has_crease && work.faces ? FFD_OK : ffd_fail_memory(error);
     if (!status) {
-        add_faces(mesh, scale, result->normals);
+        add_faces(&work);
         const bool any = find_creases(&work);
         spread(mesh, result->normals);
         status = any ? split_places(&work, budget, error) : FFD_OK;
     }
     ffd_free(work.has_crease);
+    ffd_free(work.faces);
     ffd_free(work.first);
     ffd_free(work.corners);
     if (status == FFD_OK)

@@ -3,6 +3,7 @@
 
        test_picture FOLDER      the folder tests/golden/pictures: what some of them looked like,
    FFD_REMEMBER=1 writes them */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,11 +11,13 @@
 #include <cmocka.h>
 
 #include "../support/picture_shapes.h"
+#include "../support/test_folder.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
 #include "mesh/bounds.h"
 #include "picture/letters.h"
 #include "picture/surface.h"
+#include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -482,7 +485,7 @@ static void the_budget_holds_for_creases_and_lists_too(void **state)
     (void)state;
     make_scene(&s, 0);
     memory_budget budget = ffd_budget_make(0);
-    const uint64_t least = budget.taken + 3 * 160 * 120 + 8 * 48 + 12 * 24;
+    const uint64_t least = budget.taken + 3 * 160 * 120 + 8 * 48 + 12 * 40;
     budget.most = least - 1;
     assert_int_equal(ffd_picture_draw(&s.picture, &budget, &pixels, &error), FFD_E_LIMIT);
     budget.most = budget.taken + 36 * 64 - 1;
@@ -514,6 +517,47 @@ static void memory_may_run_out_anywhere(void **state)
     free_scene(&s);
 }
 
+/* How many files are in the test's folder; hidden ones too. */
+static size_t count_files(void)
+{
+    DIR *const all = opendir(folder);
+    size_t count = 0;
+    assert_non_null(all);
+    for (const struct dirent *entry = readdir(all); entry; entry = readdir(all))
+        count += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    closedir(all);
+    return count;
+}
+
+static void a_file_is_complete_or_absent(void **state)
+{
+    scene s;
+    const char *const path = in_folder("a.png");
+    ffd_error error;
+    ffd_status status = FFD_E_MEMORY;
+    size_t size;
+    image found;
+    (void)state;
+    make_scene(&s, 0);
+    for (long successes = 0; status; successes++) {
+        assert_int_equal(count_files(), 0);
+        ffd_alloc_fail_after(successes);
+        status = ffd_picture_save(&s.picture, NULL, path, false, &error);
+        ffd_alloc_fail_after(-1);
+        assert_true(status == FFD_OK || status == FFD_E_MEMORY);
+    }
+    unsigned char *const bytes = read_all(path, &size);
+    assert_int_equal(ffd_image_decode(bytes, size, NULL, &found, &error), FFD_OK);
+    assert_true(found.width == 160 && found.height == 120);
+    free(bytes);
+    ffd_free(found.pixels);
+    assert_int_equal(ffd_picture_save(&s.picture, NULL, path, false, &error), FFD_E_EXISTS);
+    assert_int_equal(ffd_picture_save(&s.picture, NULL, path, true, &error), FFD_OK);
+    assert_int_equal(count_files(), 1);
+    remove(path);
+    free_scene(&s);
+}
+
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
@@ -533,9 +577,10 @@ int main(int argc, char **argv)
         cmocka_unit_test(what_is_wrong_with_a_mesh_is_left_out),
         cmocka_unit_test(the_budget_holds_for_creases_and_lists_too),
         cmocka_unit_test(memory_may_run_out_anywhere),
+        cmocka_unit_test(a_file_is_complete_or_absent),
     };
     if (argc != 2)
         return 2;
     golden = argv[1];
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
