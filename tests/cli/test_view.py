@@ -517,6 +517,20 @@ def what_went_wrong_is_marked_in_pictures(run):
 
 
 @case
+def only_what_is_flipped_is_marked(run):
+    """The half of the volume beyond x = 1 is laid back over the other one; a square in each, the flipped one above."""
+    points = [[x, y, z] for z in (-1, 1) for y in (0, 1) for x in (0, 1, 0)]
+    corners = [(0.2, 0), (0.8, 0), (0.8, 0.4), (0.2, 0.4), (1.2, 0.6), (1.8, 0.6), (1.8, 1), (1.2, 1)]
+    start(run, [], "".join(f"v {x} {y} 0\n" for x, y in corners) + "f 5 6 7 8\nf 1 2 3 4\n", size=[3, 2, 2],
+          degree=[1, 1, 1], rest={"box": {"min": [0, 0, -1], "max": [2, 1, 1]}}, deformed={"points": points})
+    equal(view(run, "a.obj", "-l", "l.json").flipped, [1, 1, 0, 0])
+    _, after = halves(picture(run, "a.obj", "-l", "l.json", "--size", "400x200", "--camera", "front"))
+    marked = [y for y, row in enumerate(after[:150]) for p in row if is_magenta(*p)]
+    plain = [y for y, row in enumerate(after[:150]) for p in row if max(p) > min(p) + 40 and not is_magenta(*p) and not is_blue(*p)]
+    check(len(marked) > 100 and len(plain) > 100 and max(marked) < sum(plain) / len(plain), "the upper square alone")
+
+
+@case
 def statuses_and_det_f_colour_pictures(run):
     start(run, [{"scale": {"factor": [2, 1, 1], "about": [0, 0, 0]}}])
     run.write("far.obj", CUBE.replace("v 1 1 1\n", "v 1 1 9\n"))

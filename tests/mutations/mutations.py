@@ -839,7 +839,8 @@ m("cage-at-rest-twice", "wrong array", "cli_view", "cage->deformed = copy_points
   "cage->deformed = copy_points(lattice->rest, lattice->count);")
 m("unmarked-instances", "message left out", "cli_view", "if (work->model.nodes_left)", "if (work->model.nodes_left > 1)")
 m("name-of-the-left", "sign", "cli_view", '{"left", {-1, 0, 0}}', '{"left", {1, 0, 0}}')
-m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->desc->as_stored && ffd_mesh_shows_shapes(document);", "return ffd_mesh_shows_shapes(document);")
+m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->desc->as_stored && ffd_mesh_shows_shapes(document);",
+  "return !work->desc->full && ffd_mesh_shows_shapes(document);")
 m("unused-take-room", "mark left out", "cli_view", "if (found > 0 && found < scene->vertex_count)", "if (found > scene->vertex_count)")
 m("flipped-in-the-first-picture", "condition", "cli_view", "const size_t marked = s->share > 0 ? from->flipped_count : 0;", "const size_t marked = from->flipped_count;")
 m("flipped-triangles-first", "offset", "cli_view", "size_t plain = 0, flipped = s->plain_count;", "size_t plain = s->flipped_count, flipped = 0;")

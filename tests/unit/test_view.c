@@ -90,6 +90,7 @@ static void descriptions_that_are_not_complete(void **state)
     view.frames = 1;
     refuse(&view);
     view.frames = 65;
+    view.width = view.height = 16;
     refuse(&view);
     view.frames = 0;
     view.width = 40000;
