@@ -320,6 +320,7 @@ typedef struct ffd_job_result {
     ffd_flaw flaws[FFD_FLAWS];                /* flaw_count, of the input */
     size_t flaw_count;
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
+    const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */
     double seconds_read, seconds_embed, seconds_deform, seconds_judge, seconds_write;
 } ffd_job_result;
 
@@ -332,6 +333,45 @@ FFD_API ffd_status ffd_deform_run(const ffd_deform_desc *desc, ffd_job_result *r
    says of outputs is not looked at. Vertices that are not finite are counted, no failure. result is filled in
    every case (not NULL). Returns result->status. Errors: all. */
 FFD_API ffd_status ffd_check_run(const ffd_deform_desc *desc, ffd_job_result *result, ffd_error *error);
+
+/* What vertices and faces are coloured by at first. */
+typedef enum ffd_view_color {
+    FFD_VIEW_DISPLACEMENT = 0, /* how far each vertex moves */
+    FFD_VIEW_STATUS,           /* its ffd_vertex_status */
+    FFD_VIEW_DET,              /* det F there: how many times larger a volume becomes */
+    FFD_VIEW_PLAIN             /* base colours, colours of vertices */
+} ffd_view_color;
+
+/* `ffd view`: a page or a picture that shows a mesh before and after. */
+typedef struct ffd_view_desc {
+    size_t struct_size; /* sizeof(ffd_view_desc) of the caller */
+    /* The mesh and what deforms it, as ffd_check_run takes it; lattice_count may be 0: the mesh is shown as
+       it is. Its log gets the warnings. Its written has the output afterwards. */
+    const ffd_deform_desc *job;
+    /* The deformed mesh as a file, of as many vertices; NULL: it is deformed in memory. With it the lattices
+       are drawn, and deform nothing. */
+    const ffd_source *deformed;
+    const char *output; /* a page: ends in .html or .htm; a picture: in .png */
+    bool force;         /* overwrite an existing output */
+    double camera[3]; /* the direction in which the camera is, seen from the mesh, y upwards; zeros: from the
+                         right, above and in front */
+    ffd_view_color color;
+    bool full; /* a page shows all vertices; else at most 200,000: the mesh is simplified, and the page says
+                  so */
+    /* Of a picture, or of each in a row, in pixels; 0: 1600 and 900. A page is as large as its window. */
+    uint32_t width, height;
+    uint32_t frames; /* pictures in a row, from rest to deformed: 2 to 64; 0: before and after share one */
+    bool as_stored;  /* shapes are those that the file stores, as ffd_check_run judges them; else those that
+                        default weights of morph targets show */
+} ffd_view_desc;
+
+/* Shows before and after, colours by displacement, is not full. */
+FFD_API void ffd_view_desc_init(ffd_view_desc *desc);
+/* Writes the output; it is complete or absent. A violated gate of the job ends in FFD_E_GATE after it was
+   written. An image of the mesh that is missing or broken is grey in a picture, and warned of. result is
+   filled in every case (not NULL): where lattices deform, as by ffd_check_run, of the shapes that are
+   shown, and with picture. Returns result->status. Errors: all. */
+FFD_API ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error);
 
 /* `ffd embed`: writes u,v,w (float64, N x 3, C order, NaN where outside; .npy version 1.0) to output and,
    where status_output is not NULL, the statuses (uint8, N). Both files or none. The lattice's "mesh" box is

@@ -12,6 +12,12 @@
 #define LITTLE_ENDIAN_MACHINE 0
 #endif
 
+static inline void store_u16(unsigned char bytes[2], uint16_t value)
+{
+    bytes[0] = (unsigned char)value;
+    bytes[1] = (unsigned char)(value >> 8);
+}
+
 static inline void store_u32(unsigned char bytes[4], uint32_t value)
 {
     if (LITTLE_ENDIAN_MACHINE)

@@ -7,16 +7,19 @@ typedef struct settings {
     cli_job job;
     int resources;
     const char *depfile;
+    const char *picture;
     bool force, if_changed, in_place;
 } settings;
 
 static const char *const resources_names[] = {"copy", "reference", NULL};
 
-/* Options of deform's that a command line may keep when "deform" becomes "check". */
+/* Its own, and options of deform's that a command line may keep when "deform" becomes "check". */
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
+    {"picture", 0, "FILE.png|FILE.html",
+     "draw it too, before and after; of one IN (ffd view has more options)", cli_set_text, AT(picture), NULL},
     {"in-place", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(in_place), NULL},
-    {"force", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(force), NULL},
+    {"force", 0, NULL, "overwrite an existing picture; else without effect", cli_set_flag, AT(force), NULL},
     {"if-changed", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(if_changed), NULL},
     {"depfile", 0, "FILE", "without effect: nothing is written", cli_set_text, AT(depfile), NULL},
     {"resources", 0, "copy|reference", "without effect: nothing is written", cli_set_choice, AT(resources),
@@ -112,12 +115,26 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
            result->edges, result->deviation_max, result->deviation_mean);
 }
 
+/* The check, and where one is asked for, its picture. */
+static ffd_status run_job(const settings *s, const ffd_deform_desc *desc, ffd_job_result *result)
+{
+    ffd_view_desc view;
+    if (!s->picture)
+        return ffd_check_run(desc, result, NULL);
+    ffd_view_desc_init(&view);
+    view.job = desc;
+    view.output = s->picture;
+    view.force = s->force;
+    view.as_stored = true;
+    return ffd_view_run(&view, result, NULL);
+}
+
 static int check(cli_job *job, const char *input, ffd_report *report)
 {
     ffd_deform_desc desc;
     ffd_job_result result;
     cli_job_describe(job, input, &desc);
-    const ffd_status status = ffd_check_run(&desc, &result, NULL);
+    const ffd_status status = run_job((settings *)job, &desc, &result);
     const bool reported = job->report && cli_is_stream(job->report);
     if ((status == FFD_OK || status == FFD_E_GATE) && !reported && !job->logging.quiet)
         print_summary(job, input, &result);
@@ -132,6 +149,8 @@ static int run(const cli_command *command, int count, char **arguments)
     if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
         return code;
     const char *why = words.count ? cli_job_mistake(&s.job, &words, words.count) : "needs IN";
+    if (!why && s.picture && words.count > 1)
+        why = "--picture is of one mesh, but several IN are given";
     if (why)
         code = cli_usage(command, why);
     else if (cli_job_knows_formats(&s.job, &words, words.count))

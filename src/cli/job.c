@@ -227,10 +227,8 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
     return NULL;
 }
 
-const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs)
+const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, size_t inputs)
 {
-    if (job->lattice_count == 0)
-        return "no lattice is given (-l FILE)";
     if (job->falloff > 0 && job->outside != FFD_OUTSIDE_EXTEND)
         return "--falloff needs --outside extend";
     if (job->embedding && job->blocks)
@@ -243,6 +241,11 @@ const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t i
         return "--report-stable needs --report";
     const char *why = wrong_streams(job, words, inputs);
     return why ? why : wrong_report(job, words);
+}
+
+const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs)
+{
+    return job->lattice_count ? cli_job_option_mistake(job, words, inputs) : "no lattice is given (-l FILE)";
 }
 
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs)

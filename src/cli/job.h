@@ -48,6 +48,8 @@ void cli_job_end(cli_job *job, cli_words *words);
 /* Returns what is wrong with the options, given the meshes that are read (the first inputs of words; the
    others are written), or NULL. */
 const char *cli_job_mistake(const cli_job *job, const cli_words *words, size_t inputs);
+/* The same, where there may be no lattice. */
+const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, size_t inputs);
 
 /* Whether the formats of all inputs are known. Else says what is missing. */
 bool cli_job_knows_formats(const cli_job *job, const cli_words *words, size_t inputs);

@@ -150,7 +150,7 @@ static bool converts_shown(const deform_job *job)
 }
 
 /* A gate of faces does not pass where some of them are not known. */
-static ffd_status check_gates(const deform_job *job, ffd_error *error)
+static ffd_status check_unknown(const deform_job *job, ffd_error *error)
 {
     const size_t unknown = job->document->unknown_drawings;
     if (unknown == 0 || !(job->desc->fail_on & (FFD_GATE_TEAR | FFD_GATE_FLIPPED | FFD_GATE_EDGES)))
@@ -166,8 +166,8 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     const bool attributes = job->desc->normals != FFD_NORMALS_KEEP;
     const mesh_format *format = job->document->format;
     ffd_status status = ffd_mesh_check(job->document, error);
-    if (!status)
-        status = check_gates(job, error);
+    if (!status && !job->details)
+        status = check_unknown(job, error);
     if (!status)
         status = ffd_mesh_warn(job->document, &job->log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
@@ -183,6 +183,9 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     job->document->shown = converts_shown(job);
     if (!status && (wants_figures(job) || job->recomputes))
         status = ffd_figures_prepare(job, arrays, error);
+    if (!status && job->details)
+        status = ffd_details_begin(job->details, (size_t)ffd_mesh_vertex_count(job->document),
+                                   &arrays->budget, error);
     job->document->shown = false;
     job->threads =
         ffd_pass_threads(&arrays->budget, job->check ? ffd_chain_layers(&job->chain) : 0, job->threads);
@@ -258,6 +261,7 @@ static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error
                             .only_offsets = job->desc->normals == FFD_NORMALS_RECOMPUTE,
                             .deformed = arrays->deformed,
                             .gradients = arrays->gradients,
+                            .statuses = job->details ? job->details->statuses : NULL,
                             .determinants = wants_determinants(job),
                             .bounds_shown = true,
                             .kept = job->kept,
@@ -289,10 +293,22 @@ static ffd_status judge(deform_job *job, figure_arrays *arrays, ffd_job_result *
         status = ffd_tear_figures_find(job, arrays, result, error);
     if (!status && wants_figures(job))
         status = ffd_figures_faces(job, arrays, result, error);
+    if (!status && job->details) /* the picture is wanted all the same */
+        status = check_unknown(job, error);
     if (!status)
         status = ffd_gates_judge(desc, name, &job->totals, result, error);
     result->seconds_judge = ffd_clock_seconds() - start;
     return status;
+}
+
+/* Hands over what the figures were made of. */
+static void keep_arrays(figure_arrays *arrays, job_details *details)
+{
+    details->has_faces = arrays->has_faces;
+    details->faces = arrays->faces;
+    details->deformed = arrays->deformed;
+    details->gradients = arrays->gradients;
+    *arrays = (figure_arrays){0};
 }
 
 ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error *error)
@@ -332,6 +348,8 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
         ffd_figures_warn(job, result);
         ffd_tear_figures_warn(job, result);
     }
+    if (job->details)
+        keep_arrays(&arrays, job->details);
     ffd_figures_free(&arrays);
     ffd_free(job->kept);
     job->kept = NULL;

@@ -5,6 +5,7 @@
 
 void ffd_model_free(mesh_model *model)
 {
+    ffd_free(model->numbers);
     ffd_free(model->positions);
     ffd_free(model->texcoords);
     ffd_free(model->normals);
@@ -78,17 +79,11 @@ static bool find_name(mesh_model *model, const char *text, uint32_t *name)
     return !text || !*text || ffd_intern(&model->names, text, strlen(text), name);
 }
 
-ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char *group, const char *material,
-                               ffd_error *error)
+/* Begins a run whose names are set, in place of the last one if nothing was added to it. */
+static ffd_status add_run(mesh_model *model, model_run run, ffd_error *error)
 {
-    model_run run;
+    const model_run *const last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
     ffd_status status = FFD_OK;
-    if (!find_name(model, object, &run.object) || !find_name(model, group, &run.group) ||
-        !find_name(model, material, &run.material))
-        return ffd_fail_memory(error);
-    const model_run *last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
-    if (last && last->object == run.object && last->group == run.group && last->material == run.material)
-        return FFD_OK;
     for (int k = 0; k < MODEL_KINDS; k++)
         run.first[k] = model->lists[k].count;
     if (last && memcmp(last->first, run.first, sizeof run.first) == 0)
@@ -101,6 +96,29 @@ ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char
         return ffd_fail_memory(error);
     model->runs[model->run_count++] = run;
     return FFD_OK;
+}
+
+ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char *group, const char *material,
+                               ffd_error *error)
+{
+    model_run run;
+    if (!find_name(model, object, &run.object) || !find_name(model, group, &run.group) ||
+        !find_name(model, material, &run.material))
+        return ffd_fail_memory(error);
+    run.material_number = MODEL_NONE;
+    const model_run *last = model->run_count ? &model->runs[model->run_count - 1] : NULL;
+    if (last && last->object == run.object && last->group == run.group && last->material == run.material)
+        return FFD_OK;
+    return add_run(model, run, error);
+}
+
+ffd_status ffd_model_number_material(mesh_model *model, uint32_t number, ffd_error *error)
+{
+    model_run run = model->runs[model->run_count - 1];
+    if (run.material_number == number)
+        return FFD_OK;
+    run.material_number = number;
+    return add_run(model, run, error);
 }
 
 static ffd_status append(model_list *list, const model_corner *corners, size_t count, ffd_error *error)

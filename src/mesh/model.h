@@ -40,6 +40,8 @@ typedef struct model_list {
 typedef struct model_run {
     uint32_t object, group, material;
     size_t first[MODEL_KINDS];
+    uint32_t material_number; /* in the list of the format's materials, or MODEL_NONE: by its name. Only where
+                                 details are wanted. */
 } model_run;
 
 typedef enum model_feature {
@@ -89,6 +91,10 @@ typedef struct mesh_model {
     model_list lists[MODEL_KINDS];
     model_run *runs;
     size_t run_count, run_capacity;
+    bool wants_details; /* set by who asks for the model: materials' numbers, and: */
+    uint64_t *numbers;  /* of positions in the order of `ffd embed`; NULL: they are in that order */
+    size_t nodes_left;  /* nodes that a model has no room for (GPU instances): without details they are
+                           refused */
     intern_table names;
     uint32_t features; /* of model_feature; complete after ffd_model_finish */
     memory_budget
@@ -108,6 +114,9 @@ ffd_status ffd_model_make_colours(mesh_model *model, ffd_error *error);
 /* What is added from now on has these names; NULL: none. An empty name is none. */
 ffd_status ffd_model_begin_run(mesh_model *model, const char *object, const char *group, const char *material,
                                ffd_error *error);
+/* The material of what is added from now on, by its number, of the last run that was begun. Begins a new run
+   where two materials share a name. */
+ffd_status ffd_model_number_material(mesh_model *model, uint32_t number, ffd_error *error);
 /* Adds a face, line or point of count corners. A face of two corners is a line, and one of a single corner a
    point; a line of less than two corners likewise; of none, nothing. A run must have begun. */
 ffd_status ffd_model_add(mesh_model *model, model_kind kind, const model_corner *corners, size_t count,

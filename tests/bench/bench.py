@@ -21,6 +21,7 @@ import lattices
 import machine
 import meshes
 import peers
+import pictures
 import programs
 import table
 
@@ -37,6 +38,7 @@ SUBJECTS = {
     "tears": jobs.tears,
     "displacement": kernels.displacement,
     "embedding": kernels.embedding,
+    "picture": pictures.picture,
     "batch": batches.batch,
     "sweep": batches.sweep,
 }

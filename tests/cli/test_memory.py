@@ -16,8 +16,8 @@ PACKED_GLB = os.path.abspath(sys.argv.pop(1))
 MOST, MOST_PER_BYTE = 100e6, 20
 # What is allowed beside 20 times the file where nothing is shown several times: less than the published 100 MB, so
 # that files of a third of the size leave no memory for a copy that is not needed. What info says of edges may take
-# all that is published, and a GLB is put together in tables.
-MOST_OF_TEXT = {"info": MOST, "glb": 70e6}
+# all that is published, and a GLB is put together in tables, as a page is.
+MOST_OF_TEXT = {"info": MOST, "glb": 70e6, "view": 70e6, "picture": MOST}
 MOST_OF_OTHERS = 50e6
 LATTICE = {"format": "ffd-lattice", "version": 1, "size": [4, 4, 4], "units": "box",
            "rest": {"box": "mesh", "margin": 0.1}, "moves": [{"twist": {"axis": [0, 0, 1], "degrees": 40}}]}
@@ -60,6 +60,8 @@ COMMANDS = {
     "glb": ["deform", "IN", "o.glb", "-l", "l.json", "--force"],
     "ply": ["deform", "IN", "o.ply", "-l", "l.json", "--force"],
     "stl": ["deform", "IN", "o.stl", "-l", "l.json", "--force"],
+    "view": ["view", "IN", "-l", "l.json", "-o", "p.html", "--force"],
+    "picture": ["view", "IN", "-l", "l.json", "-o", "p.png", "--force"],
 }
 
 
@@ -112,11 +114,11 @@ def quantized(count, accessors, primitives, nodes=1):
 
 POSITION = {"type": "VEC3"}
 DIRECTIONS = [POSITION, {"type": "VEC3", "normalized": True}, {"type": "VEC4", "normalized": True}]
-ALL = ["deform", "report", "recompute", "morph", "check", "embed", "info", "obj", "glb", "ply", "stl"]
+ALL = ["deform", "report", "recompute", "morph", "check", "embed", "info", "obj", "glb", "ply", "stl", "view", "picture"]
 OF_GLTF = [command for command in ALL if command != "glb"]
 # Vertices in pieces, twice, with the faces, with u,v,w, described, and in another format. The other commands take what one of
 # these takes.
-EACH_WAY = ["deform", "morph", "check", "embed", "info", "obj"]
+EACH_WAY = ["deform", "morph", "check", "embed", "info", "obj", "view", "picture"]
 
 
 def of_text(ending):
@@ -140,7 +142,7 @@ def compressed_by_meshopt(run):
     """What the larger file is refused for, the smaller one has memory for."""
     for side, refused, commands in ((600, False, ["check", "obj"]), (1200, True, OF_GLTF)):
         subprocess.run([PACKED_GLB, "meshopt", str(side), run.path("a.glb")], check=True)
-        codes = run_all(run, "a.glb", commands)
+        codes = run_all(run, "a.glb", [*commands, "view"] if "view" not in commands else commands)
         equal(codes.get("deform", OK), OK, side)
         equal([codes["check"], codes["obj"]], [LIMIT if refused else OK] * 2, side)
 

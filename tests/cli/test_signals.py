@@ -72,6 +72,13 @@ def reading_and_deforming(run):
 
 
 @case
+def viewing(run):
+    start(run)
+    ends(run, "view", "big.ply", "-l", "l.json", "-o", "p.html", out=["p.html"])
+    ends(run, "view", "big.ply", "other.ply", "-o", "p.html", out=["p.html"])
+
+
+@case
 def embedding(run):
     start(run)
     ends(run, "embed", "big.ply", "-l", "bent.json", "-o", "e.npy", "--status", "s.npy", out=["e.npy", "s.npy"])

@@ -4,16 +4,19 @@ import re
 
 from harness import CUBE, LIMIT, USAGE, case, check, equal, lattice, main
 
-COMMANDS = ["deform", "check", "embed", "compare", "info", "lattice new", "report merge"]
+COMMANDS = ["deform", "check", "embed", "compare", "info", "view", "lattice new", "report merge"]
 OPTIONS = {
     "deform": {"--lattice", "--set", "--shared-box", "--out-dir", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on",
                "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension",
                "--output-format"},
-    "check": {"--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
+    "check": {"--picture", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding", "--as-morph", "--fail-on", "--resources",
               "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict", "--allow-extension"},
     "embed": {"--lattice", "--set", "--output", "--status", "--space", "--snap", "--threads", "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "compare": {"--tolerance", "--normal-tolerance", "--json", "--input-format", "--memory", "--strict"},
     "info": {"--json", "--parts", "--set", "--input-format", "--memory", "--strict"},
+    "view": {"--output", "--size", "--camera", "--color", "--frames", "--full", "--lattice", "--set", "--shared-box", "--outside", "--falloff", "--snap", "--blocks", "--normals", "--only", "--space", "--embedding",
+             "--as-morph", "--fail-on", "--resources", "--report", "--report-stable", "--threads", "--isa", "--in-place", "--force", "--if-changed", "--depfile", "--input-format", "--memory", "--strict",
+             "--allow-extension"},
     "lattice new": {"--output", "--size", "--degree", "--knots", "--margin", "--spacing", "--shape", "--axis", "--axes", "--only",
                     "--force", "--input-format", "--memory", "--strict", "--allow-extension"},
     "report merge": {"--output", "--interleave", "--force"},
@@ -89,7 +92,7 @@ def unknown_commands(run):
 
 @case
 def commands_of_later_versions_are_absent(run):
-    for words in (["fit", "a.obj", "b.obj"], ["view", "a.obj"],
+    for words in (["fit", "a.obj", "b.obj"],
                   ["lattice", "refine", "l.json"], ["lattice", "convert", "l.json"], ["lattice", "set", "l.json"]):
         refused(run, *words, says="unknown command")
 

@@ -309,6 +309,33 @@ m("colours-beyond-one", "check left out", "materials", "return number >= 0 && nu
 m("image-left-behind", "freed resource", "materials", "ffd_free(materials->images); *materials = (mesh_materials){0};",
   "ffd_free(materials->images);")
 
+# picture
+
+m("edges-of-neither", "fill rule", "picture_raster", "const bool is_own = dy < 0 || (dy == 0 && dx > 0);", "const bool is_own = dy < 0 && dx != 0;")
+m("edges-of-both", "fill rule", "picture_raster", "return (edge){from->x, from->y, dx, dy, is_own ? 0 : -1};",
+  "return (edge){from->x, from->y, dx, dy, is_own ? 0 : 0};")
+m("large-edges-in-32-bits", "overflow", "picture_raster", "s->is_small = size < SMALL;", "s->is_small = size < 64 * SMALL;")
+m("samples-at-the-border-forgotten", "bound", "picture_raster", "*last = (high - SAMPLE_MARGIN) >> 8;", "*last = (high - 2 * SAMPLE_MARGIN) >> 8;")
+m("last-drawn-in-front", "depth", "picture_raster, picture", "const numbers drawn = inside & (at < there);", "const numbers drawn = inside & (at <= there);")
+m("far-plane-not-cut", "clipping", "picture_raster", "to->points[to->count][axis] = sign * GUARD;", "to->points[to->count][axis] = GUARD;")
+m("back-drawn-too", "culling", "picture_raster", "if (side && !ffd_shade_material(of->mesh, triangle)->is_double_sided)",
+  "if (side && ffd_shade_material(of->mesh, triangle)->alpha_cutoff > 9)")
+m("seam-in-the-light", "normals", "picture", "return mesh->twins ? mesh->twins[vertex] : vertex;", "return mesh->twins && vertex == 0 ? mesh->twins[vertex] : vertex;")
+m("no-creases", "normals", "picture", "#define MEAN_SQUARE 0.75", "#define MEAN_SQUARE 0.05")
+m("levels-not-chosen", "texture", "picture", "while (level + 1 < of->level_count && size >= 2 * step)", "while (level + 1 < of->level_count && size >= 1e9 * step)")
+m("mirror-as-repeat", "texture", "picture", "return x > 1 ? 2 - x : x;", "return x > 1 ? x - 1 : x;")
+m("transparent-colour-bleeds", "texture", "picture", "alpha ? sum[c] / alpha : plain[c] / count", "alpha ? plain[c] / count : plain[c] / count")
+m("left-is-right", "camera", "picture", "{\"left\", -90, 0}", "{\"left\", 90, 0}")
+m("fit-to-one-side", "camera", "picture", "scale = lesser_of(across, upwards);", "scale = larger_of(across, upwards);")
+m("hidden-lines-as-others", "depth", "picture", "strength * (seen + (1 - seen) * with->hidden)", "strength * (seen + (1 - seen))")
+m("crease-memory-not-counted", "limit", "picture", "budget ? ffd_budget_check(budget, total, SPLIT_BYTES, error) : FFD_OK",
+  "budget ? ffd_budget_check(budget, total, 1, error) : FFD_OK")
+m("image-size-not-checked", "limit", "picture_image", "return budget ? ffd_budget_check(budget, width * height, bytes_a_pixel, error) : FFD_OK;",
+  "return budget ? ffd_budget_check(budget, width, bytes_a_pixel, error) : FFD_OK;")
+m("coefficients-not-counted", "limit", "picture_image", "jpeg_has_multiple_scans(jpeg) ? COEFFICIENT_BYTES", "jpeg_has_multiple_scans(jpeg) ? 0")
+m("cut-jpeg-taken", "error left out", "picture_image", "if (jpeg->err->msg_code == failures[i])", "if (jpeg->err->msg_code == -failures[i])")
+m("end-of-png-not-read", "error left out", "picture_image", "png_read_end(png, NULL);", "png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_DEFAULT);")
+
 # io
 
 m("splice-copied", "off by one", "obj, ply, off, stl",
@@ -793,3 +820,65 @@ m("offset-without-rounding", "term left out", "cli_snap",
 m("snap-shared-by-jobs", "cache key", "cli_snap", "ffd_hash_doubles(&link->snap, 1)", "ffd_hash_doubles(&link->snap, 0)")
 m("box-not-widened", "rounding", "cli_snap", "AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))",
   "0 * AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))")
+
+# view
+
+m("markup-in-a-script", "escape left out", "view_page", r'ffd_buffer_text(out, "\\u003c");', 'ffd_buffer_text(out, "<");')
+m("markup-in-the-title", "escape left out", "view_page", 'ffd_buffer_text(out, "&lt;");', 'ffd_buffer_text(out, "<");')
+m("turned-names", "range", "view_page", "{0x2028, 0x202e}", "{0x2028, 0x202d}")
+m("names-of-any-length", "limit left out", "view_page", "if (count == LONGEST) {", "if (count == 1000 * LONGEST) {")
+m("positions-rounded-down", "rounding", "view_page", "step > 0 ? nearbyint(x / step) : 0", "step > 0 ? floor(x / step) : 0")
+m("box-of-the-first-shape", "term left out", "view_page", "fmin(data->low[a], fmin(x, y))", "fmin(data->low[a], x)")
+m("move-of-one-axis", "operation", "view_page", "most = fmax(most, fabs(y - x));", "most = fabs(y - x);")
+m("infinite-vertices-drawn", "check left out", "view_page", "is_shown(scene->before + 3 * v) && is_shown(after + 3 * v)",
+  "is_shown(scene->before + 3 * v) && after")
+m("vertex-beyond-the-array", "off by one", "view_page", "if (indices[i] >= vertices)", "if (indices[i] > vertices)")
+m("torn-edges-simplified", "mark left out", "view_reduce", "r->torn[scene->tears[i].vertices[end]] = 1;",
+  "r->torn[scene->tears[i].vertices[end]] = 0;")
+m("flipped-mixed-with-others", "class", "view_reduce", "r->mesh->flipped && r->mesh->flipped[triangle] ? FLIPPED : PLAIN",
+  "r->mesh->flipped && r->mesh->flipped[triangle] ? PLAIN : PLAIN")
+m("borders-simplified", "option left out", "view_reduce", "FARTHEST, meshopt_SimplifyLockBorder, nullptr)", "FARTHEST, 0, nullptr)")
+m("exception-of-the-simplifier", "wrong type", "view_reduce",
+  "meshopt_SimplifyLockBorder, nullptr); return FFD_OK; } catch (...) {",
+  "meshopt_SimplifyLockBorder, nullptr);\n        return FFD_OK;\n    } catch (const char *) {")
+m("base64-gap", "multiple", "view_page", "#define RUN 3072", "#define RUN 3073")
+m("points-kept", "thinning left out", "view_reduce",
+  "mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio); ffd_free(r->kept);", "ffd_free(r->kept);")
+m("step-of-the-first-torn-edge", "order", "view", "return x->step > y->step ? -1 : x->step < y->step;", "return x->step > y->step ? 1 : -(x->step < y->step);")
+m("torn-edges-twice", "class", "view", "return a < b ? a << 32 | b : b << 32 | a; } static int compare_ends",
+  "return a << 32 | b; } static int compare_ends")
+m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->step < y->step ? 1 : compare_ends(a, b);",
+  "return x->step > y->step ? 1 : x->step < y->step ? -1 : compare_ends(a, b);")
+m("gate-without-a-page", "condition", "cli_view, view", "if (status == FFD_E_GATE) ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input)); else if (status) {",
+  "if (status) {")
+m("gate-forgotten-by-a-page", "result left out", "cli_view, view", "status = result->status; /* of the gates */", "status = FFD_OK;")
+m("weights-of-a-picture", "shape", "cli_view", "document->shown = shows_shapes(work, document); const ffd_status status = document->format->model",
+  "document->shown = false; const ffd_status status = document->format->model")
+m("weights-of-a-deformed-file", "shape", "cli_view", "document->shown = shows_shapes(work, document); for (size_t i",
+  "document->shown = work->desc->full; for (size_t i")
+m("numbers-of-what-is-hidden", "offset", "cli_view", "number += part->vertex_count; } return FFD_OK; } static ffd_status extract",
+  "number += is_drawn(d, d->parts[i].node) ? part->vertex_count : 0; } return FFD_OK; } static ffd_status extract")
+m("last-corner-of-an-stl-vertex", "order", "cli_view", "for (size_t i = faces->corner_count; i-- > 0;) e->model->numbers",
+  "for (size_t i = 0; i < faces->corner_count; i++) e->model->numbers")
+m("page-over-an-input", "check left out", "cli_view",
+  "is_input = is_input || ffd_file_same(job->lattices[i], desc->output);", "is_input = is_input || ffd_file_same(job->lattices[i], job->input.path);")
+m("page-of-two-meshes", "check left out", "cli_view", "if (!status && ffd_mesh_vertex_count(other) != count)", "if (!status && ffd_mesh_vertex_count(other) < count)")
+m("det-without-its-diagonal", "term left out", "cli_view", "for (size_t a = 0; a < 3; a++) f[4 * a] += 1;",
+  "for (size_t a = 1; a < 3; a++)\n            f[4 * a] += 1;")
+m("flipped-by-the-first-face", "index", "cli_view", "const size_t face = faces[t];", "const size_t face = faces[t / 2];")
+m("cage-at-rest-twice", "wrong array", "cli_view", "cage->deformed = copy_points(lattice->deformed, lattice->count);",
+  "cage->deformed = copy_points(lattice->rest, lattice->count);")
+m("unmarked-instances", "message left out", "cli_view", "if (work->model.nodes_left)", "if (work->model.nodes_left > 1)")
+m("name-of-the-left", "sign", "cli_view", '{"left", {-1, 0, 0}}', '{"left", {1, 0, 0}}')
+m("picture-of-the-wrong-shape", "shape", "cli_view", "return !work->desc->as_stored && ffd_mesh_shows_shapes(document);",
+  "return !work->desc->full && ffd_mesh_shows_shapes(document);")
+m("unused-take-room", "mark left out", "cli_view", "if (found > 0 && found < scene->vertex_count)", "if (found > scene->vertex_count)")
+m("flipped-in-the-first-picture", "condition", "cli_view", "const size_t marked = s->share > 0 ? from->flipped_count : 0;", "const size_t marked = from->flipped_count;")
+m("flipped-triangles-first", "offset", "cli_view", "size_t plain = 0, flipped = s->plain_count;", "size_t plain = s->flipped_count, flipped = 0;")
+m("coloured-before", "condition", "cli_view", "if (s->share > 0) *own = w->palette;", "*own = w->palette;")
+m("broken-image-fails", "error kept", "cli_view", "if (status == FFD_E_MEMORY) return ffd_fail_memory(error); if (status && lost++ == 0)",
+  "if (status)\n            return ffd_fail_memory(error);\n        if (status && lost++ == 0)")
+m("texture-of-a-broken-image", "colour left out", "cli_view", "to->alpha_cutoff = 0; /* it was the texture's */", "to->color[0] = 1;")
+m("frames-of-any-number", "limit left out", "view", "if (frames == 1 || frames > VIEW_FRAMES)", "if (frames == 1)")
+m("picture-not-said", "result left out", "cli_view", "result->picture = desc->output;", "result->picture = NULL;")
+m("tears-in-the-first-picture", "condition", "cli_view", "if (!status && share > 0) status = add_marks", "if (!status)\n        status = add_marks")

@@ -20,11 +20,16 @@ LAYERS = {
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
     "mesh": {"base", "base/file", "base/memory", "base/text", "base/vector", "json"},
+    "mesh/meshopt": {"base", "base/system", "base/text"},
     "mesh/resource": {"base", "base/file", "base/memory", "base/system", "base/text", "mesh"},
+    "picture/image": {"base", "base/memory", "base/system", "mesh"},
+    "picture": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "mesh", "picture/image",
+    },
     "io/gltf/document": {"io/gltf/file", "io/gltf/model", "json", "mesh"},
     "io/gltf/decode": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/document",
-        "io/gltf/model", "mesh",
+        "io/gltf/model", "mesh", "mesh/meshopt",
     },
     "io/gltf/refer": {"io/gltf/document"},
     "io/gltf/scene": {
@@ -52,6 +57,10 @@ LAYERS = {
     "io/write": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "io/gltf/file", "io/stl", "json",
         "mesh",
+    },
+    "view": {
+        "base", "base/file", "base/memory", "base/text", "base/vector", "json", "mesh", "mesh/meshopt", "picture",
+        "picture/image",
     },
     "job/report": {"base", "base/file", "base/memory", "base/text", "json", "mesh"},
     "spline": {"base", "base/memory", "base/text"},
@@ -82,6 +91,10 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/input", "job/pass", "lattice", "mesh",
     },
+    "job/view": {
+        "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
+        "job/pass", "job/report", "lattice", "mesh", "view",
+    },
     "batch": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io", "job/chain", "job/input", "job/judge",
         "job/report", "json", "lattice", "mesh",
@@ -99,7 +112,9 @@ LAYERS = {
 OUTSIDE = [
     (r"OpenMesh/", {"io/openmesh"}),
     (r"tiny_gltf\.h|nlohmann/", {"io/gltf/model"}),
-    (r"draco/|meshoptimizer\.h", {"io/gltf/decode"}),
+    (r"draco/", {"io/gltf/decode"}),
+    (r"meshoptimizer\.h", {"mesh/meshopt"}),
+    (r"png\.h|jpeglib\.h|jerror\.h", {"picture/image"}),
     (r"xxhash\.h|xxh3\.h", {"base/memory"}),
     (r"sys/platform/", {"base/vector"}),
     (r"unistd\.h|fcntl\.h|pthread\.h|sys/(?!platform/)|dirent\.h|dlfcn\.h|sched\.h|spawn\.h|glob\.h|poll\.h|windows\.h",

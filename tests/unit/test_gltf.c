@@ -7,7 +7,7 @@
 
 #include "../support/gltf_file.h"
 #include "base/file/path.h"
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include "io/gltf/file/uri.h"
 
 #define ASSET "\"asset\":{\"version\":\"2.0\"}"

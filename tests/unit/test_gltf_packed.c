@@ -11,8 +11,8 @@
 #include "../support/gltf_file.h"
 #include "../support/repetitions.h"
 #include "../support/sheet.h"
+#include "base/text/base64.h"
 #include "io/gltf/decode/gltf_read.h"
-#include "io/gltf/file/base64.h"
 #include "mesh/difference.h"
 #include <meshoptimizer.h>
 #include <unistd.h>

@@ -9,8 +9,8 @@
 
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
+#include "base/text/base64.h"
 #include "io/formats.h"
-#include "io/gltf/file/base64.h"
 #include "mesh/mesh.h"
 #include <math.h>
 #include <meshoptimizer.h>

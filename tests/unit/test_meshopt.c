@@ -7,8 +7,8 @@
 
 #include "../support/draw.h"
 #include "base/memory/memory.h"
-#include "io/gltf/decode/meshopt_filters.h"
-#include "io/gltf/decode/meshopt_view.h"
+#include "mesh/meshopt/meshopt_filters.h"
+#include "mesh/meshopt/meshopt_view.h"
 #include <math.h>
 #include <meshoptimizer.h>
 #include <stdlib.h>

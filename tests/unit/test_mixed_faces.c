@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "../support/mesh_file.h"
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include "mesh/mixed_faces.h"
 
 #define MOST_VERTICES 12

@@ -5,6 +5,7 @@
 #include "io/gltf/gltf_attribute.h"
 #include "io/gltf/scene/gltf_detail.h"
 #include "io/gltf/scene/gltf_faces.h"
+#include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_shown.h"
 #include "io/gltf/scene/gltf_skin.h"
 #include "mesh/srgb.h"
@@ -36,10 +37,12 @@ static const gltf_mesh_uses *uses_of(const extractor *e, size_t mesh)
     return &e->document->mesh_uses[mesh];
 }
 
-/* Whether a node is drawn: not if it only stands in for another at a distance, or is hidden. */
+/* Whether a node is drawn: not if it only stands in for another at a distance, or is hidden, or stands for
+   instances. */
 static bool is_drawn(const gltf_document *d, size_t node)
 {
-    return node == GLTF_NONE || (!d->stands_in[node] && !ffd_gltf_is_hidden(d, node));
+    return node == GLTF_NONE ||
+           (!d->stands_in[node] && !ffd_gltf_is_hidden(d, node) && !ffd_gltf_instanced_node(d, node));
 }
 
 static bool is_mesh_drawn(const extractor *e, size_t m)
@@ -284,9 +287,11 @@ static ffd_status begin_run(extractor *e, size_t m, size_t p, size_t node)
         &d->tree, ffd_json_span_member(&d->tree, ffd_gltf_primitive_value(d, m, p), "material"), &number);
     char *object = object_name(d, m, node);
     char *material = has_material ? name_of(d, &d->material_values, (size_t)number, "material") : NULL;
-    const ffd_status status = object && (material || !has_material)
-                                  ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
-                                  : ffd_fail_memory(e->error);
+    ffd_status status = object && (material || !has_material)
+                            ? ffd_model_begin_run(e->model, object, NULL, material, e->error)
+                            : ffd_fail_memory(e->error);
+    if (!status && e->model->wants_details && has_material && number >= 0 && number < MODEL_NONE)
+        status = ffd_model_number_material(e->model, (uint32_t)number, e->error);
     ffd_free(object);
     ffd_free(material);
     return status;
@@ -308,6 +313,8 @@ static ffd_status add_instance(extractor *e, size_t m, size_t p, size_t n)
     const gltf_instance *instance = &ffd_gltf_instances(d, m, p)[n];
     const size_t part = instance->part[GLTF_POSITION], normals = instance->part[GLTF_NORMAL];
     if (part == GLTF_NONE)
+        return FFD_OK;
+    if (d->model.meshes[m].primitives[p].mode == MODE_UNKNOWN && e->model->wants_details)
         return FFD_OK;
     if (d->model.meshes[m].primitives[p].mode == MODE_UNKNOWN)
         return ffd_json_span_fail(&d->tree, ffd_gltf_primitive_value(d, m, p), d->name, FFD_E_INVALID,
@@ -388,6 +395,29 @@ static uint32_t features_of(const extractor *e)
     return found;
 }
 
+/* Gives the positions their numbers, where what is not drawn has some too. */
+static ffd_status number_positions(extractor *e)
+{
+    const gltf_document *d = e->document;
+    uint64_t number = 0;
+    const ffd_status status =
+        ffd_model_take(e->model, e->model->position_count, sizeof *e->model->numbers, e->error);
+    if (status)
+        return status;
+    e->model->numbers = ffd_alloc(e->model->position_count, sizeof *e->model->numbers);
+    if (!e->model->numbers)
+        return ffd_fail_memory(e->error);
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        const mesh_part *const part = &d->mesh_parts[i];
+        if (part->repeats_positions)
+            continue;
+        for (size_t v = 0; v < part->vertex_count && is_drawn(d, d->parts[i].node); v++)
+            e->model->numbers[e->first_position[i] + v] = number + v;
+        number += part->vertex_count;
+    }
+    return FFD_OK;
+}
+
 static ffd_status extract(extractor *e)
 {
     const gltf_document *d = e->document;
@@ -403,6 +433,9 @@ static ffd_status extract(extractor *e)
     if (status)
         return status;
     fill_values(e);
+    if (e->model->wants_details)
+        status = number_positions(e);
+    e->model->nodes_left = d->instanced_node_count;
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t n = 0; n < uses_of(e, m)->node_count; n++)
             for (size_t p = 0; p < d->model.meshes[m].primitive_count && status == FFD_OK; p++)
@@ -413,9 +446,9 @@ static ffd_status extract(extractor *e)
 }
 
 /* A model has no instances, and the node's own matrix is not that of any of them. */
-static ffd_status refuse_instances(const gltf_document *d, ffd_error *error)
+static ffd_status refuse_instances(const gltf_document *d, const mesh_model *model, ffd_error *error)
 {
-    if (d->instanced_node_count == 0)
+    if (d->instanced_node_count == 0 || model->wants_details)
         return FFD_OK;
     return ffd_json_span_fail(&d->tree, d->node_values.values[d->instanced_nodes[0].node], d->name,
                               FFD_E_UNSUPPORTED, error,
@@ -425,7 +458,7 @@ static ffd_status refuse_instances(const gltf_document *d, ffd_error *error)
 ffd_status ffd_gltf_extract(const mesh_document *document, mesh_model *model, ffd_error *error)
 {
     extractor e = {.document = ffd_gltf_of(document), .model = model, .error = error};
-    ffd_status status = refuse_instances(e.document, error);
+    ffd_status status = refuse_instances(e.document, model, error);
     if (status == FFD_OK)
         status = extract(&e);
     if (status == FFD_OK)

@@ -85,6 +85,22 @@ static void copy_results(extractor *e)
             e->model->positions[3 * (size_t)faces->corners[i].position + a] = results[3 * i + a] + 0.0;
 }
 
+/* The number of a position is that of its first corner. */
+static ffd_status number_positions(extractor *e)
+{
+    const model_list *const faces = &e->model->lists[MODEL_FACES];
+    const ffd_status status =
+        ffd_model_take(e->model, e->positions.count, sizeof *e->model->numbers, e->error);
+    if (status)
+        return status;
+    e->model->numbers = ffd_alloc(e->positions.count, sizeof *e->model->numbers);
+    if (!e->model->numbers)
+        return ffd_fail_memory(e->error);
+    for (size_t i = faces->corner_count; i-- > 0;)
+        e->model->numbers[faces->corners[i].position] = i;
+    return FFD_OK;
+}
+
 static ffd_status fill_positions(extractor *e)
 {
     const size_t count = e->positions.count;
@@ -104,6 +120,8 @@ ffd_status ffd_stl_model(const mesh_document *document, mesh_model *model, ffd_e
     ffd_status status = e.document->binary ? take_binary(&e) : take_text(&e);
     if (status == FFD_OK)
         status = fill_positions(&e);
+    if (status == FFD_OK && model->wants_details)
+        status = number_positions(&e);
     ffd_intern_free(&e.positions);
     ffd_free(e.name);
     return status ? status : ffd_model_finish(model, error);

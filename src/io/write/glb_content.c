@@ -1,6 +1,6 @@
 /* glb_content.c - the binary content of a new glTF file. */
 #include "base/little_endian.h"
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include "io/write/glb_values.h"
 #include "io/write/glb_writer.h"
 #include "mesh/srgb.h"

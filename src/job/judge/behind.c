@@ -121,7 +121,7 @@ static bool only_translates(const lattice_chain *chain)
 ffd_status ffd_behind_find(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
     /* A conversion has neither nodes nor properties of splats. */
-    if (job->totals.moved == 0 || job->desc->as_morph || job->document->converted)
+    if (job->totals.moved == 0 || job->desc->as_morph || (job->document->converted && !job->details))
         return FFD_OK;
     ffd_status status = FFD_OK;
     if (job->totals.splats_moved > 0 && !only_translates(&job->chain))

@@ -4,6 +4,7 @@
 
 #include "job/chain/chain.h"
 #include "job/input/embedding_file.h"
+#include "job/judge/details.h"
 #include "job/pass/pass_totals.h"
 #include "mesh/mesh.h"
 
@@ -21,7 +22,8 @@ typedef struct deform_job {
     bool document_is_shared;  /* it is the last job's */
     embedding_file embedding; /* where one is named */
     pass_totals totals;
-    uint8_t *kept;   /* marks of the pass (job/chain/chain.h); NULL: no vertices */
+    uint8_t *kept;        /* marks of the pass (job/chain/chain.h); NULL: no vertices */
+    job_details *details; /* to be filled, or NULL */
     mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
 } deform_job;
 

@@ -2,8 +2,8 @@
 #include "base/vector/vec.h"
 #include "mesh/polygon.h"
 
-static bool is_flipped(const uint32_t *corners, size_t count, const double *rest, const double *deformed,
-                       const double *gradients)
+bool ffd_quality_is_flipped(const uint32_t *corners, size_t count, const double *rest, const double *deformed,
+                            const double *gradients)
 {
     double before[3], after[3], carried[3], mean[9] = {0};
     if (count < 3 || !ffd_polygon_normal(rest, corners, count, before, NULL) ||
@@ -22,7 +22,8 @@ uint64_t ffd_quality_flipped(const mesh_faces *faces, const double *deformed, co
 {
     uint64_t flipped = 0;
     for (size_t f = 0; f < faces->face_count; f++)
-        flipped += is_flipped(faces->corners + faces->start[f], faces->start[f + 1] - faces->start[f],
-                              faces->positions, deformed, gradients);
+        flipped +=
+            ffd_quality_is_flipped(faces->corners + faces->start[f], faces->start[f + 1] - faces->start[f],
+                                   faces->positions, deformed, gradients);
     return flipped;
 }

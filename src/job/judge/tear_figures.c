@@ -138,6 +138,7 @@ static ffd_status count_torn(deform_job *job, const mesh_faces *faces, const mem
                               .lone = ffd_tear_seams(&job->chain),
                               .step = ffd_tear_steps_find,
                               .context = ffd_tear_steps_make(&job->chain, job->document, faces, job->kept),
+                              .torn = job->details ? &job->details->tears : NULL,
                               .budget = budget};
     ffd_status status =
         question.context ? list_hidden(job, &hidden, &question.hidden_count, error) : ffd_fail_memory(error);

@@ -172,6 +172,8 @@ static ffd_status judge_edge(tear_work *work, size_t mode, uint64_t key, double 
         count->mode = mode;
     }
     count->edges++;
+    if (work->question->torn && ffd_torn_edges_add(work->question->torn, stays, moves, step, error))
+        return FFD_E_MEMORY;
     return work->question->links > work->question->acting ? note_torn(work, key, error) : FFD_OK;
 }
 
@@ -276,6 +278,8 @@ ffd_status ffd_tears_count(const tear_question *question, tear_count *count, ffd
         status = ffd_edges_sort(&work.torn, error);
         count->edges = work.torn.count;
     }
+    if (!status && question->torn)
+        ffd_torn_edges_thin(question->torn);
     ffd_edges_free(&work.torn);
     return status;
 }

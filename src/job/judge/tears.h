@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "job/chain/chain.h"
+#include "job/judge/torn_edges.h"
 #include "mesh/mesh.h"
 #include <stdint.h>
 
@@ -48,6 +49,7 @@ typedef struct tear_question {
     size_t hidden_count;
     tear_step_function *step;
     void *context;
+    torn_edges *torn; /* gets those with the largest steps; or NULL */
     const memory_budget *budget;
 } tear_question;
 

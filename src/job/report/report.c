@@ -289,6 +289,8 @@ static void write_entry(json_text *json, const report_entry *entry)
         ffd_json_count(json, "line", entry->line);
     ffd_json_string(json, "input", entry->input);
     ffd_json_string(json, "output", entry->output);
+    if (entry->result->picture)
+        ffd_json_string(json, "picture", entry->result->picture);
     if (entry->set)
         ffd_json_raw(json, "set", entry->set, strlen(entry->set));
     write_outcome(json, entry);

@@ -1,5 +1,5 @@
 #include "io/gltf/decode/gltf_rounding.h"
-#include "io/gltf/decode/meshopt_view.h"
+#include "mesh/meshopt/meshopt_view.h"
 #include <math.h>
 
 /* The distance of an integer type's numbers (glTF 2.0, 3.11: c / 127 and so on). */

@@ -1,6 +1,6 @@
 #include "io/gltf/decode/gltf_views.h"
 #include "base/memory/memory.h"
-#include "io/gltf/decode/meshopt_view.h"
+#include "mesh/meshopt/meshopt_view.h"
 #include <string.h>
 
 /* A view may be longer than its elements by the padding before the next view. */

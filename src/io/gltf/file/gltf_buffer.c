@@ -2,7 +2,7 @@
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include "io/gltf/file/uri.h"
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "io/gltf/save/gltf_content_write.h"
 #include "base/memory/memory.h"
 #include "base/system/thread.h"
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include "io/gltf/save/gltf_content.h"
 #include <stdatomic.h>
 

@@ -1,7 +1,7 @@
 #include "io/gltf/save/gltf_morph_text.h"
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include "io/gltf/save/gltf_json_insert.h"
 #include "io/gltf/save/gltf_morph_reuse.h"
 #include "io/gltf/save/gltf_morph_weights.h"

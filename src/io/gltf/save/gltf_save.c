@@ -1,6 +1,6 @@
 #include "io/gltf/save/gltf_save.h"
 #include "base/little_endian.h"
-#include "io/gltf/file/base64.h"
+#include "base/text/base64.h"
 #include "io/gltf/save/gltf_announce.h"
 #include "io/gltf/save/gltf_container.h"
 #include "io/gltf/save/gltf_content.h"

@@ -1,0 +1,219 @@
+/* view.c - ffd view: a page or a picture that shows a mesh before and after. */
+#include "cli/job.h"
+#include <string.h>
+
+typedef struct settings {
+    cli_job job;
+    const char *output, *deformed; /* deformed: the second mesh; NULL: there is none */
+    double camera[3];
+    int color;
+    uint32_t size[2], frames;
+    bool full, force;
+    int resources;
+    const char *depfile;
+    bool if_changed, in_place;
+} settings;
+
+/* Sides of a picture in pixels, and pictures in a row. */
+#define LEAST_SIDE 16
+#define MOST_SIDE 32767
+#define MOST_FRAMES 64
+
+/* Where the camera is, seen from the mesh. */
+typedef struct named_camera {
+    const char *name;
+    double at[3];
+} named_camera;
+
+/* The last one is where a page opens without an option. */
+static const named_camera cameras[] = {{"front", {0, 0, 1}}, {"back", {0, 0, -1}}, {"left", {-1, 0, 0}},
+                                       {"right", {1, 0, 0}}, {"top", {0, 1, 0}},   {"iso", {0, 0, 0}}};
+
+static bool parse_direction(const char *value, double direction[3])
+{
+    for (int a = 0; a < 3; a++) {
+        char part[64];
+        const size_t length = strcspn(value, ",");
+        if (length >= sizeof part || value[length] != (a < 2 ? ',' : 0))
+            return false;
+        memcpy(part, value, length);
+        part[length] = 0;
+        if (!cli_parse_number(part, &direction[a]))
+            return false;
+        value += length + 1;
+    }
+    return direction[0] < 0 || direction[0] > 0 || direction[1] < 0 || direction[1] > 0 || direction[2] < 0 ||
+           direction[2] > 0;
+}
+
+static bool set_camera(void *context, const cli_option *option, const char *value)
+{
+    settings *const s = context;
+    for (size_t i = 0; i < sizeof cameras / sizeof *cameras; i++)
+        if (strcmp(cameras[i].name, value) == 0) {
+            memcpy(s->camera, cameras[i].at, sizeof s->camera);
+            return true;
+        }
+    if (parse_direction(value, s->camera))
+        return true;
+    cli_complain("--%s: \"%.100s\" is not front, back, left, right, top, iso or a direction like 1,0.5,2",
+                 option->name, value);
+    return false;
+}
+
+/* A whole number up to `most`; *text then points behind it. */
+static bool parse_whole(const char **text, unsigned least, unsigned most, uint32_t *number)
+{
+    unsigned value = 0;
+    const char *at = *text;
+    for (; *at >= '0' && *at <= '9' && value <= most; at++)
+        value = 10 * value + (unsigned)(*at - '0');
+    const bool is_right = at > *text && value >= least && value <= most;
+    *number = value;
+    *text = at;
+    return is_right;
+}
+
+static bool set_size(void *context, const cli_option *option, const char *value)
+{
+    settings *const s = context;
+    const char *at = value;
+    if (parse_whole(&at, LEAST_SIDE, MOST_SIDE, &s->size[0]) && *at++ == 'x' &&
+        parse_whole(&at, LEAST_SIDE, MOST_SIDE, &s->size[1]) && !*at)
+        return true;
+    cli_complain("--%s: \"%.100s\" is not a width and a height of %d to %d pixels, like 1600x900",
+                 option->name, value, LEAST_SIDE, MOST_SIDE);
+    return false;
+}
+
+static bool set_frames(void *context, const cli_option *option, const char *value)
+{
+    settings *const s = context;
+    const char *at = value;
+    if (parse_whole(&at, 2, MOST_FRAMES, &s->frames) && !*at)
+        return true;
+    cli_complain("--%s: \"%.100s\" is not a number from 2 to %d", option->name, value, MOST_FRAMES);
+    return false;
+}
+
+/* In the order of ffd_view_color. */
+static const char *const color_names[] = {"displacement", "status", "det", "plain", NULL};
+static const char *const camera_names[] = {"front", "back", "left", "right", "top", "iso", NULL};
+static const char *const resources_names[] = {"copy", "reference", NULL};
+
+#define AT(field) offsetof(settings, field)
+static const cli_option options[] = {
+    {"output", 'o', "FILE.html|FILE.png", "a page, which a browser opens without a network; or a picture",
+     cli_set_text, AT(output), NULL},
+    {"size", 0, "WxH", "pixels of the picture, or of each in a row; default 1600x900", set_size, 0, NULL},
+    {"frames", 0, "N", "so many pictures in a row, from rest to deformed; default before and after in one",
+     set_frames, 0, NULL},
+    {"camera", 0, "front|back|left|right|top|iso|x,y,z",
+     "where one looks from, y upwards; default iso, right above in front", set_camera, 0, camera_names},
+    {"color", 0, "displacement|status|det|plain",
+     "colour by how far it moves, by status, det F, or as it is; default displacement", cli_set_choice,
+     AT(color), color_names},
+    {"full", 0, NULL, "a page shows all vertices; else a mesh of more than 200,000 is simplified",
+     cli_set_flag, AT(full), NULL},
+    {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
+    /* Options of deform's that a command line may keep when "deform" becomes "view". */
+    {"in-place", 0, NULL, "without effect: no mesh is written", cli_set_flag, AT(in_place), NULL},
+    {"if-changed", 0, NULL, "without effect: no mesh is written", cli_set_flag, AT(if_changed), NULL},
+    {"depfile", 0, "FILE", "without effect: no mesh is written", cli_set_text, AT(depfile), NULL},
+    {"resources", 0, "copy|reference", "without effect: no mesh is written", cli_set_choice, AT(resources),
+     resources_names},
+    {NULL, 0, NULL, NULL, NULL, 0, NULL},
+};
+
+static int show(cli_job *job, const char *input, ffd_report *report)
+{
+    settings *const s = (settings *)job;
+    ffd_deform_desc desc;
+    ffd_view_desc view;
+    ffd_source deformed;
+    ffd_job_result result;
+    cli_job_describe(job, input, &desc);
+    ffd_view_desc_init(&view);
+    view.job = &desc;
+    view.output = s->output;
+    view.force = s->force;
+    view.color = (ffd_view_color)s->color;
+    view.full = s->full;
+    view.width = s->size[0];
+    view.height = s->size[1];
+    view.frames = s->frames;
+    memcpy(view.camera, s->camera, sizeof view.camera);
+    if (s->deformed) {
+        deformed = desc.input;
+        deformed.path = s->deformed;
+        view.deformed = &deformed;
+    }
+    ffd_view_run(&view, &result, NULL);
+    return cli_job_ended(job, &result, input, NULL, report);
+}
+
+/* What is wrong where nothing is deformed: files are shown as they are. */
+static const char *mistake_of_files(const settings *s, const cli_words *words)
+{
+    if (s->job.fail_on)
+        return "--fail-on judges a deformation: it needs -l, and no OUT-MESH";
+    if (s->job.report)
+        return "--report is of a deformation: it needs -l, and no OUT-MESH";
+    if (s->job.embedding)
+        return "--embedding is of a deformation: it needs -l, and no OUT-MESH";
+    return cli_job_option_mistake(&s->job, words, words->count);
+}
+
+static const char *mistake(const settings *s, const cli_words *words)
+{
+    if (words->count == 0)
+        return "needs IN";
+    if (words->count > 2)
+        return "takes IN and one OUT-MESH at most";
+    if (!s->output)
+        return "no output is given (-o FILE.html or FILE.png)";
+    if (words->count == 2 || s->job.lattice_count == 0)
+        return mistake_of_files(s, words);
+    return cli_job_mistake(&s->job, words, 1);
+}
+
+static int run(const cli_command *command, int count, char **arguments)
+{
+    settings s = {0};
+    cli_words words;
+    int code = EXIT_USAGE;
+    if (!cli_job_begin(command, &s.job, count, arguments, &words, &code))
+        return code;
+    const char *const why = mistake(&s, &words);
+    s.deformed = words.count == 2 ? words.words[1] : NULL;
+    if (why)
+        code = cli_usage(command, why);
+    else if (cli_job_knows_formats(&s.job, &words, words.count))
+        code = cli_job_run_all(&s.job, &words, 1, show);
+    else
+        code = EXIT_USAGE;
+    cli_job_end(&s.job, &words);
+    return code;
+}
+
+static const cli_example examples[] = {
+    {"a page of what a deformation does, for a browser", "ffd view cow.obj -l bend.json -o bend.html"},
+    {"a page of two files, the mesh before and after", "ffd view old.obj new.obj -o change.html"},
+    {"a picture, before and after side by side", "ffd view cow.obj -l bend.json -o bend.png --camera front"},
+    {"a row of five pictures, from rest to deformed",
+     "ffd view cow.obj -l bend.json -o row.png --frames 5 --size 300x400"},
+    {NULL, NULL},
+};
+
+const cli_command cli_view = {
+    "view",
+    "a page or picture: before and after, cage, colours, what went wrong",
+    "usage: ffd view IN -l LATTICE [-l LATTICE ...] -o FILE.html|FILE.png [options]    deforms in memory\n"
+    "       ffd view IN [OUT-MESH] [-l LATTICE ...] -o FILE.html|FILE.png [options]    shows files, and the "
+    "cage of "
+    "-l\n"
+    "       exit 1: a gate of --fail-on is violated; the output is written all the same\n",
+    {.first = options, .more = cli_job_options},
+    run,
+    "MESH",
+    examples};

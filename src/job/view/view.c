@@ -1,0 +1,351 @@
+/* view.c - the job of `ffd view`: a scene out of one mesh and its deformation, or out of files as they are.
+ */
+#include "base/file/mapping.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "job/chain/chain_load.h"
+#include "job/deform_job.h"
+#include "job/input/selection.h"
+#include "job/input/source.h"
+#include "job/pass/chain_fit.h"
+#include "job/report/output_set.h"
+#include "job/report/report.h"
+#include "job/view/view_marks.h"
+#include "job/view/view_mesh.h"
+#include "view/page.h"
+#include "view/view_picture.h"
+#include <math.h>
+#include <string.h>
+
+/* What a view holds while it is made. */
+typedef struct view_work {
+    const ffd_view_desc *desc;
+    deform_job job;
+    job_details details;
+    mesh_model model;
+    view_scene scene;
+    uint32_t *faces; /* the polygon of each triangle */
+} view_work;
+
+void ffd_view_desc_init(ffd_view_desc *desc)
+{
+    memset(desc, 0, sizeof *desc);
+    desc->struct_size = sizeof *desc;
+}
+
+/* Refuses an output that is one of the files that are read. */
+static ffd_status check_inputs(const ffd_view_desc *desc, ffd_error *error)
+{
+    const ffd_deform_desc *const job = desc->job;
+    const char *const inputs[] = {job->input.path, desc->deformed ? desc->deformed->path : NULL,
+                                  job->embedding};
+    bool is_input = false;
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
+        is_input = is_input || (inputs[i] && ffd_file_same(inputs[i], desc->output));
+    for (size_t i = 0; i < job->lattice_count; i++)
+        is_input = is_input || ffd_file_same(job->lattices[i], desc->output);
+    return is_input ? ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is an input of this command")
+                    : FFD_OK;
+}
+
+static bool is_page(const char *path)
+{
+    return ffd_path_has_ending(path, ".html") || ffd_path_has_ending(path, ".htm");
+}
+
+static view_picture_options describe_picture(const view_work *work)
+{
+    const ffd_view_desc *const desc = work->desc;
+    return (view_picture_options){.width = desc->width,
+                                  .height = desc->height,
+                                  .frames = desc->frames,
+                                  .color = (view_page_color)desc->color,
+                                  .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
+                                  .threads = work->job.threads,
+                                  .budget = work->job.document ? &work->job.document->budget : NULL,
+                                  .log = &work->job.log};
+}
+
+static ffd_status check_desc(const view_work *work, ffd_error *error)
+{
+    const ffd_view_desc *const desc = work->desc;
+    const view_picture_options picture = describe_picture(work);
+    if (desc->struct_size != sizeof *desc || !desc->output || (desc->deformed && !desc->deformed->path))
+        return ffd_fail(error, FFD_E_ARGUMENT, "the view's description is not complete");
+    for (int a = 0; a < 3; a++)
+        if (!isfinite(desc->camera[a]))
+            return ffd_fail(error, FFD_E_ARGUMENT, "the camera's direction is not finite");
+    if (!is_page(desc->output) && !ffd_path_has_ending(desc->output, ".png"))
+        return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
+                             "the ending \"%s\" is not that of a page or a picture (.html .htm .png)",
+                             ffd_path_ending(desc->output));
+    ffd_status status = ffd_view_picture_check(&picture, error);
+    if (!status)
+        status = check_inputs(desc, error);
+    return status ? status : ffd_output_check(desc->output, desc->force, error);
+}
+
+/* Whether what the default weights of morph targets show is not what the file stores, and wanted. */
+static bool shows_shapes(const view_work *work, const mesh_document *document)
+{
+    return !work->desc->as_stored && ffd_mesh_shows_shapes(document);
+}
+
+/* Reads the mesh as it is to be shown. */
+static ffd_status read_model(view_work *work, ffd_error *error)
+{
+    mesh_document *const document = work->job.document;
+    mesh_model *const model = &work->model;
+    model->budget = &document->budget;
+    model->wants_details = true;
+    document->shown = shows_shapes(work, document);
+    const ffd_status status = document->format->model(document, model, error);
+    document->shown = false;
+    if (status || !document->format->list_materials)
+        return status;
+    /* A page has no images. */
+    const mesh_log *const log = is_page(work->desc->output) ? NULL : &work->job.log;
+    return document->format->list_materials(document, log, &work->scene.materials, error);
+}
+
+/* The report of this job alone; without times, so that the same job makes the same page. */
+static ffd_status make_report(view_work *work, const ffd_job_result *result, ffd_error *error)
+{
+    byte_buffer text = {0};
+    const report_entry entry = {
+        .input = ffd_source_name(&work->desc->job->input), .result = result, .stable = true};
+    ffd_buffer_text(&text, "{\"format\": \"ffd-report\", \"version\": 1, \"jobs\": [");
+    ffd_report_entry_text(&entry, &text);
+    ffd_buffer_text(&text, "]}");
+    work->scene.report = ffd_buffer_finish(&text);
+    return work->scene.report ? FFD_OK : ffd_fail_memory(error);
+}
+
+static ffd_status name_scene(view_work *work, ffd_error *error)
+{
+    const ffd_source *const deformed = work->desc->deformed;
+    work->scene.name = ffd_text_copy(ffd_source_name(&work->desc->job->input));
+    work->scene.output = deformed ? ffd_text_copy(ffd_source_name(deformed)) : NULL;
+    return work->scene.name && (work->scene.output || !deformed) ? FFD_OK : ffd_fail_memory(error);
+}
+
+/* What the job found becomes marks, and a report that says so. */
+static ffd_status take_findings(view_work *work, const ffd_job_result *result, ffd_error *error)
+{
+    deform_job *const job = &work->job;
+    ffd_status status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, error);
+    if (!status)
+        status = ffd_view_place_after(&work->model, work->details.deformed, &work->scene, error);
+    if (!status)
+        status = ffd_view_add_marks(job, result, &work->model, work->faces, &work->scene, error);
+    if (!status)
+        status = ffd_view_add_cages(&job->chain, work->desc->job->lattices, &work->scene, error);
+    return status ? status : make_report(work, result, error);
+}
+
+/* Deforms the mesh in memory. What a gate refuses is shown all the same; result then has the refusal. */
+static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *error)
+{
+    deform_job *const job = &work->job;
+    ffd_status status = ffd_deform_job_open(job, result, error);
+    if (!status)
+        status = ffd_mesh_check(job->document, error);
+    if (!status)
+        status = read_model(work, error);
+    if (status)
+        return status;
+    /* What default weights of morph targets show is deformed, as for a conversion. */
+    job->document->converted = shows_shapes(work, job->document);
+    job->details = &work->details;
+    status = ffd_deform_job_run(job, result, &result->error);
+    result->status = status;
+    if (status == FFD_E_GATE)
+        ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input));
+    else if (status) {
+        *error = result->error;
+        return status;
+    }
+    return take_findings(work, result, error);
+}
+
+static ffd_status open_mesh(view_work *work, const ffd_source *source, mesh_document **document,
+                            ffd_error *error)
+{
+    const ffd_status status = ffd_source_open(source, work->job.threads, document, error);
+    if (status)
+        return status;
+    const char *const name = source == work->desc->deformed ? ffd_source_name(source) : NULL;
+    ffd_flaws_warn(&(*document)->flaws, name, &work->job.log);
+    return ffd_mesh_check(*document, error);
+}
+
+/* Draws the lattices where they stand round the mesh as it is at rest. */
+static ffd_status load_cages(view_work *work, ffd_error *error)
+{
+    const ffd_deform_desc *const desc = work->desc->job;
+    deform_job *const job = &work->job;
+    const chain_files files = {.paths = desc->lattices,
+                               .count = desc->lattice_count,
+                               .set = desc->set,
+                               .set_count = desc->set_count,
+                               .mesh = &desc->input,
+                               .shared = desc->shared_box,
+                               .log = &job->log};
+    const chain_outside outside = {0};
+    if (desc->lattice_count == 0)
+        return FFD_OK;
+    ffd_status status = ffd_chain_load(&files, &outside, desc->isa, NULL, &job->chain, error);
+    job->chain.blocks = desc->blocks && desc->lattice_count > 1;
+    if (!status)
+        status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
+                                     job->document, error);
+    if (!status)
+        status = ffd_chain_fit(&job->chain, job->document, job->threads, error);
+    return status ? status : ffd_view_add_cages(&job->chain, desc->lattices, &work->scene, error);
+}
+
+/* Reads the positions of all vertices, in the order of `ffd embed`. */
+static ffd_status read_positions(const view_work *work, mesh_document *document, double **positions,
+                                 ffd_error *error)
+{
+    const size_t count = (size_t)ffd_mesh_vertex_count(document);
+    size_t first = 0;
+    const ffd_status status = ffd_budget_take(&document->budget, count, 3 * sizeof **positions, error);
+    if (status)
+        return status;
+    *positions = ffd_alloc(count, 3 * sizeof **positions);
+    if (!*positions)
+        return ffd_fail_memory(error);
+    document->shown = shows_shapes(work, document);
+    for (size_t i = 0; i < document->part_count; i++) {
+        const mesh_part *const part = &document->parts[i];
+        if (part->repeats_positions)
+            continue;
+        ffd_source_positions(document, i, 0, part->vertex_count, *positions + 3 * first);
+        first += part->vertex_count;
+    }
+    return FFD_OK;
+}
+
+/* Brings the vertices to where the file of the deformed mesh has them. */
+static ffd_status read_deformed(view_work *work, ffd_error *error)
+{
+    const ffd_source *const deformed = work->desc->deformed;
+    const uint64_t count = ffd_mesh_vertex_count(work->job.document);
+    mesh_document *other = NULL;
+    double *positions = NULL;
+    ffd_status status = open_mesh(work, deformed, &other, error);
+    if (!status && ffd_mesh_vertex_count(other) != count)
+        status = ffd_fail_file(error, FFD_E_INVALID, ffd_source_name(deformed),
+                               "has %llu vertices, and %s has %llu: they are not one mesh before and after",
+                               (unsigned long long)ffd_mesh_vertex_count(other),
+                               ffd_source_name(&work->desc->job->input), (unsigned long long)count);
+    if (!status)
+        status = read_positions(work, other, &positions, error);
+    if (!status)
+        status = ffd_view_place_after(&work->model, positions, &work->scene, error);
+    ffd_source_close(&other);
+    ffd_free(positions);
+    return status;
+}
+
+/* Shows files as they are: one, or one before and another after. */
+static ffd_status read_files(view_work *work, ffd_error *error)
+{
+    ffd_status status = open_mesh(work, &work->desc->job->input, &work->job.document, error);
+    if (!status)
+        status = read_model(work, error);
+    if (!status)
+        status = ffd_view_take_mesh(&work->model, &work->scene, &work->faces, error);
+    if (!status)
+        status = work->desc->deformed ? read_deformed(work, error)
+                                      : ffd_view_place_after(&work->model, NULL, &work->scene, error);
+    return status ? status : load_cages(work, error);
+}
+
+static ffd_status write_page(const view_work *work, file_output *output, ffd_error *error)
+{
+    const ffd_view_desc *const desc = work->desc;
+    const view_page_options options = {.full = desc->full,
+                                       .color = (view_page_color)desc->color,
+                                       .camera = {desc->camera[0], desc->camera[1], desc->camera[2]},
+                                       .log = &work->job.log};
+    return ffd_view_page_write(&work->scene, &options, output, error);
+}
+
+static ffd_status write_picture(const view_work *work, file_output *output, ffd_error *error)
+{
+    const view_picture_options options = describe_picture(work);
+    return ffd_view_picture_write(&work->scene, &options, output, error);
+}
+
+static ffd_status write_view(view_work *work, ffd_error *error)
+{
+    const ffd_view_desc *const desc = work->desc;
+    file_output *output;
+    ffd_status status = ffd_output_create(&output, error);
+    if (status)
+        return status;
+    ffd_output_record(output, ffd_written_list(desc->job->written));
+    status = ffd_output_begin(output, desc->output, desc->force, error);
+    if (!status)
+        status = is_page(desc->output) ? write_page(work, output, error) : write_picture(work, output, error);
+    status = ffd_mapping_judge(work->job.losses, status, error);
+    if (!status)
+        status = ffd_output_commit(output, error);
+    ffd_output_destroy(&output);
+    return status;
+}
+
+/* Frees what the scene was made of. */
+static void free_sources(view_work *work)
+{
+    ffd_details_free(&work->details);
+    ffd_model_free(&work->model);
+    ffd_free(work->faces);
+    work->faces = NULL;
+}
+
+static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
+{
+    const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
+    ffd_status status = check_desc(work, error);
+    if (!status)
+        status = name_scene(work, error);
+    if (!status)
+        status = deforms ? run_job(work, result, error) : read_files(work, error);
+    if (status)
+        return status;
+    if (work->model.nodes_left)
+        ffd_log_line(&work->job.log, FFD_LOG_WARNING, "not shown: the GPU instances of %zu %s",
+                     work->model.nodes_left, ffd_plural(work->model.nodes_left, "node", "nodes"));
+    ffd_view_measure(&work->scene);
+    free_sources(work); /* drawing has its own need of memory */
+    return write_view(work, error);
+}
+
+static void free_work(view_work *work)
+{
+    free_sources(work);
+    ffd_view_scene_free(&work->scene);
+}
+
+ffd_status ffd_view_run(const ffd_view_desc *desc, ffd_job_result *result, ffd_error *error)
+{
+    static const ffd_deform_desc none = {0};
+    view_work work = {.desc = desc};
+    ffd_error own;
+    ffd_status status = ffd_deform_job_begin(&work.job, desc->job ? desc->job : &none, true, result);
+    if (!status) {
+        status = run(&work, result, &own);
+        if (status) {
+            result->error = own;
+        } else {
+            result->picture = desc->output;
+            status = result->status; /* of the gates */
+        }
+    }
+    free_work(&work);
+    return ffd_deform_job_end(&work.job, status, result, error);
+}

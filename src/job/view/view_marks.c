@@ -1,0 +1,167 @@
+#include "job/view/view_marks.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "job/judge/quality.h"
+#include "lattice/lattice.h"
+#include <math.h>
+#include <string.h>
+
+static uint64_t number_of(const view_scene *scene, size_t vertex)
+{
+    return scene->numbers ? scene->numbers[vertex] : vertex;
+}
+
+static ffd_status add_statuses(const job_details *details, view_scene *scene, ffd_error *error)
+{
+    scene->statuses = ffd_alloc(scene->vertex_count, 1);
+    scene->dets = ffd_alloc(scene->vertex_count, sizeof *scene->dets);
+    if (!scene->statuses || !scene->dets)
+        return ffd_fail_memory(error);
+    for (size_t v = 0; v < scene->vertex_count; v++) {
+        const size_t number = (size_t)number_of(scene, v);
+        double f[9];
+        scene->statuses[v] = details->statuses[number];
+        scene->dets[v] = NAN;
+        if (!details->gradients)
+            continue;
+        memcpy(f, details->gradients + 9 * number, sizeof f);
+        for (size_t a = 0; a < 3; a++)
+            f[4 * a] += 1;
+        scene->dets[v] = mat_determinant(f);
+    }
+    return FFD_OK;
+}
+
+/* Whether a polygon of the model is flipped; its vertices by their numbers. */
+static bool is_flipped(const job_details *details, const view_scene *scene, const mesh_model *model,
+                       size_t face, uint32_t *numbers)
+{
+    size_t count;
+    const model_corner *const corners = model_element(&model->lists[MODEL_FACES], face, &count);
+    for (size_t c = 0; c < count; c++)
+        numbers[c] = (uint32_t)number_of(scene, corners[c].position);
+    return ffd_quality_is_flipped(numbers, count, details->faces.positions, details->deformed,
+                                  details->gradients);
+}
+
+static ffd_status add_flipped(const job_details *details, const mesh_model *model, const uint32_t *faces,
+                              view_scene *scene, ffd_error *error)
+{
+    uint32_t *numbers = NULL;
+    size_t capacity = 0;
+    bool flipped = false;
+    if (!details->has_faces || scene->flipped_faces == 0)
+        return FFD_OK;
+    scene->flipped = ffd_alloc_zero(scene->triangle_count, 1);
+    bool made = scene->flipped;
+    for (size_t t = 0; t < scene->triangle_count && made; t++) {
+        const size_t face = faces[t];
+        if (t == 0 || faces[t - 1] != face) {
+            const model_list *const list = &model->lists[MODEL_FACES];
+            made = ffd_grow((void **)&numbers, &capacity, list->starts[face + 1] - list->starts[face],
+                            sizeof *numbers);
+            flipped = made && is_flipped(details, scene, model, face, numbers);
+        }
+        scene->flipped[t] = flipped;
+    }
+    ffd_free(numbers);
+    return made ? FFD_OK : ffd_fail_memory(error);
+}
+
+/* The vertex of each number, VIEW_NONE where it is not shown. */
+static uint32_t *make_vertices(const view_scene *scene, size_t count)
+{
+    uint32_t *const vertices = ffd_alloc(count, sizeof *vertices);
+    for (size_t i = 0; vertices && i < count; i++)
+        vertices[i] = VIEW_NONE;
+    for (size_t v = 0; vertices && v < scene->vertex_count; v++)
+        vertices[number_of(scene, v)] = (uint32_t)v;
+    return vertices;
+}
+
+static ffd_status add_tears(const job_details *details, size_t count, view_scene *scene, ffd_error *error)
+{
+    const torn_edges *const torn = &details->tears;
+    if (torn->count == 0)
+        return FFD_OK;
+    uint32_t *const vertices = make_vertices(scene, count);
+    scene->tears = vertices ? ffd_alloc(torn->count, sizeof *scene->tears) : NULL;
+    for (size_t i = 0; scene->tears && i < torn->count; i++) {
+        const torn_edge *const edge = &torn->list[i];
+        const view_tear tear = {{vertices[edge->ends[0]], vertices[edge->ends[1]]}, edge->step};
+        if (tear.vertices[0] != VIEW_NONE && tear.vertices[1] != VIEW_NONE)
+            scene->tears[scene->tear_count++] = tear;
+    }
+    ffd_free(vertices);
+    return scene->tears ? FFD_OK : ffd_fail_memory(error);
+}
+
+static void add_witness(const ffd_job_result *result, view_scene *scene)
+{
+    const ffd_folds *const folds = &result->folds;
+    scene->has_witness = result->has_folds && folds->has_witness;
+    if (!scene->has_witness)
+        return;
+    memcpy(scene->witness_rest, folds->witness_rest, sizeof scene->witness_rest);
+    memcpy(scene->witness_deformed, folds->witness_xyz, sizeof scene->witness_deformed);
+    memcpy(scene->witness_uvw, folds->witness_uvw, sizeof scene->witness_uvw);
+    scene->witness_det = folds->witness_det;
+    scene->witness_cage = result->folds_lattice;
+}
+
+ffd_status ffd_view_add_marks(const deform_job *job, const ffd_job_result *result, const mesh_model *model,
+                              const uint32_t *faces, view_scene *scene, ffd_error *error)
+{
+    const job_details *const details = job->details;
+    const size_t count = (size_t)ffd_mesh_vertex_count(job->document);
+    scene->flipped_faces = result->flipped_faces;
+    scene->tear_edges = result->tear_edges;
+    add_witness(result, scene);
+    ffd_status status = add_statuses(details, scene, error);
+    if (!status)
+        status = add_flipped(details, model, faces, scene, error);
+    return status ? status : add_tears(details, count, scene, error);
+}
+
+static double *copy_points(const double *points, size_t count)
+{
+    double *const copy = ffd_alloc(count, 3 * sizeof *copy);
+    if (copy)
+        memcpy(copy, points, 3 * count * sizeof *copy);
+    return copy;
+}
+
+ffd_status ffd_view_add_cages(const lattice_chain *chain, const char *const *names, view_scene *scene,
+                              ffd_error *error)
+{
+    scene->cages = ffd_alloc_zero(chain->count, sizeof *scene->cages);
+    if (!scene->cages)
+        return ffd_fail_memory(error);
+    for (size_t l = 0; l < chain->count; l++) {
+        const ffd_lattice *const lattice = chain->links[l].lattice;
+        view_cage *const cage = &scene->cages[scene->cage_count++];
+        for (int a = 0; a < 3; a++) {
+            cage->size[a] = lattice->size[a];
+            cage->closed[a] = ffd_knots_closed(&lattice->knots[a]);
+        }
+        cage->name = ffd_text_copy(names[l]);
+        cage->rest = copy_points(lattice->rest, lattice->count);
+        cage->deformed = copy_points(lattice->deformed, lattice->count);
+        if (!cage->name || !cage->rest || !cage->deformed)
+            return ffd_fail_memory(error);
+    }
+    return FFD_OK;
+}
+
+void ffd_view_measure(view_scene *scene)
+{
+    for (size_t v = 0; v < scene->vertex_count; v++) {
+        double along[3];
+        for (size_t a = 0; a < 3; a++)
+            along[a] = scene->after[3 * v + a] - scene->before[3 * v + a];
+        const double length = vec_length(along);
+        if (isfinite(length) && length > scene->displacement_max)
+            scene->displacement_max = length;
+    }
+}

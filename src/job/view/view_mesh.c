@@ -1,0 +1,180 @@
+#include "job/view/view_mesh.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "mesh/polygon_cut.h"
+#include <math.h>
+#include <string.h>
+
+/* Bytes of a triangle: its corners, their texture coordinates, its polygon and a mark. */
+#define TRIANGLE_BYTES (3 * sizeof(uint32_t) + 6 * sizeof(float) + sizeof(uint32_t) + 1)
+
+typedef struct mesh_taker {
+    const mesh_model *model;
+    view_scene *scene;
+    uint32_t *faces;
+    size_t triangles; /* so far */
+    polygon_cutter cutter;
+    double *points; /* of a polygon */
+    uint32_t *cut;
+    size_t points_capacity, cut_capacity;
+    ffd_error *error;
+} mesh_taker;
+
+static size_t count_triangles(const mesh_model *model)
+{
+    const model_list *const faces = &model->lists[MODEL_FACES];
+    return faces->corner_count - 2 * faces->count; /* polygons have at least three corners */
+}
+
+static ffd_status make_arrays(mesh_taker *t)
+{
+    view_scene *const scene = t->scene;
+    const size_t count = count_triangles(t->model);
+    if (count > UINT32_MAX / 3)
+        return ffd_fail(t->error, FFD_E_LIMIT, "%zu triangles are more than can be shown", count);
+    if (t->model->budget && ffd_budget_take(t->model->budget, count, TRIANGLE_BYTES, t->error))
+        return FFD_E_LIMIT;
+    scene->triangle_count = count;
+    scene->triangles = ffd_alloc(count, 3 * sizeof *scene->triangles);
+    scene->texcoords = t->model->texcoord_count ? ffd_alloc_zero(count, 6 * sizeof *scene->texcoords) : NULL;
+    scene->segments = ffd_alloc(t->model->lists[MODEL_LINES].corner_count, 2 * sizeof *scene->segments);
+    scene->points = ffd_alloc(t->model->lists[MODEL_POINTS].corner_count, sizeof *scene->points);
+    scene->parts = ffd_alloc_zero(t->model->run_count, sizeof *scene->parts);
+    t->faces = ffd_alloc(count, sizeof *t->faces);
+    const bool made = scene->triangles && (scene->texcoords || !t->model->texcoord_count) &&
+                      scene->segments && scene->points && scene->parts && t->faces;
+    return made ? FFD_OK : ffd_fail_memory(t->error);
+}
+
+static void put_corner(mesh_taker *t, const model_corner *corner, size_t at)
+{
+    t->scene->triangles[at] = corner->position;
+    if (t->scene->texcoords && corner->texcoord != MODEL_NONE)
+        for (size_t a = 0; a < 2; a++)
+            t->scene->texcoords[2 * at + a] = (float)t->model->texcoords[2 * (size_t)corner->texcoord + a];
+}
+
+static ffd_status take_face(mesh_taker *t, size_t face)
+{
+    size_t count;
+    const model_corner *const corners = model_element(&t->model->lists[MODEL_FACES], face, &count);
+    const size_t triangles = count - 2; /* polygons have at least three corners */
+    if (!ffd_grow((void **)&t->points, &t->points_capacity, 3 * count, sizeof *t->points) ||
+        !ffd_grow((void **)&t->cut, &t->cut_capacity, 3 * triangles, sizeof *t->cut))
+        return ffd_fail_memory(t->error);
+    for (size_t c = 0; c < count; c++)
+        memcpy(t->points + 3 * c, t->model->positions + 3 * (size_t)corners[c].position, 3 * sizeof(double));
+    const ffd_status status = ffd_polygon_cut(&t->cutter, t->points, count, t->cut, t->error);
+    for (size_t i = 0; i < 3 * triangles && !status; i++)
+        put_corner(t, &corners[t->cut[i]], 3 * t->triangles + i);
+    for (size_t i = 0; i < triangles && !status; i++)
+        t->faces[t->triangles++] = (uint32_t)face;
+    return status;
+}
+
+static const char *name_of_run(const mesh_model *model, const model_run *run)
+{
+    const char *const names[] = {model_name(model, run->group), model_name(model, run->object),
+                                 model_name(model, run->material)};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (names[i])
+            return names[i];
+    return "";
+}
+
+/* The material of that number; else the first of that name. */
+static uint32_t material_of_run(const mesh_taker *t, const model_run *run)
+{
+    const mesh_materials *const materials = &t->scene->materials;
+    const char *const name = model_name(t->model, run->material);
+    if (run->material_number != MODEL_NONE)
+        return run->material_number < materials->count ? run->material_number : VIEW_NONE;
+    for (size_t i = 0; name && i < materials->count; i++)
+        if (strcmp(materials->list[i].name, name) == 0)
+            return (uint32_t)i;
+    return VIEW_NONE;
+}
+
+static ffd_status take_run(mesh_taker *t, size_t r)
+{
+    const model_run *const run = &t->model->runs[r];
+    const size_t first = t->triangles, end = model_run_end(t->model, r, MODEL_FACES);
+    view_part *const part = &t->scene->parts[t->scene->part_count];
+    ffd_status status = FFD_OK;
+    for (size_t f = run->first[MODEL_FACES]; f < end && !status; f++)
+        status = take_face(t, f);
+    if (status || t->triangles == first)
+        return status;
+    *part = (view_part){.name = ffd_text_copy(name_of_run(t->model, run)),
+                        .material = material_of_run(t, run),
+                        .first_triangle = first,
+                        .triangle_count = t->triangles - first};
+    t->scene->part_count++;
+    return part->name ? FFD_OK : ffd_fail_memory(t->error);
+}
+
+static void take_lines(mesh_taker *t)
+{
+    const model_list *const lines = &t->model->lists[MODEL_LINES], *const points =
+                                                                       &t->model->lists[MODEL_POINTS];
+    size_t count;
+    for (size_t l = 0; l < lines->count; l++) {
+        const model_corner *const corners = model_element(lines, l, &count);
+        for (size_t c = 1; c < count; c++) {
+            uint32_t *const segment = t->scene->segments + 2 * t->scene->segment_count++;
+            segment[0] = corners[c - 1].position;
+            segment[1] = corners[c].position;
+        }
+    }
+    for (size_t p = 0; p < points->corner_count; p++)
+        t->scene->points[t->scene->point_count++] = points->corners[p].position;
+}
+
+/* Positions, colours and numbers change hands. */
+static void take_vertices(mesh_model *model, view_scene *scene)
+{
+    scene->vertex_count = scene->vertices_all = model->position_count;
+    scene->before = model->positions;
+    scene->numbers = model->numbers;
+    scene->colors = model->colours;
+    model->positions = model->colours = NULL;
+    model->numbers = NULL;
+    model->position_count = 0;
+}
+
+ffd_status ffd_view_take_mesh(mesh_model *model, view_scene *scene, uint32_t **faces, ffd_error *error)
+{
+    mesh_taker t = {.model = model, .scene = scene, .error = error};
+    ffd_status status = make_arrays(&t);
+    for (size_t r = 0; r < model->run_count && !status; r++)
+        status = take_run(&t, r);
+    if (!status) {
+        take_lines(&t);
+        take_vertices(model, scene);
+    }
+    ffd_polygon_cutter_free(&t.cutter);
+    ffd_free(t.points);
+    ffd_free(t.cut);
+    *faces = t.faces;
+    return status;
+}
+
+ffd_status ffd_view_place_after(const mesh_model *model, const double *deformed, view_scene *scene,
+                                ffd_error *error)
+{
+    const size_t vertex = 3 * sizeof *scene->after;
+    ffd_status status = FFD_OK;
+    if (model->budget)
+        status = ffd_budget_take(model->budget, scene->vertex_count, vertex, error);
+    if (status)
+        return status;
+    scene->after = ffd_alloc(scene->vertex_count, vertex);
+    if (!scene->after)
+        return ffd_fail_memory(error);
+    for (size_t v = 0; v < scene->vertex_count; v++) {
+        const size_t number = scene->numbers ? (size_t)scene->numbers[v] : v;
+        const bool has_place = deformed && !isnan(deformed[3 * number]);
+        memcpy(scene->after + 3 * v, has_place ? deformed + 3 * number : scene->before + 3 * v, vertex);
+    }
+    return FFD_OK;
+}

@@ -1,0 +1,80 @@
+#include "mesh/meshopt/meshopt_filters.h"
+#include <math.h>
+#include <stdint.h>
+
+#define LARGEST_8 127.0
+#define LARGEST_16 32767.0
+
+static int load_16(const unsigned char *bytes)
+{
+    return (int16_t)(bytes[0] | (unsigned)bytes[1] << 8);
+}
+
+static void store_16(unsigned char *bytes, int value)
+{
+    bytes[0] = (unsigned char)((unsigned)value & 0xff);
+    bytes[1] = (unsigned char)((unsigned)value >> 8 & 0xff);
+}
+
+/* The nearest integer, halves away from zero; what is out of range, as broken data is, at its end. */
+static int to_integer(double value, double largest)
+{
+    const double whole = value < 0 ? ceil(value - 0.5) : floor(value + 0.5);
+    return (int)fmax(fmin(whole, largest), -largest);
+}
+
+/* Integers of an octahedron whose corner has the coordinate `one` become those of the unit sphere. Up to the
+   root all is exact. */
+static void unfold(const int from[3], double largest, int to[3])
+{
+    const double one = from[2];
+    double x = from[0], y = from[1];
+    const double z = one - fabs(x) - fabs(y);
+    /* The lower half is folded outward. */
+    const double outside = z < 0 ? -z : 0;
+    x += x < 0 ? outside : -outside;
+    y += y < 0 ? outside : -outside;
+    const double length = sqrt(x * x + y * y + z * z), numbers[3] = {x, y, z};
+    for (int a = 0; a < 3; a++)
+        to[a] = length > 0 ? to_integer(numbers[a] * largest / length, largest) : 0;
+}
+
+void ffd_meshopt_unfold(unsigned char *bytes, size_t count, size_t stride)
+{
+    int from[3], to[3];
+    for (unsigned char *at = bytes; at < bytes + count * stride; at += stride) {
+        for (int a = 0; a < 3; a++)
+            from[a] = stride == 4 ? (int8_t)at[a] : load_16(at + 2 * a);
+        unfold(from, stride == 4 ? LARGEST_8 : LARGEST_16, to);
+        for (int a = 0; a < 3; a++) {
+            if (stride == 4)
+                at[a] = (unsigned char)((unsigned)to[a] & 0xff);
+            else
+                store_16(at + 2 * a, to[a]);
+        }
+    }
+}
+
+/* Three components are there, in parts of `one` times the square root of 2; the fourth is the largest, and
+   not negative. */
+static void complete(unsigned char *bytes)
+{
+    const int last = load_16(bytes + 6), largest = last & 3;
+    const double one = last | 3, square = 2 * one * one;
+    double rest = square;
+    int to[4];
+    for (int a = 0; a < 3; a++) {
+        const double part = load_16(bytes + 2 * a);
+        to[(largest + 1 + a) % 4] = to_integer(part * LARGEST_16 / sqrt(square), LARGEST_16);
+        rest -= part * part;
+    }
+    to[largest] = to_integer(sqrt(fmax(rest, 0) / square) * LARGEST_16, LARGEST_16);
+    for (int a = 0; a < 4; a++)
+        store_16(bytes + 2 * a, to[a]);
+}
+
+void ffd_meshopt_complete_rotations(unsigned char *bytes, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        complete(bytes + 8 * i);
+}

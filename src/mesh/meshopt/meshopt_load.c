@@ -1,0 +1,26 @@
+/* meshopt_load.c - decodes and simplifies by the module, which is loaded when it is first needed. */
+#include "mesh/meshopt/meshopt_module.h"
+
+static module meshopt = {MESHOPT_IDENTITY, "meshopt", NULL};
+
+ffd_status ffd_meshopt_ready(ffd_error *error)
+{
+    const module_head *head;
+    return ffd_module_load(&meshopt, &head, error);
+}
+
+ffd_status ffd_meshopt_decode(const meshopt_view *view, unsigned char *bytes, ffd_error *error)
+{
+    const module_head *head;
+    const ffd_status status = ffd_module_load(&meshopt, &head, error);
+    return status ? status : ((const meshopt_module *)head)->decode(view, bytes, error);
+}
+
+ffd_status ffd_meshopt_simplify(const meshopt_mesh *mesh, size_t target, bool is_rough, uint32_t *result,
+                                size_t *count, ffd_error *error)
+{
+    const module_head *head;
+    const ffd_status status = ffd_module_load(&meshopt, &head, error);
+    return status ? status
+                  : ((const meshopt_module *)head)->simplify(mesh, target, is_rough, result, count, error);
+}

@@ -1,0 +1,23 @@
+/* meshopt_module.h - what the module with meshoptimizer shows. meshopt_module.c is part of the module;
+   meshopt_load.c, in its place, of a program that loads it. */
+#ifndef FFD_MESH_MESHOPT_MESHOPT_MODULE_H
+#define FFD_MESH_MESHOPT_MESHOPT_MODULE_H
+
+#include "base/system/module.h"
+#include "mesh/meshopt/meshopt_simplify.h"
+#include "mesh/meshopt/meshopt_view.h"
+#include <ffd/version.h>
+
+#define MESHOPT_IDENTITY                                                                                     \
+    {                                                                                                        \
+        "ffd-meshopt.so", FFD_VERSION, 2                                                                     \
+    }
+
+typedef struct meshopt_module {
+    module_head head;
+    ffd_status (*decode)(const meshopt_view *view, unsigned char *bytes, ffd_error *error);
+    ffd_status (*simplify)(const meshopt_mesh *mesh, size_t target, bool is_rough, uint32_t *result,
+                           size_t *count, ffd_error *error);
+} meshopt_module;
+
+#endif

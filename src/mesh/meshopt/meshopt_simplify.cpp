@@ -1,0 +1,22 @@
+#include "mesh/meshopt/meshopt_simplify.h"
+#include <meshoptimizer.h>
+
+/* No limit: the number of triangles decides. */
+#define FARTHEST 1e6f
+#define STRIDE (3 * sizeof(float))
+
+/* The library asks `operator new` for memory, which throws. */
+extern "C" ffd_status ffd_meshopt_simplify(const meshopt_mesh *mesh, size_t target, bool is_rough,
+                                           uint32_t *result, size_t *count, ffd_error *error)
+{
+    try {
+        *count = is_rough ? meshopt_simplifySloppy(result, mesh->indices, mesh->index_count, mesh->positions,
+                                                   mesh->vertex_count, STRIDE, target, FARTHEST, nullptr)
+                          : meshopt_simplify(result, mesh->indices, mesh->index_count, mesh->positions,
+                                             mesh->vertex_count, STRIDE, target, FARTHEST,
+                                             meshopt_SimplifyLockBorder, nullptr);
+        return FFD_OK;
+    } catch (...) {
+        return ffd_fail_memory(error);
+    }
+}

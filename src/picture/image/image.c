@@ -1,0 +1,13 @@
+#include "picture/image/image.h"
+#include <string.h>
+
+ffd_status ffd_image_decode(const unsigned char *bytes, size_t size, const memory_budget *budget,
+                            image *result, ffd_error *error)
+{
+    static const unsigned char png[8] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    if (size >= sizeof png && memcmp(bytes, png, sizeof png) == 0)
+        return ffd_png_decode(bytes, size, budget, result, error);
+    if (size >= 3 && bytes[0] == 0xff && bytes[1] == 0xd8 && bytes[2] == 0xff)
+        return ffd_jpeg_decode(bytes, size, budget, result, error);
+    return ffd_fail(error, FFD_E_UNSUPPORTED, "the image is neither PNG nor JPEG");
+}

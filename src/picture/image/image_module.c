@@ -1,0 +1,10 @@
+#include "picture/image/image_module.h"
+
+FFD_API extern const image_module ffd_module;
+
+const image_module ffd_module = {
+    {IMAGE_IDENTITY, NULL},
+    ffd_png_decode,
+    ffd_jpeg_decode,
+    ffd_png_write,
+};

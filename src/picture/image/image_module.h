@@ -1,0 +1,25 @@
+/* image_module.h - what the module with libpng and libjpeg shows. image_module.c is part of the module;
+   image_load.c, in its place, of a program that loads it. */
+#ifndef FFD_PICTURE_IMAGE_IMAGE_MODULE_H
+#define FFD_PICTURE_IMAGE_IMAGE_MODULE_H
+
+#include "base/system/module.h"
+#include "picture/image/image.h"
+#include <ffd/version.h>
+
+#define IMAGE_IDENTITY                                                                                       \
+    {                                                                                                        \
+        "ffd-image.so", FFD_VERSION, 1                                                                       \
+    }
+
+typedef struct image_module {
+    module_head head;
+    ffd_status (*png_decode)(const unsigned char *bytes, size_t size, const memory_budget *budget,
+                             image *result, ffd_error *error);
+    ffd_status (*jpeg_decode)(const unsigned char *bytes, size_t size, const memory_budget *budget,
+                              image *result, ffd_error *error);
+    ffd_status (*png_write)(const uint8_t *pixels, uint32_t width, uint32_t height, image_sink sink,
+                            void *context, ffd_error *error);
+} image_module;
+
+#endif

@@ -1,0 +1,143 @@
+/* jpeg.c - JPEG by libjpeg; the only source that includes it. The exact integer transform and plain
+   upsampling give the same pixels from every version of the library. */
+#include "base/memory/memory.h"
+#include "picture/image/image.h"
+#include <setjmp.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <jpeglib.h>
+
+#include <jerror.h>
+
+/* Scans of a progressive image. Each costs a walk over all its pixels, and a short file can have thousands.
+ */
+#define MOST_SCANS 100
+/* The library keeps the coefficients of a progressive image, 2 bytes each, beside our 4 bytes a pixel. */
+#define BYTES_A_PIXEL 4
+#define COEFFICIENT_BYTES 2
+/* What the library takes beside that: tables and a few rows. */
+#define TABLES_SIZE ((uint64_t)8 << 20)
+
+typedef struct jpeg_task {
+    struct jpeg_error_mgr manager; /* first: the library hands it back */
+    struct jpeg_progress_mgr progress;
+    jmp_buf failed;
+    char message[JMSG_LENGTH_MAX];
+    bool is_out_of_memory;
+} jpeg_task;
+
+static jpeg_task *task_of(j_common_ptr jpeg)
+{
+    return (jpeg_task *)(void *)jpeg->err;
+}
+
+_Noreturn static void fail(j_common_ptr jpeg)
+{
+    jpeg_task *const task = task_of(jpeg);
+    task->manager.format_message(jpeg, task->message);
+    task->is_out_of_memory =
+        task->manager.msg_code == JERR_OUT_OF_MEMORY || task->manager.msg_code == JERR_NO_BACKING_STORE;
+    longjmp(task->failed, 1);
+}
+
+/* Warnings that pixels are made up, as of a file that is cut off, are failures here. */
+static void heed(j_common_ptr jpeg, int level)
+{
+    static const int failures[] = {JWRN_JPEG_EOF,       JWRN_HIT_MARKER,  JWRN_HUFF_BAD_CODE,
+                                   JWRN_ARITH_BAD_CODE, JWRN_MUST_RESYNC, JWRN_BOGUS_PROGRESSION};
+    if (level >= 0)
+        return;
+    for (size_t i = 0; i < sizeof failures / sizeof *failures; i++)
+        if (jpeg->err->msg_code == failures[i])
+            fail(jpeg);
+}
+
+static void watch(j_common_ptr jpeg)
+{
+    const struct jpeg_decompress_struct *const from = (const void *)jpeg;
+    if (from->input_scan_number > MOST_SCANS) {
+        snprintf(task_of(jpeg)->message, JMSG_LENGTH_MAX, "it has more than %d scans", MOST_SCANS);
+        longjmp(task_of(jpeg)->failed, 1);
+    }
+}
+
+static void expand(const uint8_t *row, uint32_t width, uint8_t *pixels)
+{
+    for (uint32_t x = 0; x < width; x++) {
+        memcpy(pixels + (size_t)4 * x, row + (size_t)3 * x, 3);
+        pixels[(size_t)4 * x + 3] = 0xff;
+    }
+}
+
+static ffd_status check(struct jpeg_decompress_struct *jpeg, const memory_budget *budget, ffd_error *error)
+{
+    if (jpeg->jpeg_color_space == JCS_CMYK || jpeg->jpeg_color_space == JCS_YCCK || jpeg->num_components > 3)
+        return ffd_fail(error, FFD_E_UNSUPPORTED, "the JPEG image has CMYK colours");
+    const uint64_t kept =
+        jpeg_has_multiple_scans(jpeg) ? COEFFICIENT_BYTES * (uint64_t)jpeg->num_components : 0;
+    const uint64_t pixels = (uint64_t)jpeg->image_width * jpeg->image_height;
+    const ffd_status status =
+        ffd_image_check(jpeg->image_width, jpeg->image_height, BYTES_A_PIXEL + kept, budget, error);
+    /* Blocks at the right and lower ends reach beyond the image. */
+    jpeg->mem->max_memory_to_use = (long)(2 * kept * pixels + TABLES_SIZE);
+    return status;
+}
+
+/* Between setjmp and longjmp nothing but what task, result and jpeg point to may change. */
+static ffd_status read_pixels(struct jpeg_decompress_struct *jpeg, jpeg_task *task,
+                              const unsigned char *bytes, size_t size, const memory_budget *budget,
+                              image *result, ffd_error *error)
+{
+    if (setjmp(task->failed)) {
+        if (task->is_out_of_memory)
+            return ffd_fail_memory(error);
+        return ffd_fail(error, FFD_E_INVALID, "the JPEG image is broken: %s", task->message);
+    }
+    jpeg_create_decompress(jpeg);
+    jpeg->progress = &task->progress;
+    jpeg_mem_src(jpeg, bytes, (unsigned long)size);
+    jpeg_read_header(jpeg, TRUE);
+    const ffd_status status = check(jpeg, budget, error);
+    if (status)
+        return status;
+    jpeg->out_color_space = JCS_RGB;
+    jpeg->dct_method = JDCT_ISLOW;
+    jpeg->do_fancy_upsampling = FALSE;
+    jpeg->do_block_smoothing = FALSE;
+    jpeg_start_decompress(jpeg);
+    const uint32_t width = jpeg->output_width, height = jpeg->output_height;
+    *result = (image){width, height, ffd_alloc_zero((size_t)width * height, 4)};
+    if (!result->pixels)
+        return ffd_fail_memory(error);
+    const JSAMPARRAY row = jpeg->mem->alloc_sarray((j_common_ptr)jpeg, JPOOL_IMAGE, 3 * width, 1);
+    while (jpeg->output_scanline < height) {
+        uint8_t *const pixels = result->pixels + (size_t)4 * width * jpeg->output_scanline;
+        jpeg_read_scanlines(jpeg, row, 1);
+        expand(row[0], width, pixels);
+    }
+    jpeg_finish_decompress(jpeg);
+    return FFD_OK;
+}
+
+ffd_status ffd_jpeg_decode(const unsigned char *bytes, size_t size, const memory_budget *budget,
+                           image *result, ffd_error *error)
+{
+    struct jpeg_decompress_struct jpeg;
+    jpeg_task task;
+    memset(&jpeg, 0, sizeof jpeg);
+    memset(&task, 0, sizeof task);
+    *result = (image){0, 0, NULL};
+    jpeg.err = jpeg_std_error(&task.manager);
+    task.manager.error_exit = fail;
+    task.manager.emit_message = heed;
+    task.progress.progress_monitor = watch;
+    const ffd_status status = read_pixels(&jpeg, &task, bytes, size, budget, result, error);
+    jpeg_destroy_decompress(&jpeg);
+    if (status) {
+        ffd_free(result->pixels);
+        *result = (image){0, 0, NULL};
+    }
+    return status;
+}

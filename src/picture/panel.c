@@ -1,0 +1,138 @@
+#include "picture/panel.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+
+/* Of a cage's points, in widths of its lines. */
+#define POINT_RADIUS 2.1
+/* How much of a cage shows through the mesh. */
+#define HIDDEN_SHARE 0.22
+
+static bool rows_between(double low, double high, int64_t *first, int64_t *last)
+{
+    /* Strokes farther away than this are not drawn. */
+    if (!(low > -1e9 && high < 1e9))
+        return false;
+    *first = (int64_t)floor(low);
+    *last = (int64_t)floor(high);
+    return true;
+}
+
+static bool segment_rows(const void *context, size_t item, int64_t *first, int64_t *last)
+{
+    const panel_cage *const c = context;
+    const uint32_t *const ends = c->cage->segments + 2 * item;
+    if (ends[0] >= c->cage->point_count || ends[1] >= c->cage->point_count)
+        return false;
+    const double a = c->points[3 * (size_t)ends[0] + 1], b = c->points[3 * (size_t)ends[1] + 1];
+    return rows_between(lesser_of(a, b) - c->half_width - 2, larger_of(a, b) + c->half_width + 2, first,
+                        last);
+}
+
+static bool disc_rows(const void *context, size_t item, int64_t *first, int64_t *last)
+{
+    const panel_cage *const c = context;
+    const double y = c->points[3 * item + 1];
+    return rows_between(y - c->radius - 2, y + c->radius + 2, first, last);
+}
+
+static ffd_status make_mesh(const picture_mesh *mesh, const projection *by, const picture *of,
+                            const band_means *means, panel_mesh *result, ffd_error *error)
+{
+    const ffd_status status = ffd_surface_make(mesh, by, means, &result->surface, error);
+    return status ? status
+                  : ffd_bands_make(0, of->height, mesh->triangle_count, ffd_raster_rows, &result->surface,
+                                   means, &result->triangles, error);
+}
+
+static ffd_status make_cage(const picture_cage *cage, const projection *by, const layout *in,
+                            const band_means *means, panel_cage *result, ffd_error *error)
+{
+    const double width = cage->width > 0 ? cage->width : in->line;
+    *result =
+        (panel_cage){.cage = cage,
+                     .half_width = width / 2,
+                     .radius = cage->radius > 0 || cage->radius < 0 ? cage->radius : POINT_RADIUS * width,
+                     .points = ffd_alloc(cage->point_count, 3 * sizeof *result->points)};
+    if (!result->points)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < cage->point_count; i++)
+        projection_apply(by, cage->points + 3 * i, result->points + 3 * i);
+    const ffd_status status = ffd_bands_make(0, in->of->height, cage->segment_count, segment_rows, result,
+                                             means, &result->segments, error);
+    return status ? status
+                  : ffd_bands_make(0, in->of->height, result->radius > 0 ? cage->point_count : 0, disc_rows,
+                                   result, means, &result->discs, error);
+}
+
+ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, const band_means *means,
+                          panel *result, ffd_error *error)
+{
+    const picture_panel *const of = &by->of->panels[number];
+    *result = (panel){.of = of,
+                      .layout = by,
+                      .left = ffd_layout_column(by, number),
+                      .right = ffd_layout_column(by, number + 1),
+                      .meshes = ffd_alloc_zero(of->mesh_count, sizeof *result->meshes),
+                      .cages = ffd_alloc_zero(of->cage_count, sizeof *result->cages)};
+    /* Panels whose widths differ by a pixel have one scale still. */
+    const double width = floor((double)by->of->width / (double)by->of->panel_count) - 2 * by->margin;
+    const projection to = ffd_camera_fit(&by->of->camera, seen, floor((result->left + result->right) / 2.0),
+                                         (by->top + by->bottom) / 2, width, by->bottom - by->top);
+    ffd_status status = result->meshes && result->cages ? FFD_OK : ffd_fail_memory(error);
+    for (size_t i = 0; !status && i < of->mesh_count; i++)
+        status = make_mesh(&of->meshes[i], &to, by->of, means, &result->meshes[i], error);
+    for (size_t i = 0; !status && i < of->cage_count; i++)
+        status = make_cage(&of->cages[i], &to, by, means, &result->cages[i], error);
+    if (status)
+        ffd_panel_free(result);
+    return status;
+}
+
+void ffd_panel_free(panel *of)
+{
+    for (size_t i = 0; of->meshes && i < of->of->mesh_count; i++) {
+        ffd_surface_free(&of->meshes[i].surface);
+        ffd_bands_free(&of->meshes[i].triangles);
+    }
+    for (size_t i = 0; of->cages && i < of->of->cage_count; i++) {
+        ffd_free(of->cages[i].points);
+        ffd_bands_free(&of->cages[i].segments);
+        ffd_bands_free(&of->cages[i].discs);
+    }
+    ffd_free(of->meshes);
+    ffd_free(of->cages);
+    *of = (panel){.of = NULL};
+}
+
+void ffd_panel_draw_meshes(const panel *of, const linear_tables *tables, size_t band, samples *into)
+{
+    for (size_t m = 0; m < of->of->mesh_count; m++) {
+        const bands *const list = &of->meshes[m].triangles;
+        for (size_t i = list->starts[band]; i < list->starts[band + 1]; i++)
+            ffd_raster_triangle(&of->meshes[m].surface, tables, list->items[i], into);
+    }
+}
+
+static void draw_cage(const panel_cage *c, const linear_tables *tables, size_t band,
+                      const stroke_target *into)
+{
+    const uint8_t *const bytes = c->cage->color;
+    stroke with = {linear_pack(tables->light[bytes[0]], tables->light[bytes[1]], tables->light[bytes[2]]),
+                   c->half_width, HIDDEN_SHARE};
+    for (size_t i = c->segments.starts[band]; i < c->segments.starts[band + 1]; i++) {
+        const uint32_t *const ends = c->cage->segments + 2 * (size_t)c->segments.items[i];
+        ffd_stroke_draw(into, &with, c->points + 3 * (size_t)ends[0], c->points + 3 * (size_t)ends[1]);
+    }
+    with.half_width = c->radius;
+    for (size_t i = c->discs.starts[band]; i < c->discs.starts[band + 1]; i++) {
+        const double *const point = c->points + 3 * (size_t)c->discs.items[i];
+        ffd_stroke_draw(into, &with, point, point);
+    }
+}
+
+void ffd_panel_draw_cages(const panel *of, const linear_tables *tables, size_t band,
+                          const stroke_target *into)
+{
+    for (size_t i = 0; i < of->of->cage_count; i++)
+        draw_cage(&of->cages[i], tables, band, into);
+}

@@ -1,0 +1,41 @@
+/* panel.h - the meshes and cages of one panel, made ready, and drawing them row by row. */
+#ifndef FFD_PICTURE_PANEL_H
+#define FFD_PICTURE_PANEL_H
+
+#include "picture/bands.h"
+#include "picture/layout.h"
+#include "picture/raster.h"
+
+typedef struct panel_mesh {
+    surface surface;
+    bands triangles;
+} panel_mesh;
+
+typedef struct panel_cage {
+    const picture_cage *cage;
+    double half_width, radius;
+    double *points; /* in pixels */
+    bands segments, discs;
+} panel_cage;
+
+typedef struct panel {
+    const picture_panel *of;
+    const layout *layout;
+    int32_t left, right; /* columns */
+    panel_mesh *meshes;
+    panel_cage *cages;
+} panel;
+
+/* Makes panel `number` of a picture ready. Errors: FFD_E_MEMORY, FFD_E_LIMIT; nothing is left to free then.
+ */
+ffd_status ffd_panel_make(const layout *by, size_t number, const ffd_bounds *seen, const band_means *means,
+                          panel *result, ffd_error *error);
+/* Frees what it holds; leaves an empty one. */
+void ffd_panel_free(panel *of);
+/* Draws the surfaces in a band of rows into samples of the panel's columns. */
+void ffd_panel_draw_meshes(const panel *of, const linear_tables *tables, size_t band, samples *into);
+/* Draws the cages in a band of rows. */
+void ffd_panel_draw_cages(const panel *of, const linear_tables *tables, size_t band,
+                          const stroke_target *into);
+
+#endif

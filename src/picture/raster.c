@@ -1,0 +1,287 @@
+#include "picture/raster.h"
+#include "base/inline.h"
+#include <string.h>
+
+/* The four samples of a pixel at once. */
+typedef int32_t numbers __attribute__((vector_size(16)));
+typedef float depths __attribute__((vector_size(16)));
+
+/* A triangle of less than this many parts of a pixel a side has edges that fit in 32 bits. */
+#define SMALL (1 << 14)
+/* One of less than four pixels a side has one colour. */
+#define FLAT (4 * SUBPIXELS)
+
+static const int32_t sample_x[SAMPLES] = SAMPLE_X, sample_y[SAMPLES] = SAMPLE_Y;
+
+typedef struct edge {
+    int32_t x, y;   /* where it begins */
+    int32_t dx, dy; /* to where it ends */
+    int32_t bias;   /* -1: samples on it belong to the neighbour */
+} edge;
+
+typedef struct setup {
+    raster_corner corners[3]; /* clockwise as it is seen */
+    int order[3];             /* which corner of the triangle each is */
+    edge edges[3];            /* each opposite to the corner of its number */
+    int64_t area;             /* twice that of the triangle */
+    double inverse;           /* of it */
+    double z_across, z_down;  /* for a part of a pixel */
+    depths z_steps, nearest, farthest;
+    int64_t left, right, top, bottom; /* pixels */
+    bool is_small, is_flat, has_depths;
+} setup;
+
+static int64_t least(int64_t a, int64_t b)
+{
+    return a < b ? a : b;
+}
+
+static int64_t most(int64_t a, int64_t b)
+{
+    return a > b ? a : b;
+}
+
+static int64_t cross(int32_t ax, int32_t ay, int32_t bx, int32_t by)
+{
+    return (int64_t)ax * by - (int64_t)ay * bx;
+}
+
+bool ffd_raster_rows(const void *surface_pointer, size_t triangle, int64_t *first, int64_t *last)
+{
+    const surface *const of = surface_pointer;
+    const uint32_t *const t = of->triangles + 3 * triangle;
+    if (t[0] >= of->vertex_count || t[1] >= of->vertex_count || t[2] >= of->vertex_count)
+        return false;
+    const surface_vertex *const a = &of->vertices[t[0]], *const b = &of->vertices[t[1]],
+                                *const c = &of->vertices[t[2]];
+    if (a->x == VERTEX_NOWHERE || b->x == VERTEX_NOWHERE || c->x == VERTEX_NOWHERE)
+        return false;
+    if (a->x == VERTEX_FAR || b->x == VERTEX_FAR || c->x == VERTEX_FAR) {
+        *first = -GUARD;
+        *last = GUARD;
+        return true;
+    }
+    int64_t left, right;
+    samples_span(least(least(a->x, b->x), c->x), most(most(a->x, b->x), c->x), &left, &right);
+    samples_span(least(least(a->y, b->y), c->y), most(most(a->y, b->y), c->y), first, last);
+    return left <= right && *first <= *last;
+}
+
+static edge edge_between(const raster_corner *from, const raster_corner *to)
+{
+    const int32_t dx = to->x - from->x, dy = to->y - from->y;
+    /* The triangle is to the right of an edge that rises, and below a level one that goes to the right. */
+    const bool is_own = dy < 0 || (dy == 0 && dx > 0);
+    return (edge){from->x, from->y, dx, dy, is_own ? 0 : -1};
+}
+
+/* For the first pixel that has a sample in the triangle: many a small one has none. */
+static void set_depths(setup *s)
+{
+    s->has_depths = true;
+    s->inverse = 1.0 / (double)s->area;
+    const raster_corner *const a = &s->corners[0], *const b = &s->corners[1], *const c = &s->corners[2];
+    const double bz = (double)b->z - a->z, cz = (double)c->z - a->z;
+    s->z_across = (bz * ((double)c->y - a->y) - cz * ((double)b->y - a->y)) * s->inverse;
+    s->z_down = (cz * ((double)b->x - a->x) - bz * ((double)c->x - a->x)) * s->inverse;
+    float low = a->z, high = a->z;
+    low = b->z < low ? b->z : low;
+    low = c->z < low ? c->z : low;
+    high = b->z > high ? b->z : high;
+    high = c->z > high ? c->z : high;
+    s->z_steps = (float)s->z_across * (depths)SAMPLE_X + (float)s->z_down * (depths)SAMPLE_Y;
+    s->nearest = low - (depths){0};
+    s->farthest = high - (depths){0};
+}
+
+/* Returns false where no sample can be in it; *side: 0, or 1 where its back is seen. */
+static bool set_up(const raster_corner corners[3], const samples *into, setup *s, int *side)
+{
+    int64_t area = cross(corners[1].x - corners[0].x, corners[1].y - corners[0].y,
+                         corners[2].x - corners[0].x, corners[2].y - corners[0].y);
+    if (area == 0)
+        return false;
+    /* Rows run downwards, so that counter-clockwise corners have a negative area. */
+    *side = area > 0;
+    for (int k = 0; k < 3; k++) {
+        s->order[k] = area > 0 ? k : 2 - k;
+        s->corners[k] = corners[s->order[k]];
+    }
+    area = area > 0 ? area : -area;
+    s->area = area;
+    const raster_corner *const a = &s->corners[0], *const b = &s->corners[1], *const c = &s->corners[2];
+    const int64_t low_x = least(least(a->x, b->x), c->x), high_x = most(most(a->x, b->x), c->x),
+                  low_y = least(least(a->y, b->y), c->y), high_y = most(most(a->y, b->y), c->y);
+    samples_span(low_x, high_x, &s->left, &s->right);
+    samples_span(low_y, high_y, &s->top, &s->bottom);
+    s->left = most(s->left, into->left);
+    s->right = least(s->right, into->left + into->width - 1);
+    s->top = most(s->top, into->top);
+    s->bottom = least(s->bottom, into->top + into->rows - 1);
+    if (s->left > s->right || s->top > s->bottom)
+        return false;
+    const int64_t size = most(high_x - low_x, high_y - low_y);
+    s->is_small = size < SMALL;
+    s->is_flat = size < FLAT;
+    s->edges[0] = edge_between(b, c);
+    s->edges[1] = edge_between(c, a);
+    s->edges[2] = edge_between(a, b);
+    s->has_depths = false;
+    return true;
+}
+
+/* -1 for the samples of a pixel, whose corner is at (x, y), that are in the triangle. */
+static numbers inside_by_64(const setup *s, int64_t x, int64_t y)
+{
+    numbers inside = {-1, -1, -1, -1};
+    for (int k = 0; k < 3; k++) {
+        const edge *const e = &s->edges[k];
+        for (int i = 0; i < SAMPLES; i++) {
+            const int64_t at = e->dx * (y + sample_y[i] - e->y) - e->dy * (x + sample_x[i] - e->x) + e->bias;
+            inside[i] &= at < 0 ? 0 : -1;
+        }
+    }
+    return inside;
+}
+
+/* The same for small ones: the edges at the samples of a pixel, and how they change. */
+typedef struct walk {
+    numbers at[3];
+    int32_t across[3], down[3];
+} walk;
+
+static ALWAYS_INLINE walk walk_from(const setup *s, int64_t x, int64_t y)
+{
+    static const numbers sx = SAMPLE_X, sy = SAMPLE_Y;
+    walk w;
+    for (int k = 0; k < 3; k++) {
+        const edge *const e = &s->edges[k];
+        w.at[k] = e->dx * ((int32_t)(y - e->y) + sy) - e->dy * ((int32_t)(x - e->x) + sx) + e->bias;
+        w.across[k] = -e->dy * SUBPIXELS;
+        w.down[k] = e->dx * SUBPIXELS;
+    }
+    return w;
+}
+
+static ALWAYS_INLINE bool any(numbers which)
+{
+    uint64_t halves[2];
+    memcpy(halves, &which, sizeof halves);
+    return halves[0] | halves[1];
+}
+
+/* Weights of the triangle's corners in the middle of those samples of a pixel that are drawn. */
+static void weigh(const setup *s, int64_t x, int64_t y, numbers drawn, double weights[3])
+{
+    double px = 0, py = 0, count = 0;
+    for (int i = 0; i < SAMPLES; i++)
+        if (drawn[i]) {
+            px += sample_x[i];
+            py += sample_y[i];
+            count += 1;
+        }
+    px = (double)x + px / count;
+    py = (double)y + py / count;
+    double sum = 0;
+    for (int k = 1; k < 3; k++) {
+        const edge *const e = &s->edges[k];
+        const double weight = (e->dx * (py - e->y) - e->dy * (px - e->x)) * s->inverse;
+        weights[s->order[k]] = weight;
+        sum += weight;
+    }
+    weights[s->order[0]] = 1 - sum;
+}
+
+typedef struct brush {
+    shade shade;
+    bool is_begun, is_drawn; /* it has a colour, where that is the same all over */
+    uint64_t color;
+} brush;
+
+static bool pick_color(brush *b, const setup *s, int64_t x, int64_t y, numbers drawn)
+{
+    double weights[3];
+    if (b->is_begun && s->is_flat)
+        return b->is_drawn;
+    if (!b->is_begun)
+        ffd_shade_begin(&b->shade);
+    b->is_begun = true;
+    if (s->is_flat)
+        return b->is_drawn = ffd_shade_middle(&b->shade, &b->color);
+    weigh(s, x, y, drawn, weights);
+    return ffd_shade_color(&b->shade, weights, &b->color);
+}
+
+/* Draws those of a pixel's samples that are in the triangle and nearer than what is there. */
+static ALWAYS_INLINE void draw_pixel(setup *s, brush *b, int64_t px, int64_t py, numbers inside,
+                                     samples *into)
+{
+    const int64_t x = px * SUBPIXELS, y = py * SUBPIXELS;
+    const size_t first =
+        SAMPLES * ((size_t)(py - into->top) * (size_t)into->width + (size_t)(px - into->left));
+    const raster_corner *const a = &s->corners[0];
+    if (!s->has_depths)
+        set_depths(s);
+    const float z = (float)(a->z + s->z_across * (double)(x - a->x) + s->z_down * (double)(y - a->y));
+    depths there, at = z + s->z_steps;
+    memcpy(&there, into->depth + first, sizeof there);
+    /* No farther than the corners: a sliver's plane is steep. */
+    const numbers low = at<s->nearest, high = at> s->farthest;
+    at = (depths)(((numbers)s->nearest & low) | ((numbers)s->farthest & high) | ((numbers)at & ~low & ~high));
+    const numbers drawn = inside & (at < there);
+    if (!any(drawn) || !pick_color(b, s, x, y, drawn))
+        return;
+    at = (depths)(((numbers)at & drawn) | ((numbers)there & ~drawn));
+    memcpy(into->depth + first, &at, sizeof at);
+    /* Without branches, which nothing could foresee. */
+    uint64_t *const colors = into->color + first;
+    for (int i = 0; i < SAMPLES; i++) {
+        const uint64_t which = (uint64_t)(int64_t)drawn[i];
+        colors[i] = (colors[i] & ~which) | (b->color & which);
+    }
+}
+
+static void draw_small(setup *s, brush *b, samples *into)
+{
+    walk w = walk_from(s, s->left * SUBPIXELS, s->top * SUBPIXELS);
+    for (int64_t py = s->top; py <= s->bottom; py++) {
+        numbers first = w.at[0], second = w.at[1], third = w.at[2];
+        for (int64_t px = s->left; px <= s->right; px++) {
+            const numbers inside = (first | second | third) >= 0;
+            if (any(inside))
+                draw_pixel(s, b, px, py, inside, into);
+            first += w.across[0];
+            second += w.across[1];
+            third += w.across[2];
+        }
+        for (int k = 0; k < 3; k++)
+            w.at[k] += w.down[k];
+    }
+}
+
+static void draw_large(setup *s, brush *b, samples *into)
+{
+    for (int64_t py = s->top; py <= s->bottom; py++)
+        for (int64_t px = s->left; px <= s->right; px++) {
+            const numbers inside = inside_by_64(s, px * SUBPIXELS, py * SUBPIXELS);
+            if (any(inside))
+                draw_pixel(s, b, px, py, inside, into);
+        }
+}
+
+void ffd_raster_corners(const surface *of, const linear_tables *tables, size_t triangle,
+                        const raster_corner corners[3], bool is_flat, samples *into)
+{
+    setup s;
+    int side;
+    if (!set_up(corners, into, &s, &side))
+        return;
+    if (side && !ffd_shade_material(of->mesh, triangle)->is_double_sided)
+        return;
+    s.is_flat |= is_flat;
+    brush b = {.shade = {.surface = of, .tables = tables, .triangle = triangle, .side = side}};
+    if (s.is_small)
+        draw_small(&s, &b, into);
+    else
+        draw_large(&s, &b, into);
+}

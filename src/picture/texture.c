@@ -1,0 +1,148 @@
+#include "picture/texture.h"
+#include "base/memory/memory.h"
+#include "picture/linear.h"
+#include <math.h>
+
+static uint32_t half(uint32_t side)
+{
+    return side > 1 ? side / 2 : 1;
+}
+
+/* Pixels of all levels below the first. */
+static uint64_t smaller_pixels(uint32_t width, uint32_t height)
+{
+    uint64_t sum = 0;
+    while (width > 1 || height > 1) {
+        width = half(width);
+        height = half(height);
+        sum += (uint64_t)width * height;
+    }
+    return sum;
+}
+
+uint64_t ffd_texture_size(uint32_t width, uint32_t height)
+{
+    return 4 * ((uint64_t)width * height + smaller_pixels(width, height));
+}
+
+/* The mean of the pixels of one box, each as much as it is opaque, so that what is cut away lends no colour.
+ */
+static void average(const linear_tables *tables, const texture_level *from, const uint32_t x[2],
+                    const uint32_t y[2], uint8_t to[4])
+{
+    uint64_t sum[3] = {0}, plain[3] = {0}, alpha = 0, count = 0;
+    for (uint32_t j = y[0]; j < y[1]; j++)
+        for (uint32_t i = x[0]; i < x[1]; i++, count++) {
+            const uint8_t *const pixel = from->pixels + 4 * ((size_t)from->width * j + i);
+            for (int c = 0; c < 3; c++) {
+                plain[c] += tables->light[pixel[c]];
+                sum[c] += (uint64_t)tables->light[pixel[c]] * pixel[3];
+            }
+            alpha += pixel[3];
+        }
+    for (int c = 0; c < 3; c++)
+        to[c] = linear_to_byte(tables, (uint16_t)(alpha ? sum[c] / alpha : plain[c] / count));
+    to[3] = (uint8_t)((alpha + count / 2) / count);
+}
+
+/* An odd side is halved with three pixels for the last one. */
+static void shrink(const linear_tables *tables, const texture_level *from, uint32_t width, uint32_t height,
+                   uint8_t *pixels)
+{
+    const uint32_t wide = from->width > 1 ? 2 : 1, high = from->height > 1 ? 2 : 1;
+    for (uint32_t y = 0; y < height; y++)
+        for (uint32_t x = 0; x < width; x++) {
+            const uint32_t across[2] = {wide * x, x + 1 == width ? from->width : wide * (x + 1)},
+                           down[2] = {high * y, y + 1 == height ? from->height : high * (y + 1)};
+            average(tables, from, across, down, pixels + 4 * ((size_t)width * y + x));
+        }
+}
+
+ffd_status ffd_texture_make(image *of, texture *result, ffd_error *error)
+{
+    const uint64_t count = smaller_pixels(of->width, of->height);
+    *result = (texture){.level_count = 1, .levels = {{of->width, of->height, of->pixels}}};
+    result->smaller = ffd_alloc((size_t)count, 4);
+    if (!result->smaller)
+        return ffd_fail_memory(error);
+    linear_tables tables;
+    ffd_linear_fill(&tables);
+    uint8_t *next = result->smaller;
+    for (;;) {
+        const texture_level *const last = &result->levels[result->level_count - 1];
+        if (last->width == 1 && last->height == 1)
+            break;
+        texture_level *const level = &result->levels[result->level_count++];
+        *level = (texture_level){half(last->width), half(last->height), next};
+        shrink(&tables, last, level->width, level->height, next);
+        next += (size_t)4 * level->width * level->height;
+    }
+    result->image = *of;
+    *of = (image){0, 0, NULL};
+    return FFD_OK;
+}
+
+void ffd_texture_free(texture *of)
+{
+    ffd_free(of->smaller);
+    ffd_free(of->image.pixels);
+    *of = (texture){.level_count = 0};
+}
+
+/* The coordinate within 0 to 1 that has the same texels. */
+static double fold(texture_wrap wrap, double x)
+{
+    if (!isfinite(x))
+        return 0;
+    if (wrap == TEXTURE_CLAMP)
+        return x < 0 ? 0 : x > 1 ? 1 : x;
+    if (wrap == TEXTURE_MIRROR) {
+        x -= 2 * floor(x / 2);
+        return x > 1 ? 2 - x : x;
+    }
+    return x - floor(x);
+}
+
+/* The two texels beside a coordinate, and the share of the second. */
+static double neighbours(texture_wrap wrap, double x, uint32_t side, uint32_t texels[2])
+{
+    const double at = fold(wrap, x) * side - 0.5, low = floor(at);
+    const int64_t first = (int64_t)low, last = (int64_t)side - 1;
+    const bool repeats = wrap == TEXTURE_REPEAT;
+    texels[0] = (uint32_t)(first < 0 ? (repeats ? last : 0) : first > last ? last : first);
+    texels[1] = (uint32_t)(first + 1 > last ? (repeats ? 0 : last) : first + 1);
+    return at - low;
+}
+
+static void sample_level(const linear_tables *tables, const texture_level *level, const texture_wrap wrap[2],
+                         double u, double v, double share, double color[4])
+{
+    uint32_t x[2], y[2];
+    const double right = neighbours(wrap[0], u, level->width, x),
+                 below = neighbours(wrap[1], v, level->height, y);
+    for (int i = 0; i < 4; i++) {
+        const double weight = share * (i & 1 ? right : 1 - right) * (i & 2 ? below : 1 - below);
+        const uint8_t *const pixel = level->pixels + 4 * ((size_t)level->width * y[i >> 1] + x[i & 1]);
+        for (int c = 0; c < 3; c++)
+            color[c] += weight * tables->light[pixel[c]] * (1.0 / LINEAR_ONE);
+        color[3] += weight * pixel[3] * (1.0 / 255);
+    }
+}
+
+void ffd_texture_sample(const texture *of, const linear_tables *tables, const texture_wrap wrap[2], double u,
+                        double v, double size, double color[4])
+{
+    int level = 0;
+    double step = 1;
+    while (level + 1 < of->level_count && size >= 2 * step) {
+        level++;
+        step *= 2;
+    }
+    /* Between levels their mean, by the size itself: no logarithm. */
+    double share = size / step - 1;
+    share = level + 1 < of->level_count && share > 0 ? (share < 1 ? share : 1) : 0;
+    color[0] = color[1] = color[2] = color[3] = 0;
+    sample_level(tables, &of->levels[level], wrap, u, v, 1 - share, color);
+    if (share > 0)
+        sample_level(tables, &of->levels[level + 1], wrap, u, v, share, color);
+}

@@ -1,0 +1,152 @@
+#include "view/page.h"
+#include "base/memory/memory.h"
+#include "view/page_assets.h"
+#include "view/page_reduce.h"
+#include "view/page_scene.h"
+#include "view/page_text.h"
+#include <inttypes.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct page_work {
+    const view_scene *scene;
+    const view_page_options *options;
+    page_mesh mesh;
+    page_data data;
+    page_description description;
+    bool *has_cage;
+    page_writer writer;
+} page_work;
+
+/* Says on the page, and to the log, that something is not shown. */
+static void FFD_PRINTF(2, 3) give_notice(page_work *work, const char *format, ...)
+{
+    page_description *const page = &work->description;
+    if (page->notice_count == PAGE_NOTICES)
+        return;
+    char *const notice = page->notices[page->notice_count++];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(notice, sizeof page->notices[0], format, arguments);
+    va_end(arguments);
+    ffd_log_line(work->options->log, FFD_LOG_WARNING, "the page: %s", notice);
+}
+
+/* Chooses the cages whose points the page has, the first ones. */
+static ffd_status choose_cages(page_work *work, ffd_error *error)
+{
+    const view_scene *const scene = work->scene;
+    size_t points = 0, left_out = 0;
+    work->has_cage = ffd_alloc_zero(scene->cage_count, sizeof *work->has_cage);
+    work->description.has_cage = work->has_cage;
+    if (!work->has_cage)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < scene->cage_count; i++) {
+        const size_t *const size = scene->cages[i].size;
+        size_t count = 0, all = 0;
+        const bool fits = ffd_multiply_size(size[0], size[1], &count) &&
+                          ffd_multiply_size(count, size[2], &count) && ffd_add_size(points, count, &all) &&
+                          (work->options->full || all <= VIEW_PAGE_CONTROLS);
+        work->has_cage[i] = fits;
+        points = fits ? all : points;
+        left_out += !fits;
+    }
+    if (left_out)
+        give_notice(work,
+                    "%zu of %zu lattices are not drawn: they have more than %d control points (see --full)",
+                    left_out, scene->cage_count, VIEW_PAGE_CONTROLS);
+    return FFD_OK;
+}
+
+static void say_what_is_left_out(page_work *work, size_t used)
+{
+    const page_mesh *const mesh = &work->mesh;
+    if (mesh->not_finite)
+        give_notice(work, "%" PRIu64 " vertices are not finite, and %zu triangles at them not drawn",
+                    mesh->not_finite, mesh->triangles_lost);
+    if (mesh->vertex_count < used)
+        give_notice(work, "%zu of %zu vertices are drawn: the mesh is simplified (see --full)",
+                    mesh->vertex_count, used);
+    if (work->scene->vertex_count == 0)
+        give_notice(work, "the mesh has no vertices");
+}
+
+static ffd_status prepare(page_work *work, ffd_error *error)
+{
+    ffd_status status = ffd_page_mesh_take(work->scene, &work->mesh, error);
+    if (status)
+        return status;
+    const size_t used = ffd_page_mesh_mark(&work->mesh);
+    if (!work->options->full)
+        status = ffd_page_reduce(&work->mesh, VIEW_PAGE_VERTICES, error);
+    if (!status)
+        status = ffd_page_mesh_number(&work->mesh, error);
+    if (status)
+        return status;
+    ffd_page_data_measure(&work->mesh, &work->data);
+    say_what_is_left_out(work, used);
+    return choose_cages(work, error);
+}
+
+static void write_json(page_work *work, const char *id, byte_buffer *json)
+{
+    static const char tail[] = "</script>\n";
+    byte_buffer head = {0};
+    ffd_buffer_format(&head, "<script type=\"application/json\" id=\"%s\">", id);
+    ffd_page_write_buffer(&work->writer, &head);
+    ffd_page_write_buffer(&work->writer, json);
+    ffd_page_write(&work->writer, tail, sizeof tail - 1);
+}
+
+static void write_title(page_work *work)
+{
+    byte_buffer title = {0};
+    char *const name = ffd_page_name(work->scene->name ? work->scene->name : "");
+    if (name)
+        ffd_page_html(&title, name);
+    title.failed = title.failed || !name;
+    ffd_free(name);
+    ffd_page_write_buffer(&work->writer, &title);
+}
+
+static void write_data(page_work *work)
+{
+    const view_scene *const scene = work->scene;
+    byte_buffer report = {0}, description = {0};
+    if (scene->report)
+        ffd_page_json(&report, scene->report, strlen(scene->report));
+    else
+        ffd_buffer_text(&report, "null");
+    write_json(work, "report", &report);
+    ffd_page_describe(&work->description, &description);
+    write_json(work, "scene", &description);
+    ffd_page_data_write(&work->data, &work->writer);
+    for (size_t i = 0; i < scene->cage_count; i++) {
+        char id[40];
+        snprintf(id, sizeof id, "data-cage-%zu", i);
+        if (work->has_cage[i])
+            ffd_page_data_write_cage(&scene->cages[i], id, &work->writer);
+    }
+}
+
+ffd_status ffd_view_page_write(const view_scene *scene, const view_page_options *options, file_output *output,
+                               ffd_error *error)
+{
+    page_work work = {.scene = scene, .options = options};
+    work.description.data = &work.data;
+    work.description.options = options;
+    ffd_status status = prepare(&work, error);
+    if (!status && !ffd_page_writer_begin(&work.writer, output, error)) {
+        ffd_page_write(&work.writer, ffd_page_start, ffd_page_start_size);
+        write_title(&work);
+        ffd_page_write(&work.writer, ffd_page_middle, ffd_page_middle_size);
+        write_data(&work);
+        ffd_page_write(&work.writer, ffd_page_end, ffd_page_end_size);
+    }
+    if (!status)
+        status = ffd_page_writer_end(&work.writer);
+    ffd_page_mesh_free(&work.mesh);
+    ffd_free(work.has_cage);
+    return status;
+}

@@ -1,0 +1,192 @@
+#include "view/page_mesh.h"
+#include "base/memory/memory.h"
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+/* Coordinates beyond it count as not finite: the sides of a box must not overflow. */
+#define FARTHEST 1e300
+
+static bool is_shown(const double *position)
+{
+    return fabs(position[0]) <= FARTHEST && fabs(position[1]) <= FARTHEST && fabs(position[2]) <= FARTHEST;
+}
+
+/* Whether all indices name vertices. */
+static bool are_vertices(const uint32_t *indices, size_t count, size_t vertices)
+{
+    for (size_t i = 0; i < count; i++)
+        if (indices[i] >= vertices)
+            return false;
+    return true;
+}
+
+static ffd_status check(const view_scene *scene, ffd_error *error)
+{
+    const size_t vertices = scene->vertex_count;
+    if (vertices >= VIEW_NONE || scene->triangle_count > UINT32_MAX / 3)
+        return ffd_fail(error, FFD_E_LIMIT, "a page of %zu vertices and %zu triangles is not possible",
+                        vertices, scene->triangle_count);
+    bool holds = are_vertices(scene->triangles, 3 * scene->triangle_count, vertices) &&
+                 are_vertices(scene->segments, 2 * scene->segment_count, vertices) &&
+                 are_vertices(scene->points, scene->point_count, vertices);
+    for (size_t i = 0; i < scene->tear_count && holds; i++)
+        holds = are_vertices(scene->tears[i].vertices, 2, vertices);
+    for (size_t i = 0; i < scene->part_count && holds; i++)
+        holds = scene->parts[i].first_triangle <= scene->triangle_count &&
+                scene->parts[i].triangle_count <= scene->triangle_count - scene->parts[i].first_triangle;
+    return holds ? FFD_OK : ffd_fail(error, FFD_E_ARGUMENT, "an index of the scene is beyond what it is of");
+}
+
+/* Marks the vertices that can be drawn: places is 0 there. */
+static void find_finite(page_mesh *mesh)
+{
+    const view_scene *const scene = mesh->scene;
+    const double *const after = scene->after ? scene->after : scene->before;
+    for (size_t v = 0; v < scene->vertex_count; v++) {
+        const bool finite = is_shown(scene->before + 3 * v) && is_shown(after + 3 * v);
+        mesh->places[v] = finite ? 0 : VIEW_NONE;
+        mesh->not_finite += !finite;
+    }
+}
+
+static bool can_be_drawn(const page_mesh *mesh, const uint32_t *indices, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (mesh->places[indices[i]] == VIEW_NONE)
+            return false;
+    return true;
+}
+
+/* Copies the elements, of corners vertices each, that can be drawn. Returns how many. */
+static size_t take_elements(const page_mesh *mesh, const uint32_t *from, size_t count, size_t corners,
+                            uint32_t *to)
+{
+    size_t taken = 0;
+    for (size_t i = 0; i < count; i++)
+        if (can_be_drawn(mesh, from + corners * i, corners))
+            memcpy(to + corners * taken++, from + corners * i, corners * sizeof *to);
+    return taken;
+}
+
+static void take_part(page_mesh *mesh, size_t first, size_t count, page_part *part)
+{
+    const view_scene *const scene = mesh->scene;
+    part->first_triangle = mesh->triangle_count;
+    for (size_t t = first; t < first + count; t++) {
+        const uint32_t *const corners = scene->triangles + 3 * t;
+        if (!can_be_drawn(mesh, corners, 3)) {
+            mesh->triangles_lost++;
+            continue;
+        }
+        if (mesh->flipped)
+            mesh->flipped[mesh->triangle_count] = scene->flipped[t] != 0;
+        memcpy(mesh->triangles + 3 * mesh->triangle_count++, corners, 3 * sizeof *corners);
+    }
+    part->triangle_count = mesh->triangle_count - part->first_triangle;
+}
+
+/* A mesh of vertices alone is shown as points. */
+static void take_lone_points(page_mesh *mesh)
+{
+    for (size_t v = 0; v < mesh->scene->vertex_count; v++)
+        if (mesh->places[v] != VIEW_NONE)
+            mesh->points[mesh->point_count++] = (uint32_t)v;
+}
+
+static bool allocate(page_mesh *mesh, size_t triangles, size_t points)
+{
+    const view_scene *const scene = mesh->scene;
+    mesh->triangles = ffd_alloc(triangles, 3 * sizeof *mesh->triangles);
+    mesh->flipped = scene->flipped ? ffd_alloc(triangles, 1) : NULL;
+    mesh->parts = ffd_alloc_zero(mesh->part_count, sizeof *mesh->parts);
+    mesh->segments = ffd_alloc(scene->segment_count, 2 * sizeof *mesh->segments);
+    mesh->points = ffd_alloc(points, sizeof *mesh->points);
+    mesh->places = ffd_alloc(scene->vertex_count, sizeof *mesh->places);
+    return mesh->triangles && (mesh->flipped || !scene->flipped) && mesh->parts && mesh->segments &&
+           mesh->points && mesh->places;
+}
+
+/* Parts may overlap, so what they hold together is counted. */
+static size_t count_triangles(const view_scene *scene)
+{
+    size_t count = scene->part_count ? 0 : scene->triangle_count;
+    for (size_t i = 0; i < scene->part_count; i++)
+        if (!ffd_add_size(count, scene->parts[i].triangle_count, &count))
+            return SIZE_MAX;
+    return count;
+}
+
+ffd_status ffd_page_mesh_take(const view_scene *scene, page_mesh *mesh, ffd_error *error)
+{
+    *mesh = (page_mesh){.scene = scene, .part_count = scene->part_count ? scene->part_count : 1};
+    const ffd_status status = check(scene, error);
+    if (status)
+        return status;
+    const size_t triangles = count_triangles(scene);
+    if (triangles > UINT32_MAX / 3)
+        return ffd_fail(error, FFD_E_LIMIT, "a page of %zu triangles is not possible", triangles);
+    const bool is_cloud = triangles == 0 && scene->segment_count == 0 && scene->point_count == 0;
+    if (!allocate(mesh, triangles, is_cloud ? scene->vertex_count : scene->point_count))
+        return ffd_fail_memory(error);
+    find_finite(mesh);
+    for (size_t i = 0; i < scene->part_count; i++)
+        take_part(mesh, scene->parts[i].first_triangle, scene->parts[i].triangle_count, &mesh->parts[i]);
+    if (scene->part_count == 0)
+        take_part(mesh, 0, scene->triangle_count, &mesh->parts[0]);
+    mesh->segment_count = take_elements(mesh, scene->segments, scene->segment_count, 2, mesh->segments);
+    mesh->point_count = take_elements(mesh, scene->points, scene->point_count, 1, mesh->points);
+    if (is_cloud)
+        take_lone_points(mesh);
+    return FFD_OK;
+}
+
+static void mark(page_mesh *mesh, const uint32_t *indices, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        mesh->places[indices[i]] = 0;
+}
+
+size_t ffd_page_mesh_mark(page_mesh *mesh)
+{
+    size_t count = 0;
+    for (size_t v = 0; v < mesh->scene->vertex_count; v++)
+        mesh->places[v] = VIEW_NONE;
+    mark(mesh, mesh->triangles, 3 * mesh->triangle_count);
+    mark(mesh, mesh->segments, 2 * mesh->segment_count);
+    mark(mesh, mesh->points, mesh->point_count);
+    for (size_t v = 0; v < mesh->scene->vertex_count; v++)
+        if (mesh->places[v] != VIEW_NONE)
+            mesh->places[v] = (uint32_t)count++;
+    return count;
+}
+
+static void number(const page_mesh *mesh, uint32_t *indices, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        indices[i] = mesh->places[indices[i]];
+}
+
+ffd_status ffd_page_mesh_number(page_mesh *mesh, ffd_error *error)
+{
+    mesh->vertex_count = ffd_page_mesh_mark(mesh);
+    mesh->vertices = ffd_alloc(mesh->vertex_count, sizeof *mesh->vertices);
+    if (!mesh->vertices)
+        return ffd_fail_memory(error);
+    for (size_t v = 0; v < mesh->scene->vertex_count; v++)
+        if (mesh->places[v] != VIEW_NONE)
+            mesh->vertices[mesh->places[v]] = (uint32_t)v;
+    number(mesh, mesh->triangles, 3 * mesh->triangle_count);
+    number(mesh, mesh->segments, 2 * mesh->segment_count);
+    number(mesh, mesh->points, mesh->point_count);
+    return FFD_OK;
+}
+
+void ffd_page_mesh_free(page_mesh *mesh)
+{
+    void *const blocks[] = {mesh->triangles, mesh->flipped,  mesh->parts, mesh->segments,
+                            mesh->points,    mesh->vertices, mesh->places};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
+        ffd_free(blocks[i]);
+    *mesh = (page_mesh){0};
+}

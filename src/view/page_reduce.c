@@ -1,0 +1,294 @@
+#include "view/page_reduce.h"
+#include "base/memory/memory.h"
+#include "mesh/meshopt/meshopt_simplify.h"
+#include <math.h>
+#include <string.h>
+
+/* Triangles that are simplified at once: the library's memory grows with them. */
+#define RUN_TRIANGLES ((size_t)1 << 21)
+/* At most this share of the triangles that are wanted stays for being torn. */
+#define TORN_SHARE 0.25
+#define PASSES 8
+/* Of the vertices that a pass aims at: it seldom meets them exactly. */
+#define AIM 0.97
+/* After a pass that leaves more of the vertices, surfaces may be cut up. */
+#define STUCK 0.99
+
+/* A triangle's kind, of those that are simplified together. */
+enum { PLAIN, FLIPPED, TORN, CLASSES };
+
+typedef struct reducer {
+    page_mesh *mesh;
+    double low[3], scale; /* positions to 0 .. 1 */
+    uint8_t *torn;        /* one a vertex of the scene: at an edge that is torn */
+    uint32_t *local;      /* one a vertex of the scene: its number in a run; VIEW_NONE between runs */
+    uint32_t *global;     /* of a run's vertices: of the scene */
+    float *positions;
+    uint32_t *indices, *result; /* of a run */
+    uint32_t *kept;             /* the triangles of a part, while it is sorted */
+} reducer;
+
+static void measure(reducer *r)
+{
+    const view_scene *const scene = r->mesh->scene;
+    double high[3] = {-INFINITY, -INFINITY, -INFINITY}, side = 0;
+    for (int a = 0; a < 3; a++)
+        r->low[a] = INFINITY;
+    for (size_t i = 0; i < 3 * r->mesh->triangle_count; i++)
+        for (size_t a = 0; a < 3; a++) {
+            const double x = scene->before[3 * (size_t)r->mesh->triangles[i] + a];
+            r->low[a] = fmin(r->low[a], x);
+            high[a] = fmax(high[a], x);
+        }
+    for (int a = 0; a < 3; a++)
+        side = fmax(side, high[a] - r->low[a]);
+    r->scale = side > 0 ? 1 / side : 0;
+    if (!isfinite(r->scale))
+        r->scale = 0;
+}
+
+static bool allocate(reducer *r)
+{
+    const size_t vertices = r->mesh->scene->vertex_count,
+                 run = r->mesh->triangle_count < RUN_TRIANGLES ? r->mesh->triangle_count : RUN_TRIANGLES;
+    r->torn = ffd_alloc_zero(vertices, 1);
+    r->local = ffd_alloc(vertices, sizeof *r->local);
+    r->global = ffd_alloc(run, 3 * sizeof *r->global);
+    r->positions = ffd_alloc(run, 9 * sizeof *r->positions);
+    r->indices = ffd_alloc(run, 3 * sizeof *r->indices);
+    r->result = ffd_alloc(run, 3 * sizeof *r->result);
+    return r->torn && r->local && r->global && r->positions && r->indices && r->result;
+}
+
+static void free_reducer(reducer *r)
+{
+    void *const blocks[] = {r->torn, r->local, r->global, r->positions, r->indices, r->result, r->kept};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
+        ffd_free(blocks[i]);
+}
+
+static int class_of(const reducer *r, size_t triangle)
+{
+    const uint32_t *const corners = r->mesh->triangles + 3 * triangle;
+    if (r->torn[corners[0]] || r->torn[corners[1]] || r->torn[corners[2]])
+        return TORN;
+    return r->mesh->flipped && r->mesh->flipped[triangle] ? FLIPPED : PLAIN;
+}
+
+/* Marks the ends of torn edges, but not where so many triangles would stay that little is left for the
+   rest. */
+static void mark_torn(reducer *r, double ratio)
+{
+    const view_scene *const scene = r->mesh->scene;
+    size_t count = 0;
+    for (size_t i = 0; i < scene->tear_count; i++)
+        for (int end = 0; end < 2; end++)
+            r->torn[scene->tears[i].vertices[end]] = 1;
+    for (size_t t = 0; t < r->mesh->triangle_count; t++)
+        count += class_of(r, t) == TORN;
+    if ((double)count > TORN_SHARE * ratio * (double)r->mesh->triangle_count)
+        memset(r->torn, 0, scene->vertex_count);
+}
+
+/* Numbers the vertices of a run. Returns how many. */
+static size_t enter_run(reducer *r, const uint32_t *corners, size_t count)
+{
+    size_t vertices = 0;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t v = corners[i];
+        if (r->local[v] == VIEW_NONE) {
+            for (size_t a = 0; a < 3; a++)
+                r->positions[3 * vertices + a] =
+                    (float)((r->mesh->scene->before[3 * (size_t)v + a] - r->low[a]) * r->scale);
+            r->global[vertices] = v;
+            r->local[v] = (uint32_t)vertices++;
+        }
+        r->indices[i] = r->local[v];
+    }
+    for (size_t i = 0; i < vertices; i++)
+        r->local[r->global[i]] = VIEW_NONE;
+    return vertices;
+}
+
+/* Simplifies triangles in place; *count of them are left. */
+static ffd_status reduce_run(reducer *r, double ratio, bool is_rough, uint32_t *corners, size_t *count,
+                             ffd_error *error)
+{
+    const size_t vertices = enter_run(r, corners, 3 * *count), target = 3 * (size_t)(ratio * (double)*count);
+    const meshopt_mesh run = {r->positions, vertices, r->indices, 3 * *count};
+    size_t left = 0;
+    if (vertices == 0)
+        return FFD_OK;
+    const ffd_status status = ffd_meshopt_simplify(&run, target, is_rough, r->result, &left, error);
+    /* No part may vanish without a word. */
+    if (status || left == 0)
+        return status;
+    for (size_t i = 0; i < left; i++)
+        corners[i] = r->global[r->result[i]];
+    *count = left / 3;
+    return FFD_OK;
+}
+
+/* Copies a part's triangles into kept, the classes one after the other. */
+static void sort_part(reducer *r, const page_part *part, size_t counts[CLASSES])
+{
+    size_t at = 0;
+    for (int kind = 0; kind < CLASSES; kind++) {
+        const size_t first = at;
+        for (size_t t = part->first_triangle; t < part->first_triangle + part->triangle_count; t++)
+            if (class_of(r, t) == kind)
+                memcpy(r->kept + 3 * at++, r->mesh->triangles + 3 * t, 3 * sizeof *r->kept);
+        counts[kind] = at - first;
+    }
+}
+
+/* Puts what is left of a part to the end of the mesh's triangles. */
+static void put_back(page_mesh *mesh, const uint32_t *corners, size_t count, int kind)
+{
+    if (count)
+        memcpy(mesh->triangles + 3 * mesh->triangle_count, corners, 3 * count * sizeof *corners);
+    if (mesh->flipped)
+        memset(mesh->flipped + mesh->triangle_count, kind == FLIPPED, count);
+    mesh->triangle_count += count;
+}
+
+/* A triangle at a torn edge may be flipped too. */
+static void put_torn(page_mesh *mesh, const uint8_t *marks, const uint32_t *corners, size_t count)
+{
+    const size_t first = mesh->triangle_count;
+    put_back(mesh, corners, count, TORN);
+    for (size_t i = 0; mesh->flipped && i < count; i++)
+        mesh->flipped[first + i] = marks[i];
+}
+
+static ffd_status reduce_class(reducer *r, double ratio, bool is_rough, int kind, uint32_t *corners,
+                               size_t count, ffd_error *error)
+{
+    for (size_t done = 0; done < count;) {
+        size_t run = count - done < RUN_TRIANGLES ? count - done : RUN_TRIANGLES;
+        uint32_t *const first = corners + 3 * done;
+        done += run;
+        const ffd_status status = reduce_run(r, ratio, is_rough, first, &run, error);
+        if (status)
+            return status;
+        put_back(r->mesh, first, run, kind);
+    }
+    return FFD_OK;
+}
+
+/* The marks of torn triangles, in their order, into the bytes of marks. */
+static void note_flipped(const reducer *r, const page_part *part, uint8_t *marks)
+{
+    for (size_t t = part->first_triangle; t < part->first_triangle + part->triangle_count; t++)
+        if (r->mesh->flipped && class_of(r, t) == TORN)
+            *marks++ = r->mesh->flipped[t];
+}
+
+static ffd_status reduce_part(reducer *r, double ratio, bool is_rough, page_part *part, ffd_error *error)
+{
+    size_t counts[CLASSES];
+    sort_part(r, part, counts);
+    uint8_t *const marks = ffd_alloc(counts[TORN], 1);
+    if (!marks)
+        return ffd_fail_memory(error);
+    note_flipped(r, part, marks);
+    part->first_triangle = r->mesh->triangle_count;
+    uint32_t *corners = r->kept;
+    ffd_status status = FFD_OK;
+    for (int kind = PLAIN; kind < TORN && !status; kind++) {
+        status = reduce_class(r, ratio, is_rough, kind, corners, counts[kind], error);
+        corners += 3 * counts[kind];
+    }
+    put_torn(r->mesh, marks, corners, counts[TORN]);
+    part->triangle_count = r->mesh->triangle_count - part->first_triangle;
+    ffd_free(marks);
+    return status;
+}
+
+/* Keeps about that share of elements, evenly. Returns how many. */
+static size_t thin_out(uint32_t *indices, size_t count, size_t corners, double ratio)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < count; i++)
+        if (floor((double)(i + 1) * ratio) > floor((double)i * ratio))
+            memmove(indices + corners * left++, indices + corners * i, corners * sizeof *indices);
+    return left;
+}
+
+static ffd_status reduce_once(reducer *r, double ratio, bool is_rough, ffd_error *error)
+{
+    page_mesh *const mesh = r->mesh;
+    ffd_status status = FFD_OK;
+    mesh->segment_count = thin_out(mesh->segments, mesh->segment_count, 2, ratio);
+    mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio);
+    ffd_free(r->kept);
+    size_t largest = 0;
+    for (size_t i = 0; i < mesh->part_count; i++)
+        largest = mesh->parts[i].triangle_count > largest ? mesh->parts[i].triangle_count : largest;
+    r->kept = ffd_alloc(largest, 3 * sizeof *r->kept);
+    if (!r->kept)
+        return ffd_fail_memory(error);
+    /* What is left of a part is never more than it was, so no part is written over before it is read. */
+    mesh->triangle_count = 0;
+    for (size_t i = 0; i < mesh->part_count && !status; i++)
+        status = reduce_part(r, ratio, is_rough, &mesh->parts[i], error);
+    return status;
+}
+
+/* The last resort, for meshes that consist of borders: leaves triangles out. */
+static void drop_triangles(page_mesh *mesh, double ratio)
+{
+    size_t left = 0;
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        page_part *const part = &mesh->parts[i];
+        const size_t first = left, end = part->first_triangle + part->triangle_count;
+        for (size_t t = part->first_triangle; t < end; t++)
+            if (floor((double)(t + 1) * ratio) > floor((double)t * ratio)) {
+                memmove(mesh->triangles + 3 * left, mesh->triangles + 3 * t, 3 * sizeof *mesh->triangles);
+                if (mesh->flipped)
+                    mesh->flipped[left] = mesh->flipped[t];
+                left++;
+            }
+        *part = (page_part){first, left - first};
+    }
+    mesh->triangle_count = left;
+    mesh->segment_count = thin_out(mesh->segments, mesh->segment_count, 2, ratio);
+    mesh->point_count = thin_out(mesh->points, mesh->point_count, 1, ratio);
+}
+
+/* The share of the triangles that a pass aims at. A mesh of several runs is brought down to one first: the
+   borders between runs stay, and show. */
+static double choose_ratio(const page_mesh *mesh, size_t limit, size_t used)
+{
+    const double wanted = AIM * (double)limit / (double)used;
+    if (mesh->triangle_count <= RUN_TRIANGLES)
+        return wanted;
+    return fmax(wanted, 0.5 * (double)RUN_TRIANGLES / (double)mesh->triangle_count);
+}
+
+ffd_status ffd_page_reduce(page_mesh *mesh, size_t limit, ffd_error *error)
+{
+    reducer r = {.mesh = mesh};
+    size_t used = ffd_page_mesh_mark(mesh);
+    if (used <= limit)
+        return FFD_OK;
+    ffd_status status = allocate(&r) ? FFD_OK : ffd_fail_memory(error);
+    if (!status) {
+        memset(r.local, 0xff, mesh->scene->vertex_count * sizeof *r.local);
+        measure(&r);
+        mark_torn(&r, (double)limit / (double)used);
+    }
+    bool is_rough = false;
+    for (int pass = 0; pass < PASSES && used > limit && !status; pass++) {
+        const size_t before = used;
+        status = reduce_once(&r, choose_ratio(mesh, limit, used), is_rough, error);
+        used = ffd_page_mesh_mark(mesh);
+        is_rough = (double)used > STUCK * (double)before;
+    }
+    while (used > limit && !status) {
+        drop_triangles(mesh, AIM * (double)limit / (double)used);
+        used = ffd_page_mesh_mark(mesh);
+    }
+    free_reducer(&r);
+    return status;
+}

@@ -1,0 +1,172 @@
+#include "view/page_scene.h"
+#include "base/memory/memory.h"
+#include "view/page_text.h"
+#include "json/json_text.h"
+#include <ffd/version.h>
+#include <string.h>
+
+static void put_name(json_text *json, const char *key, const char *name)
+{
+    char *const text = ffd_page_name(name ? name : "");
+    if (!text)
+        json->out->failed = true;
+    ffd_json_string(json, key, text);
+    ffd_free(text);
+}
+
+static uint64_t number_of(const view_scene *scene, uint32_t vertex)
+{
+    return scene->numbers ? scene->numbers[vertex] : vertex;
+}
+
+static void put_mesh(json_text *json, const page_data *data)
+{
+    const page_mesh *const mesh = data->mesh;
+    const view_scene *const scene = mesh->scene;
+    const json_count counts[] = {
+        {"vertices", mesh->vertex_count},
+        {"verticesAll", scene->vertices_all ? scene->vertices_all : scene->vertex_count},
+        {"triangles", mesh->triangle_count},
+        {"trianglesAll", scene->triangle_count},
+        {"segments", mesh->segment_count},
+        {"points", mesh->point_count},
+        {"notFinite", mesh->not_finite},
+        {"tearEdges", scene->tear_edges},
+        {"flippedFaces", scene->flipped_faces},
+        {"numberSize", data->number_size}};
+    ffd_json_counts(json, counts, sizeof counts / sizeof *counts);
+    ffd_json_vector(json, "low", data->low, 3);
+    ffd_json_vector(json, "step", data->step, 3);
+    ffd_json_number(json, "moveStep", data->move_step);
+    ffd_json_number(json, "displacementMax", scene->displacement_max);
+}
+
+static const mesh_material *material_of(const view_scene *scene, uint32_t number)
+{
+    return number < scene->materials.count ? &scene->materials.list[number] : NULL;
+}
+
+static void put_parts(json_text *json, const page_mesh *mesh)
+{
+    const view_scene *const scene = mesh->scene;
+    ffd_json_array(json, "parts", false);
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const view_part *const part = scene->part_count ? &scene->parts[i] : NULL;
+        const mesh_material *const material = part ? material_of(scene, part->material) : NULL;
+        ffd_json_object(json, NULL, true);
+        put_name(json, "name", part ? part->name : "");
+        ffd_json_count(json, "first", mesh->parts[i].first_triangle);
+        ffd_json_count(json, "count", mesh->parts[i].triangle_count);
+        ffd_json_count(json, "all", part ? part->triangle_count : scene->triangle_count);
+        if (material) {
+            put_name(json, "material", material->name);
+            ffd_json_vector(json, "color", material->color, 4);
+            ffd_json_bool(json, "texture", material->image != MATERIAL_NONE);
+        }
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+static void put_cages(json_text *json, const page_description *page)
+{
+    const view_scene *const scene = page->data->mesh->scene;
+    ffd_json_array(json, "cages", false);
+    for (size_t i = 0; i < scene->cage_count; i++) {
+        const view_cage *const cage = &scene->cages[i];
+        const double size[3] = {(double)cage->size[0], (double)cage->size[1], (double)cage->size[2]};
+        ffd_json_object(json, NULL, true);
+        put_name(json, "name", cage->name);
+        ffd_json_vector(json, "size", size, 3);
+        ffd_json_array(json, "closed", true);
+        for (int a = 0; a < 3; a++)
+            ffd_json_bool(json, NULL, cage->closed[a]);
+        ffd_json_end(json, ']');
+        ffd_json_bool(json, "shown", page->has_cage[i]);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+static void put_vertex(json_text *json, const page_mesh *mesh, uint32_t vertex)
+{
+    const view_scene *const scene = mesh->scene;
+    const double *const after = scene->after ? scene->after : scene->before;
+    ffd_json_object(json, NULL, true);
+    ffd_json_count(json, "number", number_of(scene, vertex));
+    /* A vertex that the page leaves out has no place in its arrays. */
+    if (mesh->places[vertex] != VIEW_NONE)
+        ffd_json_count(json, "vertex", mesh->places[vertex]);
+    ffd_json_vector(json, "before", scene->before + 3 * (size_t)vertex, 3);
+    ffd_json_vector(json, "after", after + 3 * (size_t)vertex, 3);
+    ffd_json_end(json, '}');
+}
+
+static void put_tears(json_text *json, const page_mesh *mesh)
+{
+    const view_scene *const scene = mesh->scene;
+    ffd_json_array(json, "tears", false);
+    for (size_t i = 0; i < scene->tear_count; i++) {
+        ffd_json_object(json, NULL, true);
+        ffd_json_number(json, "step", scene->tears[i].step);
+        ffd_json_array(json, "ends", true);
+        for (int end = 0; end < 2; end++)
+            put_vertex(json, mesh, scene->tears[i].vertices[end]);
+        ffd_json_end(json, ']');
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, ']');
+}
+
+static void put_witness(json_text *json, const view_scene *scene)
+{
+    if (!scene->has_witness) {
+        ffd_json_null(json, "witness");
+        return;
+    }
+    ffd_json_object(json, "witness", true);
+    ffd_json_count(json, "cage", scene->witness_cage);
+    ffd_json_vector(json, "uvw", scene->witness_uvw, 3);
+    ffd_json_vector(json, "before", scene->witness_rest, 3);
+    ffd_json_vector(json, "after", scene->witness_deformed, 3);
+    ffd_json_number(json, "det", scene->witness_det);
+    ffd_json_end(json, '}');
+}
+
+static void put_view(json_text *json, const view_page_options *options)
+{
+    static const char *const colors[] = {"displacement", "status", "det", "plain"};
+    ffd_json_object(json, "view", true);
+    ffd_json_string(json, "color", colors[options->color]);
+    ffd_json_vector(json, "camera", options->camera, 3);
+    ffd_json_end(json, '}');
+}
+
+void ffd_page_describe(const page_description *page, byte_buffer *out)
+{
+    const page_mesh *const mesh = page->data->mesh;
+    const view_scene *const scene = mesh->scene;
+    byte_buffer text = {0};
+    json_text json;
+    ffd_json_begin(&json, &text);
+    ffd_json_object(&json, NULL, false);
+    ffd_json_string(&json, "program", FFD_VERSION);
+    put_name(&json, "name", scene->name);
+    if (scene->output)
+        put_name(&json, "output", scene->output);
+    put_view(&json, page->options);
+    put_mesh(&json, page->data);
+    put_witness(&json, scene);
+    put_cages(&json, page);
+    put_parts(&json, mesh);
+    put_tears(&json, mesh);
+    ffd_json_array(&json, "notices", false);
+    for (size_t i = 0; i < page->notice_count; i++)
+        ffd_json_string(&json, NULL, page->notices[i]);
+    ffd_json_end(&json, ']');
+    ffd_json_end(&json, '}');
+    if (text.size)
+        ffd_page_json(out, text.data, text.size);
+    out->failed = out->failed || text.failed;
+    ffd_buffer_free(&text);
+}

@@ -1,0 +1,153 @@
+#include "view/view_cages.h"
+#include "base/memory/memory.h"
+#include "view/view_palette.h"
+#include <string.h>
+
+/* Lines of the mesh, its points, torn edges, the witness. */
+#define OTHERS 4
+/* Arrays that a cage owns at most. */
+#define ARRAYS 2
+
+static const uint8_t cage_color[3] = {29, 91, 208}, line_color[3] = {60, 64, 72};
+
+static void *own(view_cages *c, size_t count, size_t size)
+{
+    void *const block = ffd_alloc(count, size);
+    if (block)
+        c->owned[c->owned_count++] = block;
+    return block;
+}
+
+/* Joins each point of a lattice with the next along u, v and w. Returns how many segments there are. */
+static size_t join(const view_cage *from, uint32_t *segments)
+{
+    const size_t *const n = from->size, steps[3] = {1, n[0], n[0] * n[1]};
+    size_t count = 0;
+    for (size_t p = 0; p < n[0] * n[1] * n[2]; p++)
+        for (int a = 0; a < 3; a++) {
+            const size_t at = p / steps[a] % n[a], last = at + 1 == n[a];
+            if (last && !from->closed[a])
+                continue;
+            segments[2 * count] = (uint32_t)p;
+            segments[2 * count++ + 1] = (uint32_t)(last ? p - at * steps[a] : p + steps[a]);
+        }
+    return count;
+}
+
+static ffd_status add_lattice(const view_cage *from, double share, view_cages *c, ffd_error *error)
+{
+    const size_t count = from->size[0] * from->size[1] * from->size[2];
+    if (count > UINT32_MAX / 3)
+        return ffd_fail(error, FFD_E_LIMIT, "%zu control points are more than a picture can have", count);
+    double *const points = own(c, count, 3 * sizeof *points);
+    uint32_t *const segments = points ? own(c, 3 * count, 2 * sizeof *segments) : NULL;
+    if (!segments)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < 3 * count; i++)
+        points[i] =
+            share >= 1 ? from->deformed[i] : from->rest[i] + share * (from->deformed[i] - from->rest[i]);
+    picture_cage *const to = &c->list[c->count++];
+    *to = (picture_cage){.points = points, .point_count = count, .segments = segments};
+    to->segment_count = join(from, segments);
+    memcpy(to->color, cage_color, sizeof cage_color);
+    return FFD_OK;
+}
+
+static picture_cage *add(view_cages *c, const uint8_t color[3], double radius)
+{
+    picture_cage *const to = &c->list[c->count++];
+    *to = (picture_cage){.radius = radius};
+    memcpy(to->color, color, sizeof to->color);
+    return to;
+}
+
+static void add_lines(const view_scene *scene, const double *positions, uint32_t height, view_cages *c)
+{
+    picture_cage *const to = add(c, line_color, -1);
+    to->points = positions;
+    to->point_count = scene->vertex_count;
+    to->segments = scene->segments;
+    to->segment_count = scene->segment_count;
+    to->width = 1 + height / 900.0;
+}
+
+/* A mesh of vertices alone is drawn as points. */
+static ffd_status add_points(const view_scene *scene, const double *positions, uint32_t height, view_cages *c,
+                             ffd_error *error)
+{
+    const bool is_alone = !scene->triangle_count && !scene->segment_count && !scene->point_count;
+    const size_t count = is_alone ? scene->vertex_count : scene->point_count;
+    double *const points = own(c, count, 3 * sizeof *points);
+    if (!points)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < count; i++)
+        memcpy(points + 3 * i, positions + 3 * (is_alone ? i : scene->points[i]), 3 * sizeof *points);
+    picture_cage *const to = add(c, line_color, 1 + height / 900.0);
+    to->points = points;
+    to->point_count = count;
+    return FFD_OK;
+}
+
+static ffd_status add_tears(const view_scene *scene, const double *positions, uint32_t height, view_cages *c,
+                            ffd_error *error)
+{
+    uint32_t *const segments = own(c, scene->tear_count, 2 * sizeof *segments);
+    if (!segments)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < scene->tear_count; i++)
+        memcpy(segments + 2 * i, scene->tears[i].vertices, 2 * sizeof *segments);
+    picture_cage *const to = add(c, ffd_view_torn, -1);
+    to->points = positions;
+    to->point_count = scene->vertex_count;
+    to->segments = segments;
+    to->segment_count = scene->tear_count;
+    to->width = 1 + height / 600.0;
+    return FFD_OK;
+}
+
+static ffd_status add_marks(const view_scene *scene, double share, const double *positions, uint32_t height,
+                            view_cages *c, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    if (scene->tear_count)
+        status = add_tears(scene, positions, height, c, error);
+    if (status || !scene->has_witness)
+        return status;
+    double *const point = own(c, 1, 3 * sizeof *point);
+    if (!point)
+        return ffd_fail_memory(error);
+    for (int a = 0; a < 3; a++)
+        point[a] = scene->witness_rest[a] + share * (scene->witness_deformed[a] - scene->witness_rest[a]);
+    picture_cage *const to = add(c, ffd_view_folded, height / 120.0);
+    to->points = point;
+    to->point_count = 1;
+    return FFD_OK;
+}
+
+ffd_status ffd_view_cages_make(const view_scene *scene, double share, const double *positions,
+                               uint32_t height, view_cages *c, ffd_error *error)
+{
+    ffd_status status = FFD_OK;
+    c->list = ffd_alloc(scene->cage_count + OTHERS, sizeof *c->list);
+    c->owned = ffd_alloc(ARRAYS * (scene->cage_count + OTHERS), sizeof *c->owned);
+    if (!c->list || !c->owned)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < scene->cage_count && !status; i++)
+        status = add_lattice(&scene->cages[i], share, c, error);
+    if (!status && scene->segment_count)
+        add_lines(scene, positions, height, c);
+    if (!status)
+        status = add_points(scene, positions, height, c, error);
+    if (!status && share > 0)
+        status = add_marks(scene, share, positions, height, c, error);
+    return status;
+}
+
+void ffd_view_cages_free(view_cages *c)
+{
+    for (size_t i = 0; i < c->owned_count; i++)
+        ffd_free(c->owned[i]);
+    ffd_free(c->owned);
+    ffd_free(c->list);
+    *c = (view_cages){0};
+}

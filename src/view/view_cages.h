@@ -1,0 +1,24 @@
+/* view_cages.h - the lines and points of a picture beside its mesh's triangles: control lattices on their
+   way, lines and points of the mesh, torn edges, the witness of a fold. */
+#ifndef FFD_VIEW_VIEW_CAGES_H
+#define FFD_VIEW_VIEW_CAGES_H
+
+#include "picture/picture.h"
+#include "view/view_scene.h"
+
+/* All zeros: none. */
+typedef struct view_cages {
+    picture_cage *list;
+    size_t count;
+    void **owned; /* what they lend */
+    size_t owned_count;
+} view_cages;
+
+/* Makes them when the scene has gone this share of its way, and its vertices are at positions. height: of the
+   picture, in pixels. Errors: FFD_E_MEMORY, FFD_E_LIMIT (more points than 32 bits number). */
+ffd_status ffd_view_cages_make(const view_scene *scene, double share, const double *positions,
+                               uint32_t height, view_cages *cages, ffd_error *error);
+/* Frees them; leaves none. */
+void ffd_view_cages_free(view_cages *cages);
+
+#endif

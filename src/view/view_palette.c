@@ -1,0 +1,164 @@
+#include "view/view_palette.h"
+#include "base/vector/vec.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+const uint8_t ffd_view_folded[3] = {217, 31, 184}, ffd_view_torn[3] = {214, 40, 40};
+static const uint8_t unknown_color[3] = {148, 153, 161};
+
+/* By ffd_vertex_status. */
+static const uint8_t status_colors[FFD_VERTEX_STATUS_COUNT][3] = {
+    {74, 144, 217}, {160, 164, 170}, {240, 160, 32}, {150, 96, 210}, {214, 40, 40}};
+static const char *const status_names[] = {"inside", "outside", "multiple", "singular", "invalid"};
+
+/* viridis (van der Walt, Smith), and a ramp from blue over white to red. */
+static const uint32_t sequential[] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e,
+                                      0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
+static const uint32_t diverging[] = {0x1d3f8f, 0x2f66b8, 0x5b95d3, 0x9cc3e6, 0xd7e6f2, 0xf6f6f4,
+                                     0xf7dccb, 0xf0b08f, 0xdd7757, 0xbd3a33, 0x8a1222};
+/* det F beyond these is as the last colour. */
+#define LEAST_DET 1.04
+#define MOST_DET 16
+
+static void make_ramp(const uint32_t *stops, unsigned count, uint8_t ramp[PALETTE_COLORS][3])
+{
+    for (unsigned i = 0; i < PALETTE_COLORS; i++) {
+        const unsigned at = i * (count - 1), last = PALETTE_COLORS - 1,
+                       low = i == last ? count - 2 : at / last, part = at - low * last;
+        for (unsigned c = 0; c < 3; c++) {
+            const unsigned shift = 8 * (2 - c), a = stops[low] >> shift & 255,
+                           b = stops[low + 1] >> shift & 255;
+            ramp[i][c] = (uint8_t)((a * (last - part) + b * part + last / 2) / last);
+        }
+    }
+}
+
+/* 0 to 1 along the scale of det F: det F and 1 / det F are as far from the middle, which is 1. */
+static double place_of_det(double det, double most)
+{
+    return 0.5 + (det - 1) / (det + 1) * (most + 1) / (most - 1) / 2;
+}
+
+static double det_at(double place, double most)
+{
+    const double x = (2 * place - 1) * (most - 1) / (most + 1);
+    return (1 + x) / (1 - x);
+}
+
+static double most_det(const view_scene *scene)
+{
+    double most = LEAST_DET;
+    for (size_t v = 0; v < scene->vertex_count; v++) {
+        const double det = scene->dets[v];
+        if (det > most)
+            most = det;
+        if (det > 0 && 1 / det > most)
+            most = 1 / det;
+    }
+    return most < MOST_DET ? most : MOST_DET;
+}
+
+static void make_bar(view_palette *p, const char *title)
+{
+    for (int i = 0; i < PALETTE_LABELS; i++) {
+        const double share = (double)i / (PALETTE_LABELS - 1);
+        snprintf(p->texts[i], sizeof p->texts[i], "%.3g",
+                 p->color == VIEW_BY_DET ? det_at(share, p->most) : share * p->most);
+        p->labels[i] = p->texts[i];
+    }
+    p->scale = (picture_scale){.title = title,
+                               .colors = (const uint8_t(*)[3])p->ramp,
+                               .color_count = PALETTE_COLORS,
+                               .labels = p->labels,
+                               .label_count = PALETTE_LABELS};
+    p->has_scale = true;
+}
+
+/* Those that there are, and the first two. */
+static void make_fields(const view_scene *scene, view_palette *p)
+{
+    size_t counts[FFD_VERTEX_STATUS_COUNT] = {0}, fields = 0;
+    for (size_t v = 0; v < scene->vertex_count; v++)
+        if (scene->statuses[v] < FFD_VERTEX_STATUS_COUNT)
+            counts[scene->statuses[v]]++;
+    for (size_t s = 0; s < FFD_VERTEX_STATUS_COUNT; s++)
+        if (s < 2 || counts[s] > 0) {
+            snprintf(p->texts[fields], sizeof p->texts[fields], "%s %zu", status_names[s], counts[s]);
+            p->labels[fields] = p->texts[fields];
+            memcpy(p->ramp[fields++], status_colors[s], sizeof status_colors[s]);
+        }
+    p->scale = (picture_scale){.title = "status of the vertices",
+                               .colors = (const uint8_t(*)[3])p->ramp,
+                               .color_count = fields,
+                               .labels = p->labels,
+                               .label_count = fields,
+                               .is_fields = true};
+    p->has_scale = true;
+}
+
+void ffd_view_palette_make(const view_scene *scene, view_page_color color, view_palette *p)
+{
+    *p = (view_palette){.color = color};
+    if ((color == VIEW_BY_STATUS && !scene->statuses) || (color == VIEW_BY_DET && !scene->dets))
+        p->color = VIEW_BY_DISPLACEMENT;
+    if (p->color == VIEW_BY_DISPLACEMENT && !(scene->displacement_max > 0))
+        p->color = VIEW_BY_MATERIAL;
+    if (p->color == VIEW_BY_STATUS)
+        make_fields(scene, p);
+    if (p->color == VIEW_BY_DISPLACEMENT) {
+        p->most = scene->displacement_max;
+        make_ramp(sequential, sizeof sequential / sizeof *sequential, p->ramp);
+        make_bar(p, "displacement, in units of the file");
+    }
+    if (p->color == VIEW_BY_DET) {
+        p->most = most_det(scene);
+        make_ramp(diverging, sizeof diverging / sizeof *diverging, p->ramp);
+        make_bar(p, "det F: volume after, relative to before");
+    }
+}
+
+static const uint8_t *ramp_at(const view_palette *p, double place)
+{
+    const double at = place * (PALETTE_COLORS - 1) + 0.5;
+    return p->ramp[at > 0 ? at < PALETTE_COLORS ? (int)at : PALETTE_COLORS - 1 : 0];
+}
+
+static const uint8_t *color_of(const view_palette *p, const view_scene *scene, size_t v, double share)
+{
+    if (p->color == VIEW_BY_STATUS)
+        return scene->statuses[v] < FFD_VERTEX_STATUS_COUNT ? status_colors[scene->statuses[v]]
+                                                            : unknown_color;
+    if (p->color == VIEW_BY_DET) {
+        const double det = scene->dets[v];
+        return isnan(det) ? unknown_color
+               : det <= 0 ? ffd_view_folded
+                          : ramp_at(p, place_of_det(det, p->most));
+    }
+    double along[3];
+    for (size_t a = 0; a < 3; a++)
+        along[a] = scene->after[3 * v + a] - scene->before[3 * v + a];
+    const double length = share * vec_length(along);
+    return isnan(length) ? unknown_color : ramp_at(p, length / p->most);
+}
+
+static void fill_own(const view_scene *scene, uint8_t *colors)
+{
+    for (size_t i = 0; i < 4 * scene->vertex_count; i++) {
+        const double x = scene->colors[i];
+        colors[i] = (uint8_t)(x > 0 ? x < 1 ? 255 * x + 0.5 : 255 : 0);
+    }
+}
+
+void ffd_view_palette_fill(const view_palette *palette, const view_scene *scene, double share,
+                           uint8_t *colors)
+{
+    if (palette->color == VIEW_BY_MATERIAL) {
+        fill_own(scene, colors);
+        return;
+    }
+    for (size_t v = 0; v < scene->vertex_count; v++) {
+        memcpy(colors + 4 * v, color_of(palette, scene, v, share), 3);
+        colors[4 * v + 3] = 255;
+    }
+}

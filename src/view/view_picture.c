@@ -1,0 +1,279 @@
+#include "view/view_picture.h"
+#include "base/memory/memory.h"
+#include "picture/image/image.h"
+#include "view/view_cages.h"
+#include "view/view_palette.h"
+#include "view/view_surface.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Bytes of a vertex: its place and its colour. */
+#define VERTEX_BYTES (3 * sizeof(double) + 4)
+/* Meshes of a panel: what is as it was, and what is flipped. */
+#define MESHES 2
+
+/* One step of the way from before to after. */
+typedef struct step {
+    double share; /* of the way: 0 to 1 */
+    char caption[16];
+    double *positions; /* owned where it is neither before nor after */
+    uint8_t *colors;
+    picture_mesh meshes[MESHES];
+    view_cages cages;
+} step;
+
+typedef struct picture_work {
+    const view_scene *scene;
+    const view_picture_options *options;
+    view_palette palette;
+    view_surface surface;
+    uint8_t *used;           /* one a vertex: something is drawn of it; NULL: of all */
+    uint32_t *twins, *white; /* white: the material of each triangle that is coloured by a palette */
+    step *steps;
+    picture_panel *panels;
+    size_t step_count;
+    ffd_error *error;
+} picture_work;
+
+static const picture_material white_material = {.color = {1, 1, 1, 1}, .is_double_sided = true};
+
+static uint32_t width_of(const view_picture_options *options)
+{
+    return options->width ? options->width : VIEW_PICTURE_WIDTH;
+}
+
+static uint32_t height_of(const view_picture_options *options)
+{
+    return options->height ? options->height : VIEW_PICTURE_HEIGHT;
+}
+
+ffd_status ffd_view_picture_check(const view_picture_options *options, ffd_error *error)
+{
+    const uint32_t width = width_of(options), height = height_of(options), frames = options->frames;
+    const uint64_t all = (uint64_t)width * (frames ? frames : 1);
+    if (frames == 1 || frames > VIEW_FRAMES)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%u frames are not possible: 2 to %d are", (unsigned)frames,
+                        VIEW_FRAMES);
+    if (all > PICTURE_MOST_SIDE || height > PICTURE_MOST_SIDE || all * height > PICTURE_MOST_PIXELS)
+        return ffd_fail(
+            error, FFD_E_ARGUMENT,
+            "a picture of %llu x %u pixels is not possible: %d is the longest side, %llu the most "
+            "pixels",
+            (unsigned long long)all, (unsigned)height, PICTURE_MOST_SIDE,
+            (unsigned long long)PICTURE_MOST_PIXELS);
+    return FFD_OK;
+}
+
+/* A mesh that nothing moves is drawn once. */
+static size_t count_steps(const view_scene *scene, const view_picture_options *options)
+{
+    if (options->frames)
+        return options->frames;
+    return scene->statuses || scene->output || scene->cage_count ? 2 : 1;
+}
+
+/* Marks the vertices that something is drawn of: a picture makes room for no others. *used stays NULL where
+   all are. */
+static ffd_status find_used(const view_scene *scene, uint8_t **used, ffd_error *error)
+{
+    const struct {
+        const uint32_t *list;
+        size_t count;
+    } uses[] = {{scene->triangles, 3 * scene->triangle_count},
+                {scene->segments, 2 * scene->segment_count},
+                {scene->points, scene->point_count}};
+    size_t found = 0;
+    uint8_t *const marks = ffd_alloc_zero(scene->vertex_count, 1);
+    if (!marks)
+        return ffd_fail_memory(error);
+    for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
+        for (size_t i = 0; i < uses[k].count; i++) {
+            found += !marks[uses[k].list[i]];
+            marks[uses[k].list[i]] = 1;
+        }
+    if (found > 0 && found < scene->vertex_count)
+        *used = marks;
+    else
+        ffd_free(marks);
+    return FFD_OK;
+}
+
+static ffd_status place(picture_work *w, step *s)
+{
+    const view_scene *const scene = w->scene;
+    if (!w->used && (s->share <= 0 || s->share >= 1)) {
+        s->positions = s->share <= 0 ? scene->before : scene->after;
+        return FFD_OK;
+    }
+    s->positions = ffd_alloc(scene->vertex_count, 3 * sizeof *s->positions);
+    for (size_t i = 0; s->positions && i < 3 * scene->vertex_count; i++)
+        s->positions[i] = w->used && !w->used[i / 3] ? NAN
+                          : s->share >= 1
+                              ? scene->after[i]
+                              : scene->before[i] + s->share * (scene->after[i] - scene->before[i]);
+    return s->positions ? FFD_OK : ffd_fail_memory(w->error);
+}
+
+/* The rest shape is drawn as the mesh is, and what moved in the colours of the palette. */
+static ffd_status paint(picture_work *w, step *s, view_palette *own)
+{
+    const view_scene *const scene = w->scene;
+    *own = (view_palette){.color = VIEW_BY_MATERIAL};
+    if (s->share > 0)
+        *own = w->palette;
+    if (own->color == VIEW_BY_MATERIAL && !scene->colors)
+        return FFD_OK;
+    s->colors = ffd_alloc(scene->vertex_count, 4);
+    if (!s->colors)
+        return ffd_fail_memory(w->error);
+    ffd_view_palette_fill(own, scene, s->share, s->colors);
+    return FFD_OK;
+}
+
+static void make_meshes(const picture_work *w, step *s, bool is_plain)
+{
+    static const picture_material folded = {.color = {0.6939, 0.0137, 0.4793, 1}, .is_double_sided = true};
+    const view_surface *const from = &w->surface;
+    const size_t marked = s->share > 0 ? from->flipped_count : 0;
+    picture_mesh mesh = {.positions = s->positions,
+                         .vertex_count = w->scene->vertex_count,
+                         .triangles = from->triangles,
+                         .triangle_count = w->scene->triangle_count - marked,
+                         .colors = s->colors,
+                         .twins = w->twins};
+    if (is_plain) {
+        mesh.texcoords = from->texcoords;
+        mesh.materials = from->materials;
+        mesh.material_list = from->list;
+        mesh.material_count = from->list_count;
+    } else {
+        mesh.materials = w->white;
+        mesh.material_list = &white_material;
+        mesh.material_count = 1;
+    }
+    s->meshes[0] = mesh;
+    mesh.triangles += 3 * mesh.triangle_count;
+    mesh.triangle_count = marked;
+    mesh.texcoords = NULL;
+    mesh.colors = NULL;
+    mesh.materials = w->white;
+    mesh.material_list = &folded;
+    mesh.material_count = 1;
+    s->meshes[1] = mesh;
+}
+
+static void name_step(const picture_work *w, size_t number, step *s)
+{
+    if (w->step_count == 2)
+        snprintf(s->caption, sizeof s->caption, "%s", number ? "after" : "before");
+    else
+        snprintf(s->caption, sizeof s->caption, "%zu %%",
+                 (100 * number + (w->step_count - 1) / 2) / (w->step_count - 1));
+}
+
+static ffd_status make_step(picture_work *w, size_t number)
+{
+    step *const s = &w->steps[number];
+    view_palette own;
+    s->share = number + 1 == w->step_count && number ? 1
+               : number                              ? (double)number / (double)(w->step_count - 1)
+                                                     : 0;
+    ffd_status status = place(w, s);
+    if (!status)
+        status = paint(w, s, &own);
+    if (status)
+        return status;
+    make_meshes(w, s, own.color == VIEW_BY_MATERIAL);
+    if (w->step_count > 1)
+        name_step(w, number, s);
+    status =
+        ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options), &s->cages, w->error);
+    w->panels[number] = (picture_panel){.caption = w->step_count > 1 ? s->caption : NULL,
+                                        .meshes = s->meshes,
+                                        .mesh_count = w->scene->vertex_count ? MESHES : 0,
+                                        .cages = s->cages.list,
+                                        .cage_count = s->cages.count};
+    return status;
+}
+
+static ffd_status make_steps(picture_work *w)
+{
+    const view_scene *const scene = w->scene;
+    const bool has_texture = scene->texcoords && scene->materials.image_count;
+    w->step_count = count_steps(scene, w->options);
+    ffd_status status =
+        ffd_budget_check(w->options->budget, scene->vertex_count, w->step_count * VERTEX_BYTES, w->error);
+    if (!status)
+        status = ffd_view_surface_make(scene, has_texture, w->options->budget, w->options->log, &w->surface,
+                                       w->error);
+    if (status)
+        return status;
+    w->steps = ffd_alloc_zero(w->step_count, sizeof *w->steps);
+    w->panels = ffd_alloc_zero(w->step_count, sizeof *w->panels);
+    w->twins = ffd_alloc(scene->vertex_count, sizeof *w->twins);
+    w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
+    if (!w->steps || !w->panels || !w->twins || !w->white)
+        return ffd_fail_memory(w->error);
+    ffd_view_palette_make(scene, w->options->color, &w->palette);
+    status = ffd_picture_twins(scene->before, scene->vertex_count, w->twins, w->error);
+    if (!status)
+        status = find_used(scene, &w->used, w->error);
+    for (size_t i = 0; i < w->step_count && !status; i++)
+        status = make_step(w, i);
+    return status;
+}
+
+static void free_steps(picture_work *w)
+{
+    for (size_t i = 0; w->steps && i < w->step_count; i++) {
+        step *const s = &w->steps[i];
+        if (s->positions != w->scene->before && s->positions != w->scene->after)
+            ffd_free(s->positions);
+        ffd_free(s->colors);
+        ffd_view_cages_free(&s->cages);
+    }
+    ffd_free(w->steps);
+    ffd_free(w->panels);
+    ffd_free(w->used);
+    ffd_free(w->twins);
+    ffd_free(w->white);
+    ffd_view_surface_free(&w->surface);
+}
+
+static ffd_status append(void *context, const void *bytes, size_t size, ffd_error *error)
+{
+    return ffd_output_write(context, bytes, size, error);
+}
+
+static ffd_status draw(const picture_work *w, file_output *output)
+{
+    const view_picture_options *const options = w->options;
+    picture of = {.width = width_of(options) * (options->frames ? options->frames : 1),
+                  .height = height_of(options),
+                  .panels = w->panels,
+                  .panel_count = w->step_count,
+                  .scale = w->palette.has_scale ? &w->palette.scale : NULL,
+                  .threads = options->threads};
+    uint8_t *pixels = NULL;
+    if (!ffd_camera_from(options->camera, &of.camera))
+        ffd_camera_parse("iso", &of.camera);
+    ffd_status status = ffd_picture_draw(&of, options->budget, &pixels, w->error);
+    if (!status)
+        status = ffd_png_write(pixels, of.width, of.height, append, output, w->error);
+    ffd_free(pixels);
+    return status;
+}
+
+ffd_status ffd_view_picture_write(const view_scene *scene, const view_picture_options *options,
+                                  file_output *output, ffd_error *error)
+{
+    picture_work w = {.scene = scene, .options = options, .error = error};
+    ffd_status status = ffd_view_picture_check(options, error);
+    if (!status)
+        status = make_steps(&w);
+    if (!status)
+        status = draw(&w, output);
+    free_steps(&w);
+    return status;
+}

@@ -1,0 +1,294 @@
+/* test_picture_image.c - PNG and JPEG: what all kinds of them show, and what is broken, cut off or too large.
+
+       test_picture_image CORPUS      the folder tests/fuzz/corpus (make_images.py) */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "base/memory/memory.h"
+#include "picture/image/image.h"
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MOST_BYTES 65536
+
+typedef struct file {
+    unsigned char bytes[MOST_BYTES];
+    size_t size;
+} file;
+
+static const char *corpus;
+
+static void load(file *f, const char *name)
+{
+    char path[4096];
+    assert_true(snprintf(path, sizeof path, "%s/%s", corpus, name) < (int)sizeof path);
+    FILE *const from = fopen(path, "rb");
+    if (!from)
+        fail_msg("%s is not there", path);
+    f->size = fread(f->bytes, 1, MOST_BYTES, from);
+    fclose(from);
+}
+
+typedef void (*pixel_function)(int x, int y, uint8_t pixel[4]);
+
+static void color(int x, int y, uint8_t pixel[4])
+{
+    pixel[0] = (uint8_t)(23 * x);
+    pixel[1] = (uint8_t)(28 * y);
+    pixel[2] = (uint8_t)(255 - 12 * x - 14 * y);
+    pixel[3] = 255;
+}
+
+static void color_alpha(int x, int y, uint8_t pixel[4])
+{
+    color(x, y, pixel);
+    pixel[3] = (uint8_t)(255 - 7 * (x + y));
+}
+
+static void gray(int x, int y, uint8_t pixel[4])
+{
+    (void)y;
+    memset(pixel, 23 * x, 3);
+    pixel[3] = 255;
+}
+
+static void gray_alpha(int x, int y, uint8_t pixel[4])
+{
+    gray(x, y, pixel);
+    pixel[3] = (uint8_t)(255 - 7 * (x + y));
+}
+
+static void two_grays(int x, int y, uint8_t pixel[4])
+{
+    memset(pixel, (x + y) % 2 ? 255 : 0, 3);
+    pixel[3] = 255;
+}
+
+static void two_colors(int x, int y, uint8_t pixel[4])
+{
+    memcpy(pixel, (x + y) % 2 ? (uint8_t[]){200, 210, 220, 255} : (uint8_t[]){10, 20, 30, 0x40}, 4);
+}
+
+static void all_kinds_of_png_show_their_pixels(void **state)
+{
+    static const struct {
+        const char *name;
+        pixel_function pixel;
+    } kinds[] = {
+        {"png/rgb8.png", color},      {"png/rgba8.png", color_alpha},  {"png/interlaced.png", color_alpha},
+        {"png/rgb16.png", color},     {"png/gray8.png", gray},         {"png/gray-alpha.png", gray_alpha},
+        {"png/gray1.png", two_grays}, {"png/palette.png", two_colors}, {"png/chunks.png", color}};
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        file f;
+        image found;
+        ffd_error error;
+        load(&f, kinds[i].name);
+        if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
+            fail_msg("%s: %s", kinds[i].name, error.message);
+        assert_true(found.width == 11 && found.height == 9);
+        for (int p = 0; p < 99; p++) {
+            uint8_t pixel[4];
+            kinds[i].pixel(p % 11, p / 11, pixel);
+            if (memcmp(pixel, found.pixels + 4 * p, 4) != 0)
+                fail_msg("%s: another pixel at %d,%d", kinds[i].name, p % 11, p / 11);
+        }
+        ffd_free(found.pixels);
+    }
+}
+
+/* They were made of: red across, green down, blue by fields, as far as a lossy format keeps them. */
+static void all_kinds_of_jpeg_show_their_pixels(void **state)
+{
+    static const struct {
+        const char *name;
+        int width, height, tolerance;
+        bool is_gray;
+    } kinds[] = {{"jpeg/gray.jpg", 17, 13, 8, true},
+                 {"jpeg/rgb444.jpg", 24, 16, 20, false},
+                 {"jpeg/rgb420.jpg", 35, 21, 90, false},
+                 {"jpeg/rgb422.jpg", 20, 9, 70, false},
+                 {"jpeg/progressive.jpg", 33, 33, 80, false}};
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        file f;
+        image found;
+        ffd_error error;
+        const int width = kinds[i].width, height = kinds[i].height;
+        load(&f, kinds[i].name);
+        if (ffd_image_decode(f.bytes, f.size, NULL, &found, &error))
+            fail_msg("%s: %s", kinds[i].name, error.message);
+        assert_true(found.width == (uint32_t)width && found.height == (uint32_t)height);
+        for (int p = 0; p < width * height; p++) {
+            const uint8_t *const pixel = found.pixels + 4 * p;
+            const int red = p % width * 255 / width,
+                      green = kinds[i].is_gray ? red : p / width * 255 / height;
+            if (abs(pixel[0] - red) > kinds[i].tolerance || abs(pixel[1] - green) > kinds[i].tolerance ||
+                pixel[3] != 255)
+                fail_msg("%s: %d %d at %d,%d", kinds[i].name, pixel[0], pixel[1], p % width, p / width);
+        }
+        ffd_free(found.pixels);
+    }
+}
+
+static void expect(const file *f, size_t size, const memory_budget *budget, ffd_status wanted,
+                   const char *what)
+{
+    image found = {1, 1, (uint8_t *)&found};
+    ffd_error error = {0};
+    /* A block of its own size, so that reading past the end is seen. */
+    unsigned char *const copy = malloc(size > 0 ? size : 1);
+    assert_non_null(copy);
+    memcpy(copy, f->bytes, size);
+    const ffd_status status = ffd_image_decode(copy, size, budget, &found, &error);
+    free(copy);
+    if (status == FFD_OK)
+        ffd_free(found.pixels);
+    if (status != wanted || (status && (!error.message[0] || strchr(error.message, '\n'))))
+        fail_msg("%s of %zu bytes: %d '%s'", what, size, (int)status, error.message);
+}
+
+static void what_is_cut_off_is_told(void **state)
+{
+    static const char *const names[] = {"png/rgba8.png", "png/interlaced.png", "png/palette.png",
+                                        "jpeg/gray.jpg", "jpeg/rgb420.jpg",    "jpeg/progressive.jpg"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        file f;
+        load(&f, names[i]);
+        for (size_t size = 8; size < f.size; size++)
+            expect(&f, size, NULL, FFD_E_INVALID, names[i]);
+        for (size_t size = 0; size < 3; size++)
+            expect(&f, size, NULL, FFD_E_UNSUPPORTED, names[i]);
+    }
+}
+
+static void what_is_damaged_is_told(void **state)
+{
+    file f;
+    (void)state;
+    load(&f, "png/rgba8.png");
+    for (size_t i = 8; i < f.size - 12; i++) {
+        f.bytes[i] ^= 0x10;
+        image found;
+        ffd_error error;
+        const ffd_status status = ffd_image_decode(f.bytes, f.size, NULL, &found, &error);
+        /* Every chunk has a checksum. */
+        assert_true(status == FFD_E_INVALID || status == FFD_E_LIMIT);
+        assert_null(found.pixels);
+        f.bytes[i] ^= 0x10;
+    }
+    load(&f, "jpeg/cmyk.jpg");
+    expect(&f, f.size, NULL, FFD_E_UNSUPPORTED, "CMYK");
+    memcpy(f.bytes, "GIF89a", 6);
+    expect(&f, f.size, NULL, FFD_E_UNSUPPORTED, "GIF");
+}
+
+static void sizes_are_checked_before_memory_is_taken(void **state)
+{
+    file f;
+    ffd_error error;
+    memory_budget budget = ffd_budget_make(0);
+    (void)state;
+    load(&f, "png/large.png");
+    expect(&f, f.size, NULL, FFD_E_LIMIT, "32767 x 32767");
+    budget.taken = 0;
+    budget.most = 11 * 9 * 4 - 1;
+    load(&f, "png/rgb8.png");
+    expect(&f, f.size, &budget, FFD_E_LIMIT, "PNG");
+    budget.most++;
+    expect(&f, f.size, &budget, FFD_OK, "PNG");
+    load(&f, "jpeg/progressive.jpg");
+    budget.most = 33 * 33 * 10 - 1;
+    expect(&f, f.size, &budget, FFD_E_LIMIT, "JPEG");
+    budget.most++;
+    expect(&f, f.size, &budget, FFD_OK, "JPEG");
+    assert_int_equal(ffd_image_check(UINT64_C(1) << 33, UINT64_C(1) << 33, 4, NULL, &error), FFD_E_LIMIT);
+    assert_int_equal(ffd_image_check(0, 5, 4, NULL, &error), FFD_E_INVALID);
+    assert_int_equal(ffd_image_check(32767, 4096, 4, NULL, &error), FFD_OK);
+    assert_int_equal(ffd_image_check(32767, 4097, 4, NULL, &error), FFD_E_LIMIT);
+}
+
+static void memory_may_run_out_anywhere(void **state)
+{
+    static const char *const names[] = {"png/interlaced.png", "png/palette.png", "jpeg/progressive.jpg"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        file f;
+        ffd_status status;
+        long successes = 0;
+        load(&f, names[i]);
+        do {
+            image found;
+            ffd_error error;
+            ffd_alloc_fail_after(successes++);
+            status = ffd_image_decode(f.bytes, f.size, NULL, &found, &error);
+            ffd_alloc_fail_after(-1);
+            assert_true(status == FFD_OK || status == FFD_E_MEMORY);
+            ffd_free(found.pixels);
+        } while (status);
+        assert_true(successes > 1);
+    }
+}
+
+static ffd_status keep(void *context, const void *bytes, size_t size, ffd_error *error)
+{
+    file *const f = context;
+    if (size > MOST_BYTES - f->size)
+        return ffd_fail(error, FFD_E_IO, "it is full");
+    memcpy(f->bytes + f->size, bytes, size);
+    f->size += size;
+    return FFD_OK;
+}
+
+static void what_is_written_reads_back(void **state)
+{
+    static file f, again;
+    static uint8_t pixels[3 * 40 * 30];
+    image found;
+    ffd_error error;
+    (void)state;
+    for (size_t i = 0; i < sizeof pixels; i++)
+        pixels[i] = (uint8_t)(i * i / 7);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &f, &error), FFD_OK);
+    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &again, &error), FFD_OK);
+    assert_true(f.size == again.size && memcmp(f.bytes, again.bytes, f.size) == 0);
+    assert_int_equal(ffd_image_decode(f.bytes, f.size, NULL, &found, &error), FFD_OK);
+    for (size_t i = 0; i < 40 * 30; i++)
+        assert_memory_equal(found.pixels + 4 * i, pixels + 3 * i, 3);
+    ffd_free(found.pixels);
+    f.size = MOST_BYTES - 100;
+    assert_int_equal(ffd_png_write(pixels, 40, 30, keep, &f, &error), FFD_E_IO);
+    assert_string_equal(error.message, "it is full");
+    long successes = 0;
+    ffd_status status;
+    do {
+        f.size = 0;
+        ffd_alloc_fail_after(successes++);
+        status = ffd_png_write(pixels, 40, 30, keep, &f, &error);
+        ffd_alloc_fail_after(-1);
+        assert_true(status == FFD_OK || status == FFD_E_MEMORY);
+    } while (status);
+}
+
+int main(int argc, char **argv)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_kinds_of_png_show_their_pixels),
+        cmocka_unit_test(all_kinds_of_jpeg_show_their_pixels),
+        cmocka_unit_test(what_is_cut_off_is_told),
+        cmocka_unit_test(what_is_damaged_is_told),
+        cmocka_unit_test(sizes_are_checked_before_memory_is_taken),
+        cmocka_unit_test(memory_may_run_out_anywhere),
+        cmocka_unit_test(what_is_written_reads_back),
+    };
+    if (argc != 2)
+        return 2;
+    corpus = argv[1];
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

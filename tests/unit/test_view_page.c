@@ -1,0 +1,424 @@
+/* test_view_page.c - the page of ffd view: text from files, numbers, what is left out, scenes that are
+ * broken.
+ */
+#define _XOPEN_SOURCE 700
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/test_folder.h"
+#include "../support/view_by_hand.h"
+#include "base/little_endian.h"
+#include "base/text/base64.h"
+#include "view/page.h"
+#include "view/page_assets.h"
+#include "view/page_data.h"
+#include "view/page_text.h"
+
+/* Without the geometry. */
+#define LARGEST_PAGE 700000
+
+static char said[1000];
+
+static void listen(void *user, ffd_log_level level, const char *line)
+{
+    (void)user;
+    assert_int_equal(level, FFD_LOG_WARNING);
+    strncat(said, line, sizeof said - strlen(said) - 1);
+}
+
+static ffd_status write_page(const view_scene *scene, const view_page_options *options)
+{
+    file_output *output = NULL;
+    ffd_error error;
+    ffd_status status = ffd_output_create(&output, &error);
+    if (!status)
+        status = ffd_output_begin(output, in_folder("page.html"), true, &error);
+    if (!status)
+        status = ffd_view_page_write(scene, options, output, &error);
+    if (!status)
+        status = ffd_output_commit(output, &error);
+    ffd_output_destroy(&output);
+    return status;
+}
+
+static char *read_page(void)
+{
+    FILE *const file = fopen(in_folder("page.html"), "rb");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, 0, SEEK_END), 0);
+    const size_t size = (size_t)ftell(file);
+    rewind(file);
+    char *const text = hand_array(size + 1, 1);
+    assert_int_equal(fread(text, 1, size, file), size);
+    fclose(file);
+    assert_int_equal(strlen(text), size);
+    return text;
+}
+
+static char *page_of(const view_scene *scene, bool full)
+{
+    const mesh_log log = {listen, NULL};
+    const view_page_options options = {.full = full, .log = &log};
+    *said = 0;
+    assert_int_equal(write_page(scene, &options), FFD_OK);
+    return read_page();
+}
+
+/* What is in the script element of that id; NULL: there is none. */
+static char *block_of(const char *page, const char *id)
+{
+    char head[80];
+    snprintf(head, sizeof head, "id=\"%s\">", id);
+    const char *const from = strstr(page, head);
+    if (!from)
+        return NULL;
+    const char *const first = from + strlen(head), *const end = strstr(first, "</script>");
+    char *const text = hand_array((size_t)(end - first) + 1, 1);
+    memcpy(text, first, (size_t)(end - first));
+    return text;
+}
+
+static unsigned char *bytes_of(const char *page, const char *id, size_t expected)
+{
+    char *const text = block_of(page, id);
+    assert_non_null(text);
+    size_t count;
+    unsigned char *const bytes = hand_array(ffd_base64_capacity(strlen(text)), 1);
+    assert_true(ffd_base64_decode(text, strlen(text), bytes, &count));
+    assert_int_equal(count, expected);
+    ffd_free(text);
+    return bytes;
+}
+
+/* A number or the first of an array behind a key of the page's JSON. */
+static double value_of(const char *page, const char *key, int index)
+{
+    char name[60];
+    snprintf(name, sizeof name, "\"%s\": ", key);
+    const char *at = strstr(strstr(page, "id=\"scene\""), name);
+    assert_non_null(at);
+    at += strlen(name) + (at[strlen(name)] == '[');
+    for (; index > 0; index--)
+        at = strchr(at, ',') + 1;
+    return strtod(at, NULL);
+}
+
+static size_t count_of(const char *text, const char *word)
+{
+    size_t count = 0;
+    for (const char *at = text; (at = strstr(at, word)); at += strlen(word))
+        count++;
+    return count;
+}
+
+static void wave(const double from[3], double to[3])
+{
+    to[0] = from[0] + 0.02 * sin(5 * from[1]);
+    to[1] = from[1] * 1.25;
+    to[2] = from[2] - 3e-4 * from[0];
+}
+
+static void names_are_shown_as_what_they_hold(void **state)
+{
+    (void)state;
+    static const char *const names[][2] = {
+        {"", ""},
+        {"Head", "Head"},
+        {"a\nb\tc", "a\\nb\\u{9}c"},
+        {"\x01\x7f", "\\u{1}\\u{7f}"},
+        {"\xc2\x85", "\\u{85}"},
+        {"\xe2\x80\xaetxt.exe", "\\u{202e}txt.exe"},
+        {"\xe2\x81\xa6x\xe2\x81\xa9", "\\u{2066}x\\u{2069}"},
+        {"\xf3\xa0\x81\x81", "\\u{e0041}"},
+        {"\xff\xc3", "\xef\xbf\xbd\xef\xbf\xbd"},
+        {"\xd9\x85\xe2\x80\x8c\xd9\x87", "\xd9\x85\xe2\x80\x8c\xd9\x87"},
+        {"<b>&amp;\"'", "<b>&amp;\"'"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char *const text = ffd_page_name(names[i][0]);
+        assert_string_equal(text, names[i][1]);
+        ffd_free(text);
+    }
+    char longest[100001], *text;
+    memset(longest, 'x', sizeof longest - 1);
+    longest[sizeof longest - 1] = 0;
+    text = ffd_page_name(longest);
+    assert_int_equal(strlen(text), 203);
+    assert_string_equal(text + 199, "x\xe2\x80\xa6");
+    ffd_free(text);
+    longest[200] = 0;
+    text = ffd_page_name(longest);
+    assert_string_equal(text, longest);
+    ffd_free(text);
+}
+
+static void no_text_of_a_file_is_markup(void **state)
+{
+    (void)state;
+    static const char evil[] = "</script></title><img src=x onerror=alert(1)><!--<script>";
+    view_scene scene = hand_grid(2);
+    const double box[2][3] = {{0, 0, -1}, {1, 1, 1}};
+    ffd_free(scene.name);
+    scene.name = hand_text(evil);
+    scene.output = hand_text(evil);
+    scene.report = hand_text("{\"input\": \"</script><img src=x>\"}");
+    hand_part(&scene, evil, 0, 8);
+    hand_cage(&scene, evil, 2, 2, 2, box[0], box[1], wave);
+    scene.materials.list = hand_array(1, sizeof *scene.materials.list);
+    scene.materials.list[0] = (mesh_material){.name = hand_text(evil), .image = MATERIAL_NONE};
+    scene.materials.count = 1;
+    scene.parts[0].material = 0;
+    char *const page = page_of(&scene, false), *const report = block_of(page, "report"),
+                *const json = block_of(page, "scene");
+    assert_null(strchr(report, '<'));
+    assert_null(strchr(json, '<'));
+    assert_int_equal(count_of(json, "\\u003c/script>"), 5);
+    assert_null(strstr(page, "<img"));
+    assert_int_equal(count_of(page, "<script"), count_of(page, "</script>"));
+    assert_int_equal(count_of(page, "</title>"), 1);
+    assert_non_null(strstr(page, "<title>&lt;/script>&lt;/title>&lt;img src=x"));
+    ffd_free(report);
+    ffd_free(json);
+    ffd_free(page);
+    ffd_view_scene_free(&scene);
+}
+
+static void a_page_allows_no_request(void **state)
+{
+    (void)state;
+    view_scene scene = hand_grid(1);
+    char *const page = page_of(&scene, false);
+    assert_non_null(strstr(page, "content=\"default-src 'none'; script-src 'sha256-"));
+    assert_null(strstr(page, "unsafe"));
+    for (const char *const *word =
+             (const char *const[]){"http:", "https:", "url(", "fetch(", "import ", " onclick", NULL};
+         *word; word++)
+        assert_null(strstr(page, *word));
+    assert_true(ffd_page_start_size + ffd_page_middle_size + ffd_page_end_size < LARGEST_PAGE);
+    ffd_free(page);
+    ffd_view_scene_free(&scene);
+}
+
+/* The bounds are half a step of each: of the box of both shapes, and of the largest component that moves. */
+static void numbers_come_back_to_half_a_step(void **state)
+{
+    (void)state;
+    const double low[3] = {0, 0.3, -1}, high[3] = {1, 1, 1};
+    view_scene scene = hand_grid(60); /* more vertices than are encoded at once */
+    hand_deform(&scene, low, high, wave);
+    char *const page = page_of(&scene, false);
+    const size_t count = scene.vertex_count;
+    unsigned char *const before = bytes_of(page, "data-before", 6 * count),
+                         *const move = bytes_of(page, "data-move", 6 * count),
+                         *const status = bytes_of(page, "data-status", count),
+                         *const det = bytes_of(page, "data-det", 4 * count),
+                         *const triangles = bytes_of(page, "data-triangle", 12 * scene.triangle_count);
+    const double move_step = value_of(page, "moveStep", 0);
+    /* The box is that of both shapes: x falls, y grows. */
+    assert_true(value_of(page, "low", 0) < -0.015);
+    assert_true(value_of(page, "low", 1) + 65535 * value_of(page, "step", 1) > 1.2499);
+    assert_true(fabs(move_step - 0.25 / 32767) < 1e-12);
+    for (size_t v = 0; v < count; v++) {
+        for (size_t a = 0; a < 3; a++) {
+            const unsigned char *const p = before + 6 * v + 2 * a, *const m = move + 6 * v + 2 * a;
+            const double step = value_of(page, "step", (int)a),
+                         x = value_of(page, "low", (int)a) + step * (p[0] + 256 * p[1]);
+            const double d = move_step * (int16_t)(uint16_t)(m[0] + 256 * m[1]);
+            const double moved = scene.after[3 * v + a] - scene.before[3 * v + a];
+            assert_true(fabs(x - scene.before[3 * v + a]) <= 0.5000001 * step);
+            assert_true(fabs(d - moved) <= 0.5000001 * move_step);
+            assert_true(moved != 0 || d == 0);
+        }
+        assert_int_equal(status[v], scene.statuses[v]);
+        assert_true(load_float(det + 4 * v) == (float)scene.dets[v]);
+    }
+    for (size_t i = 0; i < 3 * scene.triangle_count; i++)
+        assert_int_equal(load_u32(triangles + 4 * i), scene.triangles[i]);
+    assert_null(strstr(page, "id=\"data-number\""));
+    void *const blocks[] = {before, move, status, det, triangles, page};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++)
+        ffd_free(blocks[i]);
+    ffd_view_scene_free(&scene);
+}
+
+static void colors_numbers_and_cages_are_there(void **state)
+{
+    (void)state;
+    view_scene scene = hand_grid(1);
+    const double low[3] = {0, 0, -1}, high[3] = {1, 1, 1};
+    scene.colors = hand_array(4, 4 * sizeof(double));
+    const double colors[4] = {1, 0.5, -3, NAN};
+    memcpy(scene.colors, colors, sizeof colors);
+    scene.numbers = hand_array(4, sizeof *scene.numbers);
+    for (size_t v = 0; v < 4; v++)
+        scene.numbers[v] = 10 + v;
+    hand_cage(&scene, "cage", 3, 2, 2, low, high, wave);
+    char *page = page_of(&scene, false);
+    unsigned char *bytes = bytes_of(page, "data-color", 16);
+    assert_memory_equal(bytes, "\xff\x80\x00\x00", 4);
+    ffd_free(bytes);
+    bytes = bytes_of(page, "data-number", 16);
+    assert_int_equal(load_u32(bytes + 4), 11);
+    ffd_free(bytes);
+    bytes = bytes_of(page, "data-cage-0", 48 * 12);
+    for (size_t i = 0; i < 12 * 6; i++) {
+        const double *const points = i / 3 % 2 ? scene.cages[0].deformed : scene.cages[0].rest;
+        const uint64_t bits = load_u64(bytes + 8 * i);
+        assert_memory_equal(&bits, points + 3 * (i / 6) + i % 3, 8);
+    }
+    ffd_free(bytes);
+    ffd_free(page);
+    scene.numbers[3] = (uint64_t)1 << 40;
+    page = page_of(&scene, false);
+    ffd_free(bytes_of(page, "data-number", 32));
+    ffd_free(page);
+    ffd_view_scene_free(&scene);
+}
+
+static void a_cage_of_too_many_points_is_left_out_and_said(void **state)
+{
+    (void)state;
+    view_scene scene = hand_grid(1);
+    const double low[3] = {0, 0, -1}, high[3] = {1, 1, 1};
+    hand_cage(&scene, "large", 50, 50, 41, low, high, wave);
+    hand_cage(&scene, "small", 2, 2, 2, low, high, wave);
+    char *page = page_of(&scene, false);
+    assert_null(strstr(page, "data-cage-0\""));
+    assert_non_null(strstr(page, "data-cage-1\""));
+    assert_non_null(strstr(said, "1 of 2 lattices are not drawn"));
+    ffd_free(page);
+    page = page_of(&scene, true);
+    assert_non_null(strstr(page, "data-cage-0\""));
+    assert_string_equal(said, "");
+    ffd_free(page);
+    ffd_view_scene_free(&scene);
+}
+
+static void what_is_not_finite_is_left_out_and_said(void **state)
+{
+    (void)state;
+    view_scene scene = hand_grid(10);
+    const size_t count = scene.vertex_count;
+    scene.before[0] = NAN;
+    scene.after[3 * 60] = INFINITY;
+    scene.before[3 * 120 + 2] = -1e301;
+    hand_part(&scene, "all", 0, scene.triangle_count);
+    char *const page = page_of(&scene, false);
+    /* Corners of the square have two triangles or one, a vertex inside of it six. */
+    const size_t left = scene.triangle_count - 2 - 6 - 2;
+    assert_int_equal(value_of(page, "vertices", 0), count - 3);
+    assert_int_equal(value_of(page, "triangles", 0), left);
+    assert_int_equal(value_of(page, "notFinite", 0), 3);
+    assert_non_null(strstr(said, "3 vertices are not finite, and 10 triangles at them not drawn"));
+    unsigned char *const triangles = bytes_of(page, "data-triangle", 12 * left);
+    for (size_t i = 0; i < 3 * left; i++)
+        assert_true(load_u32(triangles + 4 * i) < count - 3);
+    ffd_free(triangles);
+    ffd_free(page);
+    ffd_view_scene_free(&scene);
+}
+
+static void a_page_of_many_vertices_is_reduced_and_says_so(void **state)
+{
+    (void)state;
+    view_scene scene = hand_grid(460);
+    char *const page = page_of(&scene, false);
+    assert_in_range((size_t)value_of(page, "vertices", 0), 150000, VIEW_PAGE_VERTICES);
+    assert_int_equal(value_of(page, "verticesAll", 0), 461 * 461);
+    assert_non_null(strstr(said, "of 212521 vertices are drawn: the mesh is simplified (see --full)"));
+    assert_non_null(strstr(page, "of 212521 vertices are drawn: the mesh is simplified (see --full)\""));
+    ffd_free(page);
+    char *const full = page_of(&scene, true);
+    assert_int_equal(value_of(full, "vertices", 0), 461 * 461);
+    assert_string_equal(said, "");
+    ffd_free(full);
+    ffd_view_scene_free(&scene);
+}
+
+static void a_scene_of_nothing_is_a_page(void **state)
+{
+    (void)state;
+    view_scene scene = {0};
+    char *page = page_of(&scene, false);
+    assert_non_null(strstr(said, "the mesh has no vertices"));
+    ffd_free(page);
+    scene.vertex_count = 5; /* vertices alone are points */
+    scene.before = hand_array(5, 3 * sizeof(double));
+    page = page_of(&scene, false);
+    assert_int_equal(value_of(page, "points", 0), 5);
+    ffd_free(page);
+    ffd_view_scene_free(&scene);
+}
+
+static void a_page_opens_as_it_is_told(void **state)
+{
+    (void)state;
+    view_scene scene = hand_grid(1);
+    const view_page_options options = {.color = VIEW_BY_DET, .camera = {0, -2, 0.5}};
+    assert_int_equal(write_page(&scene, &options), FFD_OK);
+    char *const page = read_page();
+    assert_non_null(strstr(page, "\"view\": {\"color\": \"det\", \"camera\": [0, -2, 0.5]}"));
+    ffd_free(page);
+    ffd_view_scene_free(&scene);
+}
+
+static void indices_beyond_the_arrays_are_refused(void **state)
+{
+    (void)state;
+    view_scene scene = hand_halves();
+    const view_page_options options = {0};
+    uint32_t *const indices[] = {&scene.triangles[77], &scene.tears[0].vertices[1]};
+    for (size_t i = 0; i < sizeof indices / sizeof *indices; i++) {
+        const uint32_t good = *indices[i];
+        *indices[i] = (uint32_t)scene.vertex_count;
+        assert_int_equal(write_page(&scene, &options), FFD_E_ARGUMENT);
+        *indices[i] = good;
+    }
+    scene.parts[1].first_triangle++;
+    assert_int_equal(write_page(&scene, &options), FFD_E_ARGUMENT);
+    scene.parts[1].first_triangle = SIZE_MAX;
+    assert_int_equal(write_page(&scene, &options), FFD_E_ARGUMENT);
+    ffd_view_scene_free(&scene);
+}
+
+static void no_allocation_may_fail_unseen(void **state)
+{
+    (void)state;
+    view_scene scene = hand_halves();
+    const double low[3] = {0, 0, -1}, high[3] = {1, 1, 1};
+    const view_page_options options = {0};
+    hand_cage(&scene, "cage", 3, 3, 3, low, high, wave);
+    scene.report = hand_text("{}");
+    ffd_status status = FFD_E_MEMORY;
+    long count = 0;
+    for (; status != FFD_OK && count < 500; count++) {
+        ffd_alloc_fail_after(count);
+        status = write_page(&scene, &options);
+        ffd_alloc_fail_after(-1);
+        assert_true(status == FFD_OK || status == FFD_E_MEMORY);
+    }
+    assert_in_range(count, 20, 499);
+    ffd_view_scene_free(&scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_are_shown_as_what_they_hold),
+        cmocka_unit_test(no_text_of_a_file_is_markup),
+        cmocka_unit_test(a_page_allows_no_request),
+        cmocka_unit_test(numbers_come_back_to_half_a_step),
+        cmocka_unit_test(colors_numbers_and_cages_are_there),
+        cmocka_unit_test(a_cage_of_too_many_points_is_left_out_and_said),
+        cmocka_unit_test(what_is_not_finite_is_left_out_and_said),
+        cmocka_unit_test(a_page_of_many_vertices_is_reduced_and_says_so),
+        cmocka_unit_test(a_scene_of_nothing_is_a_page),
+        cmocka_unit_test(a_page_opens_as_it_is_told),
+        cmocka_unit_test(indices_beyond_the_arrays_are_refused),
+        cmocka_unit_test(no_allocation_may_fail_unseen),
+    };
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+}

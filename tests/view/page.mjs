@@ -1,0 +1,252 @@
+// Opens pages of ffd view in a browser and uses them as people do: page.mjs NODE-FOLDER BROWSER PAGES
+import assert from 'node:assert/strict';
+import {readFileSync, writeFileSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {join} from 'node:path';
+
+const [nodeFolder, executablePath, folder] = process.argv.slice(2);
+const {chromium} = createRequire(join(nodeFolder, 'node_modules', 'x'))('playwright-core');
+const WIDE = {width: 860, height: 480}, PHONE = {width: 390, height: 844};
+
+const browser = await chromium.launch({
+  executablePath,
+  args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+
+// A page that is open, in a window of its own. At its end nothing was asked of a network or said to the console.
+async function open(kind, options = {}) {
+  const context = await browser.newContext({viewport: WIDE, reducedMotion: 'reduce', ...options});
+  const page = await context.newPage();
+  const url = 'file://' + join(folder, kind + '.html');
+  const said = [];
+  page.on('console', (message) => said.push('console: ' + message.text()));
+  page.on('pageerror', (problem) => said.push('error: ' + problem.message));
+  page.on('dialog', (dialog) => { said.push('dialog: ' + dialog.message()); dialog.dismiss(); });
+  page.on('request', (request) => { if (request.url() !== url) said.push('request: ' + request.url()); });
+  if (options.prepare) await page.addInitScript(options.prepare);
+  await page.goto(url);
+  await page.waitForSelector('html[data-ready]');
+  const end = async () => {
+    if (process.env.FFD_SCREENSHOTS) await page.screenshot({path: join(process.env.FFD_SCREENSHOTS, `${options.name || kind}.png`)});
+    assert.deepEqual(said, []);
+    await context.close();
+  };
+  return {page, end, said};
+}
+
+// A hash of the canvas's pixels. They are there only in the frame in which they are drawn: a wheel that does not turn asks for it.
+function picture(page) {
+  return page.evaluate(() => new Promise((done) => {
+    const canvas = document.getElementById('view');
+    canvas.dispatchEvent(new WheelEvent('wheel', {deltaY: 0, cancelable: true}));
+    requestAnimationFrame(() => {
+      const copy = document.createElement('canvas');
+      [copy.width, copy.height] = [canvas.width, canvas.height];
+      const context = copy.getContext('2d', {willReadFrequently: true});
+      context.drawImage(canvas, 0, 0);
+      const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
+      done(pixels.reduce((hash, pixel) => Math.imul(hash ^ pixel, 16777619), 2166136261));
+    });
+  }));
+}
+
+// Does something and expects the canvas to look different afterwards.
+async function changes(page, what, action) {
+  const before = await picture(page);
+  await action();
+  const after = await picture(page);
+  assert.notEqual(after, before, `${what} changes the picture`);
+  return after;
+}
+
+const text = (page, selector) => page.locator(selector).innerText();
+
+async function sliderGoesFromBeforeToAfter() {
+  const {page, end} = await open('torn');
+  assert.equal(await page.getAttribute('html', 'data-ready'), 'picture');
+  const after = await picture(page);
+  const slider = page.locator('input[type=range]');
+  await slider.focus();
+  await changes(page, 'Home on the slider', () => page.keyboard.press('Home'));
+  assert.equal(await slider.getAttribute('aria-valuetext'), 'before');
+  assert.equal((await text(page, '#percent')).trim(), '0\u00a0%');
+  await changes(page, 'an arrow on the slider', () => page.keyboard.press('ArrowRight'));
+  await changes(page, 'a place of the slider', () => slider.fill('60'));
+  await page.click('#play');
+  assert.equal(await slider.inputValue(), '0');
+  await page.click('#play');
+  assert.equal(await slider.inputValue(), '100');
+  assert.equal(await picture(page), after, 'the way back ends where it began');
+  await end();
+}
+
+async function coloursAndMarksAreChosen() {
+  const {page, end} = await open('fold');
+  for (const [key, words] of [['status', /inside\s+11.533/], ['det', /relative to before[^]*at most 0: folded/], ['plain', /Base colours/],
+    ['displacement', /units of the file[^]*0\.89/]]) {
+    await changes(page, key, () => page.locator('#color-' + key).check({force: true}));
+    assert.match(await text(page, '#legend'), words);
+  }
+  for (const key of ['showCage', 'showRest', 'showFlipped', 'showEdges', 'isSmooth']) {
+    await changes(page, key, () => page.locator('#show-' + key).click());
+  }
+  await end();
+}
+
+async function aWitnessIsPicked() {
+  const {page, end} = await open('fold');
+  const pin = await page.locator('#witness').boundingBox();
+  await changes(page, 'the witness', () => page.mouse.click(pin.x + pin.width / 2, pin.y + pin.height / 2));
+  assert.match(await text(page, '#said'), /folds here[^]*u, v, w\s+0\.5, 0\.5, 0\.5[^]*x, y, z[^]*det J\s+\u22122\.126/);
+  assert.equal(await page.getAttribute('#said', 'aria-live'), 'polite');
+  const near = await page.locator('#witness').boundingBox(), canvas = await page.locator('#view').boundingBox();
+  assert.ok(Math.abs(near.x + 16 - canvas.x - canvas.width / 2) < 2, 'the camera looks at it');
+  await page.click('#said .close');
+  assert.equal(await text(page, '#said'), '');
+  await page.click('#go-witness');
+  assert.match(await text(page, '#said'), /folds here/);
+  assert.match(await text(page, '#findings'), /Flipped\s+9.000\striangles/);
+  await end();
+}
+
+async function tornEdgesAreListed() {
+  const {page, end} = await open('torn');
+  await changes(page, 'hiding torn edges', () => page.locator('#show-showTears').uncheck());
+  await page.locator('#show-showTears').check();
+  await page.click('#findings summary');
+  assert.equal(await page.locator('#findings .row').count(), 60);
+  assert.match(await text(page, '#findings'), /100\u00a0edges, step to 0\.109[^]*and 40 more[^]*160\u00a0torn edges with smaller steps not listed/);
+  await changes(page, 'a torn edge', () => page.locator('#findings .row').first().click());
+  assert.match(await text(page, '#said'), /Torn edge[^]*Step\s+0\.109[^]*Vertices\s+\d+ and \d+/);
+  assert.match(await text(page, '#verdicts'), /260\u00a0torn edges/);
+  assert.match(await text(page, '#figures'), /Torn edges\s+260\s+largest step\s+0\.109\d*\s+of\s+material:skin/);
+  await end();
+}
+
+async function mouseAndKeysMoveTheCamera() {
+  const {page, end} = await open('torn');
+  const box = await page.locator('#view').boundingBox();
+  const x = box.x + box.width / 2, y = box.y + box.height / 2;
+  await changes(page, 'dragging', async () => {
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x + 80, y + 20, {steps: 3});
+    await page.mouse.up();
+  });
+  await changes(page, 'the wheel', () => page.mouse.wheel(0, -240));
+  await page.locator('#view').focus();
+  for (const key of ['f', 'b', 'l', 'r', 't', 'i', 'ArrowLeft', 'ArrowUp', '+', 'Home', 'c', 'w']) {
+    await changes(page, 'key ' + key, () => page.keyboard.press(key));
+  }
+  await changes(page, 'the button Top', () => page.click('[data-view=top]'));
+  await page.locator('#show-showCage').uncheck();
+  await page.click('[data-view=front]');
+  await page.mouse.click(x, y);
+  assert.match(await text(page, '#said'), /^Vertex [\d\u202f]+[^]*Before[^]*After[^]*Displacement[^]*Status\s+(in|out)side[^]*det F/);
+  await end();
+}
+
+async function hostileNamesAreText() {
+  const {page, end} = await open('hostile');
+  assert.equal(await page.title(), "</title><script>document.title='taken'</script>&amp; \\u{202e}gpj.exe");
+  assert.equal(await text(page, '#name'), "</title><script>document.title='taken'</script>&amp; \\u{202e}gpj.exe \u2192 <!--<script>");
+  const names = await page.locator('.parts .name').allInnerTexts();
+  assert.deepEqual(names, ['</script><img src=x onerror=alert(1)>\\n<b>bold</b>', 'x'.repeat(200) + '\u2026',
+    '"\'><script>alert(3)</script>', '\\u{1}\\u{7f}\ufffd\ufffd broken \ufffd\ufffd']);
+  assert.equal(await page.locator('img, iframe, object, link').count(), 0);
+  assert.equal(await page.locator('body script:not([type])').count(), 1);
+  const report = await page.evaluate(() => JSON.parse(document.getElementById('report').textContent));
+  assert.equal(report.jobs[0].input, 'a </script><b>');
+  assert.match(await text(page, '#figures'), /\\u\{202e\}cage\\u\{2028\}&lt;/);
+  await changes(page, 'hiding a part', () => page.locator('[data-part="0"]').uncheck());
+  await changes(page, 'hiding all', () => page.getByRole('button', {name: 'Hide all'}).click());
+  await changes(page, 'showing all', () => page.getByRole('button', {name: 'Show all'}).click());
+  await end();
+}
+
+async function largeAndEmptyMeshesOpen() {
+  const large = await open('large');
+  assert.match(await text(large.page, '#notice'), /1\d{5} of 271441 vertices are drawn: the mesh is simplified/);
+  await large.end();
+  const empty = await open('empty');
+  assert.match(await text(empty.page, '#notice'), /The mesh has no vertices/);
+  await empty.end();
+}
+
+// A copy that was cut says so, in one line.
+async function aCutPageSaysSo() {
+  const whole = readFileSync(join(folder, 'torn.html'), 'latin1');
+  const at = whole.indexOf('id="data-triangle">') + 4000, end = whole.indexOf('</script>', at);
+  writeFileSync(join(folder, 'cut.html'), whole.slice(0, at) + whole.slice(end), 'latin1');
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto('file://' + join(folder, 'cut.html'));
+  assert.match(await text(page, '#problem'), /^The page is not complete[^\n]*$/);
+  await context.close();
+}
+
+async function withoutWebGLThereAreFigures() {
+  const prepare = () => {
+    const original = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+      return kind === 'webgl2' ? null : original.call(this, kind, ...rest);
+    };
+  };
+  const {page, end} = await open('torn', {prepare, name: 'figures'});
+  assert.equal(await page.getAttribute('html', 'data-ready'), 'figures');
+  assert.match(await text(page, '#problem'), /^The picture needs WebGL2[^\n]*$/);
+  assert.match(await text(page, '#figures'), /Vertices\s+11.533/);
+  assert.ok(!(await page.locator('#stage').isVisible()));
+  await end();
+}
+
+async function phonesAndDarkAreServed() {
+  const {page, end} = await open('fold', {viewport: PHONE, colorScheme: 'dark', deviceScaleFactor: 2, hasTouch: true, name: 'phone'});
+  assert.equal(await page.getAttribute('html', 'data-theme'), 'dark');
+  const canvas = await page.locator('#view').boundingBox(), panel = await page.locator('#panel').boundingBox();
+  assert.ok(panel.y > canvas.y + canvas.height && canvas.width >= 380, 'the panel is below the canvas');
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), 'nothing is beside the screen');
+  const dark = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  await page.click('#theme');
+  assert.equal(await page.getAttribute('html', 'data-theme'), 'light');
+  assert.notEqual(await page.evaluate(() => getComputedStyle(document.body).backgroundColor), dark);
+  await page.click('#theme');
+  await end();
+}
+
+async function thePolicyForbidsRequests() {
+  const {page, said} = await open('empty');
+  assert.deepEqual(said, []);
+  const refused = await page.evaluate(async () => {
+    const seen = [];
+    document.addEventListener('securitypolicyviolation', (event) => seen.push(event.effectiveDirective));
+    await fetch('http://127.0.0.1:9/').catch(() => {});
+    const image = new Image();
+    image.src = 'data:image/gif;base64,R0lGODlhAQABAAAAACw=';
+    const script = document.createElement('script');
+    script.textContent = 'document.title = "taken"';
+    document.body.append(script);
+    document.body.setAttribute('onclick', 'document.title = "taken"');
+    document.body.click();
+    await new Promise((done) => setTimeout(done, 50));
+    return {seen: [...new Set(seen)].sort(), title: document.title};
+  });
+  assert.deepEqual(refused, {seen: ['connect-src', 'img-src', 'script-src-attr', 'script-src-elem'], title: 'by hand'});
+  await page.context().close();
+}
+
+let failed = 0;
+for (const test of [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
+  mouseAndKeysMoveTheCamera, hostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
+  thePolicyForbidsRequests]) {
+  const began = Date.now();
+  try {
+    await test();
+    console.log(`passed  ${test.name} (${Date.now() - began} ms)`);
+  } catch (problem) {
+    failed++;
+    console.log(`FAILED  ${test.name}: ${problem.message}`);
+  }
+}
+await browser.close();
+process.exit(failed ? 1 : 0);
