@@ -1,7 +1,6 @@
 #include "picture/panel.h"
 #include "base/memory/memory.h"
 #include "base/vector/vec.h"
-#include <string.h>
 
 /* Of a cage's points, in widths of its lines. */
 #define POINT_RADIUS 2.1
@@ -105,38 +104,13 @@ void ffd_panel_free(panel *of)
     *of = (panel){.of = NULL};
 }
 
-static bool is_sliver(const uint32_t *t)
-{
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
-}
-
-/* Whether a triangle is another one again: its samples are as far away and of the same colours. Files that
-   repeat a face many thousand times would take minutes. */
-static bool repeats(const surface *of, size_t triangle, size_t other)
-{
-    return memcmp(of->triangles + 3 * triangle, of->triangles + 3 * other, 3 * sizeof *of->triangles) == 0 &&
-           ffd_shade_material(of->mesh, triangle) == ffd_shade_material(of->mesh, other);
-}
-
-/* Draws the triangles of a band, in their order. */
-static void draw_mesh(const panel_mesh *mesh, const linear_tables *tables, size_t band, samples *into)
-{
-    const surface *const of = &mesh->surface;
-    const bands *const list = &mesh->triangles;
-    size_t last = SIZE_MAX;
-    for (size_t i = list->starts[band]; i < list->starts[band + 1]; i++) {
-        const size_t triangle = list->items[i];
-        if (is_sliver(of->triangles + 3 * triangle) || (last != SIZE_MAX && repeats(of, triangle, last)))
-            continue;
-        ffd_raster_triangle(of, tables, triangle, into);
-        last = triangle;
-    }
-}
-
 void ffd_panel_draw_meshes(const panel *of, const linear_tables *tables, size_t band, samples *into)
 {
-    for (size_t m = 0; m < of->of->mesh_count; m++)
-        draw_mesh(&of->meshes[m], tables, band, into);
+    for (size_t m = 0; m < of->of->mesh_count; m++) {
+        const bands *const list = &of->meshes[m].triangles;
+        for (size_t i = list->starts[band]; i < list->starts[band + 1]; i++)
+            ffd_raster_triangle(&of->meshes[m].surface, tables, list->items[i], into);
+    }
 }
 
 static void draw_cage(const panel_cage *c, const linear_tables *tables, size_t band,

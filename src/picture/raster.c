@@ -10,6 +10,8 @@ typedef float depths __attribute__((vector_size(16)));
 #define SMALL (1 << 14)
 /* One of less than four pixels a side has one colour. */
 #define FLAT (4 * SUBPIXELS)
+/* Triangles that are looked at for the same one before. */
+#define MOST_BEFORE 4
 
 static const int32_t sample_x[SAMPLES] = SAMPLE_X, sample_y[SAMPLES] = SAMPLE_Y;
 
@@ -46,11 +48,31 @@ static int64_t cross(int32_t ax, int32_t ay, int32_t bx, int32_t by)
     return (int64_t)ax * by - (int64_t)ay * bx;
 }
 
+static bool is_sliver(const uint32_t *t)
+{
+    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
+
+/* Whether the triangle is one of those shortly before it again: its samples are as far away and of the same
+   colours. Files that repeat a face many thousand times would take minutes. */
+static bool repeats(const surface *of, size_t triangle)
+{
+    const uint32_t *const t = of->triangles + 3 * triangle;
+    size_t before = 1;
+    /* Those of a polygon that goes round three corners many times have slivers between them. */
+    while (before < MOST_BEFORE && before < triangle && is_sliver(t - 3 * before))
+        before++;
+    return before <= triangle && memcmp(t, t - 3 * before, 3 * sizeof *t) == 0 &&
+           ffd_shade_material(of->mesh, triangle) == ffd_shade_material(of->mesh, triangle - before);
+}
+
 bool ffd_raster_rows(const void *surface_pointer, size_t triangle, int64_t *first, int64_t *last)
 {
     const surface *const of = surface_pointer;
     const uint32_t *const t = of->triangles + 3 * triangle;
     if (t[0] >= of->vertex_count || t[1] >= of->vertex_count || t[2] >= of->vertex_count)
+        return false;
+    if (is_sliver(t) || repeats(of, triangle))
         return false;
     const surface_vertex *const a = &of->vertices[t[0]], *const b = &of->vertices[t[1]],
                                 *const c = &of->vertices[t[2]];

@@ -13,8 +13,8 @@ typedef struct raster_corner {
     float z;
 } raster_corner;
 
-/* The rows that a triangle of a surface may have samples in. Returns false where it has none. (A band_rows.)
- */
+/* The rows that a triangle of a surface may have samples in. Returns false where it has none, or none that an
+   equal triangle before it has not. (A band_rows.) */
 bool ffd_raster_rows(const void *surface, size_t triangle, int64_t *first, int64_t *last);
 /* Draws a triangle into samples: where it is nearer than what is there. */
 void ffd_raster_triangle(const surface *of, const linear_tables *tables, size_t triangle, samples *into);

@@ -7,10 +7,10 @@ import random
 import struct
 
 from bspline import basis, greville, knots
-from harness import case, check, main, npy
+from harness import case, check, main, npy, repetitions
 from said import anything
 
-CASES = int(os.environ.get("FFD_CASES") or 20000)
+CASES = int(os.environ.get("FFD_CASES") or repetitions(20000))
 SEED = int(os.environ.get("FFD_SEED") or (random.randrange(10 ** 6) if os.environ.get("FFD_CASES") else 33))
 EACH = 200  # points of a lattice
 

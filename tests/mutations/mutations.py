@@ -316,6 +316,8 @@ m("edges-of-both", "fill rule", "picture_raster", "return (edge){from->x, from->
   "return (edge){from->x, from->y, dx, dy, is_own ? 0 : 0};")
 m("large-edges-in-32-bits", "overflow", "picture_raster", "s->is_small = size < SMALL;", "s->is_small = size < 64 * SMALL;")
 m("samples-at-the-border-forgotten", "bound", "picture_raster", "*last = (high - SAMPLE_MARGIN) >> 8;", "*last = (high - 2 * SAMPLE_MARGIN) >> 8;")
+m("repeats-of-another-material", "check left out", "picture_raster",
+  "ffd_shade_material(of->mesh, triangle) == ffd_shade_material(of->mesh, triangle - before);", "true;")
 m("last-drawn-in-front", "depth", "picture_raster, picture", "const numbers drawn = inside & (at < there);", "const numbers drawn = inside & (at <= there);")
 m("far-plane-not-cut", "clipping", "picture_raster", "to->points[to->count][axis] = sign * GUARD;", "to->points[to->count][axis] = GUARD;")
 m("back-drawn-too", "culling", "picture_raster", "if (side && !ffd_shade_material(of->mesh, triangle)->is_double_sided)",

@@ -646,7 +646,7 @@ static void the_derivative_agrees_with_differences(void **state)
         boundary *border;
         int compared = 0;
         assert_int_equal(ffd_boundary_create(lattice, &border, NULL), FFD_OK);
-        for (int k = 0; k < 100; k++) {
+        for (int k = 0; k < 100; k += stride(10)) {
             double p[3];
             boundary_point nearest;
             draw_point(&d, lattice, 0.2, p);
@@ -669,7 +669,7 @@ static void no_step_along_a_face_goes_nearer(void **state)
         ffd_lattice *lattice = make_case(&warped_cases[i], &d);
         boundary *border;
         assert_int_equal(ffd_boundary_create(lattice, &border, NULL), FFD_OK);
-        for (int k = 0; k < 100; k++) {
+        for (int k = 0; k < 100; k += stride(10)) {
             double p[3], c[3], jacobian[9];
             boundary_point nearest;
             draw_point(&d, lattice, 0.3, p);
@@ -736,7 +736,7 @@ static void a_reach_decides_only_whether_a_foot_is_found(void **state)
                                       "\"box\":{\"min\":[0,0,0],\"max\":[1,2,3]}}}");
         boundary *border;
         assert_int_equal(ffd_boundary_create(lattice, &border, NULL), FFD_OK);
-        for (int k = 0; k < 50; k++) {
+        for (int k = 0; k < 50; k += stride(10)) {
             double p[3];
             boundary_point any, within;
             draw_point(&d, lattice, 0.5, p);
@@ -768,7 +768,7 @@ static void far_points_find_their_foot_without_overflow(void **state)
         assert_int_equal(ffd_boundary_create(lattice, &border, NULL), FFD_OK);
         check_lattice(warped_cases[i].name, lattice, &d, 1, 100);
         for (int power = 3; power <= 300; power += power < 30 ? 3 : 30)
-            for (int k = 0; k < 5; k++) {
+            for (int k = 0; k < 5; k += stride(5)) {
                 double p[3];
                 boundary_point nearest;
                 for (int c = 0; c < 3; c++)
