@@ -75,15 +75,15 @@ deform banner_red.glb banner-lifted.glb \
 deform column.obj column-corner.obj \
     'The shaft is a quarter of a true circle; the flutes stay even and run round the corner.' \
     corner.json
-deform vase.obj vase-bowed.obj \
-    'Two lattices one after the other: narrowed to the top, then bowed.' \
-    taper.json bend.json
+deform column.obj column-spire.obj \
+    'Two lattices one after the other: narrowed to the top, then twisted.' \
+    taper.json twist.json
 deform plank.obj plank-waved.obj \
     'The checkered plank waves; its squares show how the space between the control points is carried along.' \
     wave.json
 
 page=$out/knight-twisted.html
-"$ffd" view "$root/data/models/knight.glb" -l "$root/data/lattices/twist.json" -o "$page" --color plain --force --quiet ||
+"$ffd" view "$root/data/models/knight.glb" -l "$root/data/lattices/twist.json" -o "$page" --force --quiet ||
     fail "ffd could not make the page $page"
 
 printf '\nWrote %d meshes to %s, beside each its picture, before and after. Look at:\n' "$written" "$out"
