@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zlib
 
 PAGES = ("README.md", "data/promises.md", "data/reference.md")
 LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
@@ -93,8 +94,23 @@ def tutorial(text, ffd, source):
     return count
 
 
+def unpacked(path):
+    """A file's bytes; of a PNG the chunks, with the rows as zlib packed them: another zlib packs them otherwise."""
+    with open(path, "rb") as file:
+        data = file.read()
+    if not path.endswith(".png"):
+        return data
+    head, rows, at = b"", b"", 8
+    while at < len(data):
+        size = int.from_bytes(data[at:at + 4], "big")
+        kind, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        head, rows = (head, rows + content) if kind == b"IDAT" else (head + kind + content, rows)
+        at += 12 + size
+    return head, zlib.decompress(rows)
+
+
 def pictures(ffd, source):
-    """Draws them all anew; they are the same to the byte."""
+    """Draws them all anew; they are the same."""
     kept = os.path.join(source, "data", "pictures")
     with tempfile.TemporaryDirectory() as folder:
         run(f"sh {shlex.quote(os.path.join(source, 'data', 'make_pictures.sh'))} {shlex.quote(os.path.abspath(ffd))} .",
@@ -102,9 +118,8 @@ def pictures(ffd, source):
         if sorted(os.listdir(folder)) != sorted(os.listdir(kept)):
             sys.exit(f"data/pictures holds {sorted(os.listdir(kept))}, drawn are {sorted(os.listdir(folder))}")
         for name in os.listdir(folder):
-            with open(os.path.join(folder, name), "rb") as drawn, open(os.path.join(kept, name), "rb") as old:
-                if drawn.read() != old.read():
-                    sys.exit(f"data/pictures/{name} is not what data/make_pictures.sh draws")
+            if unpacked(os.path.join(folder, name)) != unpacked(os.path.join(kept, name)):
+                sys.exit(f"data/pictures/{name} is not what data/make_pictures.sh draws")
     shown = set(re.findall(r"\]\(data/pictures/([^)]*)\)", read(source, "README.md")))
     if shown != set(os.listdir(kept)):
         sys.exit(f"README.md shows {sorted(shown)}, data/pictures holds {sorted(os.listdir(kept))}")
