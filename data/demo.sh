@@ -36,21 +36,23 @@ ffd=$build/release/src/cli/ffd
 [ -x "$ffd" ] || fail "the build made no program at $ffd"
 
 written=0
+camera=1,0.4,2
 
-# deform MESH OUT-NAME WHAT-TO-LOOK-AT LATTICE...
+# deform MESH OUT-NAME WHAT-TO-LOOK-AT LATTICE...: the mesh, and a picture of it before and after
 deform() {
     mesh=$root/data/models/$1
     target=$out/$2
     look=$3
     shift 3
     names=
-    options=
     for lattice; do
         names="$names${names:+, }$lattice"
         set -- "$@" -l "$root/data/lattices/$lattice"
         shift
     done
     "$ffd" deform "$mesh" "$target" "$@" --force --quiet || fail "ffd could not deform $mesh with $names"
+    "$ffd" view "$mesh" "$@" -o "${target%.*}.png" --size 1000x500 --color plain --camera "$camera" --force --quiet ||
+        fail "ffd could not draw $mesh with $names"
     before=$(wc -c <"$mesh")
     after=$(wc -c <"$target")
     printf '\n%s  (%d bytes; %s, %d bytes, through %s)\n    %s\n' \
@@ -59,27 +61,32 @@ deform() {
 }
 
 echo "Deforming"
-# ffd takes a glTF file's images along; an OBJ file's materials it never opens.
-cp "$root/data/models/plank.mtl" "$out/"
-
-deform character.glb character-twisted.glb \
-    'The robot is wrung out: its face runs slantwise round the body. Six meshes under their own nodes, one lattice.' \
+deform knight.glb knight-twisted.glb \
+    'The knight looks over his shoulder. Eight meshes, some on a skeleton, one lattice.' \
     twist.json
-deform spot.obj spot-twisted.obj \
-    'The cow looks over its shoulder. The file grew: it had one normal a face, and bent faces need one a corner.' \
-    twist.json
-deform banner_red.glb banner-bent.glb \
-    'The banner bows forward along an arc, its texture with it.' \
-    bend.json
-deform column.obj column-bent.obj \
-    'The shaft is laid along an arc of 120 degrees by a cylinder lattice; the flutes stay even and run round the bend.' \
-    bend-cylinder.json
-deform vase.obj vase-bowed.obj \
-    'Two lattices one after the other: narrowed to the top, then bowed.' \
-    taper.json bend.json
+camera=-1,0.4,-2 # the cow looks the other way
+deform spot.obj spot-fatter.obj \
+    'The cow has eaten well. The file grew: it had one normal a face, and bent faces need one a corner.' \
+    fatter.json
+camera=1,0.4,2
+deform banner_red.glb banner-lifted.glb \
+    'The wind lifts the banner, its texture with it; its top stays where it hangs.' \
+    wind.json
+deform column.obj column-corner.obj \
+    'The shaft is a quarter of a true circle; the flutes stay even and run round the corner.' \
+    corner.json
+deform column.obj column-spire.obj \
+    'Two lattices one after the other: narrowed to the top, then twisted.' \
+    taper.json twist.json
 deform plank.obj plank-waved.obj \
     'The checkered plank waves; its squares show how the space between the control points is carried along.' \
     wave.json
 
-printf '\nWrote %d meshes to %s. Any viewer shows them beside data/models, for example: f3d --up=+Y FILE\n' \
-    "$written" "$out"
+page=$out/knight-twisted.html
+"$ffd" view "$root/data/models/knight.glb" -l "$root/data/lattices/twist.json" -o "$page" --force --quiet ||
+    fail "ffd could not make the page $page"
+
+printf '\nWrote %d meshes to %s, beside each its picture, before and after. Look at:\n' "$written" "$out"
+printf '    %s    a picture\n    %s   a page for any browser, with a slider from before to after\n' \
+    "$out/knight-twisted.png" "$page"
+printf 'The program is %s. README.md goes on with a model of your own.\n' "$ffd"

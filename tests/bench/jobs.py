@@ -169,7 +169,7 @@ def tears(bench):
 def large(bench):
     """Time and memory of a file of many gigabytes, once."""
     bench.table.title(f"Large OBJ, {bench.large:g} GB, --normals keep")
-    # The file, its result, and positions that are put aside (README.md, Limits).
+    # The file, its result, and positions that are put aside (data/promises.md, Limits).
     needed, free = 2.5 * bench.large, shutil.disk_usage(bench.folder).free / 1e9
     if free < needed:
         bench.table.say(f"  too little disk space in {bench.folder}: {free:.1f} GB of {needed:.1f} GB (see --folder)")

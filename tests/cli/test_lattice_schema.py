@@ -18,7 +18,7 @@ from schema import Schema
 JUDGE = os.path.abspath(sys.argv.pop(1))
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 # For the placeholders of the files that are read.
-VALUES = {"DEGREES": "30", "SHIFT": "[0, 0, 0]", "A": "1"}
+VALUES = {"DEGREES": "30", "GIRTH": "1.2", "HEIGHT": "0.9", "SHIFT": "[0, 0, 0]", "A": "1"}
 
 faults = Schema("ffd-lattice.schema.json").faults
 

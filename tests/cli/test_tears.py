@@ -408,7 +408,7 @@ def what_no_face_uses_does_not_stay(run):
 
 @case
 def a_limit_of_the_gate_is_kept_to_rounding(run):
-    """README: a figure within 1e-12 of its limit is no more than that."""
+    """data/reference.md: a figure within 1e-12 of its limit is no more than that."""
     start(run, strip(3))
     for part, code in ((0.9e-12, OK), (1.1e-12, NO)):
         run.ffd("check", "a.obj", "-l", "l.json", "--fail-on", f"tear={0.25 / (1 + part)!r}", code=code, err=anything)

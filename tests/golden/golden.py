@@ -19,7 +19,8 @@ MEMORY = os.path.join(HERE, "golden.json")
 
 # Lattices that fit around any mesh are used on all; the others on the mesh that they were made for.
 FITTING = [["twist"], ["taper"], ["bulge"], ["bend"], ["wave"], ["local"], ["taper", "bend"]]
-MADE_FOR = {"column.obj": [["bend-cylinder"]]}
+MADE_FOR = {"column.obj": [["bend-cylinder"], ["corner"]], "knight.glb": [["taller"], ["fatter"], ["lean"]],
+            "banner_red.glb": [["wind"]]}
 # One more run each for these.
 OPTIONS = {
     "character.glb": [["--space", "mesh"], ["--normals", "keep"]],

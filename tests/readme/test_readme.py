@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Runs every command of README.md.
+"""Runs every command of README.md and of the pages that it is continued on, and follows their links.
 
-    test_readme.py tutorial FFD SOURCE     the tutorial, in a copy of data/, with the program FFD
+    test_readme.py tutorial FFD SOURCE     the commands, in a copy of data/, with the program FFD
+    test_readme.py pictures FFD SOURCE     data/make_pictures.sh draws the pictures that are there
+    test_readme.py links SOURCE            links lead to files and headings
 
 The build and the C example are run by tests/install/test_packages.py, in the source that a release is packed into.
 Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the build), ```json NAME, ```csv NAME, ```ninja NAME,
@@ -10,10 +12,16 @@ Blocks are fenced: ```sh (commands of the tutorial), ```sh build (those of the b
 Commands that stand indented are compared with a list: a new one must find its test here."""
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 import tempfile
+import zlib
+
+PAGES = ("README.md", "data/promises.md", "data/reference.md")
+LINKED = PAGES + ("CONTRIBUTING.md", "data/README.md", "data/schema/formats.md", "data/schema/lattice.md", "src/README.md",
+                  "tests/README.md")
 
 INDENTED = {
     "sh data/demo.sh": "tests/golden (demo)",
@@ -30,6 +38,11 @@ def blocks(text):
 def block(text, name):
     """The commands of ```sh NAME."""
     return next(content for language, other, content in blocks(text) if (language, other) == ("sh", name))
+
+
+def read(source, page):
+    with open(os.path.join(source, page), encoding="utf-8") as file:
+        return file.read()
 
 
 def run(script, folder, environment):
@@ -53,6 +66,16 @@ def check_indented(text):
     return len(found)
 
 
+def write(path, content):
+    """A file that a page shows; one of data/ that it shows is the one that is there."""
+    if os.path.exists(path):
+        with open(path, encoding="utf-8") as file:
+            if file.read() != content:
+                sys.exit(f"{os.path.basename(path)} is not what the page shows")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(content)
+
+
 def tutorial(text, ffd, source):
     count = 0
     with tempfile.TemporaryDirectory() as folder:
@@ -64,22 +87,82 @@ def tutorial(text, ffd, source):
         environment = dict(os.environ, PATH=tools + os.pathsep + os.environ["PATH"])
         for language, name, content in blocks(text):
             if language in ("json", "csv", "ninja", "make"):
-                with open(os.path.join(data, name), "w", encoding="utf-8") as file:
-                    file.write(content)
+                write(os.path.join(data, name), content)
             elif language == "sh" and not name:
                 run(content, data, environment)
                 count += len(content.strip().splitlines())
     return count
 
 
+def unpacked(path):
+    """A file's bytes; of a PNG the chunks, with the rows as zlib packed them: another zlib packs them otherwise."""
+    with open(path, "rb") as file:
+        data = file.read()
+    if not path.endswith(".png"):
+        return data
+    head, rows, at = b"", b"", 8
+    while at < len(data):
+        size = int.from_bytes(data[at:at + 4], "big")
+        kind, content = data[at + 4:at + 8], data[at + 8:at + 8 + size]
+        head, rows = (head, rows + content) if kind == b"IDAT" else (head + kind + content, rows)
+        at += 12 + size
+    return head, zlib.decompress(rows)
+
+
+def pictures(ffd, source):
+    """Draws them all anew; they are the same."""
+    kept = os.path.join(source, "data", "pictures")
+    with tempfile.TemporaryDirectory() as folder:
+        run(f"sh {shlex.quote(os.path.join(source, 'data', 'make_pictures.sh'))} {shlex.quote(os.path.abspath(ffd))} .",
+            folder, os.environ)
+        if sorted(os.listdir(folder)) != sorted(os.listdir(kept)):
+            sys.exit(f"data/pictures holds {sorted(os.listdir(kept))}, drawn are {sorted(os.listdir(folder))}")
+        for name in os.listdir(folder):
+            if unpacked(os.path.join(folder, name)) != unpacked(os.path.join(kept, name)):
+                sys.exit(f"data/pictures/{name} is not what data/make_pictures.sh draws")
+    shown = set(re.findall(r"\]\(data/pictures/([^)]*)\)", read(source, "README.md")))
+    if shown != set(os.listdir(kept)):
+        sys.exit(f"README.md shows {sorted(shown)}, data/pictures holds {sorted(os.listdir(kept))}")
+    large = [name for name in os.listdir(kept) if os.path.getsize(os.path.join(kept, name)) > 120_000]
+    if large:
+        sys.exit(f"more than 120 kB: {large}")
+    return len(shown)
+
+
+def anchors(text):
+    """The headings as GitHub's links name them."""
+    outside = re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S)
+    titles = re.findall(r"^#+ (.*)$", outside, re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def links(source):
+    count = 0
+    for page in LINKED:
+        text = read(source, page)
+        outside = re.sub(r"^```.*?^```$|`[^`\n]*`", "", text, flags=re.M | re.S)
+        for link in re.findall(r"\]\(([^)\s]+)\)", outside):
+            if re.match(r"https?://", link):
+                continue
+            path, _, anchor = link.partition("#")
+            target = os.path.normpath(os.path.join(os.path.dirname(page), path)) if path else page
+            if not os.path.exists(os.path.join(source, target)):
+                sys.exit(f"{page}: no file {link}")
+            if anchor and anchor not in anchors(read(source, target)):
+                sys.exit(f"{page}: no heading {link}")
+            count += 1
+    return count
+
+
 def main():
     source = os.path.abspath(sys.argv[-1])
-    with open(os.path.join(source, "README.md"), encoding="utf-8") as file:
-        text = file.read()
-    count = check_indented(text) + tutorial(text, sys.argv[2], source)
-    if count == 0:
-        sys.exit("README.md has no command")
-    print(f"{count} commands of README.md run")
+    if sys.argv[1] == "links":
+        print(f"{links(source)} links lead somewhere")
+    elif sys.argv[1] == "pictures":
+        print(f"{pictures(sys.argv[2], source)} pictures are what is drawn")
+    else:
+        text = "\n".join(read(source, page) for page in PAGES)
+        print(f"{check_indented(text) + tutorial(text, sys.argv[2], source)} commands of README.md run")
 
 
 if __name__ == "__main__":
