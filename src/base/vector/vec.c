@@ -60,6 +60,12 @@ bool ffd_mat_is_singular(const double m[9], double *determinant)
             column[a][r] = m[3 * r + a];
     vec_cross(column[1], column[2], cross);
     *determinant = vec_dot(column[0], cross);
+    /* Sums of sizes are no less than lengths, and need no roots. */
+    double sizes = 32 * DBL_EPSILON;
+    for (int c = 0; c < 3; c++)
+        sizes *= fabs(column[c][0]) + fabs(column[c][1]) + fabs(column[c][2]);
+    if (fabs(*determinant) > sizes && sizes > DBL_MIN)
+        return false;
     return !(fabs(*determinant) >
              16 * DBL_EPSILON * vec_length(column[0]) * vec_length(column[1]) * vec_length(column[2]));
 }
