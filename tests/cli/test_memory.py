@@ -306,7 +306,7 @@ def short_lines_of_others(run):
     run.write("vertices.off", b"OFF\n300000 0 0\n" + b"0 0 1\n" * 150000 + b"1 1 0\n" * 150000)
     run.write("faces.off", b"OFF\n3 200000 0\n0 0 1\n0 1 0\n1 0 0\n" + b"3 0 1 2\n" * 200000)
     run.write("facets.stl", bytes(80) + struct.pack("<I", 30000) + b"".join(
-        struct.pack("<12fH", 0, 0, 1, i, 0, 1, 0, i, 1, 0, 0, i, 0) for i in range(30000)))
+        struct.pack("<12fH", 0, 0, 1, i, 0, 1, i, 1, 0, i + 0.5, 0, i % 7, 0) for i in range(30000)))
     for name in ("faces.ply", "vertices.ply", "vertices.off", "faces.off", "facets.stl"):
         equal(run_all(run, name, of_text(name[-3:]), is_text=True)["deform"], OK, name)
 
