@@ -80,7 +80,7 @@ ffd_status ffd_images_load(material_images *images, const char *path, uint32_t *
     file_input bytes = {0};
     const char *left;
     ffd_error refused;
-    bool is_known;
+    bool is_known = false;
     ffd_status status = ffd_images_find(images, path, &is_known, image, error);
     if (status || is_known)
         return status;
