@@ -3,7 +3,7 @@
 #ifndef FFD_BATCH_BATCH_H
 #define FFD_BATCH_BATCH_H
 
-#include "batch/job_source.h"
+#include "batch/manifest/job_source.h"
 #include "batch/pool.h"
 
 typedef struct batch_desc {

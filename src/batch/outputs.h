@@ -4,8 +4,8 @@
 
 #include "base/file/input.h"
 #include "base/file/path_list.h"
-#include "batch/file_table.h"
-#include "batch/job_words.h"
+#include "batch/manifest/file_table.h"
+#include "batch/manifest/job_words.h"
 #include <ffd/job.h>
 
 /* An image or material library that goes with an output into another folder. */

@@ -2,7 +2,7 @@
 #ifndef FFD_BATCH_POOL_H
 #define FFD_BATCH_POOL_H
 
-#include "batch/job_words.h"
+#include "batch/manifest/job_words.h"
 #include "batch/wire.h"
 
 typedef struct pool_desc {

@@ -1,5 +1,5 @@
 #include "batch/task_text.h"
-#include "batch/settings.h"
+#include "batch/manifest/settings.h"
 #include "job/judge/result.h"
 #include "job/report/report.h"
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
-#include "batch/settings.h"
+#include "batch/manifest/settings.h"
 #include "batch/wire.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"

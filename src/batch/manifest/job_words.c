@@ -1,4 +1,4 @@
-#include "batch/job_words.h"
+#include "batch/manifest/job_words.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"

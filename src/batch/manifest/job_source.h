@@ -1,10 +1,10 @@
 /* job_source.h - the jobs of a batch, one after the other: lines of a manifest, rows of a table, or the files
    that a pattern names. */
-#ifndef FFD_BATCH_JOB_SOURCE_H
-#define FFD_BATCH_JOB_SOURCE_H
+#ifndef FFD_BATCH_MANIFEST_JOB_SOURCE_H
+#define FFD_BATCH_MANIFEST_JOB_SOURCE_H
 
-#include "batch/job_words.h"
-#include "batch/lines.h"
+#include "batch/manifest/job_words.h"
+#include "batch/manifest/lines.h"
 #include "mesh/flaws.h"
 
 typedef struct job_source_desc {

@@ -1,10 +1,10 @@
 /* job_words.h - a job as the words of `ffd deform` that do it. */
-#ifndef FFD_BATCH_JOB_WORDS_H
-#define FFD_BATCH_JOB_WORDS_H
+#ifndef FFD_BATCH_MANIFEST_JOB_WORDS_H
+#define FFD_BATCH_MANIFEST_JOB_WORDS_H
 
 #include "base/fail.h"
 #include "base/text/buffer.h"
-#include "batch/job_description.h"
+#include "batch/manifest/job_description.h"
 #include <stdbool.h>
 #include <stdint.h>
 
