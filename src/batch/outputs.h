@@ -52,6 +52,9 @@ ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_j
    one place. */
 ffd_status ffd_outputs_claim_others(run_outputs *outputs, const char *manifest, batch_job *job,
                                     ffd_error *error);
+/* Notes the picture of a job, whose identity is `file`, likewise. */
+ffd_status ffd_outputs_claim_picture(run_outputs *outputs, const char *manifest, batch_job *job,
+                                     const hash128 *file, const char *path, ffd_error *error);
 /* Notes a file of the run itself. Errors: FFD_E_MEMORY. */
 ffd_status ffd_outputs_reserve(run_outputs *outputs, const char *path, ffd_error *error);
 /* Leaves none. */

@@ -75,6 +75,7 @@ void ffd_task_entry(const pool_task *task, bool stable, byte_buffer *text)
     result.error = task->failure;
     ffd_settings_json(job->words.data, job->word_count, &set);
     const bool skipped = task->outcome == OUTCOME_SKIPPED;
+    result.picture = task->has_picture ? task->picture : NULL;
     const report_entry entry = {.line = job->line,
                                 .input = job->input,
                                 .output = ffd_job_output_name(job),

@@ -98,7 +98,7 @@ LAYERS = {
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
     "batch": {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "job/chain", "job/input",
-        "job/judge", "job/report", "json", "lattice", "mesh",
+        "job/judge", "job/report", "json", "lattice", "mesh", "view",
     },
     "cli": {"batch"},
     "cli/pages": {"cli"},

@@ -395,7 +395,8 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
         return ffd_fail_memory(error);
     (*source)->desc = *desc;
     (*source)->flaws.strict = desc->strict;
-    (*source)->frame = (batch_frame){desc->pattern, "", desc->defaults, desc->default_count, desc->resume};
+    (*source)->frame =
+        (batch_frame){desc->pattern, "", desc->defaults, desc->default_count, desc->resume, desc->pictures};
     ffd_status status;
     if (desc->manifest)
         status = open_text(*source, desc->manifest, error);

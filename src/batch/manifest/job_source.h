@@ -17,7 +17,7 @@ typedef struct job_source_desc {
     const char *out_dir; /* with pattern: where files keep their names; with table: the folder of "out" */
     const batch_default *defaults;
     size_t default_count;
-    bool resume;
+    bool resume, pictures;  /* as in batch_frame */
     bool strict;            /* a table that is odd but plain is refused */
     uint64_t shard, shards; /* jobs shard, shard + shards, ... of all, counted from 0 */
 } job_source_desc;

@@ -20,7 +20,8 @@ typedef struct batch_frame {
     const char *folder; /* that relative paths start from; "" for the current one */
     const batch_default *defaults;
     size_t default_count;
-    bool resume; /* jobs that cannot be resumed are refused */
+    bool resume;   /* jobs that cannot be resumed are refused */
+    bool pictures; /* likewise those that have no OUT to name a picture after */
 } batch_frame;
 
 typedef struct batch_job {
