@@ -113,8 +113,6 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "--report-stable needs --report";
     if (s->resume && jobs->in_place)
         return "--in-place cannot be used with --resume: a finished mesh would be deformed again";
-    if (s->view && !*s->view)
-        return "--view needs the name of a folder";
     if (s->view && jobs->in_place)
         return "--in-place cannot be used with --view: a picture is named after OUT";
     if (jobs->depfile_path && jobs->in_place)

@@ -92,7 +92,7 @@ static void append_folds(byte_buffer *html, const index_row *row)
     else if (row->folds == INDEX_FOLDS_UNKNOWN)
         ffd_buffer_text(html, "\" class=\"warn\">undecided</td>");
     else
-        ffd_buffer_format(html, "\">none, det J from %g</td>", row->min_det);
+        ffd_buffer_format(html, "\">none, det J at least %g</td>", row->min_det);
 }
 
 static void append_flipped(byte_buffer *html, const index_row *row)
