@@ -5,7 +5,12 @@
 #include "base/file/output.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
+#include "job/chain/job_cache.h"
+#include "job/input/source.h"
 #include "job/judge/result.h"
+
+/* Bytes of a mesh's file from which on its memory counts. */
+#define LARGE ((uint64_t)1 << 22)
 
 ffd_status ffd_job_picture_check(const char *path, bool force, ffd_error *error)
 {
@@ -21,6 +26,15 @@ bool ffd_job_picture_is_current(const char *path, const char *output)
 {
     file_stamp picture, mesh;
     return ffd_file_stamp(path, &picture) && ffd_file_stamp(output, &mesh) && !is_older(&picture, &mesh);
+}
+
+void ffd_job_picture_make_room(const ffd_deform_desc *desc)
+{
+    file_stamp stamp;
+    if (!desc->share || !ffd_file_stamp(desc->input.path, &stamp) || stamp.size < LARGE)
+        return;
+    mesh_document *mesh = ffd_cache_take_mesh(desc->share, desc, false);
+    ffd_source_close(&mesh);
 }
 
 /* Makes the folder of the picture. Free *folder with ffd_free. */
