@@ -288,6 +288,17 @@ def a_picture_that_fails_fails_its_job(run):
 
 
 @case
+def a_large_mesh_makes_room_for_its_picture(run):
+    """A small one stays for the next job."""
+    start(run, [job(0), job(1)])
+    for padding, reads in ((0, "1 time"), (1 << 22, "2 times")):
+        run.write("a.obj", CUBE + "#" * padding + "\n")
+        said = []
+        run.ffd("batch", "m.jsonl", "--view", "v", "--force", "-j1", "-v", err=said.extend)
+        check(any(f"meshes read {reads}," in line for line in said), reads, said)
+
+
+@case
 def warnings_are_said_once(run):
     start(run, [job(0, lattice="fold.json")])
     run.write("fold.json", lattice(low=(-10, -10, -10), high=(0.5, 10, 10), moves=[{"by": [0, 0, 0.25]}]))
