@@ -73,7 +73,7 @@ static const char *manifest_of(const batch_run *run)
 
 static void find_record(batch_run *run, pool_task *task)
 {
-    byte_buffer *const figures = run->report ? &task->figures : NULL;
+    byte_buffer *const figures = run->report || run->view ? &task->figures : NULL;
     task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
 }
 

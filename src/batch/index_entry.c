@@ -41,12 +41,11 @@ static void read_figures(const json_span *tree, index_row *row)
             row->folds = (index_folds)v;
 }
 
-/* A job that has failed before it had figures has zeros in their places. */
+/* A job that has failed before it had figures, or of which no run has left any, has zeros in their places. */
 static bool has_figures(const json_span *tree)
 {
     double vertices = 0;
-    return !ffd_json_span_string_is(tree, ffd_json_span_member(tree, 0, "status"), "failed") ||
-           (number_of(tree, 0, "vertices", &vertices) && vertices > 0);
+    return number_of(tree, 0, "vertices", &vertices) && vertices > 0;
 }
 
 ffd_status ffd_index_entry_read(const byte_buffer *text, index_entry *entry, ffd_error *error)

@@ -188,6 +188,7 @@ def resume_draws_what_is_missing(run):
     batch(run, "m.jsonl", "--view", "v", "--resume", done=3)
     check(run.read("v/o2.obj.png") != old, "an old picture stayed")
     batch(run, "m.jsonl", "--view", "v", "--resume", kept=3)
+    equal(column(index(run), "Largest displacement", 1), ["1.5"] * 3, "figures of skipped jobs")
 
 
 @case
