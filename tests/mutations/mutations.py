@@ -831,7 +831,7 @@ m("picture-leads-up", "check left out", "run_view, cli_batch_view", "while (star
 m("picture-in-its-own-folder-only", "identity", "cli_batch_view", "ffd_path_join(view->resolved, name) : NULL;",
   "ffd_path_join(view->resolved, task->job.output) : NULL;")
 m("page-of-all-shards", "name", "run_view, cli_batch_view", "if (desc->shards > 1)", "if (desc->shards > 1000)")
-m("old-picture-is-current", "check left out", "run_view, cli_batch_view", "&& !is_older(&picture, &mesh);", "&& mesh.size;")
+m("old-picture-is-current", "check left out", "run_view, cli_batch_view", "&& !is_older(&picture, &mesh);", "&& (mesh.size || !is_older(&picture, &mesh));")
 m("older-by-seconds", "order", "run_view", "a->written[1] < b->written[1];", "a->written[1] < 0;")
 m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
   "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
