@@ -174,7 +174,7 @@ static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *
         *result = drawn;
     if (answer->has_picture)
         result->picture = picture;
-    return answer->has_picture && !is_all ? result->status : status;
+    return result->status;
 }
 
 /* What the output is, which was just written: read again where its bytes were not hashed on their way. A job

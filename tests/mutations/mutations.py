@@ -838,9 +838,9 @@ m("picture-not-checked-before", "check left out", "cli_batch_view", "return pict
 m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
 m("output-made-for-its-picture", "condition", "cli_batch_view", "if (!has_output) status = make_output(", "if (!picture || !has_output || picture)\n        status = make_output(")
 m("no-picture-behind-a-gate", "condition", "cli_batch_view", "if (picture && (status == FFD_OK || status == FFD_E_GATE))", "if (picture && status == FFD_OK)")
-m("picture-failure-forgotten", "error left out", "cli_batch_view", "return answer->has_picture && !is_all ? result->status : status;", "return !is_all ? result->status : status;",)
+m("picture-failure-forgotten", "error left out", "cli_batch_view", "answer->has_picture = status == FFD_OK || status == FFD_E_GATE;", "answer->has_picture = status < FFD_E_GATE || status >= FFD_OK;")
 m("figures-of-no-job", "figure", "cli_batch_view", "if (is_all || !answer->has_picture)", "if (!answer->has_picture)")
-m("warnings-said-twice", "check left out", "cli_batch_view", "if (has_line(lines->data, before, line, length))", "if (length == 0)")
+m("warnings-said-twice", "check left out", "cli_batch_view", "if (has_line(lines->data, before, line, length))", "if (has_line(lines->data, 0, line, length))")
 m("no-room-for-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size < 100 * LARGE)")
 m("no-mesh-beside-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size == 0)")
 m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, path, line);",
