@@ -851,7 +851,7 @@ m("index-replaced", "check left out", "cli_batch_view", ".force = desc->view_for
 m("index-of-a-dry-run", "option left out", "cli_batch_view", ".dry = desc->pool.dry};", ".dry = false};")
 m("picture-in-place", "check left out", "cli_batch_view", "if (in_place && maker->frame->pictures)", "if (in_place && maker->frame->pictures && !has_output && output)")
 m("figures-of-skipped-jobs", "condition", "cli_batch_view", "run->report || run->view ? &task->figures : NULL;", "run->report ? &task->figures : NULL;")
-m("figures-of-a-failure", "condition", "run_view, cli_batch_view", "&vertices) && vertices > 0);", "&vertices) && vertices >= 0);")
+m("figures-of-a-failure", "condition", "run_view, cli_batch_view", "&vertices) && vertices > 0;", "&vertices) && vertices >= 0;")
 m("address-not-escaped", "escape left out", "view_index, cli_batch_view", 'strchr("-._~/", *c);', 'strchr("-._~/:?#%&\\"", *c);')
 m("quotes-in-attributes", "escape left out", "view_index, cli_batch_view", "*c == '\"' && in_quotes", "*c == 1 && in_quotes")
 m("unknown-folds-as-none", "class", "view_index, cli_batch_view", "if (row->folds == INDEX_FOLDS_NOT_KNOWN) {", "if (row->folds > INDEX_FOLDS_SOME) {")
