@@ -844,7 +844,7 @@ m("warnings-said-twice", "check left out", "cli_batch_view", "if (has_line(lines
 m("no-room-for-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size < 100 * LARGE)")
 m("no-mesh-beside-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size == 0)")
 m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, path, line);",
-  "return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, path, 0);\n    line = 0;")
+  "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, path, line);")
 m("index-as-an-output", "check left out", "cli_batch_view", "run->view ? ffd_run_view_page(run->view) : NULL};", "NULL};")
 m("index-out-of-order", "operation", "cli_batch_view", "|| run->depfile || run->view ||", "|| run->depfile ||")
 m("index-replaced", "check left out", "cli_batch_view", ".force = desc->view_force,", ".force = true,")
