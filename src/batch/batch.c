@@ -464,10 +464,10 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     ffd_interrupt_watch();
     if (!status && desc->depfile && !pool.dry)
         status = ffd_depfile_create(desc->depfile, &run->depfile, error);
-    if (!status && desc->report)
-        status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
     if (!status && desc->view)
         status = open_view(run, error);
+    if (!status && desc->report)
+        status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
     if (!status)
         status = claim_own(run, error);
     pool.report = run->report != NULL;
