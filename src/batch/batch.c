@@ -10,6 +10,7 @@
 #include "batch/mesh_states.h"
 #include "batch/outputs.h"
 #include "batch/progress.h"
+#include "batch/run_view.h"
 #include "batch/task_text.h"
 #include "job/report/depfile.h"
 #include "job/report/report_file.h"
@@ -37,6 +38,7 @@ typedef struct batch_run {
     job_journal *journal; /* NULL: there is none */
     ffd_report *report;   /* likewise */
     ffd_depfile *depfile; /* likewise */
+    run_view *view;       /* likewise */
     shown_box box;        /* of all meshes, where they share one */
     path_list box_files;  /* that it was taken from, where there is a depfile */
     path_list outputs;    /* that depend on these */
@@ -71,7 +73,7 @@ static const char *manifest_of(const batch_run *run)
 
 static void find_record(batch_run *run, pool_task *task)
 {
-    byte_buffer *const figures = run->report ? &task->figures : NULL;
+    byte_buffer *const figures = run->report || run->view ? &task->figures : NULL;
     task->has_record = ffd_journal_find(run->journal, &task->target, &task->record, figures);
 }
 
@@ -112,6 +114,16 @@ static ffd_status read_jobs(batch_run *run, ffd_error *error)
     return FFD_OK;
 }
 
+/* Names the picture of a job and takes it likewise, with the output: its name is known as early. */
+static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *error)
+{
+    hash128 file;
+    const ffd_status status = ffd_run_view_name(run->view, task, &file, error);
+    return status ? status
+                  : ffd_outputs_claim_picture(&run->written, manifest_of(run), &task->job, &file,
+                                              task->picture, error);
+}
+
 /* Takes the output of a job for it, or fails the job because one before it writes that file. */
 static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
 {
@@ -121,6 +133,8 @@ static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error
     static const task_state states[] = {
         [OTHERS_NONE] = TASK_WAITS, [OTHERS_KNOWN] = TASK_LOOKED, [OTHERS_BY_MESH] = TASK_NEW};
     task->state = states[ffd_outputs_others(job)];
+    if (run->view && !job->error.status && claim_picture(run, task, error))
+        return FFD_E_MEMORY;
     if (job->error.status)
         fail_task(task, &job->error);
     else if (run->journal)
@@ -180,17 +194,25 @@ static void print_plan(const pool_task *task)
            ffd_job_output_name(job));
 }
 
-static ffd_status report_task(batch_run *run, const pool_task *task, ffd_error *error)
+/* Where the worker has made no entry of a report, there is one afterwards. */
+static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
 {
-    byte_buffer made = {0};
-    const byte_buffer *const text = task->entry.size ? &task->entry : &made;
     if (!task->entry.size)
-        ffd_task_entry(task, run->desc->pool.stable, &made);
-    const ffd_status status =
-        text->failed ? ffd_fail_memory(error)
-                     : ffd_report_add_text(run->report, task->number, text->data, text->size, error);
-    ffd_buffer_free(&made);
-    return status;
+        ffd_task_entry(task, run->desc->pool.stable, &task->entry);
+    return task->entry.failed ? ffd_fail_memory(error) : FFD_OK;
+}
+
+static ffd_status report_task(batch_run *run, pool_task *task, ffd_error *error)
+{
+    const ffd_status status = complete_entry(run, task, error);
+    return status ? status
+                  : ffd_report_add_text(run->report, task->number, task->entry.data, task->entry.size, error);
+}
+
+static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
+{
+    const ffd_status status = complete_entry(run, task, error);
+    return status ? status : ffd_run_view_add(run->view, task, &task->entry, error);
 }
 
 static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *error)
@@ -246,7 +268,7 @@ static ffd_status note_ends(batch_run *run, ffd_error *error)
 }
 
 /* What is told in the order of the jobs. */
-static ffd_status tell_task(batch_run *run, const pool_task *task, ffd_error *error)
+static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
 {
     if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
         print_plan(task);
@@ -255,13 +277,19 @@ static ffd_status tell_task(batch_run *run, const pool_task *task, ffd_error *er
         if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
             return FFD_E_MEMORY;
     }
+    if (run->view) {
+        const ffd_status status = show_task(run, task, error);
+        if (status)
+            return status;
+    }
     return run->report && ffd_report_is_ordered(run->report) ? report_task(run, task, error) : FFD_OK;
 }
 
 /* Whether something of the jobs is told in their order. */
 static bool tells_in_order(const batch_run *run)
 {
-    return run->desc->pool.dry || run->depfile || (run->report && ffd_report_is_ordered(run->report));
+    return run->desc->pool.dry || run->depfile || run->view ||
+           (run->report && ffd_report_is_ordered(run->report));
 }
 
 /* Takes ended jobs out of the window; where they are told in their order, up to the first one that has not
@@ -396,12 +424,26 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
 /* No job may write the files of the run itself. */
 static ffd_status claim_own(batch_run *run, ffd_error *error)
 {
-    const char *const own[] = {run->desc->report, run->desc->depfile, run->desc->journal};
+    const char *const own[] = {run->desc->report, run->desc->depfile, run->desc->journal,
+                               run->view ? ffd_run_view_page(run->view) : NULL};
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < sizeof own / sizeof *own && !status; i++)
         if (own[i] && !ffd_output_is_stream(own[i]))
             status = ffd_outputs_reserve(&run->written, own[i], error);
     return status;
+}
+
+static ffd_status open_view(batch_run *run, ffd_error *error)
+{
+    const batch_desc *const desc = run->desc;
+    const run_view_desc view = {.folder = desc->view,
+                                .out_dir = desc->jobs.out_dir,
+                                .name = ffd_jobs_name(run->source),
+                                .shard = desc->jobs.shard,
+                                .shards = desc->jobs.shards,
+                                .force = desc->view_force,
+                                .dry = desc->pool.dry};
+    return ffd_run_view_create(&view, &run->view, error);
 }
 
 static ffd_status open_all(batch_run *run, ffd_error *error)
@@ -422,11 +464,14 @@ static ffd_status open_all(batch_run *run, ffd_error *error)
     ffd_interrupt_watch();
     if (!status && desc->depfile && !pool.dry)
         status = ffd_depfile_create(desc->depfile, &run->depfile, error);
+    if (!status && desc->view)
+        status = open_view(run, error);
     if (!status && desc->report)
         status = ffd_report_create(desc->report, pool.stable, NULL, &run->report, error);
     if (!status)
         status = claim_own(run, error);
     pool.report = run->report != NULL;
+    pool.entries = run->view != NULL;
     pool.depfile = run->depfile != NULL;
     pool.records = run->journal != NULL;
     pool.box = desc->shared_box ? &run->box : NULL;
@@ -509,6 +554,8 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
             ffd_pool_stop(run.pool);
         const ffd_status reported = run.report ? ffd_report_write(run.report, status ? NULL : error) : FFD_OK;
         status = status ? status : reported;
+        const ffd_status shown = run.view ? ffd_run_view_write(run.view, status ? NULL : error) : FFD_OK;
+        status = status ? status : shown;
         if (!status && run.depfile && !run.counts.failed && !run.dropped)
             status = write_depfile(&run, error);
         say_flaws(&run);
@@ -525,6 +572,7 @@ ffd_status ffd_batch_run(const batch_desc *desc, bool *failed, ffd_error *error)
     ffd_states_free(&run.meshes);
     ffd_report_destroy(&run.report);
     ffd_depfile_destroy(&run.depfile);
+    ffd_run_view_destroy(&run.view);
     ffd_journal_close(&run.journal);
     ffd_jobs_close(&run.source);
     ffd_paths_free(&run.box_files);

@@ -3,7 +3,7 @@
 #ifndef FFD_BATCH_BATCH_H
 #define FFD_BATCH_BATCH_H
 
-#include "batch/job_source.h"
+#include "batch/manifest/job_source.h"
 #include "batch/pool.h"
 
 typedef struct batch_desc {
@@ -11,8 +11,10 @@ typedef struct batch_desc {
     pool_desc pool;      /* report, depfile and records are set by the batch */
     const char *report;  /* "-": standard output; or NULL */
     const char *depfile; /* with the rules of all outputs; or NULL */
+    const char *view;    /* a folder for the jobs' pictures and the page that compares them; or NULL */
     const char *journal; /* or NULL: where ffd_journal_default_path says */
     bool shared_box;     /* all meshes have one box */
+    bool view_force;     /* an existing page is replaced */
     bool stop;           /* at the first failure */
     bool quiet;          /* only what went wrong */
 } batch_desc;

@@ -15,7 +15,7 @@
 #include "base/little_endian.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
-#include "batch/file_table.h"
+#include "batch/manifest/file_table.h"
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #define FFD_BATCH_MEASURE_H
 
 #include "base/file/path_list.h"
-#include "batch/job_source.h"
+#include "batch/manifest/job_source.h"
 #include "batch/pool.h"
 
 /* Reads the mesh of every job, of all shards, in the workers. A job that is not valid, or whose mesh cannot

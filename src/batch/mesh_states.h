@@ -4,7 +4,7 @@
 #define FFD_BATCH_MESH_STATES_H
 
 #include "base/text/buffer.h"
-#include "batch/file_table.h"
+#include "batch/manifest/file_table.h"
 #include "batch/pool.h"
 
 /* All zeros: none is known. */

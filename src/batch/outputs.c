@@ -108,7 +108,8 @@ static void refuse(const char *manifest, batch_job *job, const char *file, uint6
     if (line)
         snprintf(what, sizeof what, "\"%.400s\" is written by the job of line %" PRIu64 " too", file, line);
     else
-        snprintf(what, sizeof what, "\"%.400s\" is the report, the depfile or the journal of this run", file);
+        snprintf(what, sizeof what,
+                 "\"%.400s\" is the report, the depfile, the journal or the index of this run", file);
     if (manifest)
         ffd_fail_line(&job->error, FFD_E_INVALID, manifest, (size_t)job->line, "%s", what);
     else
@@ -203,6 +204,16 @@ ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_j
     if (!is_taken(outputs, target, &line))
         return ffd_files_put(&outputs->lines, target, job->line, error);
     refuse(manifest, job, ffd_job_output_name(job), line);
+    return FFD_OK;
+}
+
+ffd_status ffd_outputs_claim_picture(run_outputs *outputs, const char *manifest, batch_job *job,
+                                     const hash128 *file, const char *path, ffd_error *error)
+{
+    uint64_t line;
+    if (!is_taken(outputs, file, &line))
+        return ffd_files_put(&outputs->lines, file, job->line, error);
+    refuse(manifest, job, path, line);
     return FFD_OK;
 }
 

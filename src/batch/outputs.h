@@ -4,8 +4,8 @@
 
 #include "base/file/input.h"
 #include "base/file/path_list.h"
-#include "batch/file_table.h"
-#include "batch/job_words.h"
+#include "batch/manifest/file_table.h"
+#include "batch/manifest/job_words.h"
 #include <ffd/job.h>
 
 /* An image or material library that goes with an output into another folder. */
@@ -52,6 +52,9 @@ ffd_status ffd_outputs_claim(run_outputs *outputs, const char *manifest, batch_j
    one place. */
 ffd_status ffd_outputs_claim_others(run_outputs *outputs, const char *manifest, batch_job *job,
                                     ffd_error *error);
+/* Notes the picture of a job, whose identity is `file`, likewise. */
+ffd_status ffd_outputs_claim_picture(run_outputs *outputs, const char *manifest, batch_job *job,
+                                     const hash128 *file, const char *path, ffd_error *error);
 /* Notes a file of the run itself. Errors: FFD_E_MEMORY. */
 ffd_status ffd_outputs_reserve(run_outputs *outputs, const char *path, ffd_error *error);
 /* Leaves none. */

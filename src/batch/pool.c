@@ -78,6 +78,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     append_word(&text, pool->desc.origin);
     append_word(&text, job->input);
     append_word(&text, ffd_job_output_name(job));
+    append_word(&text, task->picture ? task->picture : "");
     head.line = job->line;
     head.text_size = text.size - sizeof head;
     head.word_count = (uint32_t)job->word_count;
@@ -90,7 +91,7 @@ static bool send_task(const worker_pool *pool, pool_worker *worker, const pool_t
     head.dry = desc->dry;
     head.rehearse = desc->dry && !pool->rehearsed;
     head.depfile = desc->depfile;
-    head.report = desc->report;
+    head.report = desc->report || desc->entries;
     head.stable = desc->stable;
     head.quiet = desc->quiet;
     head.verbose = desc->verbose;
@@ -260,6 +261,7 @@ static bool take_answer(worker_pool *pool, pool_worker *worker)
     pool->counts.jobs.reads += head.counts.reads;
     pool->counts.jobs.searches += head.counts.searches;
     task->has_record = head.has_record;
+    task->has_picture = head.has_picture;
     worker->retires = head.retires;
     pool->rehearsed = pool->rehearsed || head.rehearsed;
     bytes->size = 0;
@@ -306,6 +308,8 @@ static void end_worker(const worker_pool *pool, pool_worker *worker)
         ffd_restore_output(task->job.target, NULL); /* it may have been killed among the renames */
         ffd_temporary_discard(task->job.target);
     }
+    if (task->picture)
+        ffd_temporary_discard(task->picture);
     end_task(worker, OUTCOME_FAILED);
 }
 
@@ -418,6 +422,7 @@ void ffd_task_free(pool_task *task)
     if (!task)
         return;
     ffd_job_free(&task->job);
+    ffd_free(task->picture);
     ffd_buffer_free(&task->log);
     ffd_buffer_free(&task->entry);
     ffd_buffer_free(&task->rule);

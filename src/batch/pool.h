@@ -2,7 +2,7 @@
 #ifndef FFD_BATCH_POOL_H
 #define FFD_BATCH_POOL_H
 
-#include "batch/job_words.h"
+#include "batch/manifest/job_words.h"
 #include "batch/wire.h"
 
 typedef struct pool_desc {
@@ -11,6 +11,7 @@ typedef struct pool_desc {
     double timeout;     /* seconds that a job may take; 0: any */
     const char *origin; /* the name of the manifest, for messages */
     bool records, resume, dry, depfile, report, stable, quiet, verbose, measure; /* as in wire_task */
+    bool entries;         /* of a report are wanted, with the figures of quality */
     const shown_box *box; /* that all jobs share, or NULL */
 } pool_desc;
 
@@ -36,13 +37,16 @@ typedef struct pool_task {
     bool has_record;
     byte_buffer figures; /* likewise: of the run that made the output, as JSON, ended by 0; or empty */
     task_state state;
-    bool looks;         /* while it runs: begun when it was new */
-    size_t beside;      /* that a look has found: files beside the output; */
-    byte_buffer copied; /* and files that may be copied, each path ended by 0 */
-    bool was_returned;  /* by a worker that had ended before it could take it */
-    bool noted;         /* what its end means at once was seen to */
+    char *picture;            /* its path; NULL: none is wanted */
+    const char *picture_name; /* the part of it below the folder of pictures */
+    bool looks;               /* while it runs: begun when it was new */
+    size_t beside;            /* that a look has found: files beside the output; */
+    byte_buffer copied;       /* and files that may be copied, each path ended by 0 */
+    bool was_returned;        /* by a worker that had ended before it could take it */
+    bool noted;               /* what its end means at once was seen to */
     /* Once it has ended: */
     wire_outcome outcome;
+    bool has_picture; /* it is there, of this job */
     bool has_mesh_state;
     hash128 mesh_state; /* as wire_answer's state */
     byte_buffer log;    /* lines for people */

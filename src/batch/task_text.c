@@ -1,5 +1,5 @@
 #include "batch/task_text.h"
-#include "batch/settings.h"
+#include "batch/manifest/settings.h"
 #include "job/judge/result.h"
 #include "job/report/report.h"
 #include <string.h>
@@ -75,6 +75,7 @@ void ffd_task_entry(const pool_task *task, bool stable, byte_buffer *text)
     result.error = task->failure;
     ffd_settings_json(job->words.data, job->word_count, &set);
     const bool skipped = task->outcome == OUTCOME_SKIPPED;
+    result.picture = task->has_picture ? task->picture : NULL;
     const report_entry entry = {.line = job->line,
                                 .input = job->input,
                                 .output = ffd_job_output_name(job),

@@ -17,8 +17,8 @@ typedef struct job_record {
     hash128 inputs, outputs;
 } job_record;
 
-/* To a worker: a task, followed by its texts, each ended by 0: words, content, the name of the manifest, and
-   the names of input and output. */
+/* To a worker: a task, followed by its texts, each ended by 0: words, content, the name of the manifest,
+   the names of input and output, and the path of the picture (empty: none). */
 typedef struct wire_task {
     uint64_t line;     /* of the job */
     job_record record; /* of the last time, where has_record */
@@ -58,6 +58,7 @@ typedef struct wire_answer {
     uint8_t outcome;
     bool has_record, has_state;
     bool rehearsed;     /* all was done but the writing */
+    bool has_picture;   /* it is there, made now or before */
     bool looked;        /* there is such a file: nothing else was done */
     bool retires;       /* the worker ends, and is to be given nothing more */
     bool out_of_memory; /* so that there are no texts, although the job failed */

@@ -5,7 +5,8 @@
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "batch/fingerprint.h"
-#include "batch/settings.h"
+#include "batch/job_picture.h"
+#include "batch/manifest/settings.h"
 #include "batch/wire.h"
 #include "job/chain/chain_load.h"
 #include "job/chain/job_cache.h"
@@ -72,6 +73,33 @@ static void log_line(void *user, ffd_log_level level, const char *line)
         add_line(log->lines, log->subject, line);
 }
 
+/* Whether a line is among the first lines of a text. */
+static bool has_line(const char *text, size_t size, const char *line, size_t length)
+{
+    for (const char *at = text, *end; at < text + size; at = end + 1) {
+        end = memchr(at, '\n', (size_t)(text + size - at));
+        if ((size_t)(end - at) + 1 == length && memcmp(at, line, length) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Drops lines from an offset on that stand before it too: what the job says its picture need not say again.
+ */
+static void drop_repeated(byte_buffer *lines, size_t before)
+{
+    size_t kept = before, length;
+    for (size_t at = before; at < lines->size && before > 0; at += length) {
+        const char *const line = lines->data + at;
+        length = (size_t)((const char *)memchr(line, '\n', lines->size - at) - line) + 1;
+        if (has_line(lines->data, before, line, length))
+            continue;
+        memmove(lines->data + kept, line, length);
+        kept += length;
+    }
+    lines->size = before > 0 ? kept : lines->size;
+}
+
 static void log_error(batch_worker *worker, const ffd_error *error)
 {
     char line[2048];
@@ -130,6 +158,25 @@ static ffd_status plan(const ffd_deform_desc *desc, ffd_error *error)
     return status ? status : ffd_chain_check(&files, error);
 }
 
+/* The picture, of a job that was done or that a gate refuses, with what it adds to the log. result: of the
+   job; it becomes that of the picture where this is all that is made, or fails. */
+static ffd_status draw(const char *picture, bool is_all, const ffd_deform_desc *desc, wire_answer *answer,
+                       ffd_job_result *result)
+{
+    ffd_job_result drawn;
+    byte_buffer *const lines = ((const job_log *)desc->log_user)->lines;
+    const size_t before = lines->size;
+    ffd_job_picture_make_room(desc);
+    const ffd_status status = ffd_job_picture_write(picture, desc, desc->force || desc->if_changed, &drawn);
+    drop_repeated(lines, before);
+    answer->has_picture = status == FFD_OK || status == FFD_E_GATE;
+    if (is_all || !answer->has_picture)
+        *result = drawn;
+    if (answer->has_picture)
+        result->picture = picture;
+    return result->status;
+}
+
 /* What the output is, which was just written: read again where its bytes were not hashed on their way. A job
    that went on after a look copies nothing. */
 static bool know_output(batch_worker *worker, const wire_task *task, const ffd_deform_desc *desc,
@@ -143,32 +190,52 @@ static bool know_output(batch_worker *worker, const wire_task *task, const ffd_d
     return true;
 }
 
-/* Deforms, or sees that it need not. */
-static ffd_status do_job(batch_worker *worker, const wire_task *task, ffd_deform_desc *desc,
-                         wire_answer *answer, ffd_job_result *result)
+/* Deforms, and takes note of what that cost. */
+static ffd_status make_output(batch_worker *worker, const wire_task *task, ffd_deform_desc *desc,
+                              wire_answer *answer, ffd_job_result *result)
 {
-    if (is_up_to_date(task, desc, answer)) {
-        answer->outcome = OUTCOME_SKIPPED;
-        return FFD_OK;
-    }
-    /* This run may replace what an earlier one left. */
-    desc->force = desc->force || task->resume;
-    if (task->dry && !task->rehearse)
-        return plan(desc, &result->error);
-    desc->dry_run = task->dry;
-    answer->rehearsed = task->dry;
     const share_counts before = ffd_cache_counts(worker->share);
     ffd_cache_begin_job(worker->share, task->records, &worker->hashes.kept);
     const ffd_status status = deform(desc, result);
     answer->counts.reads = ffd_cache_counts(worker->share).reads - before.reads;
     answer->counts.searches = ffd_cache_counts(worker->share).searches - before.searches;
     answer->has_state = ffd_cache_find_state(worker->share, &answer->state);
+    return status;
+}
+
+/* Refuses a picture that may not be replaced, before anything is written. */
+static ffd_status check(const wire_task *task, const char *picture, ffd_deform_desc *desc, ffd_error *error)
+{
+    /* This run may replace what an earlier one left. */
+    desc->force = desc->force || task->resume;
+    return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;
+}
+
+/* Deforms, or sees that it need not; and draws the picture (NULL: none is wanted). */
+static ffd_status do_job(batch_worker *worker, const wire_task *task, const char *picture,
+                         ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
+{
+    const bool has_output = is_up_to_date(task, desc, answer);
+    answer->has_picture = has_output && picture && ffd_job_picture_is_current(picture, desc->output);
+    if (has_output && (!picture || answer->has_picture)) {
+        answer->outcome = OUTCOME_SKIPPED;
+        return FFD_OK;
+    }
+    ffd_status status = check(task, picture, desc, &result->error);
+    if (status || (task->dry && (has_output || !task->rehearse)))
+        return status ? status : plan(desc, &result->error);
+    desc->dry_run = task->dry;
+    answer->rehearsed = task->dry;
+    if (!has_output)
+        status = make_output(worker, task, desc, answer, result);
     if (task->dry)
         return status;
-    /* The output exists: a signal that ends the worker now is seen first. */
+    if (picture && (status == FFD_OK || status == FFD_E_GATE))
+        status = draw(picture, has_output, desc, answer, result);
+    /* What was written exists: a signal that ends the worker now is seen first. */
     ffd_process_defer_stop(true);
     if (!status && task->records)
-        answer->has_record = know_output(worker, task, desc, &answer->record.outputs);
+        answer->has_record = has_output || know_output(worker, task, desc, &answer->record.outputs);
     return status;
 }
 
@@ -215,7 +282,8 @@ static ffd_status look(batch_worker *worker, const ffd_deform_desc *desc, wire_a
 
 /* Does all that is wanted of a job. */
 static ffd_status do_task(batch_worker *worker, const wire_task *task, const fingerprint_words *words,
-                          ffd_deform_desc *desc, wire_answer *answer, ffd_job_result *result)
+                          const char *picture, ffd_deform_desc *desc, wire_answer *answer,
+                          ffd_job_result *result)
 {
     const ffd_shared_box shared = {.box = task->box};
     const unsigned losses = ffd_mapping_losses();
@@ -232,7 +300,7 @@ static ffd_status do_task(batch_worker *worker, const wire_task *task, const fin
         status = look_at_files(worker, task, words, desc, answer, &result->error);
     status = ffd_mapping_judge(losses, status, &result->error);
     if (!status)
-        status = do_job(worker, task, desc, answer, result);
+        status = do_job(worker, task, *picture ? picture : NULL, desc, answer, result);
     return status;
 }
 
@@ -257,7 +325,8 @@ static ffd_status run_words(batch_worker *worker, const wire_task *task, wire_an
     desc.share = worker->share;
     if (desc.threads == 0)
         desc.threads = task->threads;
-    const ffd_status status = do_task(worker, task, &words, &desc, answer, result);
+    const char *const picture = next_word(next_word(next_word(origin)));
+    const ffd_status status = do_task(worker, task, &words, picture, &desc, answer, result);
     if (status)
         worker->rule.size = 0;
     if (status && status != FFD_E_ARGUMENT)

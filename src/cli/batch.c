@@ -8,7 +8,7 @@
 
 typedef struct settings {
     cli_deform_settings jobs; /* what the options that each job can have are checked with */
-    const char *journal, *table, *ignored, *pattern;
+    const char *journal, *table, *ignored, *pattern, *view;
     int at_once;
     uint64_t shard, shards;
     double timeout;
@@ -56,6 +56,9 @@ static const cli_option own_options[] = {
     {"csv", 0, "TABLE", "one job per row: columns in, lattice, out; others set placeholders of the lattice",
      cli_set_text, AT(table), NULL},
     {"csv-ignore", 0, "COLUMN,...", "leave these columns of the table out", cli_set_text, AT(ignored), NULL},
+    {"view", 0, "DIR",
+     "draw each job before and after into this folder, and an index.html that compares them", cli_set_text,
+     AT(view), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 
@@ -110,6 +113,8 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "--report-stable needs --report";
     if (s->resume && jobs->in_place)
         return "--in-place cannot be used with --resume: a finished mesh would be deformed again";
+    if (s->view && jobs->in_place)
+        return "--in-place cannot be used with --view: a picture is named after OUT";
     if (jobs->depfile_path && jobs->in_place)
         return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
@@ -133,6 +138,7 @@ static int run_batch(const settings *s, const cli_words *words)
                                       .defaults = s->defaults,
                                       .default_count = s->default_count,
                                       .resume = s->resume,
+                                      .pictures = s->view != NULL,
                                       .strict = job->strict,
                                       .shard = s->shard,
                                       .shards = s->shards ? s->shards : 1},
@@ -147,6 +153,8 @@ static int run_batch(const settings *s, const cli_words *words)
                              .report = job->report,
                              .depfile = s->jobs.depfile_path,
                              .journal = s->journal,
+                             .view = s->view,
+                             .view_force = s->jobs.force || s->jobs.if_changed || s->resume,
                              .shared_box = job->shares_box,
                              .stop = s->stop,
                              .quiet = job->logging.quiet};

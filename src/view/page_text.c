@@ -45,15 +45,36 @@ char *ffd_page_name(const char *name)
     return ffd_buffer_finish(&out);
 }
 
-void ffd_page_html(byte_buffer *out, const char *text)
+static void append_escaped(byte_buffer *out, const char *text, bool in_quotes)
 {
     for (const char *c = text; *c; c++)
         if (*c == '&')
             ffd_buffer_text(out, "&amp;");
         else if (*c == '<')
             ffd_buffer_text(out, "&lt;");
+        else if (*c == '"' && in_quotes)
+            ffd_buffer_text(out, "&quot;");
         else
             ffd_buffer_append(out, c, 1);
+}
+
+void ffd_page_html(byte_buffer *out, const char *text)
+{
+    append_escaped(out, text, false);
+}
+
+void ffd_page_attribute(byte_buffer *out, const char *text)
+{
+    append_escaped(out, text, true);
+}
+
+void ffd_page_address(byte_buffer *out, const char *path)
+{
+    for (const char *c = path; *c; c++) {
+        const bool is_plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') ||
+                              (*c >= '0' && *c <= '9') || strchr("-._~/", *c);
+        ffd_buffer_format(out, is_plain ? "%c" : "%%%02X", (unsigned char)*c);
+    }
 }
 
 void ffd_page_json(byte_buffer *out, const char *text, size_t size)

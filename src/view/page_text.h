@@ -10,6 +10,10 @@
 char *ffd_page_name(const char *name);
 /* Appends UTF-8 as text of an HTML element. */
 void ffd_page_html(byte_buffer *out, const char *text);
+/* Appends UTF-8 as the value of an attribute in double quotes. */
+void ffd_page_attribute(byte_buffer *out, const char *text);
+/* Appends a relative path as the address of a file: all but letters, digits and "-._~/" becomes %XX. */
+void ffd_page_address(byte_buffer *out, const char *path);
 /* Appends JSON for a script element: '<' occurs in strings only and is escaped there. */
 void ffd_page_json(byte_buffer *out, const char *text, size_t size);
 

@@ -1,7 +1,7 @@
 /* fuzz_manifest.c - lines of a manifest, and the same text as a table: what comes of a line is a job whose
    words are those of a command, or one line that says what is wrong. */
-#include "batch/csv.h"
-#include "batch/manifest.h"
+#include "batch/manifest/csv.h"
+#include "batch/manifest/manifest.h"
 #include "fuzz_target.h"
 #include "mutate_text.h"
 #include "promise.h"

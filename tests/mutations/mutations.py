@@ -823,6 +823,41 @@ m("snap-shared-by-jobs", "cache key", "cli_snap", "ffd_hash_doubles(&link->snap,
 m("box-not-widened", "rounding", "cli_snap", "AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))",
   "0 * AXES_ROUNDING * fmax(fabs(min[c]), fabs(max[c]))")
 
+# pictures of a batch
+
+m("picture-of-another-folder", "condition", "run_view, cli_batch_view", "|| output[length] != '/')", "|| output[length] == 0)")
+m("picture-leads-up", "check left out", "run_view, cli_batch_view", "while (start && (*start == '/' || ffd_path_leads_out(start)))",
+  "while (start && *start == '/')")
+m("picture-in-its-own-folder-only", "identity", "cli_batch_view", "ffd_path_join(view->resolved, name) : NULL;",
+  "ffd_path_join(view->resolved, task->job.output) : NULL;")
+m("page-of-all-shards", "name", "run_view, cli_batch_view", "if (desc->shards > 1)", "if (desc->shards > 1000)")
+m("old-picture-is-current", "check left out", "run_view, cli_batch_view", "&& !is_older(&picture, &mesh);", "&& (mesh.size || !is_older(&picture, &mesh));")
+m("older-by-seconds", "order", "run_view", "a->written[1] < b->written[1];", "a->written[1] < 0;")
+m("picture-not-checked-before", "check left out", "cli_batch_view", "return picture ? ffd_job_picture_check(picture, desc->force || desc->if_changed, error) : FFD_OK;",
+  "return picture ? ffd_job_picture_check(picture, true, error) : FFD_OK;")
+m("missing-picture-is-skipped", "condition", "cli_batch_view", "if (has_output && (!picture || answer->has_picture))", "if (has_output)")
+m("output-made-for-its-picture", "condition", "cli_batch_view", "if (!has_output) status = make_output(", "if (!picture || !has_output || picture)\n        status = make_output(")
+m("no-picture-behind-a-gate", "condition", "cli_batch_view", "if (picture && (status == FFD_OK || status == FFD_E_GATE))", "if (picture && status == FFD_OK)")
+m("picture-failure-forgotten", "error left out", "cli_batch_view", "answer->has_picture = status == FFD_OK || status == FFD_E_GATE;", "answer->has_picture = status < FFD_E_GATE || status >= FFD_OK;")
+m("figures-of-no-job", "figure", "cli_batch_view", "if (is_all || !answer->has_picture)", "if (!answer->has_picture)")
+m("warnings-said-twice", "check left out", "cli_batch_view", "if (has_line(lines->data, before, line, length))", "if (has_line(lines->data, 0, line, length))")
+m("no-room-for-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size < 100 * LARGE)")
+m("no-mesh-beside-a-picture", "limit", "cli_batch_view", "|| stamp.size < LARGE)", "|| stamp.size == 0)")
+m("picture-of-two-jobs", "check left out", "cli_batch_view", "if (!is_taken(outputs, file, &line))\n        return ffd_files_put(&outputs->lines, file, job->line, error); refuse(manifest, job, path, line);",
+  "if (!is_taken(outputs, file, &line) || line > 0)\n        return ffd_files_put(&outputs->lines, file, job->line, error);\n    refuse(manifest, job, path, line);")
+m("index-as-an-output", "check left out", "cli_batch_view", "run->view ? ffd_run_view_page(run->view) : NULL};", "NULL};")
+m("index-out-of-order", "operation", "cli_batch_view", "|| run->depfile || run->view ||", "|| run->depfile ||")
+m("index-replaced", "check left out", "cli_batch_view", ".force = desc->view_force,", ".force = true,")
+m("index-of-a-dry-run", "option left out", "cli_batch_view", ".dry = desc->pool.dry};", ".dry = false};")
+m("picture-in-place", "check left out", "cli_batch_view", "if (in_place && maker->frame->pictures)", "if (in_place && maker->frame->pictures && !has_output && output)")
+m("figures-of-skipped-jobs", "condition", "cli_batch_view", "run->report || run->view ? &task->figures : NULL;", "run->report ? &task->figures : NULL;")
+m("figures-of-a-failure", "condition", "run_view, cli_batch_view", "&vertices) && vertices > 0;", "&vertices) && vertices >= 0;")
+m("address-not-escaped", "escape left out", "view_index, cli_batch_view", 'strchr("-._~/", *c);', 'strchr("-._~/:?#%&\\"", *c);')
+m("quotes-in-attributes", "escape left out", "view_index, cli_batch_view", "*c == '\"' && in_quotes", "*c == 1 && in_quotes")
+m("unknown-folds-as-none", "class", "view_index, cli_batch_view", "if (row->folds == INDEX_FOLDS_NOT_KNOWN) {", "if (row->folds > INDEX_FOLDS_SOME) {")
+m("det-sorted-up", "sign", "view_index, cli_batch_view", "ffd_buffer_number(html, -row->min_det);", "ffd_buffer_number(html, row->min_det);")
+m("skipped-counted-as-done", "count", "view_index, cli_batch_view", 'index->skipped += strcmp(row->status, "skipped") == 0;', 'index->skipped += strcmp(row->status, "skipped") < 0;')
+
 # view
 
 m("markup-in-a-script", "escape left out", "view_page", r'ffd_buffer_text(out, "\\u003c");', 'ffd_buffer_text(out, "<");')

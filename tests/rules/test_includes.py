@@ -95,9 +95,10 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
         "job/pass", "job/report", "lattice", "mesh", "view",
     },
+    "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
     "batch": {
-        "base", "base/file", "base/memory", "base/system", "base/text", "io", "job/chain", "job/input", "job/judge",
-        "job/report", "json", "lattice", "mesh",
+        "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "job/chain", "job/input",
+        "job/judge", "job/report", "json", "lattice", "mesh", "view",
     },
     "cli": {"batch"},
     "cli/pages": {"cli"},

@@ -8,7 +8,7 @@
 
 #include "../support/test_folder.h"
 #include "base/memory/memory.h"
-#include "batch/file_table.h"
+#include "batch/manifest/file_table.h"
 #include <limits.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -7,9 +7,9 @@
 #include <cmocka.h>
 
 #include "../support/test_folder.h"
-#include "batch/job_source.h"
-#include "batch/lines.h"
-#include "batch/manifest.h"
+#include "batch/manifest/job_source.h"
+#include "batch/manifest/lines.h"
+#include "batch/manifest/manifest.h"
 
 /* The words of a list, with bars between them. */
 static const char *joined(const byte_buffer *words)

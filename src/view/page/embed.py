@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Makes C arrays of a page's sources.
 
-    embed.py OUT PAGE STYLE SCRIPT...
+    embed.py OUT NAME PAGE STYLE SCRIPT...
 
-The page is cut where {{title}} and {{data}} stand. Its {{style}} and {{script}} are replaced by the files, and
+The arrays are called ffd_NAME_start and so on. The page is cut where {{title}} and {{data}} stand. Its {{style}} and {{script}} are replaced by the files, and
 {{style-hash}} and {{script-hash}} by what its Content-Security-Policy allows: these very bytes and nothing else.
 """
 
@@ -45,7 +45,7 @@ def c_array(name, text):
 
 
 def main():
-    out, page, style, *scripts = sys.argv[1:]
+    out, name, page, style, *scripts = sys.argv[1:]
     style_text, script_text = read(style), join_scripts(scripts)
     text = read(page)
     for key, value in (("style-hash", hash_of(style_text)), ("script-hash", hash_of(script_text)),
@@ -58,8 +58,8 @@ def main():
     with open(out, "w", encoding="ascii") as file:
         file.write(f"/* Made by {os.path.basename(__file__)} of the files in src/view/page. */\n")
         file.write('#include "view/page_assets.h"\n')
-        for name, part in (("start", start), ("middle", middle), ("end", end)):
-            file.write(c_array(f"ffd_page_{name}", part))
+        for place, part in (("start", start), ("middle", middle), ("end", end)):
+            file.write(c_array(f"ffd_{name}_{place}", part))
 
 
 main()

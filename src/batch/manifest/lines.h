@@ -1,6 +1,6 @@
 /* lines.h - a text file or stream line by line, in the memory of one line. */
-#ifndef FFD_BATCH_LINES_H
-#define FFD_BATCH_LINES_H
+#ifndef FFD_BATCH_MANIFEST_LINES_H
+#define FFD_BATCH_MANIFEST_LINES_H
 
 #include "base/file/stream.h"
 #include "base/text/buffer.h"

@@ -1,4 +1,4 @@
-#include "batch/job_description.h"
+#include "batch/manifest/job_description.h"
 #include "base/memory/memory.h"
 #include <string.h>
 

@@ -1,7 +1,7 @@
 /* job_description.h - what a job says, in a line of a manifest or a row of a table, before it becomes words
    of a command. */
-#ifndef FFD_BATCH_JOB_DESCRIPTION_H
-#define FFD_BATCH_JOB_DESCRIPTION_H
+#ifndef FFD_BATCH_MANIFEST_JOB_DESCRIPTION_H
+#define FFD_BATCH_MANIFEST_JOB_DESCRIPTION_H
 
 #include "base/text/buffer.h"
 #include "json/json_span.h"

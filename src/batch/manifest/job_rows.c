@@ -1,4 +1,4 @@
-#include "batch/job_rows.h"
+#include "batch/manifest/job_rows.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "json/json_parse.h"

@@ -1,4 +1,4 @@
-#include "batch/csv.h"
+#include "batch/manifest/csv.h"
 #include "json/json_chars.h"
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* settings.h - the values of placeholders among the words of a job ("--set=NAME=VALUE"). */
-#ifndef FFD_BATCH_SETTINGS_H
-#define FFD_BATCH_SETTINGS_H
+#ifndef FFD_BATCH_MANIFEST_SETTINGS_H
+#define FFD_BATCH_MANIFEST_SETTINGS_H
 
 #include "base/text/buffer.h"
 

@@ -1,4 +1,4 @@
-#include "batch/settings.h"
+#include "batch/manifest/settings.h"
 #include "base/memory/memory.h"
 #include "json/json_parse.h"
 #include "json/json_setting.h"

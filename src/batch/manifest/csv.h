@@ -1,6 +1,6 @@
 /* csv.h - one row of a table of values separated by commas (RFC 4180), or by semicolons. */
-#ifndef FFD_BATCH_CSV_H
-#define FFD_BATCH_CSV_H
+#ifndef FFD_BATCH_MANIFEST_CSV_H
+#define FFD_BATCH_MANIFEST_CSV_H
 
 #include "base/text/buffer.h"
 #include <stdbool.h>

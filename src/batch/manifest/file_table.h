@@ -1,6 +1,6 @@
 /* file_table.h - a number for each of many files, which need not exist yet, in little memory. */
-#ifndef FFD_BATCH_FILE_TABLE_H
-#define FFD_BATCH_FILE_TABLE_H
+#ifndef FFD_BATCH_MANIFEST_FILE_TABLE_H
+#define FFD_BATCH_MANIFEST_FILE_TABLE_H
 
 #include "base/fail.h"
 #include "base/memory/hash.h"

@@ -1,9 +1,9 @@
 /* job_rows.h - what a row of a table, or a file that a pattern names, says as a job. */
-#ifndef FFD_BATCH_JOB_ROWS_H
-#define FFD_BATCH_JOB_ROWS_H
+#ifndef FFD_BATCH_MANIFEST_JOB_ROWS_H
+#define FFD_BATCH_MANIFEST_JOB_ROWS_H
 
-#include "batch/csv.h"
-#include "batch/job_description.h"
+#include "batch/manifest/csv.h"
+#include "batch/manifest/job_description.h"
 #include <stdint.h>
 
 /* What the command line says for all jobs. */

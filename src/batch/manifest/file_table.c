@@ -1,4 +1,4 @@
-#include "batch/file_table.h"
+#include "batch/manifest/file_table.h"
 #include "base/file/folder.h"
 #include "base/file/path.h"
 #include "base/little_endian.h"

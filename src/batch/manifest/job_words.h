@@ -1,10 +1,10 @@
 /* job_words.h - a job as the words of `ffd deform` that do it. */
-#ifndef FFD_BATCH_JOB_WORDS_H
-#define FFD_BATCH_JOB_WORDS_H
+#ifndef FFD_BATCH_MANIFEST_JOB_WORDS_H
+#define FFD_BATCH_MANIFEST_JOB_WORDS_H
 
 #include "base/fail.h"
 #include "base/text/buffer.h"
-#include "batch/job_description.h"
+#include "batch/manifest/job_description.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -20,7 +20,8 @@ typedef struct batch_frame {
     const char *folder; /* that relative paths start from; "" for the current one */
     const batch_default *defaults;
     size_t default_count;
-    bool resume; /* jobs that cannot be resumed are refused */
+    bool resume;   /* jobs that cannot be resumed are refused */
+    bool pictures; /* likewise those that have no OUT to name a picture after */
 } batch_frame;
 
 typedef struct batch_job {

@@ -1,8 +1,8 @@
 /* manifest.h - a job as a line of a manifest says it (data/schema/formats.md 3). */
-#ifndef FFD_BATCH_MANIFEST_H
-#define FFD_BATCH_MANIFEST_H
+#ifndef FFD_BATCH_MANIFEST_MANIFEST_H
+#define FFD_BATCH_MANIFEST_MANIFEST_H
 
-#include "batch/job_words.h"
+#include "batch/manifest/job_words.h"
 
 /* Reads a line into an empty job whose line number is set. What is wrong with it comes into the job's error;
    returns FFD_OK or FFD_E_MEMORY. */

@@ -1,4 +1,4 @@
-#include "batch/lines.h"
+#include "batch/manifest/lines.h"
 #include "base/system/interrupt.h"
 #include <string.h>
 

@@ -1,4 +1,4 @@
-#include "batch/job_words.h"
+#include "batch/manifest/job_words.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
@@ -16,9 +16,9 @@ typedef struct job_maker {
 
 /* Options of `ffd deform` that are the batch's own business, or have a member of their own. */
 static const char *const reserved[] = {
-    "jobs",          "shard", "resume",  "journal", "timeout", "stop",       "keep-going",
-    "dry-run",       "in",    "csv",     "lattice", "depfile", "out-dir",    "report",
-    "report-stable", "quiet", "verbose", "help",    "set",     "shared-box", "csv-ignore"};
+    "jobs",    "shard", "resume",  "journal",    "timeout",    "stop",   "keep-going",    "dry-run",
+    "in",      "csv",   "lattice", "depfile",    "out-dir",    "report", "report-stable", "quiet",
+    "verbose", "help",  "set",     "shared-box", "csv-ignore", "view"};
 enum { RESERVED = sizeof reserved / sizeof *reserved };
 
 /* Options whose values are files, whose relative paths start where the manifest's do. */
@@ -258,6 +258,8 @@ static bool add_files(job_maker *maker)
     if (in_place && maker->frame->resume)
         return refuse(maker,
                       "\"in-place\" cannot be used with --resume: a finished mesh would be deformed again");
+    if (in_place && maker->frame->pictures)
+        return refuse(maker, "\"in-place\" cannot be used with --view: a picture is named after \"out\"");
     if (wrong_output)
         return refuse(maker, "%s", wrong_output);
     if (output && (!check_path(maker, output, "out") || !keep_name(maker, output, &job->output)))

@@ -1,4 +1,4 @@
-#include "batch/manifest.h"
+#include "batch/manifest/manifest.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
 #include "json/json_parse.h"

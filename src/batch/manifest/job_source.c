@@ -1,15 +1,15 @@
-#include "batch/job_source.h"
+#include "batch/manifest/job_source.h"
 #include "base/file/glob.h"
 #include "base/file/input.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
-#include "batch/csv.h"
-#include "batch/file_table.h"
-#include "batch/job_rows.h"
-#include "batch/lines.h"
-#include "batch/manifest.h"
+#include "batch/manifest/csv.h"
+#include "batch/manifest/file_table.h"
+#include "batch/manifest/job_rows.h"
+#include "batch/manifest/lines.h"
+#include "batch/manifest/manifest.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -395,7 +395,8 @@ ffd_status ffd_jobs_open(const job_source_desc *desc, job_source **source, ffd_e
         return ffd_fail_memory(error);
     (*source)->desc = *desc;
     (*source)->flaws.strict = desc->strict;
-    (*source)->frame = (batch_frame){desc->pattern, "", desc->defaults, desc->default_count, desc->resume};
+    (*source)->frame =
+        (batch_frame){desc->pattern, "", desc->defaults, desc->default_count, desc->resume, desc->pictures};
     ffd_status status;
     if (desc->manifest)
         status = open_text(*source, desc->manifest, error);

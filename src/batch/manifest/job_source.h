@@ -1,10 +1,10 @@
 /* job_source.h - the jobs of a batch, one after the other: lines of a manifest, rows of a table, or the files
    that a pattern names. */
-#ifndef FFD_BATCH_JOB_SOURCE_H
-#define FFD_BATCH_JOB_SOURCE_H
+#ifndef FFD_BATCH_MANIFEST_JOB_SOURCE_H
+#define FFD_BATCH_MANIFEST_JOB_SOURCE_H
 
-#include "batch/job_words.h"
-#include "batch/lines.h"
+#include "batch/manifest/job_words.h"
+#include "batch/manifest/lines.h"
 #include "mesh/flaws.h"
 
 typedef struct job_source_desc {
@@ -17,7 +17,7 @@ typedef struct job_source_desc {
     const char *out_dir; /* with pattern: where files keep their names; with table: the folder of "out" */
     const batch_default *defaults;
     size_t default_count;
-    bool resume;
+    bool resume, pictures;  /* as in batch_frame */
     bool strict;            /* a table that is odd but plain is refused */
     uint64_t shard, shards; /* jobs shard, shard + shards, ... of all, counted from 0 */
 } job_source_desc;

@@ -1,0 +1,161 @@
+#include "batch/run_view.h"
+#include "base/file/folder.h"
+#include "base/file/input.h"
+#include "base/file/output.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "batch/index_entry.h"
+#include "batch/manifest/file_table.h"
+#include "batch/manifest/settings.h"
+#include "view/index.h"
+#include <inttypes.h>
+#include <string.h>
+
+struct run_view {
+    run_view_desc desc;
+    char *page;          /* its path */
+    char *resolved;      /* the folder without links; as it was named where it is not there (a dry run) */
+    file_output *output; /* of the page; NULL: of a dry run */
+    view_index index;
+};
+
+static char *name_page(const run_view_desc *desc)
+{
+    byte_buffer name = {0};
+    if (desc->shards > 1)
+        ffd_buffer_format(&name, "index-%" PRIu64 "-of-%" PRIu64 ".html", desc->shard, desc->shards);
+    else
+        ffd_buffer_text(&name, "index.html");
+    char *const text = ffd_buffer_finish(&name);
+    char *const path = text ? ffd_path_join(desc->folder, text) : NULL;
+    ffd_free(text);
+    return path;
+}
+
+static ffd_status begin_page(run_view *view, ffd_error *error)
+{
+    const run_view_desc *const desc = &view->desc;
+    ffd_status status = ffd_output_create(&view->output, error);
+    if (!status)
+        status = ffd_output_folder(view->output, desc->folder, error);
+    if (!status)
+        status = ffd_output_begin(view->output, view->page, desc->force, error);
+    return status ? status : ffd_index_begin(&view->index, desc->name, view->output, error);
+}
+
+static ffd_status open_view(run_view *view, ffd_error *error)
+{
+    const run_view_desc *const desc = &view->desc;
+    ffd_status status = FFD_OK;
+    view->page = name_page(desc);
+    if (!view->page)
+        return ffd_fail_memory(error);
+    if (!desc->dry)
+        status = begin_page(view, error);
+    else if (ffd_file_exists(view->page))
+        status = ffd_output_check(view->page, desc->force, error);
+    if (status)
+        return status;
+    view->resolved = ffd_path_resolve(desc->folder);
+    if (!view->resolved)
+        view->resolved = ffd_text_copy(desc->folder);
+    return view->resolved ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_run_view_create(const run_view_desc *desc, run_view **view, ffd_error *error)
+{
+    *view = ffd_alloc_zero(1, sizeof **view);
+    if (!*view)
+        return ffd_fail_memory(error);
+    (*view)->desc = *desc;
+    const ffd_status status = open_view(*view, error);
+    if (status)
+        ffd_run_view_destroy(view);
+    return status;
+}
+
+const char *ffd_run_view_page(const run_view *view)
+{
+    return view->page;
+}
+
+/* The part of an output's path below the folder of outputs. */
+static const char *below(const char *out_dir, const char *output)
+{
+    size_t length = out_dir ? strlen(out_dir) : 0;
+    while (length > 1 && out_dir[length - 1] == '/')
+        length--;
+    if (!length || strncmp(output, out_dir, length) != 0 || output[length] != '/')
+        return output;
+    return output + length;
+}
+
+/* The name of a picture below the folder, to be freed; NULL: memory ran out. */
+static char *name_picture(const char *out_dir, const char *output)
+{
+    byte_buffer name = {0};
+    char *const plain = ffd_path_normalize(below(out_dir, output));
+    const char *start = plain;
+    while (start && (*start == '/' || ffd_path_leads_out(start)))
+        start += *start == '/' ? 1 : 2;
+    ffd_buffer_text(&name, start ? start : "");
+    ffd_buffer_text(&name, ".png");
+    char *const text = plain ? ffd_buffer_finish(&name) : NULL;
+    ffd_buffer_free(&name);
+    ffd_free(plain);
+    return text;
+}
+
+ffd_status ffd_run_view_name(const run_view *view, pool_task *task, hash128 *file, ffd_error *error)
+{
+    char *const name = name_picture(view->desc.out_dir, task->job.output);
+    char *const whole = name ? ffd_path_join(view->resolved, name) : NULL;
+    task->picture = name ? ffd_path_join(view->desc.folder, name) : NULL;
+    if (whole) /* the same before and after folders below this one are made */
+        *file = ffd_file_identity(whole);
+    if (task->picture)
+        task->picture_name = task->picture + strlen(task->picture) - strlen(name);
+    ffd_free(name);
+    ffd_free(whole);
+    return whole && task->picture ? FFD_OK : ffd_fail_memory(error);
+}
+
+ffd_status ffd_run_view_add(run_view *view, const pool_task *task, const byte_buffer *text, ffd_error *error)
+{
+    index_entry entry;
+    byte_buffer settings = {0};
+    if (!view->output)
+        return FFD_OK;
+    ffd_status status = ffd_index_entry_read(text, &entry, error);
+    if (status)
+        return status;
+    ffd_settings_show(task->job.words.data, task->job.word_count, &settings);
+    char *const shown = ffd_buffer_finish(&settings);
+    entry.row.number = task->job.line;
+    entry.row.settings = shown;
+    entry.row.picture = task->has_picture ? task->picture_name : NULL;
+    status = shown ? ffd_index_add(&view->index, &entry.row, error) : ffd_fail_memory(error);
+    ffd_free(shown);
+    ffd_index_entry_free(&entry);
+    return status;
+}
+
+ffd_status ffd_run_view_write(run_view *view, ffd_error *error)
+{
+    if (!view->output)
+        return FFD_OK;
+    const ffd_status status = ffd_index_end(&view->index, error);
+    return status ? status : ffd_output_commit(view->output, error);
+}
+
+void ffd_run_view_destroy(run_view **view)
+{
+    if (!view || !*view)
+        return;
+    ffd_output_destroy(&(*view)->output);
+    ffd_index_free(&(*view)->index);
+    ffd_free((*view)->page);
+    ffd_free((*view)->resolved);
+    ffd_free(*view);
+    *view = NULL;
+}

@@ -1,0 +1,177 @@
+#include "view/index.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include "view/page_assets.h"
+#include "view/page_text.h"
+#include <inttypes.h>
+#include <string.h>
+
+/* Sides of a job's picture in pixels, so that a row has its height before the picture is loaded. */
+#define PICTURE_WIDTH 1600
+#define PICTURE_HEIGHT 900
+
+/* A name as the page may show it, as text or as an attribute's value. */
+static void append_name(byte_buffer *html, const char *name, void (*escape)(byte_buffer *, const char *))
+{
+    char *const shown = ffd_page_name(name ? name : "");
+    if (shown)
+        escape(html, shown);
+    html->failed = html->failed || !shown;
+    ffd_free(shown);
+}
+
+static void append_picture(byte_buffer *html, const index_row *row)
+{
+    if (!row->picture) {
+        ffd_buffer_text(html, "<td class=\"picture none\">no picture</td>");
+        return;
+    }
+    ffd_buffer_text(html, "<td class=\"picture\"><a href=\"");
+    ffd_page_address(html, row->picture);
+    ffd_buffer_text(html, "\"><img src=\"");
+    ffd_page_address(html, row->picture);
+    ffd_buffer_format(html, "\" loading=\"lazy\" width=\"%d\" height=\"%d\" alt=\"before and after: ",
+                      PICTURE_WIDTH, PICTURE_HEIGHT);
+    append_name(html, row->output, ffd_page_attribute);
+    ffd_buffer_text(html, "\"></a></td>");
+}
+
+/* Cells have the keys that they are sorted by: numbers, of which the later ones decide where the first are
+   equal; none where a figure is not known. */
+static void append_job(byte_buffer *html, const index_row *row)
+{
+    ffd_buffer_format(html, "<td data-label=\"Line\" data-key=\"%" PRIu64 "\">%" PRIu64 "</td>", row->number,
+                      row->number);
+    ffd_buffer_text(html, "<th scope=\"row\" data-label=\"Output\"><span class=\"name\">");
+    append_name(html, row->output, ffd_page_html);
+    ffd_buffer_text(html, "</span> <span class=\"from\">from ");
+    append_name(html, row->input, ffd_page_html);
+    ffd_buffer_text(html, "</span></th><td data-label=\"Parameters\" class=\"settings\">");
+    append_name(html, row->settings, ffd_page_html);
+    ffd_buffer_text(html, "</td>");
+}
+
+static void append_displacement(byte_buffer *html, const index_row *row)
+{
+    ffd_buffer_text(html, "<td data-label=\"Largest displacement\" data-key=\"");
+    if (row->has_displacement) {
+        ffd_buffer_number(html, row->displacement);
+        ffd_buffer_format(html, "\">%g</td>", row->displacement);
+    } else {
+        ffd_buffer_text(html, "\">not known</td>");
+    }
+}
+
+static void append_tear(byte_buffer *html, const index_row *row)
+{
+    ffd_buffer_text(html, "<td data-label=\"Torn edges\" data-key=\"");
+    if (!row->has_tear) {
+        ffd_buffer_text(html, "\">not known</td>");
+        return;
+    }
+    ffd_buffer_format(html, "%.0f ", row->torn_edges);
+    ffd_buffer_number(html, row->largest_step);
+    if (row->torn_edges > 0)
+        ffd_buffer_format(html, "\" class=\"bad\">%.0f, step to %g</td>", row->torn_edges, row->largest_step);
+    else
+        ffd_buffer_text(html, "\">none</td>");
+}
+
+static void append_folds(byte_buffer *html, const index_row *row)
+{
+    ffd_buffer_text(html, "<td data-label=\"Folds\" data-key=\"");
+    if (row->folds == INDEX_FOLDS_NOT_KNOWN) {
+        ffd_buffer_text(html, "\">not known</td>");
+        return;
+    }
+    ffd_buffer_format(html, "%d %.0f ", (int)row->folds, row->folded_cells);
+    ffd_buffer_number(html, -row->min_det);
+    if (row->folds == INDEX_FOLDS_SOME)
+        ffd_buffer_format(html, "\" class=\"bad\">%.0f %s, det J to %g</td>", row->folded_cells,
+                          row->folded_cells > 1 ? "cells" : "cell", row->min_det);
+    else if (row->folds == INDEX_FOLDS_UNKNOWN)
+        ffd_buffer_text(html, "\" class=\"warn\">undecided</td>");
+    else
+        ffd_buffer_format(html, "\">none, det J at least %g</td>", row->min_det);
+}
+
+static void append_flipped(byte_buffer *html, const index_row *row)
+{
+    if (!row->has_flipped)
+        ffd_buffer_text(html, "<td data-label=\"Flipped faces\" data-key=\"\">not known</td>");
+    else
+        ffd_buffer_format(html, "<td data-label=\"Flipped faces\" data-key=\"%.0f\"%s>%.0f</td>",
+                          row->flipped_faces, row->flipped_faces > 0 ? " class=\"bad\"" : "",
+                          row->flipped_faces);
+}
+
+static void append_state(byte_buffer *html, const index_row *row)
+{
+    const bool failed = strcmp(row->status, "failed") == 0, skipped = strcmp(row->status, "skipped") == 0;
+    ffd_buffer_format(html, "<td data-label=\"State\" data-key=\"%d\"%s>%s",
+                      failed    ? 2
+                      : skipped ? 0
+                                : 1,
+                      failed ? " class=\"bad\"" : "",
+                      failed    ? "failed"
+                      : skipped ? "up to date"
+                                : "done");
+    if (row->error) {
+        ffd_buffer_text(html, ": <span class=\"error\">");
+        append_name(html, row->error, ffd_page_html);
+        ffd_buffer_text(html, "</span>");
+    }
+    ffd_buffer_text(html, "</td>");
+}
+
+ffd_status ffd_index_begin(view_index *index, const char *name, file_output *output, ffd_error *error)
+{
+    byte_buffer title = {0};
+    *index = (view_index){0};
+    if (ffd_page_writer_begin(&index->writer, output, error))
+        return index->writer.status;
+    append_name(&title, name, ffd_page_html);
+    ffd_page_write(&index->writer, ffd_compare_start, ffd_compare_start_size);
+    ffd_page_write_buffer(&index->writer, &title);
+    ffd_page_write(&index->writer, ffd_compare_middle, ffd_compare_middle_size);
+    return index->writer.status;
+}
+
+ffd_status ffd_index_add(view_index *index, const index_row *row, ffd_error *error)
+{
+    byte_buffer html = {0};
+    index->writer.error = error;
+    index->jobs++;
+    index->skipped += strcmp(row->status, "skipped") == 0;
+    index->failed += strcmp(row->status, "failed") == 0;
+    ffd_buffer_text(&html, "<tr>");
+    append_picture(&html, row);
+    append_job(&html, row);
+    append_displacement(&html, row);
+    append_tear(&html, row);
+    append_folds(&html, row);
+    append_flipped(&html, row);
+    append_state(&html, row);
+    ffd_buffer_text(&html, "</tr>\n");
+    ffd_page_write_buffer(&index->writer, &html);
+    return index->writer.status;
+}
+
+ffd_status ffd_index_end(view_index *index, ffd_error *error)
+{
+    byte_buffer counts = {0};
+    index->writer.error = error;
+    ffd_buffer_format(&counts,
+                      "</tbody>\n</table>\n<p id=\"counts\">%" PRIu64 " %s: %" PRIu64 " done, %" PRIu64
+                      " up to date, %" PRIu64 " failed</p>\n",
+                      index->jobs, ffd_plural(index->jobs, "job", "jobs"),
+                      index->jobs - index->skipped - index->failed, index->skipped, index->failed);
+    ffd_page_write_buffer(&index->writer, &counts);
+    ffd_page_write(&index->writer, ffd_compare_end, ffd_compare_end_size);
+    return index->writer.status;
+}
+
+void ffd_index_free(view_index *index)
+{
+    ffd_page_writer_end(&index->writer);
+}
