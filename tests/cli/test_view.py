@@ -190,6 +190,7 @@ def mistakes_are_refused_before_any_work(run):
             (["a.obj", "-o", "p.html", "--report", "r.json"], "--report"),
             (["a.obj", "b.obj", "-l", "l.json", "-o", "p.html", "--embedding", "e.npy"], "--embedding"),
             (["-", "-", "--input-format", "obj", "-o", "p.html"], "only once"),
+            ([*work, "-o", "p.png", "--report", "p.png", "--force"], "the report would replace the picture"),
             ([*work, "-o", "p.html", "--falloff", "1"], "--falloff"), (["a.xyz", "-o", "p.html"], "a.xyz")):
         run.ffd("view", *arguments, code=USAGE, err=re.compile(re.escape(says)))
     equal(run.names(), ["a.obj", "b.obj", "l.json"], "the folder")
@@ -565,6 +566,8 @@ def a_check_has_its_picture(run):
     equal(read_page(run, "p.html").report, told, "the page's report")
     run.write("b.obj", CUBE)
     run.ffd("check", "a.obj", "b.obj", "-l", "l.json", "--picture", "q.png", code=USAGE, err=re.compile("--picture is of one mesh"))
+    run.ffd("check", *work, "--picture", "q.png", "--report", "q.png", code=USAGE, err=re.compile("the report would replace the picture"))
+    check(not run.exists("q.png"), "a report under the picture's name")
     run.ffd("check", *work, "--picture", "q.txt", code=USAGE, err=re.compile("is not that of a page or a picture"))
     start(run, [{"at": [1, 1, 1], "by": [30, 30, 30]}])
     run.ffd("check", *work, "--picture", "q.png", "--fail-on", "folds", code=NO, lines=1)
