@@ -1,5 +1,6 @@
 #include "view/view_picture.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
 #include "view/view_palette.h"
@@ -97,6 +98,30 @@ static ffd_status find_used(const view_scene *scene, uint8_t **used, ffd_error *
     else
         ffd_free(marks);
     return FFD_OK;
+}
+
+static bool is_finite(const double *p)
+{
+    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+}
+
+/* A triangle that has no place is left out of every picture that it has none in. */
+static void say_what_is_left_out(const picture_work *w)
+{
+    const view_scene *const scene = w->scene;
+    size_t lost = 0;
+    for (size_t t = 0; t < scene->triangle_count; t++) {
+        bool finite = true;
+        for (size_t c = 0; c < 3 && finite; c++) {
+            const size_t at = 3 * (size_t)scene->triangles[3 * t + c];
+            finite = is_finite(scene->before + at) && is_finite(scene->after + at);
+        }
+        lost += !finite;
+    }
+    if (lost)
+        ffd_log_line(w->options->log, FFD_LOG_WARNING,
+                     "the picture: %zu %s not drawn where a vertex is not finite", lost,
+                     ffd_plural(lost, "triangle is", "triangles are"));
 }
 
 static ffd_status place(picture_work *w, step *s)
@@ -215,6 +240,7 @@ static ffd_status make_steps(picture_work *w)
     w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
     if (!w->steps || !w->panels || !w->twins || !w->white)
         return ffd_fail_memory(w->error);
+    say_what_is_left_out(w);
     ffd_view_palette_make(scene, w->options->color, &w->palette);
     status = ffd_picture_twins(scene->before, scene->vertex_count, w->twins, w->error);
     if (!status)

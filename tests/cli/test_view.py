@@ -625,6 +625,19 @@ def lines_and_points_are_drawn(run):
 
 
 @case
+def what_is_not_finite_is_not_drawn_and_said(run):
+    """One triangle of two, in a page and in a picture; no noise of it where nothing is lost."""
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 1 0\nf 1 2 3\nf 2 4 3\n")
+    page = view(run, "a.obj", err="a.obj: the page: 1 vertex is not finite, and 1 triangle there is not drawn")
+    equal([len(page.triangles), page.scene["notFinite"]], [1, 1], "the page")
+    rows = picture(run, "a.obj", "--camera", "front", "--size", "100x100",
+                   err="a.obj: the picture: 1 triangle is not drawn where a vertex is not finite")
+    check(count(rows, lambda r, g, b: r < 200) > 500, "the other triangle")
+    run.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 1 0\nf 1 2 3\n")
+    picture(run, "b.obj", "--size", "100x100", lines=0)
+
+
+@case
 def empty_meshes(run):
     run.write("l.json", lattice(moves=SHIFT))
     run.write("a.off", "OFF\n0 0 0\n")
