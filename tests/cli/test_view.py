@@ -98,6 +98,19 @@ def a_mesh_and_its_deformation_as_files(run):
 
 
 @case
+def files_have_no_status_and_no_det_f(run):
+    """Their colours are then by displacement, which is said."""
+    start(run)
+    run.write("b.obj", CUBE.replace("v 1 1 1\n", "v 1 1 3\n"))
+    for color, what in (("det", "det F"), ("status", "status")):
+        said = f"a.obj: coloured by displacement: without a deformation there is no {what}"
+        view(run, "a.obj", "b.obj", "--color", color, err=said)
+        same = picture(run, "a.obj", "b.obj", "--color", color, "--size", "100x60", err=said)
+        check(same == picture(run, "a.obj", "b.obj", "--size", "100x60"), "the picture by displacement")
+    view(run, "a.obj", "-l", "l.json", "--color", "det", lines=0)
+
+
+@case
 def a_lattice_round_the_mesh_is_drawn_round_the_mesh_at_rest(run):
     start(run, SHIFT, rest={"box": "mesh", "margin": 0})
     run.write("b.obj", re.sub(r"v 1 ", "v 7 ", CUBE))
