@@ -176,6 +176,9 @@ async function aRealFoldIsPicked() {
   assert.ok(said.includes('fold.json'), said);
   const shown = Number(/det J\s+\u2212([\d.]+)/.exec(said)[1]);
   assert.ok(Math.abs(shown + job.folds.witness.det) < 1e-3 * shown, `det J ${shown} of ${job.folds.witness.det}`);
+  assert.match(await text(page, '#notice'), /1 vertex is not finite, and 1 triangle there is not drawn\./);
+  const digits = (words) => words.replace(/\D/g, '');
+  assert.equal(digits(await page.locator('#findings .more', {hasText: 'flipped in all'}).innerText()), String(job.flipped_faces));
   await page.locator('#findings summary').click();
   await changes(page, 'a flipped face', () => page.locator('#findings .row:not(#go-witness)').first().click());
   assert.match(await text(page, '#said'), /Flipped triangle\s/);
@@ -196,6 +199,15 @@ async function realTearsAreListed() {
   await changes(page, 'a torn edge', () => page.locator('#findings .row').first().click());
   const step = Number(/Step\s+([\d.]+)/.exec(await text(page, '#said'))[1]);
   assert.ok(Math.abs(step - job.tear.largest) < 1e-3 * step, `a step of ${step}, the largest is ${job.tear.largest}`);
+  await end();
+}
+
+async function filesAreColouredByDisplacement() {
+  const {page, end} = await open('real_pair');
+  assert.ok(await page.locator('#color-displacement').isChecked(), 'det F is not known');
+  assert.equal(await page.locator('#color-det, #color-status').count(), 0);
+  assert.equal(await text(page, '#name'), 'low.obj \u2192 high.obj');
+  await changes(page, 'the slider', () => page.locator('input[type=range]').fill('0'));
   await end();
 }
 
@@ -286,8 +298,9 @@ async function thePolicyForbidsRequests() {
 
 let failed = 0;
 for (const test of [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
-  mouseAndKeysMoveTheCamera, hostileNamesAreText, aRealFoldIsPicked, realTearsAreListed, realHostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
-  thePolicyForbidsRequests]) {
+  mouseAndKeysMoveTheCamera, hostileNamesAreText, aRealFoldIsPicked, realTearsAreListed,
+  filesAreColouredByDisplacement, realHostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
+  phonesAndDarkAreServed, thePolicyForbidsRequests]) {
   const began = Date.now();
   try {
     await test();

@@ -58,7 +58,15 @@ def make_real(ffd, model, folder):
 
     hostile = write("<img src=x onerror=alert(2)>\n\u202e&amp;.gltf", hostile_gltf())
     shutil.copy(model, os.path.join(folder, "a.obj"))
-    for kind, mesh, moves in (("fold", "a.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
+    # One triangle that cannot be drawn.
+    shutil.copy(model, os.path.join(folder, "fold.obj"))
+    with open(os.path.join(folder, "fold.obj"), "a", encoding="ascii") as file:
+        file.write("\nv nan 0 0\nf 1 2 -1\n")
+    for name, height in (("low.obj", 1), ("high.obj", 2)):
+        with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+            file.write(f"v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")
+    subprocess.run([ffd, "view", "low.obj", "high.obj", "--color", "det", "-o", "real_pair.html", "-q"], cwd=folder, check=True)
+    for kind, mesh, moves in (("fold", "fold.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
         lattice = write("<b>cage.json" if kind == "hostile" else kind + ".json",
                         {"format": "ffd-lattice", "version": 1, **moves})
         subprocess.run([ffd, "view", mesh, "-l", os.path.basename(lattice), "-o", f"real_{kind}.html", "-q"], cwd=folder,
@@ -80,7 +88,7 @@ def main():
         make_real(ffd, model, folder)
         # The browser wants a home of its own.
         done = subprocess.run(["node", os.path.join(HERE, "page.mjs"), node_folder, browser, folder], check=False,
-                              env={**os.environ, "HOME": folder}, timeout=100)
+                              env={**os.environ, "HOME": folder}, timeout=140)
     sys.exit(done.returncode)
 
 
