@@ -184,7 +184,7 @@ def an_existing_page_needs_force(run):
                       ["a.obj", "m.html", "--input-format", "obj"], ["a.obj", "a.obj", "-l", "l.html"]):
         output = "m.html" if "m.html" in arguments else "l.html"
         run.ffd("view", *arguments, "-o", "./" + output, "--force", code=IO, err=f"./{output}: is an input of this command")
-    run.ffd("view", *work, "-o", "q.html", "--report", "q.html", code=IO, lines=1)
+    run.ffd("view", *work, "-o", "./q.html", "--report", "q.html", code=IO, lines=1)
 
 
 @case
