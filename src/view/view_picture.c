@@ -212,8 +212,8 @@ static ffd_status make_step(picture_work *w, size_t number)
     make_meshes(w, s, own.color == VIEW_BY_MATERIAL);
     if (w->step_count > 1)
         name_step(w, number, s);
-    status =
-        ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options), &s->cages, w->error);
+    status = ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options),
+                                 VIEW_PICTURE_CONTROLS / w->step_count, &s->cages, w->error);
     w->panels[number] = (picture_panel){.caption = w->step_count > 1 ? s->caption : NULL,
                                         .meshes = s->meshes,
                                         .mesh_count = w->scene->vertex_count ? MESHES : 0,
@@ -247,6 +247,12 @@ static ffd_status make_steps(picture_work *w)
         status = find_used(scene, &w->used, w->error);
     for (size_t i = 0; i < w->step_count && !status; i++)
         status = make_step(w, i);
+    const size_t left_out = status ? 0 : w->steps[0].cages.left_out;
+    if (left_out)
+        ffd_log_line(w->options->log, FFD_LOG_WARNING,
+                     "the picture: %zu of %zu %s not drawn: more than %zu control points", left_out,
+                     scene->cage_count, ffd_plural(scene->cage_count, "lattice is", "lattices are"),
+                     VIEW_PICTURE_CONTROLS / w->step_count);
     return status;
 }
 

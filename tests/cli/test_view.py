@@ -512,6 +512,18 @@ def before_is_left_of_after_with_the_cage(run):
 
 
 @case
+def lattices_of_too_many_points_are_left_out_of_pictures_and_said(run):
+    """60 x 60 x 60 points took the picture's memory: exit 7 of what check and a page can do."""
+    work = start(run, SHIFT, size=[60, 60, 60])
+    for more, most in (([], 125000), (["--frames", "4"], 62500)):
+        rows = picture(run, *work, *more, "--size", "200x120",
+                       err=f"a.obj: the picture: 1 of 1 lattice is not drawn: more than {most} control points")
+        equal(count(halves(rows[:80])[0], is_blue) if not more else 0, 0, "nothing of the cage")
+    start(run, SHIFT, size=[20, 20, 20])
+    check(count(halves(picture(run, *work, "--size", "200x120", lines=0)[:80])[0], is_blue) > 50, "a smaller one is drawn")
+
+
+@case
 def a_mesh_alone_is_one_picture(run):
     start(run)
     rows = picture(run, "a.obj", "--camera", "front", "--size", "300x200")
