@@ -2,6 +2,7 @@
 #include "cli/job.h"
 #include <inttypes.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct settings {
     cli_job job;
@@ -151,6 +152,8 @@ static int run(const cli_command *command, int count, char **arguments)
     const char *why = words.count ? cli_job_mistake(&s.job, &words, words.count) : "needs IN";
     if (!why && s.picture && words.count > 1)
         why = "--picture is of one mesh, but several IN are given";
+    if (!why && s.picture && s.job.report && strcmp(s.job.report, s.picture) == 0)
+        why = "the report would replace the picture";
     if (why)
         code = cli_usage(command, why);
     else if (cli_job_knows_formats(&s.job, &words, words.count))

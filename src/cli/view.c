@@ -174,6 +174,8 @@ static const char *mistake(const settings *s, const cli_words *words)
         return "no output is given (-o FILE.html or FILE.png)";
     if (words->count == 2 || s->job.lattice_count == 0)
         return mistake_of_files(s, words);
+    if (s->job.report && strcmp(s->job.report, s->output) == 0)
+        return "the report would replace the picture or page";
     return cli_job_mistake(&s->job, words, 1);
 }
 

@@ -1,5 +1,6 @@
 #include "view/page.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "view/page_assets.h"
 #include "view/page_reduce.h"
 #include "view/page_scene.h"
@@ -53,9 +54,9 @@ static ffd_status choose_cages(page_work *work, ffd_error *error)
         left_out += !fits;
     }
     if (left_out)
-        give_notice(work,
-                    "%zu of %zu lattices are not drawn: they have more than %d control points (see --full)",
-                    left_out, scene->cage_count, VIEW_PAGE_CONTROLS);
+        give_notice(work, "%zu of %zu %s not drawn: more than %d control points (see --full)", left_out,
+                    scene->cage_count, ffd_plural(scene->cage_count, "lattice is", "lattices are"),
+                    VIEW_PAGE_CONTROLS);
     return FFD_OK;
 }
 
@@ -63,8 +64,9 @@ static void say_what_is_left_out(page_work *work, size_t used)
 {
     const page_mesh *const mesh = &work->mesh;
     if (mesh->not_finite)
-        give_notice(work, "%" PRIu64 " vertices are not finite, and %zu triangles at them not drawn",
-                    mesh->not_finite, mesh->triangles_lost);
+        give_notice(work, "%" PRIu64 " %s not finite, and %zu %s not drawn", mesh->not_finite,
+                    ffd_plural(mesh->not_finite, "vertex is", "vertices are"), mesh->triangles_lost,
+                    ffd_plural(mesh->triangles_lost, "triangle there is", "triangles there are"));
     if (mesh->vertex_count < used)
         give_notice(work, "%zu of %zu vertices are drawn: the mesh is simplified (see --full)",
                     mesh->vertex_count, used);

@@ -37,8 +37,6 @@ static size_t join(const view_cage *from, uint32_t *segments)
 static ffd_status add_lattice(const view_cage *from, double share, view_cages *c, ffd_error *error)
 {
     const size_t count = from->size[0] * from->size[1] * from->size[2];
-    if (count > UINT32_MAX / 3)
-        return ffd_fail(error, FFD_E_LIMIT, "%zu control points are more than a picture can have", count);
     double *const points = own(c, count, 3 * sizeof *points);
     uint32_t *const segments = points ? own(c, 3 * count, 2 * sizeof *segments) : NULL;
     if (!segments)
@@ -125,15 +123,24 @@ static ffd_status add_marks(const view_scene *scene, double share, const double 
 }
 
 ffd_status ffd_view_cages_make(const view_scene *scene, double share, const double *positions,
-                               uint32_t height, view_cages *c, ffd_error *error)
+                               uint32_t height, size_t most, view_cages *c, ffd_error *error)
 {
     ffd_status status = FFD_OK;
+    size_t left = most;
     c->list = ffd_alloc(scene->cage_count + OTHERS, sizeof *c->list);
     c->owned = ffd_alloc(ARRAYS * (scene->cage_count + OTHERS), sizeof *c->owned);
     if (!c->list || !c->owned)
         return ffd_fail_memory(error);
-    for (size_t i = 0; i < scene->cage_count && !status; i++)
-        status = add_lattice(&scene->cages[i], share, c, error);
+    for (size_t i = 0; i < scene->cage_count && !status; i++) {
+        size_t points = 0;
+        const size_t *const size = scene->cages[i].size;
+        const bool fits = ffd_multiply_size(size[0], size[1], &points) &&
+                          ffd_multiply_size(points, size[2], &points) && points <= left;
+        if (fits)
+            status = add_lattice(&scene->cages[i], share, c, error);
+        left -= fits ? points : 0;
+        c->left_out += !fits;
+    }
     if (!status && scene->segment_count)
         add_lines(scene, positions, height, c);
     if (!status)

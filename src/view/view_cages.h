@@ -12,12 +12,17 @@ typedef struct view_cages {
     size_t count;
     void **owned; /* what they lend */
     size_t owned_count;
+    size_t left_out; /* lattices */
 } view_cages;
 
+/* Control points of all panels of a picture: more would hide all else, and take its memory. */
+#define VIEW_PICTURE_CONTROLS 250000
+
 /* Makes them when the scene has gone this share of its way, and its vertices are at positions. height: of the
-   picture, in pixels. Errors: FFD_E_MEMORY, FFD_E_LIMIT (more points than 32 bits number). */
+   picture, in pixels. most: control points that are drawn; lattices beyond it are left out. Errors:
+   FFD_E_MEMORY. */
 ffd_status ffd_view_cages_make(const view_scene *scene, double share, const double *positions,
-                               uint32_t height, view_cages *cages, ffd_error *error);
+                               uint32_t height, size_t most, view_cages *cages, ffd_error *error);
 /* Frees them; leaves none. */
 void ffd_view_cages_free(view_cages *cages);
 

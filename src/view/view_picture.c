@@ -1,5 +1,6 @@
 #include "view/view_picture.h"
 #include "base/memory/memory.h"
+#include "base/text/words.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
 #include "view/view_palette.h"
@@ -99,6 +100,30 @@ static ffd_status find_used(const view_scene *scene, uint8_t **used, ffd_error *
     return FFD_OK;
 }
 
+static bool is_finite(const double *p)
+{
+    return isfinite(p[0]) && isfinite(p[1]) && isfinite(p[2]);
+}
+
+/* A triangle that has no place is left out of every picture that it has none in. */
+static void say_what_is_left_out(const picture_work *w)
+{
+    const view_scene *const scene = w->scene;
+    size_t lost = 0;
+    for (size_t t = 0; t < scene->triangle_count; t++) {
+        bool finite = true;
+        for (size_t c = 0; c < 3 && finite; c++) {
+            const size_t at = 3 * (size_t)scene->triangles[3 * t + c];
+            finite = is_finite(scene->before + at) && is_finite(scene->after + at);
+        }
+        lost += !finite;
+    }
+    if (lost)
+        ffd_log_line(w->options->log, FFD_LOG_WARNING,
+                     "the picture: %zu %s not drawn where a vertex is not finite", lost,
+                     ffd_plural(lost, "triangle is", "triangles are"));
+}
+
 static ffd_status place(picture_work *w, step *s)
 {
     const view_scene *const scene = w->scene;
@@ -187,8 +212,8 @@ static ffd_status make_step(picture_work *w, size_t number)
     make_meshes(w, s, own.color == VIEW_BY_MATERIAL);
     if (w->step_count > 1)
         name_step(w, number, s);
-    status =
-        ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options), &s->cages, w->error);
+    status = ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options),
+                                 VIEW_PICTURE_CONTROLS / w->step_count, &s->cages, w->error);
     w->panels[number] = (picture_panel){.caption = w->step_count > 1 ? s->caption : NULL,
                                         .meshes = s->meshes,
                                         .mesh_count = w->scene->vertex_count ? MESHES : 0,
@@ -215,12 +240,19 @@ static ffd_status make_steps(picture_work *w)
     w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
     if (!w->steps || !w->panels || !w->twins || !w->white)
         return ffd_fail_memory(w->error);
+    say_what_is_left_out(w);
     ffd_view_palette_make(scene, w->options->color, &w->palette);
     status = ffd_picture_twins(scene->before, scene->vertex_count, w->twins, w->error);
     if (!status)
         status = find_used(scene, &w->used, w->error);
     for (size_t i = 0; i < w->step_count && !status; i++)
         status = make_step(w, i);
+    const size_t left_out = status ? 0 : w->steps[0].cages.left_out;
+    if (left_out)
+        ffd_log_line(w->options->log, FFD_LOG_WARNING,
+                     "the picture: %zu of %zu %s not drawn: more than %zu control points", left_out,
+                     scene->cage_count, ffd_plural(scene->cage_count, "lattice is", "lattices are"),
+                     VIEW_PICTURE_CONTROLS / w->step_count);
     return status;
 }
 

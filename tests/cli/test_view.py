@@ -98,6 +98,19 @@ def a_mesh_and_its_deformation_as_files(run):
 
 
 @case
+def files_have_no_status_and_no_det_f(run):
+    """Their colours are then by displacement, which is said."""
+    start(run)
+    run.write("b.obj", CUBE.replace("v 1 1 1\n", "v 1 1 3\n"))
+    for color, what in (("det", "det F"), ("status", "status")):
+        said = f"a.obj: coloured by displacement: without a deformation there is no {what}"
+        view(run, "a.obj", "b.obj", "--color", color, err=said)
+        same = picture(run, "a.obj", "b.obj", "--color", color, "--size", "100x60", err=said)
+        check(same == picture(run, "a.obj", "b.obj", "--size", "100x60"), "the picture by displacement")
+    view(run, "a.obj", "-l", "l.json", "--color", "det", lines=0)
+
+
+@case
 def a_lattice_round_the_mesh_is_drawn_round_the_mesh_at_rest(run):
     start(run, SHIFT, rest={"box": "mesh", "margin": 0})
     run.write("b.obj", re.sub(r"v 1 ", "v 7 ", CUBE))
@@ -171,7 +184,7 @@ def an_existing_page_needs_force(run):
                       ["a.obj", "m.html", "--input-format", "obj"], ["a.obj", "a.obj", "-l", "l.html"]):
         output = "m.html" if "m.html" in arguments else "l.html"
         run.ffd("view", *arguments, "-o", "./" + output, "--force", code=IO, err=f"./{output}: is an input of this command")
-    run.ffd("view", *work, "-o", "q.html", "--report", "q.html", code=IO, lines=1)
+    run.ffd("view", *work, "-o", "./q.html", "--report", "q.html", code=IO, lines=1)
 
 
 @case
@@ -190,6 +203,7 @@ def mistakes_are_refused_before_any_work(run):
             (["a.obj", "-o", "p.html", "--report", "r.json"], "--report"),
             (["a.obj", "b.obj", "-l", "l.json", "-o", "p.html", "--embedding", "e.npy"], "--embedding"),
             (["-", "-", "--input-format", "obj", "-o", "p.html"], "only once"),
+            ([*work, "-o", "p.png", "--report", "p.png", "--force"], "the report would replace the picture"),
             ([*work, "-o", "p.html", "--falloff", "1"], "--falloff"), (["a.xyz", "-o", "p.html"], "a.xyz")):
         run.ffd("view", *arguments, code=USAGE, err=re.compile(re.escape(says)))
     equal(run.names(), ["a.obj", "b.obj", "l.json"], "the folder")
@@ -498,6 +512,18 @@ def before_is_left_of_after_with_the_cage(run):
 
 
 @case
+def lattices_of_too_many_points_are_left_out_of_pictures_and_said(run):
+    """60 x 60 x 60 points took the picture's memory: exit 7 of what check and a page can do."""
+    work = start(run, SHIFT, size=[60, 60, 60])
+    for more, most in (([], 125000), (["--frames", "4"], 62500)):
+        rows = picture(run, *work, *more, "--size", "200x120",
+                       err=f"a.obj: the picture: 1 of 1 lattice is not drawn: more than {most} control points")
+        equal(count(halves(rows[:80])[0], is_blue) if not more else 0, 0, "nothing of the cage")
+    start(run, SHIFT, size=[20, 20, 20])
+    check(count(halves(picture(run, *work, "--size", "200x120", lines=0)[:80])[0], is_blue) > 50, "a smaller one is drawn")
+
+
+@case
 def a_mesh_alone_is_one_picture(run):
     start(run)
     rows = picture(run, "a.obj", "--camera", "front", "--size", "300x200")
@@ -565,6 +591,8 @@ def a_check_has_its_picture(run):
     equal(read_page(run, "p.html").report, told, "the page's report")
     run.write("b.obj", CUBE)
     run.ffd("check", "a.obj", "b.obj", "-l", "l.json", "--picture", "q.png", code=USAGE, err=re.compile("--picture is of one mesh"))
+    run.ffd("check", *work, "--picture", "q.png", "--report", "q.png", code=USAGE, err=re.compile("the report would replace the picture"))
+    check(not run.exists("q.png"), "a report under the picture's name")
     run.ffd("check", *work, "--picture", "q.txt", code=USAGE, err=re.compile("is not that of a page or a picture"))
     start(run, [{"at": [1, 1, 1], "by": [30, 30, 30]}])
     run.ffd("check", *work, "--picture", "q.png", "--fail-on", "folds", code=NO, lines=1)
@@ -619,6 +647,19 @@ def lines_and_points_are_drawn(run):
         run.write("a.obj", content)
         rows = picture(run, "a.obj", "--camera", "front", "--size", "200x200")
         check(count(rows, lambda r, g, b: r < 190) >= 3, content)
+
+
+@case
+def what_is_not_finite_is_not_drawn_and_said(run):
+    """One triangle of two, in a page and in a picture; no noise of it where nothing is lost."""
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 1 0\nf 1 2 3\nf 2 4 3\n")
+    page = view(run, "a.obj", err="a.obj: the page: 1 vertex is not finite, and 1 triangle there is not drawn")
+    equal([len(page.triangles), page.scene["notFinite"]], [1, 1], "the page")
+    rows = picture(run, "a.obj", "--camera", "front", "--size", "100x100",
+                   err="a.obj: the picture: 1 triangle is not drawn where a vertex is not finite")
+    check(count(rows, lambda r, g, b: r < 200) > 500, "the other triangle")
+    run.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 1 0\nf 1 2 3\n")
+    picture(run, "b.obj", "--size", "100x100", lines=0)
 
 
 @case

@@ -886,6 +886,14 @@ m("torn-edges-twice", "class", "view", "return a < b ? a << 32 | b : b << 32 | a
   "return a << 32 | b; } static int compare_ends")
 m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->step < y->step ? 1 : compare_ends(a, b);",
   "return x->step > y->step ? 1 : x->step < y->step ? -1 : compare_ends(a, b);")
+m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report && strcmp(s->job.report, s->output) == 0)",
+  "if (s->job.report && strcmp(s->job.report, s->output) == 1000)")
+m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && strcmp(s.job.report, s.picture) == 0",
+  "s.picture && s.job.report && strcmp(s.job.report, s.picture) == 1000")
+m("lost-triangles-of-a-corner", "loop", "cli_view", "for (size_t c = 0; c < 3 && finite; c++)", "for (size_t c = 0; c < 1 && finite; c++)")
+m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(points, size[2], &points) && points <= left;",
+  "ffd_multiply_size(points, size[2], &points) && points <= 1000 * left;")
+m("color-of-what-is-not-known", "condition", "cli_view", "color == FFD_VIEW_STATUS || color == FFD_VIEW_DET", "color == FFD_VIEW_STATUS")
 m("gate-without-a-page", "condition", "cli_view, view", "if (status == FFD_E_GATE) ffd_fail_name_file(&result->error, ffd_source_name(&work->desc->job->input)); else if (status) {",
   "if (status) {")
 m("gate-forgotten-by-a-page", "result left out", "cli_view, view", "status = result->status; /* of the gates */", "status = FFD_OK;")

@@ -312,7 +312,7 @@ static void what_is_not_finite_is_left_out_and_said(void **state)
     assert_int_equal(value_of(page, "vertices", 0), count - 3);
     assert_int_equal(value_of(page, "triangles", 0), left);
     assert_int_equal(value_of(page, "notFinite", 0), 3);
-    assert_non_null(strstr(said, "3 vertices are not finite, and 10 triangles at them not drawn"));
+    assert_non_null(strstr(said, "3 vertices are not finite, and 10 triangles there are not drawn"));
     unsigned char *const triangles = bytes_of(page, "data-triangle", 12 * left);
     for (size_t i = 0; i < 3 * left; i++)
         assert_true(load_u32(triangles + 4 * i) < count - 3);

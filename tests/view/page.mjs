@@ -164,6 +164,67 @@ async function hostileNamesAreText() {
   await end();
 }
 
+// What the program found in a mesh is what its page says and goes to.
+async function aRealFoldIsPicked() {
+  const {page, end} = await open('real_fold');
+  const job = await page.evaluate(() => JSON.parse(document.getElementById('report').textContent).jobs[0]);
+  assert.ok(job.folds.verdict === 'some' && job.flipped_faces > 1000, 'the report');
+  assert.match(await text(page, '#verdicts'), /The volume folds[^]*flipped faces/);
+  const pin = await page.locator('#witness').boundingBox();
+  await changes(page, 'the witness', () => page.mouse.click(pin.x + pin.width / 2, pin.y + pin.height / 2));
+  const said = await text(page, '#said');
+  assert.ok(said.includes('fold.json'), said);
+  const shown = Number(/det J\s+\u2212([\d.]+)/.exec(said)[1]);
+  assert.ok(Math.abs(shown + job.folds.witness.det) < 1e-3 * shown, `det J ${shown} of ${job.folds.witness.det}`);
+  assert.match(await text(page, '#notice'), /1 vertex is not finite, and 1 triangle there is not drawn\./);
+  const digits = (words) => words.replace(/\D/g, '');
+  assert.equal(digits(await page.locator('#findings .more', {hasText: 'flipped in all'}).innerText()), String(job.flipped_faces));
+  await page.locator('#findings summary').click();
+  await changes(page, 'a flipped face', () => page.locator('#findings .row:not(#go-witness)').first().click());
+  assert.match(await text(page, '#said'), /Flipped triangle\s/);
+  for (const key of ['status', 'det', 'plain', 'displacement']) await changes(page, key, () => page.locator('#color-' + key).check({force: true}));
+  await page.locator('input[type=range]').focus();
+  await changes(page, 'the slider', () => page.keyboard.press('Home'));
+  await end();
+}
+
+async function realTearsAreListed() {
+  const {page, end} = await open('real_tear');
+  const job = await page.evaluate(() => JSON.parse(document.getElementById('report').textContent).jobs[0]);
+  assert.ok(job.tear.edges > 100 && job.outside > 1000, 'the report');
+  const digits = (words) => words.replace(/\D/g, '');
+  assert.equal(digits(await page.locator('#verdicts .bad', {hasText: 'torn'}).innerText()), String(job.tear.edges));
+  assert.equal(digits(await page.locator('#verdicts .warn', {hasText: 'outside'}).innerText()), String(job.outside));
+  await page.locator('#findings summary').first().click();
+  await changes(page, 'a torn edge', () => page.locator('#findings .row').first().click());
+  const step = Number(/Step\s+([\d.]+)/.exec(await text(page, '#said'))[1]);
+  assert.ok(Math.abs(step - job.tear.largest) < 1e-3 * step, `a step of ${step}, the largest is ${job.tear.largest}`);
+  await end();
+}
+
+async function filesAreColouredByDisplacement() {
+  const {page, end} = await open('real_pair');
+  assert.ok(await page.locator('#color-displacement').isChecked(), 'det F is not known');
+  assert.equal(await page.locator('#color-det, #color-status').count(), 0);
+  assert.equal(await text(page, '#name'), 'low.obj \u2192 high.obj');
+  await changes(page, 'the slider', () => page.locator('input[type=range]').fill('0'));
+  await end();
+}
+
+async function realHostileNamesAreText() {
+  const {page, end} = await open('real_hostile', {viewport: PHONE, name: 'real_hostile'});
+  const title = '<img src=x onerror=alert(2)>\\n\\u{202e}&amp;.gltf';
+  assert.equal(await page.title(), title);
+  assert.equal(await text(page, '#name'), title);
+  assert.deepEqual(await page.locator('.parts .name').allInnerTexts(), ["</script><script>document.title='taken'</script>",
+    '<img src=x onerror=alert(1)>', '\\u{202e}gpj.exe\\n"\'&amp;', '__proto__', 'x'.repeat(200) + '\u2026']);
+  assert.match(await text(page, '#figures'), /<b>cage\.json/);
+  assert.equal(await page.locator('img, iframe, object, link, #panel b').count(), 0);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), 'nothing is beside the screen');
+  await changes(page, 'hiding a part', () => page.locator('[data-part="3"]').uncheck());
+  await end();
+}
+
 async function largeAndEmptyMeshesOpen() {
   const large = await open('large');
   assert.match(await text(large.page, '#notice'), /1\d{5} of 271441 vertices are drawn: the mesh is simplified/);
@@ -237,8 +298,9 @@ async function thePolicyForbidsRequests() {
 
 let failed = 0;
 for (const test of [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
-  mouseAndKeysMoveTheCamera, hostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures, phonesAndDarkAreServed,
-  thePolicyForbidsRequests]) {
+  mouseAndKeysMoveTheCamera, hostileNamesAreText, aRealFoldIsPicked, realTearsAreListed,
+  filesAreColouredByDisplacement, realHostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
+  phonesAndDarkAreServed, thePolicyForbidsRequests]) {
   const began = Date.now();
   try {
     await test();

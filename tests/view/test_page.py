@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """Pages of ffd view in Chromium, opened as files: the slider, colours, parts, marks, names, sizes of windows, and that
-nothing is asked of a network.
+nothing is asked of a network. Most are made by hand, with what a page may have at the most; those named real_ by the
+program, of a lattice that folds, of one that tears, and of names that are markup.
 
-    test_page.py MAKE_PAGE MODEL.obj
+    test_page.py FFD MAKE_PAGE MODEL.obj
 
 FFD_NODE names the folder whose node_modules holds playwright-core. FFD_SCREENSHOTS names a folder for pictures to be
 looked at.
 """
 
+import base64
+import json
 import os
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -17,6 +21,13 @@ import tempfile
 SKIPPED = 77
 HERE = os.path.dirname(os.path.abspath(__file__))
 KINDS = ("torn", "fold", "hostile", "large", "empty")
+# Control points of a real mesh: two that turn its middle inside out; one at the border of a box that ends in the mesh.
+FOLD = {"size": [4, 4, 4], "rest": {"box": "mesh"},
+        "moves": [{"at": [1, 1, 1], "by": [0, 0, 14]}, {"at": [2, 1, 1], "by": [0, 0, 14]}]}
+TEAR = {"size": [3, 3, 3], "rest": {"box": {"min": [-1, -0.5, -1], "max": [0.1, 1.5, 2]}},
+        "moves": [{"at": [2, 1, 1], "by": [-0.5, 0.9, 0]}]}
+NAMES = ["</script><script>document.title='taken'</script>", "<img src=x onerror=alert(1)>", "\u202egpj.exe\n\"'&amp;",
+         "__proto__", "x" * 100000]
 
 
 def skip(reason):
@@ -24,8 +35,46 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
+def hostile_gltf():
+    """A triangle for each name, which is its node's, its mesh's and its material's."""
+    corners = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)).decode()
+    count = range(len(NAMES))
+    return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": list(count)}],
+            "nodes": [{"name": NAMES[i], "mesh": i, "translation": [i, 0, 0]} for i in count],
+            "meshes": [{"name": NAMES[i], "primitives": [{"attributes": {"POSITION": 0}, "material": i}]} for i in count],
+            "materials": [{"name": name} for name in NAMES],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0] * 3, "max": [1, 1, 0]}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64," + corners}]}
+
+
+def make_real(ffd, model, folder):
+    """Pages as users make them."""
+    def write(name, content):
+        path = os.path.join(folder, name)
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(content, file)
+        return path
+
+    hostile = write("<img src=x onerror=alert(2)>\n\u202e&amp;.gltf", hostile_gltf())
+    shutil.copy(model, os.path.join(folder, "a.obj"))
+    # One triangle that cannot be drawn.
+    shutil.copy(model, os.path.join(folder, "fold.obj"))
+    with open(os.path.join(folder, "fold.obj"), "a", encoding="ascii") as file:
+        file.write("\nv nan 0 0\nf 1 2 -1\n")
+    for name, height in (("low.obj", 1), ("high.obj", 2)):
+        with open(os.path.join(folder, name), "w", encoding="ascii") as file:
+            file.write(f"v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")
+    subprocess.run([ffd, "view", "low.obj", "high.obj", "--color", "det", "-o", "real_pair.html", "-q"], cwd=folder, check=True)
+    for kind, mesh, moves in (("fold", "fold.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
+        lattice = write("<b>cage.json" if kind == "hostile" else kind + ".json",
+                        {"format": "ffd-lattice", "version": 1, **moves})
+        subprocess.run([ffd, "view", mesh, "-l", os.path.basename(lattice), "-o", f"real_{kind}.html", "-q"], cwd=folder,
+                       check=True)
+
+
 def main():
-    make_page, model = sys.argv[1:]
+    ffd, make_page, model = [os.path.abspath(path) for path in sys.argv[1:]]
     node_folder = os.environ.get("FFD_NODE", "")
     browser = shutil.which("chromium") or shutil.which("chromium-browser")
     if not shutil.which("node") or not browser:
@@ -36,9 +85,10 @@ def main():
         for kind in KINDS:
             words = [make_page, kind, os.path.join(folder, kind + ".html")]
             subprocess.run(words + ([model] if kind in ("torn", "fold") else []), check=True, stdout=subprocess.DEVNULL)
+        make_real(ffd, model, folder)
         # The browser wants a home of its own.
         done = subprocess.run(["node", os.path.join(HERE, "page.mjs"), node_folder, browser, folder], check=False,
-                              env={**os.environ, "HOME": folder}, timeout=100)
+                              env={**os.environ, "HOME": folder}, timeout=140)
     sys.exit(done.returncode)
 
 

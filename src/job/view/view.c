@@ -307,6 +307,16 @@ static void free_sources(view_work *work)
     work->faces = NULL;
 }
 
+/* Files as they are have displacements only. */
+static void judge_color(const view_work *work)
+{
+    const ffd_view_color color = work->desc->color;
+    if (!work->scene.statuses && (color == FFD_VIEW_STATUS || color == FFD_VIEW_DET))
+        ffd_log_line(&work->job.log, FFD_LOG_WARNING,
+                     "coloured by displacement: without a deformation there is no %s",
+                     color == FFD_VIEW_DET ? "det F" : "status");
+}
+
 static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     const bool deforms = !work->desc->deformed && work->desc->job->lattice_count > 0;
@@ -320,6 +330,7 @@ static ffd_status run(view_work *work, ffd_job_result *result, ffd_error *error)
     if (work->model.nodes_left)
         ffd_log_line(&work->job.log, FFD_LOG_WARNING, "not shown: the GPU instances of %zu %s",
                      work->model.nodes_left, ffd_plural(work->model.nodes_left, "node", "nodes"));
+    judge_color(work);
     ffd_view_measure(&work->scene);
     free_sources(work); /* drawing has its own need of memory */
     return write_view(work, error);

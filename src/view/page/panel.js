@@ -112,6 +112,9 @@ function flippedFindings(viewer) {
     found.push(findingGroup('Flipped', scene.parts[index].name, ' ' + countText(triangles.length, 'triangle'), entries,
       triangles.length));
   });
+  if (scene.triangles < scene.trianglesAll) {
+    found.push(make('p', 'more', `of those that are drawn; ${countText(scene.flippedFaces, 'face')} ${scene.flippedFaces === 1 ? 'is' : 'are'} flipped in all`));
+  }
   return found;
 }
 

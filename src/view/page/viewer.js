@@ -47,7 +47,8 @@ class Viewer {
     this.hidden = new Set();
     this.tornParts = new Set(scene.tears.flatMap((tear) => tear.ends.map((end) => (end.vertex === undefined ? -1 : this.partOf[end.vertex]))));
     this.paints = listPaints(scene);
-    this.paint = this.paints.find((paint) => paint.key === scene.view.color) || this.paints[this.paints.length - 1];
+    const named = (key) => this.paints.find((paint) => paint.key === key);
+    this.paint = named(scene.view.color) || named('displacement') || named('plain');
     this.settings = {blend: 1, showCage: true, showRest: false, showTears: true, showFlipped: true, showEdges: false, isSmooth: true};
     this.camera = new Camera(listFitPoints(scene));
     if (scene.view.camera.some((x) => x !== 0)) [this.camera.yaw, this.camera.pitch] = anglesOf(scene.view.camera);
