@@ -6,7 +6,7 @@
 
 /* What a thread needs: the samples of a band of the widest panel, and the pixels of a band. */
 typedef struct scratch {
-    float *depth;
+    float *depth, *blocks;
     uint64_t *color, *pixels;
 } scratch;
 
@@ -90,9 +90,10 @@ static ffd_status make(drawing *d, ffd_error *error)
     for (int t = 0; t < d->means.threads; t++) {
         scratch *const s = &d->scratch[t];
         s->depth = ffd_alloc(widest * BAND_ROWS * SAMPLES, sizeof *s->depth);
+        s->blocks = ffd_alloc(widest / BLOCK + 1, sizeof *s->blocks);
         s->color = ffd_alloc(widest * BAND_ROWS * SAMPLES, sizeof *s->color);
         s->pixels = ffd_alloc((size_t)of->width * BAND_ROWS, sizeof *s->pixels);
-        if (!s->depth || !s->color || !s->pixels)
+        if (!s->depth || !s->blocks || !s->color || !s->pixels)
             return ffd_fail_memory(error);
     }
     ffd_status status = FFD_OK;
@@ -105,6 +106,8 @@ static ffd_status make(drawing *d, ffd_error *error)
 
 static void clear(const drawing *d, samples *into)
 {
+    for (int32_t i = 0; i <= into->width / BLOCK; i++)
+        into->blocks[i] = SAMPLE_EMPTY;
     for (int32_t row = 0; row < into->rows; row++) {
         const uint64_t color = ffd_layout_background(&d->layout, &d->tables, into->top + row);
         const size_t count = SAMPLES * (size_t)into->width, first = count * (size_t)row;
@@ -139,7 +142,7 @@ static void resolve(const samples *from, const stroke_target *into)
 static void draw_panel(const drawing *d, const panel *of, size_t band, const scratch *s,
                        const stroke_target *into)
 {
-    samples at = {of->left, into->top, of->right - of->left, into->rows, s->depth, s->color};
+    samples at = {of->left, into->top, of->right - of->left, into->rows, s->depth, s->color, s->blocks};
     clear(d, &at);
     ffd_panel_draw_meshes(of, &d->tables, band, &at);
     /* The samples' own colours are not needed any more: the first of them become the panel's pixels. */
@@ -174,6 +177,7 @@ static void free_drawing(drawing *d)
         ffd_panel_free(&d->panels[p]);
     for (int t = 0; d->scratch && t < d->means.threads; t++) {
         ffd_free(d->scratch[t].depth);
+        ffd_free(d->scratch[t].blocks);
         ffd_free(d->scratch[t].color);
         ffd_free(d->scratch[t].pixels);
     }

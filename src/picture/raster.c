@@ -1,5 +1,6 @@
 #include "picture/raster.h"
 #include "base/inline.h"
+#include <math.h>
 #include <string.h>
 
 /* The four samples of a pixel at once. */
@@ -281,14 +282,81 @@ static void draw_small(setup *s, brush *b, samples *into)
     }
 }
 
-static void draw_large(setup *s, brush *b, samples *into)
+/* The pixels [left, right] of the rows of a triangle. */
+typedef struct block {
+    int64_t left, right;
+} block;
+
+/* Whether all samples of the block are beyond one of the edges. */
+static bool is_outside(const setup *s, block of)
+{
+    const int64_t left = of.left * SUBPIXELS + SAMPLE_MARGIN,
+                  right = (of.right + 1) * SUBPIXELS - SAMPLE_MARGIN,
+                  top = s->top * SUBPIXELS + SAMPLE_MARGIN,
+                  bottom = (s->bottom + 1) * SUBPIXELS - SAMPLE_MARGIN;
+    for (int k = 0; k < 3; k++) {
+        const edge *const e = &s->edges[k];
+        const int64_t y = e->dx > 0 ? bottom : top, x = e->dy > 0 ? left : right;
+        if (e->dx * (y - e->y) - e->dy * (x - e->x) + e->bias < 0)
+            return true;
+    }
+    return false;
+}
+
+/* A depth that no sample of the triangle in the block is nearer than: less than the plane's by more than what
+   floats round off. */
+static float nearest_in(const setup *s, block of)
+{
+    const raster_corner *const a = &s->corners[0];
+    const double left = (double)(of.left * SUBPIXELS - a->x),
+                 right = (double)((of.right + 1) * SUBPIXELS - a->x),
+                 top = (double)(s->top * SUBPIXELS - a->y),
+                 bottom = (double)((s->bottom + 1) * SUBPIXELS - a->y);
+    const double across = s->z_across * (s->z_across > 0 ? left : right),
+                 down = s->z_down * (s->z_down > 0 ? top : bottom);
+    const double reach =
+        fabs(s->z_across) * (fabs(left) + fabs(right)) + fabs(s->z_down) * (fabs(top) + fabs(bottom));
+    const float least = (float)(a->z + across + down - 1e-6 * (fabs((double)a->z) + reach));
+    return least < s->nearest[0] ? s->nearest[0] : least < s->farthest[0] ? least : s->farthest[0];
+}
+
+static float farthest_of(const samples *in, size_t number)
+{
+    const size_t first = number * BLOCK, width = (size_t)in->width, left = width - first;
+    const size_t count = SAMPLES * (left < BLOCK ? left : BLOCK);
+    float farthest = 0;
+    for (size_t row = 0; row < (size_t)in->rows; row++) {
+        const float *const depth = in->depth + SAMPLES * (row * width + first);
+        for (size_t i = 0; i < count; i++)
+            farthest = i + row == 0 || depth[i] > farthest ? depth[i] : farthest;
+    }
+    return farthest;
+}
+
+static void draw_block(setup *s, brush *b, block of, samples *into)
 {
     for (int64_t py = s->top; py <= s->bottom; py++)
-        for (int64_t px = s->left; px <= s->right; px++) {
+        for (int64_t px = of.left; px <= of.right; px++) {
             const numbers inside = inside_by_64(s, px * SUBPIXELS, py * SUBPIXELS);
             if (any(inside))
                 draw_pixel(s, b, px, py, inside, into);
         }
+}
+
+/* By blocks, most of which are not in a triangle, or are behind what is there, as a whole. */
+static void draw_large(setup *s, brush *b, samples *into)
+{
+    set_depths(s);
+    const size_t last = (size_t)(s->right - into->left) / BLOCK;
+    for (size_t i = (size_t)(s->left - into->left) / BLOCK; i <= last; i++) {
+        const int64_t first = into->left + (int64_t)i * BLOCK;
+        const block of = {most(first, s->left), least(first + BLOCK - 1, s->right)};
+        if (is_outside(s, of) || (into->blocks && nearest_in(s, of) >= into->blocks[i]))
+            continue;
+        draw_block(s, b, of, into);
+        if (into->blocks)
+            into->blocks[i] = farthest_of(into, i);
+    }
 }
 
 void ffd_raster_corners(const surface *of, const linear_tables *tables, size_t triangle,

@@ -18,6 +18,8 @@
     }
 /* No sample is nearer to the border of its pixel. */
 #define SAMPLE_MARGIN 32
+/* Columns of a block: as many as a band has rows. */
+#define BLOCK 8
 /* How far away the background is. */
 #define SAMPLE_EMPTY HUGE_VALF
 
@@ -26,6 +28,8 @@ typedef struct samples {
     int32_t width, rows;
     float *depth;    /* SAMPLES a pixel */
     uint64_t *color; /* likewise: linear_pack */
+    /* For each BLOCK columns of a band a depth that no sample of theirs is farther than; NULL: not known. */
+    float *blocks;
 } samples;
 
 /* The pixels that have samples within [low, high], in parts of a pixel: none where *last is less than *first.

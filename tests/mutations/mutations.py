@@ -318,6 +318,10 @@ m("large-edges-in-32-bits", "overflow", "picture_raster", "s->is_small = size < 
 m("samples-at-the-border-forgotten", "bound", "picture_raster", "*last = (high - SAMPLE_MARGIN) >> 8;", "*last = (high - 2 * SAMPLE_MARGIN) >> 8;")
 m("repeats-of-another-material", "check left out", "picture_raster",
   "ffd_shade_material(of->mesh, triangle) == ffd_shade_material(of->mesh, triangle - before);", "true;")
+m("blocks-nearer-than-they-are", "bound", "picture_raster",
+  "s->z_across * (s->z_across > 0 ? left : right)", "s->z_across * (s->z_across > 0 ? right : left)")
+m("blocks-cut-at-an-edge", "bound", "picture_raster, picture",
+  "const int64_t y = e->dx > 0 ? bottom : top, x = e->dy > 0 ? left : right;", "const int64_t y = e->dx > 0 ? top : bottom, x = e->dy > 0 ? left : right;")
 m("last-drawn-in-front", "depth", "picture_raster, picture", "const numbers drawn = inside & (at < there);", "const numbers drawn = inside & (at <= there);")
 m("far-plane-not-cut", "clipping", "picture_raster", "to->points[to->count][axis] = sign * GUARD;", "to->points[to->count][axis] = GUARD;")
 m("back-drawn-too", "culling", "picture_raster", "if (side && !ffd_shade_material(of->mesh, triangle)->is_double_sided)",

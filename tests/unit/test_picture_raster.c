@@ -36,7 +36,7 @@ static void begin(size_t vertex_count, size_t triangle_count)
                           .triangle_count = triangle_count};
     drawn =
         (surface){.mesh = &mesh, .vertices = vertices, .vertex_count = vertex_count, .triangles = triangles};
-    into = (samples){0, 0, WIDTH, HEIGHT, depth, color};
+    into = (samples){0, 0, WIDTH, HEIGHT, depth, color, NULL};
     ffd_linear_fill(&tables);
     for (size_t i = 0; i < SAMPLES * PIXELS; i++) {
         depth[i] = SAMPLE_EMPTY;
@@ -214,6 +214,44 @@ static void a_repeated_triangle_is_drawn_once(void **state)
     }
 }
 
+/* Blocks that are behind what is there are passed over: the same samples as without. */
+static void blocks_hide_nothing_that_is_seen(void **state)
+{
+    enum { TRIANGLES = 60 };
+    static float plain_depth[SAMPLES * PIXELS];
+    static uint64_t plain_color[SAMPLES * PIXELS];
+    float blocks[WIDTH / BLOCK + 1];
+    draw d = {draw_seed()};
+    (void)state;
+    for (int kept = 0; kept < 2; kept++) {
+        draw again = d;
+        begin(3, 1);
+        for (size_t i = 0; i <= WIDTH / BLOCK; i++)
+            blocks[i] = SAMPLE_EMPTY;
+        into.blocks = kept ? blocks : NULL;
+        memcpy(triangles, (uint32_t[]){0, 1, 2}, 12);
+        for (int t = 0; t < TRIANGLES; t++) {
+            for (size_t v = 0; v < 3; v++) {
+                set(v, (int32_t)draw_between(&again, -20000, 40000),
+                    (int32_t)draw_between(&again, -20000, 40000),
+                    (float)draw_between(&again, 0, t % 3 ? 1 : 1e-3));
+                vertices[v].light[0] = vertices[v].light[1] =
+                    (uint16_t)(LIGHT_ONE * (t + 1) / (TRIANGLES + 1));
+            }
+            ffd_raster_triangle(&drawn, &tables, 0, &into);
+        }
+        if (!kept) {
+            memcpy(plain_depth, depth, sizeof depth);
+            memcpy(plain_color, color, sizeof color);
+        }
+    }
+    assert_memory_equal(depth, plain_depth, sizeof depth);
+    assert_memory_equal(color, plain_color, sizeof color);
+    for (size_t row = 0; row < HEIGHT; row++)
+        for (size_t i = 0; i < SAMPLES * WIDTH; i++)
+            assert_true(depth[SAMPLES * row * WIDTH + i] <= blocks[i / SAMPLES / BLOCK]);
+}
+
 static void set_far(size_t vertex, double x, double y, double z)
 {
     memcpy(positions + 3 * vertex, (double[]){x, y, z}, 3 * sizeof(double));
@@ -283,6 +321,7 @@ int main(void)
         cmocka_unit_test(the_nearest_triangle_is_seen_in_any_order),
         cmocka_unit_test(of_equally_near_ones_the_first_is_seen),
         cmocka_unit_test(a_repeated_triangle_is_drawn_once),
+        cmocka_unit_test(blocks_hide_nothing_that_is_seen),
         cmocka_unit_test(what_reaches_far_beyond_is_drawn_where_it_is_in_the_picture),
         cmocka_unit_test(the_back_of_a_material_of_one_side_is_not_drawn),
     };
