@@ -6,6 +6,7 @@
 #include <cmocka.h>
 
 #include "../support/failing_new.h"
+#include "../support/repetitions.h"
 #include "../support/view_by_hand.h"
 #include "view/page_reduce.h"
 
@@ -137,7 +138,7 @@ static void no_allocation_may_fail_unseen(void **state)
         assert_true(status == FFD_OK || status == FFD_E_MEMORY);
         ffd_page_mesh_free(&mesh);
     }
-    assert_in_range(count, 7, 499);
+    assert_in_range(count, is_under_valgrind() ? 1 : 7, 499); /* which has an operator new of its own */
     ffd_view_scene_free(&scene);
 }
 
