@@ -11,6 +11,8 @@
 
 #include <cmocka.h>
 
+#include "../support/lattice_text.h"
+
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 /* Two arcs along z, from 0 to 4; x and y from -1 to 1. */
@@ -25,29 +27,6 @@
     "-1,0],\"max\":[1,1,4],\"spacing\":\"" spacing "\"}}"
 
 static const double pi = 3.14159265358979323846;
-
-static ffd_status parse(const char *rest, const char *moves, ffd_lattice **lattice, ffd_error *error)
-{
-    static char text[8192];
-    snprintf(text, sizeof text, "{\"format\":\"ffd-lattice\",\"version\":1,%s,\"moves\":[%s]}", rest, moves);
-    return ffd_lattice_parse(text, strlen(text), "t.json", lattice, error);
-}
-
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
-
-static ffd_lattice *make(const char *rest, const char *moves)
-{
-    ffd_lattice *lattice;
-    ffd_error error;
-    if (parse(rest, moves, &lattice, &error))
-        fail_msg("%s\n%s", message_of(&error), moves);
-    return lattice;
-}
 
 static void check_point(const ffd_lattice *l, size_t i, size_t j, size_t k, const double expected[4])
 {

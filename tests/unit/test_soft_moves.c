@@ -11,34 +11,13 @@
 
 #include <cmocka.h>
 
+#include "../support/lattice_text.h"
+
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
 /* 5 x 3 x 3 points of degree 1: x -2, -1, 0, 1, 2; y and z -1, 0, 1. */
 static const char bar[] = "\"size\":[5,3,3],\"degree\":[1,1,1],\"rest\":{\"box\":{\"min\":[-2,-1,-1],\"max\":"
                           "[2,1,1]}}";
-
-static ffd_status parse(const char *rest, const char *moves, ffd_lattice **lattice, ffd_error *error)
-{
-    static char text[8192];
-    snprintf(text, sizeof text, "{\"format\":\"ffd-lattice\",\"version\":1,%s,\"moves\":[%s]}", rest, moves);
-    return ffd_lattice_parse(text, strlen(text), "t.json", lattice, error);
-}
-
-static const char *message_of(const ffd_error *error)
-{
-    static char text[2048];
-    ffd_error_format(error, text, sizeof text);
-    return text;
-}
-
-static ffd_lattice *make(const char *rest, const char *moves)
-{
-    ffd_lattice *lattice;
-    ffd_error error;
-    if (parse(rest, moves, &lattice, &error))
-        fail_msg("%s\n%s", message_of(&error), moves);
-    return lattice;
-}
 
 static const double *point_of(const ffd_lattice *l, size_t i, size_t j, size_t k)
 {
