@@ -92,9 +92,10 @@ static ffd_status open_mesh(deform_job *job, ffd_error *error)
     return status;
 }
 
-ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
+ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_share *share,
+                                     ffd_error *error)
 {
-    const ffd_deform_desc *desc = job->desc;
+    const ffd_deform_desc *const desc = job->desc;
     const chain_files files = {.paths = desc->lattices,
                                .count = desc->lattice_count,
                                .set = desc->set,
@@ -102,14 +103,21 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
                                .mesh = &desc->input,
                                .shared = desc->shared_box,
                                .log = &job->log};
+    const ffd_status status = ffd_chain_load(&files, outside, desc->isa, share, &job->chain, error);
+    job->chain.blocks = desc->blocks && desc->lattice_count > 1;
+    return status;
+}
+
+ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    const ffd_deform_desc *desc = job->desc;
     const chain_outside outside = {desc->outside == FFD_OUTSIDE_EXTEND, desc->falloff, desc->snap,
                                    desc->snap_relative};
     const double start = ffd_clock_seconds();
     if (desc->written && ffd_written_holds(&desc->written->files, desc->input.path))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->input.path,
                              "was written by this run already, under this name or another");
-    ffd_status status = ffd_chain_load(&files, &outside, desc->isa, desc->share, &job->chain, error);
-    job->chain.blocks = desc->blocks && desc->lattice_count > 1;
+    ffd_status status = ffd_deform_job_load_chain(job, &outside, desc->share, error);
     if (!status)
         job->document = ffd_cache_take_mesh(desc->share, desc, job->only_positions);
     job->document_is_shared = job->document;

@@ -9,6 +9,11 @@
 ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bool check,
                                 ffd_job_result *result);
 
+/* Reads the job's lattices into its chain, to be placed round a mesh later. share may be NULL. Errors: those
+   of ffd_chain_load. */
+ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outside, ffd_share *share,
+                                     ffd_error *error);
+
 /* Reads lattices and mesh. */
 ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_error *error);
 

@@ -185,18 +185,10 @@ static ffd_status load_cages(view_work *work, ffd_error *error)
 {
     const ffd_deform_desc *const desc = work->desc->job;
     deform_job *const job = &work->job;
-    const chain_files files = {.paths = desc->lattices,
-                               .count = desc->lattice_count,
-                               .set = desc->set,
-                               .set_count = desc->set_count,
-                               .mesh = &desc->input,
-                               .shared = desc->shared_box,
-                               .log = &job->log};
     const chain_outside outside = {0};
     if (desc->lattice_count == 0)
         return FFD_OK;
-    ffd_status status = ffd_chain_load(&files, &outside, desc->isa, NULL, &job->chain, error);
-    job->chain.blocks = desc->blocks && desc->lattice_count > 1;
+    ffd_status status = ffd_deform_job_load_chain(job, &outside, NULL, error);
     if (!status)
         status = ffd_selection_apply(desc->only, desc->only_count, ffd_source_name(&desc->input),
                                      job->document, error);
