@@ -190,22 +190,22 @@ static gltf_document *open_text(const char *text)
 static void channels_say_where_they_come_from(void **state)
 {
     (void)state;
-    char *const text =
-        file_with("{\"name\":\"W\\u00e4lk\",\"samplers\":[" SAMPLER(
-            0, 1,
-            "STEP") ",{\"input\":0,\"output\":99}],"
-                    "\"channels\":[" CHANNEL(0, 1, "translation") "," CHANNEL(1, 7, "scale") "," POINTER(
-                        0,
-                        "\"/"
-                        "node"
-                        "s/2/"
-                        "scal"
-                        "e\"") "," POINTER(0, "\"/materials/0/alphaCutoff\"") "," POINTER(0,
-                                                                                          "\"/nodes/9/"
-                                                                                          "scale\"") "," POINTER(0,
-                                                                                                                 "3") "," CHANNEL(5,
-                                                                                                                                  1,
-                                                                                                                                  "size") ",7,{}]}");
+    char *const text = file_with("{\"name\":\"W\\u00e4lk\",\"samplers\":[" SAMPLER(
+        0, 1,
+        "STEP") ",{\"input\":0,\"output\":99}],"
+                "\"channels\":[" CHANNEL(0, 1, "translation") "," CHANNEL(1, 7, "scale") "," POINTER(
+                    0,
+                    "\"/"
+                    "node"
+                    "s/2/"
+                    "scal"
+                    "e\"") "," POINTER(0,
+                                       "\"/materials/0/alphaCutoff\"") "," POINTER(0,
+                                                                                   "\"/nodes/9/"
+                                                                                   "scale\"") "," POINTER(0,
+                                                                                                          "3") "," CHANNEL(5,
+                                                                                                                           1,
+                                                                                                                           "size") ",7,{}]}");
     gltf_document *const d = open_text(text);
     gltf_animations list;
     const uint64_t before = d->base.budget.taken;

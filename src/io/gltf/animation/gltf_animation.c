@@ -199,9 +199,3 @@ void ffd_gltf_free_animations(gltf_document *d, gltf_animations *animations)
     ffd_free(animations->list);
     *animations = (gltf_animations){0};
 }
-
-size_t ffd_gltf_node_targets(const gltf_document *d, size_t node)
-{
-    const int mesh = d->model.nodes[node].mesh;
-    return mesh < 0 ? 0 : d->mesh_uses[mesh].target_count;
-}

@@ -75,7 +75,11 @@ static inline bool ffd_gltf_channel_drives(const gltf_channel *channel)
 }
 
 /* Returns how many morph targets a node's mesh has, which is how many weights drive it. */
-size_t ffd_gltf_node_targets(const gltf_document *document, size_t node);
+static inline size_t ffd_gltf_node_targets(const gltf_document *document, size_t node)
+{
+    const int mesh = document->model.nodes[node].mesh;
+    return mesh < 0 ? 0 : document->mesh_uses[mesh].target_count;
+}
 
 /* Loads the keys of all samplers that drive a node, and checks them: the accessors and their types, how many
    there are, times that do not fall, finite numbers. Loading again changes nothing. Errors: FFD_E_INVALID,
