@@ -1,6 +1,7 @@
 /* fuzz_mesh.c - each call on a mesh succeeds or reports an error, and what was saved opens again. */
 #include "fuzz_mesh.h"
 #include "base/vector/vec.h"
+#include "check_animations.h"
 #include "io/formats.h"
 #include "io/gltf/document/gltf_document.h"
 #include "job/chain/chain_load.h"
@@ -389,6 +390,8 @@ static void run(trial *of, const uint8_t *data, size_t size)
         return;
     check_description(document);
     check_materials(document);
+    if (is_gltf(of->format) && of->space == FFD_SPACE_SCENE)
+        check_animations(document);
     of->is_quantized = is_gltf(of->format) && is_quantized(document);
     const bool goes_on = is_small(document) && take_faces(document, &faces);
     ffd_source_close(&document);

@@ -173,6 +173,28 @@ def surroundings():
     return b.mesh({"attributes": {"POSITION": b.positions()}, "mode": 0, "extensions": {"KHR_gaussian_splatting": {}}})
 
 
+def animated():
+    """A skin with morph targets, and all that drives them: three interpolations, sparse and normalized values, pointers."""
+    b = skin()
+    primitive = b.asset["meshes"][0]["primitives"][0]
+    primitive["targets"] = [{"POSITION": b.positions([(0, 0, 0.5)] * 8)}, {"POSITION": b.positions([(0.25, 0, 0)] * 8)}]
+    times = b.accessor([(0,), (0.5,), (2,)], "SCALAR", bounds=True)
+    values = [b.accessor([(0, 0, 0, 32767), (0, 0, 23170, 23170), (0, 0, -32767, 0)], "VEC4", 5122, normalized=True),
+              b.accessor([(0, 0, i * 0.25) for i in range(9)]), b.accessor([(i * 51,) for i in range(6)], "SCALAR", 5121, normalized=True),
+              len(b.asset["accessors"])]
+    b.asset["accessors"].append({"componentType": 5126, "count": 3, "type": "VEC3", "sparse": {
+        "count": 1, "indices": {"bufferView": b.view(struct.pack("<B", 1)), "componentType": 5121},
+        "values": {"bufferView": b.view(struct.pack("<3f", 1, 2, 3))}}})
+    kinds = ["LINEAR", "CUBICSPLINE", "STEP", "LINEAR"]
+    targets = [{"node": 2, "path": "rotation"}, {"node": 1, "path": "translation"}, {"node": 0, "path": "weights"},
+               {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/nodes/2/scale"}}},
+               {"path": "pointer", "extensions": {"KHR_animation_pointer": {"pointer": "/materials/0/alphaCutoff"}}}]
+    b.asset |= {"extensionsUsed": ["KHR_animation_pointer"], "animations": [{
+        "name": "walk\n", "samplers": [{"input": times, "output": v, "interpolation": k} for v, k in zip(values, kinds)],
+        "channels": [{"sampler": min(i, 3), "target": t} for i, t in enumerate(targets)]}]}
+    return b
+
+
 def strange():
     """What is carried through: extras, unknown extensions, long integers, names, images."""
     b = plain()
@@ -203,7 +225,7 @@ def flawed():
 
 
 ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, nodes, instanced, surroundings,
-          strange, flawed, materials]
+          strange, flawed, materials, animated]
 
 
 def glb_of(asset, data):

@@ -36,6 +36,10 @@ LAYERS = {
         "base", "base/memory", "base/system", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document",
         "io/gltf/refer", "mesh",
     },
+    "io/gltf/animation": {
+        "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
+        "io/gltf/scene",
+    },
     "io/gltf/save": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/decode", "io/gltf/document",
         "io/gltf/file", "io/gltf/refer", "io/gltf/scene", "json", "mesh", "mesh/resource",

@@ -100,6 +100,7 @@ typedef struct gltf_mesh_uses {
     size_t first_instance;
     size_t *nodes;           /* lent by document->scene_nodes; ascending */
     size_t node_count;       /* in mesh space 1, and nodes is NULL */
+    size_t target_count;     /* morph targets of the primitive that has most */
     bool is_used;            /* some node of the file has the mesh */
     bool used_outside_scene; /* a node outside the scene has it, or none does */
 } gltf_mesh_uses;
@@ -141,6 +142,7 @@ typedef struct gltf_document {
        the file lists them; those that stand in come last. */
     size_t *scene_ranks;
     size_t nodes_in_scene;
+    size_t *parents; /* per node: the node that places it; GLTF_NONE: none */
     /* Per node: it, or a node above it, is shown in place of a node of the scene at a distance (MSFT_lod). */
     bool *stands_in;
     size_t details_shared; /* uses of such a node for another node, at another place, than the first */

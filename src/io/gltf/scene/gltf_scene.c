@@ -51,8 +51,9 @@ static void set_world_matrix(gltf_document *d, size_t n, const double *parent)
 }
 
 /* twice: a node that its parent names twice, which says the same again; GLTF_NONE: there is none. */
-static void find_parents(gltf_document *d, size_t *parents, size_t *twice)
+static void find_parents(gltf_document *d, size_t *twice)
 {
+    size_t *const parents = d->parents;
     *twice = d->shared_child = GLTF_NONE;
     for (size_t n = 0; n < d->model.node_count; n++)
         parents[n] = GLTF_NONE;
@@ -310,50 +311,61 @@ static void use_meshes_alone(gltf_document *d)
         d->mesh_uses[m].node_count = 1;
 }
 
+static void count_targets(gltf_document *d)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++)
+        for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++) {
+            const size_t count = d->model.meshes[m].primitives[p].target_count;
+            if (count > d->mesh_uses[m].target_count)
+                d->mesh_uses[m].target_count = count;
+        }
+}
+
 ffd_status ffd_gltf_make_scene(gltf_document *d, ffd_error *error)
 {
     const size_t count = d->model.node_count;
     size_t twice;
-    size_t *parents = ffd_alloc(count, sizeof *parents), *pending = ffd_alloc(count, sizeof *pending);
+    size_t *pending = ffd_alloc(count, sizeof *pending);
+    d->parents = ffd_alloc(count, sizeof *d->parents);
     d->world = ffd_alloc_zero(count, 12 * sizeof *d->world);
     d->in_scene = ffd_alloc_zero(count, sizeof *d->in_scene);
     d->scene_ranks = ffd_alloc_zero(count, sizeof *d->scene_ranks);
     d->stands_in = ffd_alloc_zero(count, sizeof *d->stands_in);
     d->mesh_uses = ffd_alloc_zero(d->model.mesh_count, sizeof *d->mesh_uses);
     ffd_status status =
-        parents && pending && d->world && d->in_scene && d->stands_in && d->scene_ranks && d->mesh_uses
+        d->parents && pending && d->world && d->in_scene && d->stands_in && d->scene_ranks && d->mesh_uses
             ? FFD_OK
             : ffd_fail_memory(error);
     if (status)
         goto done;
-    find_parents(d, parents, &twice);
+    count_targets(d);
+    find_parents(d, &twice);
     if (twice != GLTF_NONE)
         status = ffd_gltf_flaw(d, d->node_values.values[twice], error,
-                               "node %zu names the node twice as its child", parents[twice]);
+                               "node %zu names the node twice as its child", d->parents[twice]);
     if (status == FFD_OK)
-        status = refuse_cycles(d, parents, pending, error);
+        status = refuse_cycles(d, d->parents, pending, error);
     if (status)
         goto done;
     if (d->space == FFD_SPACE_MESH) {
         use_meshes_alone(d);
         goto done;
     }
-    set_world_matrices(d, parents, pending);
-    status = ffd_gltf_find_hidden(d, parents, pending, error);
+    set_world_matrices(d, d->parents, pending);
+    status = ffd_gltf_find_hidden(d, d->parents, pending, error);
     if (status)
         goto done;
     if (d->model.scene_count > 0)
-        status = add_scene(d, parents, pending, error);
+        status = add_scene(d, d->parents, pending, error);
     else
-        add_roots(d, parents, pending);
+        add_roots(d, d->parents, pending);
     if (status == FFD_OK)
-        add_details(d, parents, pending);
+        add_details(d, d->parents, pending);
     if (status == FFD_OK)
         status = refuse_infinite(d, error);
     if (status == FFD_OK)
         status = list_nodes(d, error);
 done:
-    ffd_free(parents);
     ffd_free(pending);
     return status;
 }

@@ -4,8 +4,8 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Fills document->world, in_scene, scene_ranks, stands_in and mesh_uses. Errors: FFD_E_INVALID (a cycle, a
-   root that is a child, a matrix that is not finite), FFD_E_MEMORY. */
+/* Fills document->world, in_scene, scene_ranks, parents, stands_in and mesh_uses. Errors: FFD_E_INVALID (a
+   cycle, a root that is a child, a matrix that is not finite), FFD_E_MEMORY. */
 ffd_status ffd_gltf_make_scene(gltf_document *document, ffd_error *error);
 
 /* Reads the node's own matrix: linear row by row, and offset. */

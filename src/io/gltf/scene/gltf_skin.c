@@ -108,21 +108,12 @@ static ffd_status read_inverse_bind(const gltf_document *d, const gltf_skin *ski
     return FFD_OK;
 }
 
-static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_error *error)
+ffd_status ffd_gltf_joint_matrices(const gltf_document *d, const gltf_skin *skin, const double *worlds,
+                                   double *matrices, ffd_error *error)
 {
-    const ffd_status taken =
-        ffd_budget_take(&d->base.budget, skin->joint_count, 12 * sizeof *skin->matrices, error);
-    if (taken)
-        return taken;
-    skin->matrices = ffd_alloc_zero(skin->joint_count, 12 * sizeof *skin->matrices);
-    if (!skin->matrices)
-        return ffd_fail_memory(error);
-    const ffd_status status = skin->inverse_bind < 0 ? FFD_OK : check_inverse_bind(d, skin, error);
-    if (status || (skin->inverse_bind >= 0 && !d->layouts[skin->inverse_bind].readable))
-        return status; /* ffd_gltf_refuse_read refuses what cannot be read */
     for (size_t j = 0; j < skin->joint_count; j++) {
-        const double *world = d->world + 12 * skin->joints[j];
-        double *matrix = skin->matrices + 12 * j, bind[12];
+        const double *world = worlds + 12 * skin->joints[j];
+        double *matrix = matrices + 12 * j, bind[12];
         if (skin->inverse_bind < 0) {
             memcpy(matrix, world, 12 * sizeof *matrix);
         } else {
@@ -137,6 +128,21 @@ static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_err
                                           FFD_E_INVALID, error, "the joint's matrix is not finite");
     }
     return FFD_OK;
+}
+
+static ffd_status make_joint_matrices(gltf_document *d, gltf_skin *skin, ffd_error *error)
+{
+    const ffd_status taken =
+        ffd_budget_take(&d->base.budget, skin->joint_count, 12 * sizeof *skin->matrices, error);
+    if (taken)
+        return taken;
+    skin->matrices = ffd_alloc_zero(skin->joint_count, 12 * sizeof *skin->matrices);
+    if (!skin->matrices)
+        return ffd_fail_memory(error);
+    const ffd_status status = skin->inverse_bind < 0 ? FFD_OK : check_inverse_bind(d, skin, error);
+    if (status || (skin->inverse_bind >= 0 && !d->layouts[skin->inverse_bind].readable))
+        return status; /* ffd_gltf_refuse_read refuses what cannot be read */
+    return ffd_gltf_joint_matrices(d, skin, d->world, skin->matrices, error);
 }
 
 static ffd_status refuse_attribute(const gltf_document *d, uint32_t primitive, const char *name, size_t set,

@@ -11,6 +11,11 @@ ffd_status ffd_gltf_list_skins(gltf_document *document, ffd_error *error);
    their meshes. Errors: FFD_E_INVALID, FFD_E_LIMIT, FFD_E_MEMORY. */
 ffd_status ffd_gltf_prepare_skins(gltf_document *document, ffd_error *error);
 
+/* Computes the joint matrices of a skin that is prepared, 12 numbers per joint, from matrices of the nodes
+   that are laid out as document->world. Errors: FFD_E_INVALID. */
+ffd_status ffd_gltf_joint_matrices(const gltf_document *document, const gltf_skin *skin, const double *worlds,
+                                   double *matrices, ffd_error *error);
+
 /* Frees document->skins. */
 void ffd_gltf_free_skins(gltf_document *document);
 
