@@ -184,7 +184,6 @@ def an_existing_page_needs_force(run):
                       ["a.obj", "m.html", "--input-format", "obj"], ["a.obj", "a.obj", "-l", "l.html"]):
         output = "m.html" if "m.html" in arguments else "l.html"
         run.ffd("view", *arguments, "-o", "./" + output, "--force", code=IO, err=f"./{output}: is an input of this command")
-    run.ffd("view", *work, "-o", "./q.html", "--report", "q.html", code=IO, lines=1)
 
 
 @case
@@ -204,6 +203,8 @@ def mistakes_are_refused_before_any_work(run):
             (["a.obj", "b.obj", "-l", "l.json", "-o", "p.html", "--embedding", "e.npy"], "--embedding"),
             (["-", "-", "--input-format", "obj", "-o", "p.html"], "only once"),
             ([*work, "-o", "p.png", "--report", "p.png", "--force"], "the report would replace the picture"),
+            ([*work, "-o", "./p.html", "--report", "p.html"], "the report would replace the picture or page"),
+            ([*work, "-o", "p.png", "--report", "./a.obj"], "the report would replace a mesh"),
             ([*work, "-o", "p.html", "--falloff", "1"], "--falloff"), (["a.xyz", "-o", "p.html"], "a.xyz")):
         run.ffd("view", *arguments, code=USAGE, err=re.compile(re.escape(says)))
     equal(run.names(), ["a.obj", "b.obj", "l.json"], "the folder")
@@ -616,7 +617,9 @@ def a_check_has_its_picture(run):
     equal(read_page(run, "p.html").report, told, "the page's report")
     run.write("b.obj", CUBE)
     run.ffd("check", "a.obj", "b.obj", "-l", "l.json", "--picture", "q.png", code=USAGE, err=re.compile("--picture is of one mesh"))
-    run.ffd("check", *work, "--picture", "q.png", "--report", "q.png", code=USAGE, err=re.compile("the report would replace the picture"))
+    for name in ("q.png", "./q.png"):
+        run.ffd("check", *work, "--picture", "q.png", "--report", name, code=USAGE,
+                err=re.compile("the report would replace the picture"))
     check(not run.exists("q.png"), "a report under the picture's name")
     run.ffd("check", *work, "--picture", "q.txt", code=USAGE, err=re.compile("is not that of a page or a picture"))
     start(run, [{"at": [1, 1, 1], "by": [30, 30, 30]}])
@@ -629,6 +632,26 @@ def textured(run, png):
     run.write("t.png", png)
     run.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd t.png\n")
     run.write("t.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n")
+
+
+@case
+def what_a_mesh_names_is_not_overwritten(run):
+    """With --force its own texture was replaced by the picture of it."""
+    textured(run, make_png([[(255, 0, 0)]]))
+    start(run)
+    run.write("b.bin.html", struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+    run.write("t.gltf", json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "images": [{"uri": "t.png"}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0] * 3, "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "b.bin.html"}]}))
+    for work, output in ((["t.obj", "-l", "l.json"], "t.png"), (["t.obj"], "./t.png"), (["t.gltf", "-l", "l.json"], "t.png"),
+                         (["a.obj", "t.gltf"], "t.png"), (["t.gltf"], "b.bin.html")):
+        content = run.read(output)
+        run.ffd("view", *work, "-o", output, "--force", code=IO, lines=1,
+                err=re.compile(re.escape(f"{output}: is an input of this command")))
+        equal(run.read(output), content, "the file that it names")
+    run.ffd("check", "t.obj", "-l", "l.json", "--picture", "t.png", "--force", code=IO, lines=1)
 
 
 @case
