@@ -1,5 +1,6 @@
 /* batch.c - ffd batch: many jobs, from a manifest, a table or a pattern. */
 #include "batch/batch.h"
+#include "base/file/folder.h"
 #include "cli/command.h"
 #include "cli/deform.h"
 #include <errno.h>
@@ -119,7 +120,7 @@ static const char *wrong(const settings *s, const cli_words *words)
         return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->dry && jobs->job.report && cli_is_stream(jobs->job.report))
         return "--dry-run and the report cannot both write to standard output";
-    if (manifest && jobs->job.report && strcmp(jobs->job.report, words->words[0]) == 0 &&
+    if (manifest && jobs->job.report && ffd_paths_meet(jobs->job.report, words->words[0]) &&
         !cli_is_stream(jobs->job.report))
         return "the report would replace the manifest";
     return NULL;

@@ -1,4 +1,5 @@
 /* check.c - ffd check: what a deformation would do, without writing it. */
+#include "base/file/folder.h"
 #include "cli/job.h"
 #include <inttypes.h>
 #include <stdio.h>
@@ -152,7 +153,7 @@ static int run(const cli_command *command, int count, char **arguments)
     const char *why = words.count ? cli_job_mistake(&s.job, &words, words.count) : "needs IN";
     if (!why && s.picture && words.count > 1)
         why = "--picture is of one mesh, but several IN are given";
-    if (!why && s.picture && s.job.report && strcmp(s.job.report, s.picture) == 0)
+    if (!why && s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture))
         why = "the report would replace the picture";
     if (why)
         code = cli_usage(command, why);

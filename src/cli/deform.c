@@ -1,5 +1,6 @@
 /* deform.c - ffd deform: one mesh to a file, many to a folder; and the same for the jobs of a batch. */
 #include "cli/deform.h"
+#include "base/file/folder.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -155,11 +156,11 @@ static const char *wrong_depfile(const settings *s, const cli_words *words)
         return "--depfile cannot be used with --in-place: a file cannot depend on itself";
     if (s->output && cli_is_stream(s->output))
         return "--depfile needs a file name as OUT";
-    if (s->job.report && strcmp(s->job.report, s->depfile_path) == 0)
+    if (s->job.report && ffd_paths_meet(s->job.report, s->depfile_path))
         return stream ? "the depfile and the report cannot both go to standard output"
                       : "the depfile and the report have the same name";
     for (size_t i = 0; i < words->count && !stream; i++)
-        if (strcmp(words->words[i], s->depfile_path) == 0)
+        if (ffd_paths_meet(words->words[i], s->depfile_path))
             return "the depfile would replace a mesh";
     return NULL;
 }

@@ -1,4 +1,5 @@
 #include "cli/job.h"
+#include "base/file/folder.h"
 #include "cli/nearest.h"
 #include <math.h>
 #include <stdlib.h>
@@ -217,12 +218,12 @@ static const char *wrong_report(const cli_job *job, const cli_words *words)
     if (!job->report || cli_is_stream(job->report))
         return NULL;
     for (size_t i = 0; i < words->count; i++)
-        if (strcmp(job->report, words->words[i]) == 0)
+        if (ffd_paths_meet(job->report, words->words[i]))
             return "the report would replace a mesh";
     for (size_t i = 0; i < job->lattice_count; i++)
-        if (strcmp(job->report, job->lattices[i]) == 0)
+        if (ffd_paths_meet(job->report, job->lattices[i]))
             return "the report would replace a lattice";
-    if (job->embedding && strcmp(job->report, job->embedding) == 0)
+    if (job->embedding && ffd_paths_meet(job->report, job->embedding))
         return "the report would replace the embedding";
     return NULL;
 }

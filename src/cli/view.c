@@ -1,4 +1,5 @@
 /* view.c - ffd view: a page or a picture that shows a mesh before and after. */
+#include "base/file/folder.h"
 #include "cli/job.h"
 #include <string.h>
 
@@ -174,7 +175,7 @@ static const char *mistake(const settings *s, const cli_words *words)
         return "no output is given (-o FILE.html or FILE.png)";
     if (words->count == 2 || s->job.lattice_count == 0)
         return mistake_of_files(s, words);
-    if (s->job.report && strcmp(s->job.report, s->output) == 0)
+    if (s->job.report && ffd_paths_meet(s->job.report, s->output))
         return "the report would replace the picture or page";
     return cli_job_mistake(&s->job, words, 1);
 }

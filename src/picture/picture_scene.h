@@ -2,6 +2,7 @@
 #ifndef FFD_PICTURE_PICTURE_SCENE_H
 #define FFD_PICTURE_PICTURE_SCENE_H
 
+#include "base/fail.h"
 #include "picture/camera.h"
 #include "picture/texture.h"
 #include <ffd/job.h>
@@ -70,7 +71,13 @@ typedef struct picture {
     size_t panel_count;
     const picture_scale *scale; /* or NULL */
     camera camera;
-    const ffd_bounds *bounds; /* what is to be seen; NULL: all points of all panels */
+    /* What is to be seen, along the camera's axes (ffd_camera_widen); NULL: all points of all panels. */
+    const ffd_bounds *seen;
+    /* Fills panel `number` just before it is drawn; what the panel before it had may go then, so that one at
+       a time takes memory. Captions are there from the beginning. NULL: all is there; else `seen` is needed.
+     */
+    ffd_status (*fill)(void *context, size_t number, ffd_error *error);
+    void *context;
     int threads;
 } picture;
 

@@ -15,8 +15,8 @@ typedef struct view_cages {
     size_t left_out; /* lattices */
 } view_cages;
 
-/* Control points of all panels of a picture: more would hide all else, and take its memory. */
-#define VIEW_PICTURE_CONTROLS 250000
+/* Control points of a panel: more would hide all else. */
+#define VIEW_PICTURE_CONTROLS 125000
 
 /* Makes them when the scene has gone this share of its way, and its vertices are at positions. height: of the
    picture, in pixels. most: control points that are drawn; lattices beyond it are left out. Errors:

@@ -3,6 +3,7 @@
 #include "base/text/words.h"
 #include "picture/image/image.h"
 #include "view/view_cages.h"
+#include "view/view_fit.h"
 #include "view/view_palette.h"
 #include "view/view_surface.h"
 #include <math.h>
@@ -16,8 +17,7 @@
 
 /* One step of the way from before to after. */
 typedef struct step {
-    double share; /* of the way: 0 to 1 */
-    char caption[16];
+    double share;      /* of the way: 0 to 1 */
     double *positions; /* owned where it is neither before nor after */
     uint8_t *colors;
     picture_mesh meshes[MESHES];
@@ -31,9 +31,12 @@ typedef struct picture_work {
     view_surface surface;
     uint8_t *used;           /* one a vertex: something is drawn of it; NULL: of all */
     uint32_t *twins, *white; /* white: the material of each triangle that is coloured by a palette */
-    step *steps;
+    step step;               /* the one that is drawn */
     picture_panel *panels;
+    char (*captions)[16]; /* of each panel */
     size_t step_count;
+    camera camera;
+    ffd_bounds seen; /* along the camera's axes */
     ffd_error *error;
 } picture_work;
 
@@ -188,19 +191,41 @@ static void make_meshes(const picture_work *w, step *s, bool is_plain)
     s->meshes[1] = mesh;
 }
 
-static void name_step(const picture_work *w, size_t number, step *s)
+static void name_step(const picture_work *w, size_t number, char caption[16])
 {
     if (w->step_count == 2)
-        snprintf(s->caption, sizeof s->caption, "%s", number ? "after" : "before");
+        snprintf(caption, 16, "%s", number ? "after" : "before");
     else
-        snprintf(s->caption, sizeof s->caption, "%zu %%",
-                 (100 * number + (w->step_count - 1) / 2) / (w->step_count - 1));
+        snprintf(caption, 16, "%zu %%", (100 * number + (w->step_count - 1) / 2) / (w->step_count - 1));
 }
 
-static ffd_status make_step(picture_work *w, size_t number)
+static void free_step(picture_work *w)
 {
-    step *const s = &w->steps[number];
+    step *const s = &w->step;
+    if (s->positions != w->scene->before && s->positions != w->scene->after)
+        ffd_free(s->positions);
+    ffd_free(s->colors);
+    ffd_view_cages_free(&s->cages);
+    *s = (step){0};
+}
+
+/* The first step has all lattices that there is room for, and so have the others. */
+static void say_which_are_left_out(const picture_work *w)
+{
+    const size_t left_out = w->step.cages.left_out, all = w->scene->cage_count;
+    if (left_out)
+        ffd_log_line(w->options->log, FFD_LOG_WARNING,
+                     "the picture: %zu of %zu %s not drawn: more than %d control points", left_out, all,
+                     ffd_plural(all, "lattice is", "lattices are"), VIEW_PICTURE_CONTROLS);
+}
+
+/* One step is there at a time: each has its own places and colours of all vertices. */
+static ffd_status make_step(void *context, size_t number, ffd_error *error)
+{
+    picture_work *const w = context;
+    step *const s = &w->step;
     view_palette own;
+    free_step(w);
     s->share = number + 1 == w->step_count && number ? 1
                : number                              ? (double)number / (double)(w->step_count - 1)
                                                      : 0;
@@ -210,63 +235,80 @@ static ffd_status make_step(picture_work *w, size_t number)
     if (status)
         return status;
     make_meshes(w, s, own.color == VIEW_BY_MATERIAL);
-    if (w->step_count > 1)
-        name_step(w, number, s);
     status = ffd_view_cages_make(w->scene, s->share, s->positions, height_of(w->options),
-                                 VIEW_PICTURE_CONTROLS / w->step_count, &s->cages, w->error);
-    w->panels[number] = (picture_panel){.caption = w->step_count > 1 ? s->caption : NULL,
-                                        .meshes = s->meshes,
-                                        .mesh_count = w->scene->vertex_count ? MESHES : 0,
-                                        .cages = s->cages.list,
-                                        .cage_count = s->cages.count};
+                                 VIEW_PICTURE_CONTROLS, &s->cages, error);
+    if (!status && number == 0)
+        say_which_are_left_out(w);
+    picture_panel *const panel = &w->panels[number];
+    panel->meshes = s->meshes;
+    panel->mesh_count = w->scene->vertex_count ? MESHES : 0;
+    panel->cages = s->cages.list;
+    panel->cage_count = s->cages.count;
     return status;
 }
 
-static ffd_status make_steps(picture_work *w)
+static ffd_status name_panels(picture_work *w)
+{
+    w->panels = ffd_alloc_zero(w->step_count, sizeof *w->panels);
+    w->captions = ffd_alloc_zero(w->step_count, sizeof *w->captions);
+    if (!w->panels || !w->captions)
+        return ffd_fail_memory(w->error);
+    for (size_t i = 0; i < w->step_count && w->step_count > 1; i++) {
+        name_step(w, i, w->captions[i]);
+        w->panels[i].caption = w->captions[i];
+    }
+    return FFD_OK;
+}
+
+static void find_seen(picture_work *w)
+{
+    const view_fit fit = {
+        .scene = w->scene, .used = w->used, .camera = &w->camera, .most = VIEW_PICTURE_CONTROLS};
+    size_t points, beyond;
+    ffd_view_fit(&fit, &w->seen, &points, &beyond);
+    if (beyond)
+        ffd_log_line(w->options->log, FFD_LOG_WARNING,
+                     "the picture: %zu of %zu control points %s beyond its sides, so that the mesh is not "
+                     "too small",
+                     beyond, points, ffd_plural(beyond, "is", "are"));
+}
+
+/* All that the steps share. */
+static ffd_status prepare(picture_work *w)
 {
     const view_scene *const scene = w->scene;
+    const view_picture_options *const options = w->options;
     const bool has_texture = scene->texcoords && scene->materials.image_count;
-    w->step_count = count_steps(scene, w->options);
-    ffd_status status =
-        ffd_budget_check(w->options->budget, scene->vertex_count, w->step_count * VERTEX_BYTES, w->error);
+    w->step_count = count_steps(scene, options);
+    if (!ffd_camera_from(options->camera, &w->camera))
+        ffd_camera_parse("iso", &w->camera);
+    ffd_status status = ffd_budget_check(options->budget, scene->vertex_count, VERTEX_BYTES, w->error);
     if (!status)
-        status = ffd_view_surface_make(scene, has_texture, w->options->budget, w->options->log, &w->surface,
-                                       w->error);
+        status =
+            ffd_view_surface_make(scene, has_texture, options->budget, options->log, &w->surface, w->error);
     if (status)
         return status;
-    w->steps = ffd_alloc_zero(w->step_count, sizeof *w->steps);
-    w->panels = ffd_alloc_zero(w->step_count, sizeof *w->panels);
     w->twins = ffd_alloc(scene->vertex_count, sizeof *w->twins);
     w->white = ffd_alloc_zero(scene->triangle_count, sizeof *w->white);
-    if (!w->steps || !w->panels || !w->twins || !w->white)
+    if (!w->twins || !w->white)
         return ffd_fail_memory(w->error);
     say_what_is_left_out(w);
-    ffd_view_palette_make(scene, w->options->color, &w->palette);
+    ffd_view_palette_make(scene, options->color, &w->palette);
     status = ffd_picture_twins(scene->before, scene->vertex_count, w->twins, w->error);
     if (!status)
         status = find_used(scene, &w->used, w->error);
-    for (size_t i = 0; i < w->step_count && !status; i++)
-        status = make_step(w, i);
-    const size_t left_out = status ? 0 : w->steps[0].cages.left_out;
-    if (left_out)
-        ffd_log_line(w->options->log, FFD_LOG_WARNING,
-                     "the picture: %zu of %zu %s not drawn: more than %zu control points", left_out,
-                     scene->cage_count, ffd_plural(scene->cage_count, "lattice is", "lattices are"),
-                     VIEW_PICTURE_CONTROLS / w->step_count);
+    if (!status)
+        status = name_panels(w);
+    if (!status)
+        find_seen(w);
     return status;
 }
 
-static void free_steps(picture_work *w)
+static void free_picture(picture_work *w)
 {
-    for (size_t i = 0; w->steps && i < w->step_count; i++) {
-        step *const s = &w->steps[i];
-        if (s->positions != w->scene->before && s->positions != w->scene->after)
-            ffd_free(s->positions);
-        ffd_free(s->colors);
-        ffd_view_cages_free(&s->cages);
-    }
-    ffd_free(w->steps);
+    free_step(w);
     ffd_free(w->panels);
+    ffd_free(w->captions);
     ffd_free(w->used);
     ffd_free(w->twins);
     ffd_free(w->white);
@@ -278,19 +320,22 @@ static ffd_status append(void *context, const void *bytes, size_t size, ffd_erro
     return ffd_output_write(context, bytes, size, error);
 }
 
-static ffd_status draw(const picture_work *w, file_output *output)
+static ffd_status draw(picture_work *w, file_output *output)
 {
     const view_picture_options *const options = w->options;
-    picture of = {.width = width_of(options) * (options->frames ? options->frames : 1),
-                  .height = height_of(options),
-                  .panels = w->panels,
-                  .panel_count = w->step_count,
-                  .scale = w->palette.has_scale ? &w->palette.scale : NULL,
-                  .threads = options->threads};
+    const picture of = {.width = width_of(options) * (options->frames ? options->frames : 1),
+                        .height = height_of(options),
+                        .panels = w->panels,
+                        .panel_count = w->step_count,
+                        .scale = w->palette.has_scale ? &w->palette.scale : NULL,
+                        .camera = w->camera,
+                        .seen = &w->seen,
+                        .fill = make_step,
+                        .context = w,
+                        .threads = options->threads};
     uint8_t *pixels = NULL;
-    if (!ffd_camera_from(options->camera, &of.camera))
-        ffd_camera_parse("iso", &of.camera);
     ffd_status status = ffd_picture_draw(&of, options->budget, &pixels, w->error);
+    free_step(w);
     if (!status)
         status = ffd_png_write(pixels, of.width, of.height, append, output, w->error);
     ffd_free(pixels);
@@ -303,9 +348,9 @@ ffd_status ffd_view_picture_write(const view_scene *scene, const view_picture_op
     picture_work w = {.scene = scene, .options = options, .error = error};
     ffd_status status = ffd_view_picture_check(options, error);
     if (!status)
-        status = make_steps(&w);
+        status = prepare(&w);
     if (!status)
         status = draw(&w, output);
-    free_steps(&w);
+    free_picture(&w);
     return status;
 }

@@ -125,7 +125,7 @@ def a_picture_a_job_and_an_index(run):
 def torn_edges_have_their_column(run):
     """The box ends between the cube's sides and holds its edges there at full strength."""
     start(run, [job(0)])
-    run.write("l.json", lattice(low=(-10, -10, -10), high=(0.5, 10, 10), moves=[{"by": [0, 0, 0.25]}]))
+    run.write("l.json", lattice(low=(-1, -1, -1), high=(0.5, 2, 2), moves=[{"by": [0, 0, 0.25]}]))
     run.ffd("batch", "m.jsonl", "--view", "v", "--report", "r.json", err=lambda said: None)
     tear = report(run)[0]["tear"]
     check(tear["edges"] > 0, tear)
@@ -303,7 +303,7 @@ def a_large_mesh_makes_room_for_its_picture(run):
 @case
 def warnings_are_said_once(run):
     start(run, [job(0, lattice="fold.json")])
-    run.write("fold.json", lattice(low=(-10, -10, -10), high=(0.5, 10, 10), moves=[{"by": [0, 0, 0.25]}]))
+    run.write("fold.json", lattice(low=(-1, -1, -1), high=(0.5, 2, 2), moves=[{"by": [0, 0, 0.25]}]))
     said = []
     run.ffd("batch", "m.jsonl", "--force", err=said.extend)
     both = []

@@ -2,6 +2,7 @@
 """Outputs are complete or absent: nothing half written, nothing left behind, nothing overwritten unasked."""
 import json
 import os
+import re
 import resource
 import signal
 import socket
@@ -385,6 +386,22 @@ def input_and_output_may_be_in_other_folders(run):
     run.folder_of("work/deep")
     run.ffd("deform", os.path.join(run.folder, "a.obj"), "work/deep/../b.obj", "-l", "./l.json")
     equal(run.read("work/b.obj"), expected)
+
+
+@case
+def a_report_or_depfile_under_another_spelling_of_out(run):
+    """The report took the place of OUT, which was then said to exist: exit 3."""
+    start(run)
+    run.folder_of("work/x")
+    os.symlink("work", os.path.join(run.folder, "link"))
+    for option in ("--report", "--depfile"):
+        for out, other in (("b.obj", "./b.obj"), ("work/b.obj", "link/b.obj"), ("./work/../b.obj", "b.obj")):
+            run.ffd("deform", "a.obj", out, "-l", "l.json", option, other, code=USAGE, err=re.compile("would replace a mesh"))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "./a.obj", "--depfile", "c.d", code=USAGE,
+            err=re.compile("would replace a mesh"))
+    run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "./l.json", code=USAGE, err=re.compile("would replace a lattice"))
+    equal(run.names(), ["a.obj", "expected.obj", "l.json", "link", "work"], "the folder")
+    run.ffd("deform", "a.obj", "work/b.obj", "-l", "l.json", "--report", "b.obj")
 
 
 @case

@@ -184,7 +184,6 @@ def an_existing_page_needs_force(run):
                       ["a.obj", "m.html", "--input-format", "obj"], ["a.obj", "a.obj", "-l", "l.html"]):
         output = "m.html" if "m.html" in arguments else "l.html"
         run.ffd("view", *arguments, "-o", "./" + output, "--force", code=IO, err=f"./{output}: is an input of this command")
-    run.ffd("view", *work, "-o", "./q.html", "--report", "q.html", code=IO, lines=1)
 
 
 @case
@@ -204,6 +203,8 @@ def mistakes_are_refused_before_any_work(run):
             (["a.obj", "b.obj", "-l", "l.json", "-o", "p.html", "--embedding", "e.npy"], "--embedding"),
             (["-", "-", "--input-format", "obj", "-o", "p.html"], "only once"),
             ([*work, "-o", "p.png", "--report", "p.png", "--force"], "the report would replace the picture"),
+            ([*work, "-o", "./p.html", "--report", "p.html"], "the report would replace the picture or page"),
+            ([*work, "-o", "p.png", "--report", "./a.obj"], "the report would replace a mesh"),
             ([*work, "-o", "p.html", "--falloff", "1"], "--falloff"), (["a.xyz", "-o", "p.html"], "a.xyz")):
         run.ffd("view", *arguments, code=USAGE, err=re.compile(re.escape(says)))
     equal(run.names(), ["a.obj", "b.obj", "l.json"], "the folder")
@@ -515,12 +516,37 @@ def before_is_left_of_after_with_the_cage(run):
 def lattices_of_too_many_points_are_left_out_of_pictures_and_said(run):
     """60 x 60 x 60 points took the picture's memory: exit 7 of what check and a page can do."""
     work = start(run, SHIFT, size=[60, 60, 60])
-    for more, most in (([], 125000), (["--frames", "4"], 62500)):
+    for more in ([], ["--frames", "4"]):
         rows = picture(run, *work, *more, "--size", "200x120",
-                       err=f"a.obj: the picture: 1 of 1 lattice is not drawn: more than {most} control points")
+                       err="a.obj: the picture: 1 of 1 lattice is not drawn: more than 125000 control points")
         equal(count(halves(rows[:80])[0], is_blue) if not more else 0, 0, "nothing of the cage")
     start(run, SHIFT, size=[20, 20, 20])
     check(count(halves(picture(run, *work, "--size", "200x120", lines=0)[:80])[0], is_blue) > 50, "a smaller one is drawn")
+
+
+@case
+def far_control_points_leave_the_mesh_its_size(run):
+    """One of them 1000 away, which moves nothing, made a speck of the cube. The picture is three times as high as the cube at
+    rest, since the lattice reaches that far below it, and its sides are two of the cube's largest extent away at most."""
+    degree_1 = {"size": [5, 2, 2], "degree": [1, 1, 1]}
+    work = start(run, [{"at": [4, 1, 1], "by": [0, 1000, 0]}], **degree_1)
+    rows = picture(run, *work, "--camera", "front", "--color", "plain", "--size", "400x300",
+                   err="a.obj: the picture: 1 of 20 control points is beyond its sides, so that the mesh is not too small")
+    before, after = halves(rows[30:])
+    high = sum(is_grey(*row[90]) and row[90][0] < 215 for row in before)
+    check(60 < high < 90, f"the cube is {high} pixels high")
+    check(count(after[:20], lambda r, g, b: b > 1.2 * r) > 10, "the cage leaves the picture at its top")
+    picture(run, *start(run, [{"at": [4, 1, 1], "by": [0, 3, 0]}], **degree_1), lines=0)
+
+
+@case
+def a_row_takes_the_memory_of_one_picture(run):
+    """Each of 64 pictures had its own places of all vertices at a time: exit 7 of what one picture can do."""
+    run.write("grid.obj", "".join(f"v {x} {y} 0\n" for y in range(120) for x in range(120)) +
+              "".join(f"f {i} {i + 1} {i + 121} {i + 120}\n" for i in range(1, 119 * 120) if i % 120))
+    start(run)
+    rows = picture(run, "grid.obj", "-l", "l.json", "--size", "32x32", "--frames", "64", lines=1)
+    equal([len(rows), len(rows[0])], [32, 2048], "a row")
 
 
 @case
@@ -535,7 +561,7 @@ def what_went_wrong_is_marked_in_pictures(run):
     start(run, [{"scale": {"factor": [-1, 1, 1], "about": [0, 0, 0]}}])
     before, after = halves(picture(run, "a.obj", "-l", "l.json", "--size", "400x200"))
     check(count(before[:150], is_magenta) == 0 and count(after[:150], is_magenta) > 1000, "flipped faces")
-    start(run, [{"by": [0, 0, 0.25]}], strip(3), rest={"box": {"min": [-10, -10, -10], "max": [1.5, 10, 10]}})
+    start(run, [{"by": [0, 0, 0.25]}], strip(3), rest={"box": {"min": [-2, -2, -2], "max": [1.5, 3, 3]}})
     before, after = halves(picture(run, "a.obj", "a.obj", "--size", "400x200"))
     equal(count(after, is_red), 0, "nothing is torn")
     before, after = halves(picture(run, "a.obj", "-l", "l.json", "--size", "400x300", "--camera", "front", lines=1))
@@ -591,7 +617,9 @@ def a_check_has_its_picture(run):
     equal(read_page(run, "p.html").report, told, "the page's report")
     run.write("b.obj", CUBE)
     run.ffd("check", "a.obj", "b.obj", "-l", "l.json", "--picture", "q.png", code=USAGE, err=re.compile("--picture is of one mesh"))
-    run.ffd("check", *work, "--picture", "q.png", "--report", "q.png", code=USAGE, err=re.compile("the report would replace the picture"))
+    for name in ("q.png", "./q.png"):
+        run.ffd("check", *work, "--picture", "q.png", "--report", name, code=USAGE,
+                err=re.compile("the report would replace the picture"))
     check(not run.exists("q.png"), "a report under the picture's name")
     run.ffd("check", *work, "--picture", "q.txt", code=USAGE, err=re.compile("is not that of a page or a picture"))
     start(run, [{"at": [1, 1, 1], "by": [30, 30, 30]}])
@@ -604,6 +632,26 @@ def textured(run, png):
     run.write("t.png", png)
     run.write("m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd t.png\n")
     run.write("t.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3 4/4\n")
+
+
+@case
+def what_a_mesh_names_is_not_overwritten(run):
+    """With --force its own texture was replaced by the picture of it."""
+    textured(run, make_png([[(255, 0, 0)]]))
+    start(run)
+    run.write("b.bin.html", struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0))
+    run.write("t.gltf", json.dumps({
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "images": [{"uri": "t.png"}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0] * 3, "max": [1, 1, 0]}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "b.bin.html"}]}))
+    for work, output in ((["t.obj", "-l", "l.json"], "t.png"), (["t.obj"], "./t.png"), (["t.gltf", "-l", "l.json"], "t.png"),
+                         (["a.obj", "t.gltf"], "t.png"), (["t.gltf"], "b.bin.html")):
+        content = run.read(output)
+        run.ffd("view", *work, "-o", output, "--force", code=IO, lines=1,
+                err=re.compile(re.escape(f"{output}: is an input of this command")))
+        equal(run.read(output), content, "the file that it names")
+    run.ffd("check", "t.obj", "-l", "l.json", "--picture", "t.png", "--force", code=IO, lines=1)
 
 
 @case

@@ -341,6 +341,11 @@ m("image-size-not-checked", "limit", "picture_image", "return budget ? ffd_budge
 m("coefficients-not-counted", "limit", "picture_image", "jpeg_has_multiple_scans(jpeg) ? COEFFICIENT_BYTES", "jpeg_has_multiple_scans(jpeg) ? 0")
 m("cut-jpeg-taken", "error left out", "picture_image", "if (jpeg->err->msg_code == failures[i])", "if (jpeg->err->msg_code == -failures[i])")
 m("end-of-png-not-read", "error left out", "picture_image", "png_read_end(png, NULL);", "png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_DEFAULT);")
+m("lattice-as-large-as-it-is", "bound", "cli_view", "#define REACH 2.0", "#define REACH 1e9")
+m("panels-all-kept", "freed resource", "view", "view_palette own;\n    free_step(w);", "view_palette own;")
+m("own-texture-replaced", "check left out", "cli_view", "is_named = ffd_file_same(files.paths[i], output);", "is_named = false;")
+m("other-spelling-of-out", "check left out", "cli_output", "const bool meet = here && there && (strcmp(here, there) == 0 || ffd_file_same(here, there));",
+  "const bool meet = here && there && strcmp(a, b) == 0;")
 
 # io
 
@@ -805,7 +810,7 @@ m("embedding-of-many", "limit", "cli_usage",
   "if (job->embedding && inputs > 1)", "if (job->embedding && inputs > 2)")
 m("exit-of-many", "error code", "cli_deform, cli_many", "code = inputs == 1 ? own : EXIT_NO;", "code = own;")
 m("report-over-a-lattice", "check left out", "cli_usage, cli_output, cli_aliases",
-  "if (strcmp(job->report, job->lattices[i]) == 0)", "if (strcmp(job->report, job->lattices[i]) == 1000)")
+  "if (ffd_paths_meet(job->report, job->lattices[i]))", "if (strcmp(job->report, job->lattices[i]) == 1000)")
 m("named-twice", "off by one", "cli_deform, cli_many",
   "for (size_t i = 1; i < inputs->count && !code; i++)", "for (size_t i = 2; i < inputs->count && !code; i++)")
 
@@ -890,9 +895,9 @@ m("torn-edges-twice", "class", "view", "return a < b ? a << 32 | b : b << 32 | a
   "return a << 32 | b; } static int compare_ends")
 m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->step < y->step ? 1 : compare_ends(a, b);",
   "return x->step > y->step ? 1 : x->step < y->step ? -1 : compare_ends(a, b);")
-m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report && strcmp(s->job.report, s->output) == 0)",
+m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report && ffd_paths_meet(s->job.report, s->output))",
   "if (s->job.report && strcmp(s->job.report, s->output) == 1000)")
-m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && strcmp(s.job.report, s.picture) == 0",
+m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)",
   "s.picture && s.job.report && strcmp(s.job.report, s.picture) == 1000")
 m("lost-triangles-of-a-corner", "loop", "cli_view", "for (size_t c = 0; c < 3 && finite; c++)", "for (size_t c = 0; c < 1 && finite; c++)")
 m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(points, size[2], &points) && points <= left;",

@@ -455,8 +455,8 @@ static void what_is_wrong_with_a_mesh_is_left_out(void **state)
     (void)state;
     make_scene(&s, 1);
     uint8_t *const whole = draw_all(&s.picture);
-    const ffd_bounds box = {.min = {-1.2, -1, -1.2}, .max = {1.2, 1, 1.2}};
-    s.picture.bounds = &box;
+    const ffd_bounds box = {.min = {-1.2, -1, -1.2}, .max = {1.2, 1, 1.2}}; /* along the camera's axes */
+    s.picture.seen = &box;
     s.ball.positions[300] = NAN;
     s.ball.positions[601] = 1e300;
     s.ball.positions[900] = -HUGE_VAL;

@@ -34,9 +34,9 @@ async function open(kind, options = {}) {
   return {page, end, said};
 }
 
-// A hash of the canvas's pixels. They are there only in the frame in which they are drawn: a wheel that does not turn asks for it.
-function picture(page) {
-  return page.evaluate(() => new Promise((done) => {
+// The canvas's pixels. They are there only in the frame in which they are drawn: a wheel that does not turn asks for it.
+function pixels(page) {
+  return page.evaluateHandle(() => new Promise((done) => {
     const canvas = document.getElementById('view');
     canvas.dispatchEvent(new WheelEvent('wheel', {deltaY: 0, cancelable: true}));
     requestAnimationFrame(() => {
@@ -44,10 +44,14 @@ function picture(page) {
       [copy.width, copy.height] = [canvas.width, canvas.height];
       const context = copy.getContext('2d', {willReadFrequently: true});
       context.drawImage(canvas, 0, 0);
-      const pixels = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer);
-      done(pixels.reduce((hash, pixel) => Math.imul(hash ^ pixel, 16777619), 2166136261));
+      done(new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer));
     });
   }));
+}
+
+// A hash of them.
+async function picture(page) {
+  return (await pixels(page)).evaluate((all) => all.reduce((hash, pixel) => Math.imul(hash ^ pixel, 16777619), 2166136261));
 }
 
 // Does something and expects the canvas to look different afterwards.
@@ -211,6 +215,26 @@ async function filesAreColouredByDisplacement() {
   await end();
 }
 
+// There is no way from before to after to slide along.
+async function aMeshAloneHasNoSlider() {
+  const {page, end} = await open('real_alone');
+  assert.equal(await page.locator('input[type=range]:visible, #play:visible').count(), 0);
+  assert.doesNotMatch(await text(page, '#keys'), /Space/);
+  assert.doesNotMatch(await text(page, '#figures'), /Displacement/);
+  await page.locator('canvas').press(' ');
+  await changes(page, 'turning', () => page.locator('canvas').press('ArrowLeft'));
+  await end();
+}
+
+async function farControlPointsLeaveTheMeshItsSize() {
+  const {page, end} = await open('real_far');
+  await page.locator('[data-view=front]').click();
+  await page.locator('#show-showCage').uncheck();
+  const seen = await (await pixels(page)).evaluate((all) => all.filter((pixel) => pixel >>> 24).length);
+  assert.ok(seen > 500, `${seen} pixels of the mesh`);
+  await end();
+}
+
 async function realHostileNamesAreText() {
   const {page, end} = await open('real_hostile', {viewport: PHONE, name: 'real_hostile'});
   const title = '<img src=x onerror=alert(2)>\\n\\u{202e}&amp;.gltf';
@@ -299,7 +323,7 @@ async function thePolicyForbidsRequests() {
 let failed = 0;
 for (const test of [sliderGoesFromBeforeToAfter, coloursAndMarksAreChosen, aWitnessIsPicked, tornEdgesAreListed,
   mouseAndKeysMoveTheCamera, hostileNamesAreText, aRealFoldIsPicked, realTearsAreListed,
-  filesAreColouredByDisplacement, realHostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
+  filesAreColouredByDisplacement, aMeshAloneHasNoSlider, farControlPointsLeaveTheMeshItsSize, realHostileNamesAreText, largeAndEmptyMeshesOpen, aCutPageSaysSo, withoutWebGLThereAreFigures,
   phonesAndDarkAreServed, thePolicyForbidsRequests]) {
   const began = Date.now();
   try {

@@ -26,6 +26,9 @@ FOLD = {"size": [4, 4, 4], "rest": {"box": "mesh"},
         "moves": [{"at": [1, 1, 1], "by": [0, 0, 14]}, {"at": [2, 1, 1], "by": [0, 0, 14]}]}
 TEAR = {"size": [3, 3, 3], "rest": {"box": {"min": [-1, -0.5, -1], "max": [0.1, 1.5, 2]}},
         "moves": [{"at": [2, 1, 1], "by": [-0.5, 0.9, 0]}]}
+# One that moves nothing, very far away.
+FAR = {"size": [5, 2, 2], "degree": [1, 1, 1], "rest": {"box": {"min": [-2, -2, -2], "max": [2, 2, 2]}},
+       "moves": [{"at": [4, 1, 1], "by": [0, 1e4, 0]}]}
 NAMES = ["</script><script>document.title='taken'</script>", "<img src=x onerror=alert(1)>", "\u202egpj.exe\n\"'&amp;",
          "__proto__", "x" * 100000]
 
@@ -66,7 +69,8 @@ def make_real(ffd, model, folder):
         with open(os.path.join(folder, name), "w", encoding="ascii") as file:
             file.write(f"v 0 0 0\nv 1 0 0\nv 0 {height} 0\nf 1 2 3\n")
     subprocess.run([ffd, "view", "low.obj", "high.obj", "--color", "det", "-o", "real_pair.html", "-q"], cwd=folder, check=True)
-    for kind, mesh, moves in (("fold", "fold.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
+    subprocess.run([ffd, "view", "high.obj", "-o", "real_alone.html", "-q"], cwd=folder, check=True)
+    for kind, mesh, moves in (("far", "high.obj", FAR), ("fold", "fold.obj", FOLD), ("tear", "a.obj", TEAR), ("hostile", os.path.basename(hostile), FOLD)):
         lattice = write("<b>cage.json" if kind == "hostile" else kind + ".json",
                         {"format": "ffd-lattice", "version": 1, **moves})
         subprocess.run([ffd, "view", mesh, "-l", os.path.basename(lattice), "-o", f"real_{kind}.html", "-q"], cwd=folder,

@@ -57,6 +57,19 @@ bool ffd_folders_differ(const char *file, const char *other)
     return differ;
 }
 
+bool ffd_paths_meet(const char *a, const char *b)
+{
+    if (strcmp(a, b) == 0 || ffd_file_same(a, b))
+        return true;
+    if (ffd_file_exists(a) || ffd_file_exists(b) || strcmp(ffd_path_name(a), ffd_path_name(b)) != 0)
+        return false;
+    char *const here = ffd_path_folder(a), *const there = ffd_path_folder(b);
+    const bool meet = here && there && (strcmp(here, there) == 0 || ffd_file_same(here, there));
+    ffd_free(here);
+    ffd_free(there);
+    return meet;
+}
+
 char *ffd_path_resolve(const char *path)
 {
     char *resolved = realpath(path, NULL);

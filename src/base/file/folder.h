@@ -15,6 +15,8 @@ void ffd_folder_unmake(char *path, size_t made);
 /* The absolute path of a file or folder, without links; NULL if there is none or memory runs
    out. Free with ffd_free. */
 char *ffd_path_resolve(const char *path);
+/* Whether both paths lead to one file, which need not exist yet. False too where memory runs out. */
+bool ffd_paths_meet(const char *a, const char *b);
 /* Whether two files lie in different folders, which need not exist. False too where memory runs out. */
 bool ffd_folders_differ(const char *file, const char *other);
 /* Turns the backslashes of a name that a file gives into slashes, as programs for Windows mean them, unless

@@ -11,6 +11,7 @@
 #include "job/pass/chain_fit.h"
 #include "job/report/output_set.h"
 #include "job/report/report.h"
+#include "job/view/view_inputs.h"
 #include "job/view/view_marks.h"
 #include "job/view/view_mesh.h"
 #include "view/page.h"
@@ -32,21 +33,6 @@ void ffd_view_desc_init(ffd_view_desc *desc)
 {
     memset(desc, 0, sizeof *desc);
     desc->struct_size = sizeof *desc;
-}
-
-/* Refuses an output that is one of the files that are read. */
-static ffd_status check_inputs(const ffd_view_desc *desc, ffd_error *error)
-{
-    const ffd_deform_desc *const job = desc->job;
-    const char *const inputs[] = {job->input.path, desc->deformed ? desc->deformed->path : NULL,
-                                  job->embedding};
-    bool is_input = false;
-    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        is_input = is_input || (inputs[i] && ffd_file_same(inputs[i], desc->output));
-    for (size_t i = 0; i < job->lattice_count; i++)
-        is_input = is_input || ffd_file_same(job->lattices[i], desc->output);
-    return is_input ? ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is an input of this command")
-                    : FFD_OK;
 }
 
 static bool is_page(const char *path)
@@ -82,7 +68,7 @@ static ffd_status check_desc(const view_work *work, ffd_error *error)
                              ffd_path_ending(desc->output));
     ffd_status status = ffd_view_picture_check(&picture, error);
     if (!status)
-        status = check_inputs(desc, error);
+        status = ffd_view_check_inputs(desc, error);
     return status ? status : ffd_output_check(desc->output, desc->force, error);
 }
 
@@ -144,13 +130,21 @@ static ffd_status take_findings(view_work *work, const ffd_job_result *result, f
     return status ? status : make_report(work, result, error);
 }
 
+/* Whether a mesh that is open can be shown, and the output is none of its files. */
+static ffd_status check_mesh(const view_work *work, const ffd_source *source, mesh_document *document,
+                             ffd_error *error)
+{
+    const ffd_status status = ffd_mesh_check(document, error);
+    return status ? status : ffd_view_check_files(source, document, work->desc->output, error);
+}
+
 /* Deforms the mesh in memory. What a gate refuses is shown all the same; result then has the refusal. */
 static ffd_status run_job(view_work *work, ffd_job_result *result, ffd_error *error)
 {
     deform_job *const job = &work->job;
     ffd_status status = ffd_deform_job_open(job, result, error);
     if (!status)
-        status = ffd_mesh_check(job->document, error);
+        status = check_mesh(work, &work->desc->job->input, job->document, error);
     if (!status)
         status = read_model(work, error);
     if (status)
@@ -177,7 +171,7 @@ static ffd_status open_mesh(view_work *work, const ffd_source *source, mesh_docu
         return status;
     const char *const name = source == work->desc->deformed ? ffd_source_name(source) : NULL;
     ffd_flaws_warn(&(*document)->flaws, name, &work->job.log);
-    return ffd_mesh_check(*document, error);
+    return check_mesh(work, source, *document, error);
 }
 
 /* Draws the lattices where they stand round the mesh as it is at rest. */

@@ -17,6 +17,9 @@ function perspective(aspect, near, far) {
 // At most so many points decide how far away the camera has to be.
 const FIT_POINTS = 4000;
 
+// The mesh is from -1 to 1. Cages widen the picture by two of its largest extent at most, as in view_fit.c.
+const FIT_REACH = 5;
+
 // Points of both shapes and of the cages, evenly chosen.
 function listFitPoints(scene) {
   const points = [];
@@ -35,7 +38,7 @@ function listFitPoints(scene) {
 
 class Camera {
   constructor(points) {
-    this.points = points;  // all of them are in the picture when it fits; in -1 to 1
+    this.points = points;  // when it fits, all of them are in the picture as far as FIT_REACH goes
     this.radius = points.reduce((most, p) => Math.max(most, Math.hypot(...p)), 0) || 1;
     this.aspect = 1;
     this.target = [0, 0, 0];
@@ -57,7 +60,8 @@ class Camera {
     const {right, up, back} = this.axes();
     const tangent = Math.tan(FIELD_OF_VIEW / 2);
     const slopes = [tangent * this.aspect * 0.92, tangent * (this.aspect < 1.3 ? 0.74 : 0.82)];
-    const seen = this.points.map((p) => [right, up, back].map((axis) => p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2]));
+    const near = this.points.map((p) => p.map((x) => Math.min(Math.max(x, -FIT_REACH), FIT_REACH)));
+    const seen = near.map((p) => [right, up, back].map((axis) => p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2]));
     let middle = [0, 0], distance = 0.05;
     // The point that needs most room on each side decides; perspective moves the middle, so that twice is nearer.
     for (let pass = 0; pass < 3; pass++) {

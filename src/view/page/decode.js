@@ -52,7 +52,7 @@ function readCage(description, index) {
   return {...description, index, count, rest, deformed};
 }
 
-// The box of all that is drawn, as centre and half of the longest side: pictures are drawn in -1 to 1.
+// The box of the mesh before and after, as centre and half of the longest side: it is drawn in -1 to 1.
 function measureAll(scene) {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -67,9 +67,12 @@ function measureAll(scene) {
     take(scene.low);
     take(scene.low.map((x, a) => x + 65535 * scene.step[a]));
   }
-  for (const cage of scene.cages) {
-    take(cage.rest);
-    take(cage.deformed);
+  // A mesh of one place has no size that lattices could be compared with.
+  if (!(Math.max(...low.map((x, a) => high[a] - x)) > 0)) {
+    for (const cage of scene.cages) {
+      take(cage.rest);
+      take(cage.deformed);
+    }
   }
   if (!(low[0] <= high[0])) return {center: [0, 0, 0], scale: 1};
   const half = low.map((x, a) => high[a] / 2 - x / 2);

@@ -35,7 +35,14 @@ function showNames(scene) {
   if (scene.output) heading.append(' \u2192 ', nameElement(scene.output));
 }
 
+// A mesh alone has no way to go.
+function hasTwoShapes(scene) {
+  return Boolean(scene.statuses || scene.output);
+}
+
 function startControls(viewer) {
+  byId('way').hidden = !hasTwoShapes(viewer.scene);
+  byId('play-key').hidden = !hasTwoShapes(viewer.scene);
   byId('blend').addEventListener('input', (event) => {
     viewer.stopMotion();
     viewer.setBlend(Number(event.target.value) / 100);

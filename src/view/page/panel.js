@@ -232,7 +232,7 @@ function figureSection(viewer) {
   const job = jobOf(scene.report);
   const list = make('dl', 'figures');
   const rows = job ? figureRows(job) : [['Vertices', numberText(scene.verticesAll), '']];
-  if (!job && scene.vertices) rows.push(['Displacement', 'max ' + numberText(scene.displacementMax), '']);
+  if (!job && scene.vertices && hasTwoShapes(scene)) rows.push(['Displacement', 'max ' + numberText(scene.displacementMax), '']);
   rows.push(['Triangles', numberText(scene.trianglesAll), '']);
   for (const [label, value, kind] of rows) list.append(make('div', kind, make('dt', '', label), make('dd', '', value)));
   const card = section('Figures', list);

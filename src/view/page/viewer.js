@@ -168,6 +168,7 @@ class Viewer {
   }
 
   play() {
+    if (!hasTwoShapes(this.scene)) return;
     const from = this.settings.blend > 0.5 ? 1 : 0;
     this.animate(PLAY, (share) => this.setBlend(from + (1 - 2 * from) * (share * share * (3 - 2 * share))));
   }

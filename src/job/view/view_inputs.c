@@ -1,0 +1,50 @@
+#include "job/view/view_inputs.h"
+#include "base/file/input.h"
+#include "base/file/path.h"
+
+static ffd_status refuse(const char *output, ffd_error *error)
+{
+    return ffd_fail_file(error, FFD_E_EXISTS, output, "is an input of this command");
+}
+
+ffd_status ffd_view_check_inputs(const ffd_view_desc *desc, ffd_error *error)
+{
+    const ffd_deform_desc *const job = desc->job;
+    const char *const inputs[] = {job->input.path, desc->deformed ? desc->deformed->path : NULL,
+                                  job->embedding};
+    bool is_input = false;
+    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
+        is_input = is_input || (inputs[i] && ffd_file_same(inputs[i], desc->output));
+    for (size_t i = 0; i < job->lattice_count; i++)
+        is_input = is_input || ffd_file_same(job->lattices[i], desc->output);
+    return is_input ? refuse(desc->output, error) : FFD_OK;
+}
+
+/* Those that a look into the mesh's own file finds. */
+static ffd_status find_resources(const ffd_source *source, const mesh_document *document, path_list *files,
+                                 ffd_error *error)
+{
+    file_input bytes;
+    if (!document->format->find_resources || ffd_file_is_stream(source->path) ||
+        ffd_file_load(source->path, &bytes, NULL))
+        return FFD_OK;
+    const ffd_status status = document->format->find_resources(source->path, &bytes, files, error);
+    ffd_file_unload(&bytes);
+    return status;
+}
+
+ffd_status ffd_view_check_files(const ffd_source *source, const mesh_document *document, const char *output,
+                                ffd_error *error)
+{
+    path_list files = {0};
+    bool is_named = false;
+    if (!ffd_file_exists(output))
+        return FFD_OK;
+    ffd_status status = find_resources(source, document, &files, error);
+    if (!status && document->format->list_files)
+        status = document->format->list_files(document, &files, error);
+    for (size_t i = 0; i < files.count && !is_named; i++)
+        is_named = ffd_file_same(files.paths[i], output);
+    ffd_paths_free(&files);
+    return status ? status : is_named ? refuse(output, error) : FFD_OK;
+}

@@ -1,0 +1,89 @@
+#include "view/view_fit.h"
+#include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "mesh/bounds.h"
+
+/* How far lattices widen a picture on each side at most, in the largest extent of the mesh: it keeps a fifth
+   of what there would be without them. */
+#define REACH 2.0
+
+static bool is_empty(const ffd_bounds *bounds)
+{
+    return !(bounds->min[0] <= bounds->max[0]);
+}
+
+static void widen_by_mesh(const view_fit *fit, ffd_bounds *seen)
+{
+    const double *const shapes[] = {fit->scene->before, fit->scene->after};
+    const size_t count = fit->scene->vertex_count;
+    for (size_t s = 0; s < sizeof shapes / sizeof *shapes; s++) {
+        if (!fit->used)
+            ffd_camera_widen(fit->camera, shapes[s], count, seen);
+        for (size_t v = 0; v < count && fit->used; v++)
+            if (fit->used[v])
+                ffd_camera_widen(fit->camera, shapes[s] + 3 * v, 1, seen);
+    }
+}
+
+/* The control points of a lattice that is drawn; 0: it is left out. */
+static size_t count_points(const view_cage *cage, size_t left)
+{
+    size_t count = 0;
+    const bool fits = ffd_multiply_size(cage->size[0], cage->size[1], &count) &&
+                      ffd_multiply_size(count, cage->size[2], &count) && count <= left;
+    return fits ? count : 0;
+}
+
+static void widen_by_lattices(const view_fit *fit, ffd_bounds *seen)
+{
+    const view_scene *const scene = fit->scene;
+    size_t left = fit->most;
+    for (size_t i = 0; i < scene->cage_count; i++) {
+        const size_t count = count_points(&scene->cages[i], left);
+        ffd_camera_widen(fit->camera, scene->cages[i].rest, count, seen);
+        ffd_camera_widen(fit->camera, scene->cages[i].deformed, count, seen);
+        left -= count;
+    }
+    if (scene->has_witness) {
+        ffd_camera_widen(fit->camera, scene->witness_rest, 1, seen);
+        ffd_camera_widen(fit->camera, scene->witness_deformed, 1, seen);
+    }
+}
+
+static bool is_beyond(const view_fit *fit, const ffd_bounds *seen, const double *point)
+{
+    const double x = vec_dot(fit->camera->right, point), y = vec_dot(fit->camera->up, point);
+    return x < seen->min[0] || x > seen->max[0] || y < seen->min[1] || y > seen->max[1];
+}
+
+static void count_beyond(const view_fit *fit, const ffd_bounds *seen, size_t *points, size_t *beyond)
+{
+    size_t left = fit->most;
+    *points = *beyond = 0;
+    for (size_t i = 0; i < fit->scene->cage_count; i++) {
+        const view_cage *const cage = &fit->scene->cages[i];
+        const size_t count = count_points(cage, left);
+        for (size_t p = 0; p < count; p++)
+            *beyond +=
+                is_beyond(fit, seen, cage->rest + 3 * p) || is_beyond(fit, seen, cage->deformed + 3 * p);
+        *points += count;
+        left -= count;
+    }
+}
+
+void ffd_view_fit(const view_fit *fit, ffd_bounds *seen, size_t *points, size_t *beyond)
+{
+    ffd_bounds mesh = ffd_bounds_empty();
+    double reach = 0;
+    widen_by_mesh(fit, &mesh);
+    *seen = mesh;
+    widen_by_lattices(fit, seen);
+    for (int a = 0; a < 3 && !is_empty(&mesh); a++)
+        reach = larger_of(reach, REACH * (mesh.max[a] - mesh.min[a]));
+    /* A single point has no size that could be too small. */
+    for (int a = 0; a < 3 && reach > 0; a++) {
+        seen->min[a] = larger_of(seen->min[a], mesh.min[a] - reach);
+        seen->max[a] = lesser_of(seen->max[a], mesh.max[a] + reach);
+    }
+    count_beyond(fit, seen, points, beyond);
+}
