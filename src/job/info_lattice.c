@@ -6,7 +6,7 @@
 #include "job/info_layers.h"
 #include "lattice/build.h"
 #include "lattice/lattice.h"
-#include "lattice/spec_parse.h"
+#include "lattice/file/spec_parse.h"
 #include "mesh/bounds.h"
 #include <ffd/embedding.h>
 #include <math.h>

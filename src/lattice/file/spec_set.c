@@ -1,6 +1,6 @@
-#include "lattice/spec_set.h"
+#include "lattice/file/spec_set.h"
 #include "base/memory/memory.h"
-#include "lattice/spec_values.h"
+#include "lattice/file/spec_values.h"
 #include "json/json_chars.h"
 #include "json/json_parse.h"
 #include <stdio.h>

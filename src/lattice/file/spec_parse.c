@@ -1,12 +1,12 @@
-#include "lattice/spec_parse.h"
+#include "lattice/file/spec_parse.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
+#include "lattice/file/spec_parse_moves.h"
+#include "lattice/file/spec_parse_rest.h"
+#include "lattice/file/spec_set.h"
+#include "lattice/file/spec_values.h"
 #include "lattice/lattice.h"
-#include "lattice/spec_parse_moves.h"
-#include "lattice/spec_parse_rest.h"
-#include "lattice/spec_set.h"
-#include "lattice/spec_values.h"
 #include "json/json_parse.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))

@@ -1,4 +1,4 @@
-#include "lattice/spec_text.h"
+#include "lattice/file/spec_text.h"
 #include "json/json_text.h"
 #include <string.h>
 
