@@ -3,7 +3,7 @@
 #include "base/memory/memory.h"
 #include "io/formats.h"
 #include "job/input/source.h"
-#include "lattice/spec_parse.h"
+#include "lattice/file/spec_parse.h"
 #include <string.h>
 
 static cached_file *find(hash_cache *cache, const char *path, const file_stamp *stamp)

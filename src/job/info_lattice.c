@@ -6,11 +6,12 @@
 #include "job/info_layers.h"
 #include "lattice/build.h"
 #include "lattice/lattice.h"
-#include "lattice/spec_parse.h"
+#include "lattice/file/spec_parse.h"
 #include "mesh/bounds.h"
 #include <ffd/embedding.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char *knot_word(knot_kind kind)
 {
@@ -92,6 +93,30 @@ static void write_open(const intern_table *open, json_text *json)
     for (size_t i = 0; i < open->count; i++)
         ffd_json_string(json, NULL, ffd_intern_key(open, (uint32_t)i));
     ffd_json_end(json, ']');
+}
+
+/* What the file says of its placeholders; nothing where it says nothing. */
+static void write_parameters(const lattice_spec *spec, json_text *json)
+{
+    if (spec->parameter_count == 0)
+        return;
+    ffd_json_object(json, "parameters", false);
+    for (size_t i = 0; i < spec->parameter_count; i++) {
+        const spec_parameter *const parameter = &spec->parameters[i];
+        ffd_json_object(json, parameter->name, false);
+        if (parameter->value)
+            ffd_json_raw(json, "default", parameter->value, strlen(parameter->value));
+        if (parameter->min > -INFINITY)
+            ffd_json_number(json, "min", parameter->min);
+        if (parameter->max < INFINITY)
+            ffd_json_number(json, "max", parameter->max);
+        if (parameter->unit)
+            ffd_json_string(json, "unit", parameter->unit);
+        if (parameter->comment)
+            ffd_json_string(json, "comment", parameter->comment);
+        ffd_json_end(json, '}');
+    }
+    ffd_json_end(json, '}');
 }
 
 static void write_moves(const ffd_lattice *lattice, json_text *json)
@@ -227,6 +252,7 @@ ffd_status ffd_info_lattice(const ffd_info_desc *desc, json_text *json, ffd_erro
     write_directions(lattice, json);
     ffd_json_count(json, "control_points", lattice->count);
     ffd_json_string(json, "rest", rest_word(lattice->spec));
+    write_parameters(lattice->spec, json);
     write_open(&lattice->spec->open, json);
     status = ffd_info_box(lattice, &desc->file, fits, &box, json, error);
     ffd_info_layers(lattice, &box, json);

@@ -124,6 +124,21 @@ static ffd_status place_rest(const lattice_spec *spec, const double *min, const 
     return FFD_OK;
 }
 
+/* The deformed control points before the moves. Offsets are the displacements as they are: (P + D) - P would
+   lose their last digits, and move what has the offset 0. */
+static ffd_status set_deformed(const lattice_spec *spec, ffd_lattice *lattice, ffd_error *error)
+{
+    const size_t size = spec->count * 3 * sizeof *lattice->deformed;
+    memcpy(lattice->deformed, spec->deformed_points ? spec->deformed_points : lattice->rest, size);
+    const ffd_status status = ffd_lattice_make_difference(lattice, error);
+    if (status || !spec->deformed_offsets)
+        return status;
+    memcpy(lattice->difference, spec->deformed_offsets, size);
+    for (size_t c = 0; c < 3 * spec->count; c++)
+        lattice->deformed[c] = lattice->rest[c] + spec->deformed_offsets[c];
+    return FFD_OK;
+}
+
 static ffd_status set_points(const lattice_spec *spec, const double *min, const double *max,
                              ffd_lattice *lattice, ffd_error *error)
 {
@@ -135,12 +150,8 @@ static ffd_status set_points(const lattice_spec *spec, const double *min, const 
         status = place_rest(spec, min, max, lattice, &region, error);
     if (status)
         return status;
-    memcpy(lattice->deformed, spec->deformed_points ? spec->deformed_points : lattice->rest,
-           spec->count * 3 * sizeof *lattice->deformed);
-    if (spec->move_count == 0)
-        return ffd_lattice_finish(lattice, error);
-    status = ffd_lattice_make_difference(lattice, error);
-    if (!status)
+    status = set_deformed(spec, lattice, error);
+    if (!status && spec->move_count > 0)
         status = ffd_moves_apply(spec, &region, lattice, error);
     return status ? status : ffd_lattice_finish_moved(lattice, error);
 }
@@ -192,7 +203,7 @@ uint64_t ffd_spec_point_bytes(const lattice_spec *spec)
     /* Two trees, while the moves are made. */
     each += ffd_spec_has_mirror(spec) ? 2 * (sizeof(uint32_t) + 1) : 0;
     each += spec->points ? 3 * sizeof(double) : 0;
-    each += spec->deformed_points ? 3 * sizeof(double) : 0;
+    each += spec->deformed_points || spec->deformed_offsets ? 3 * sizeof(double) : 0;
     each += spec->weights ? sizeof(double) : 0;
     each += spec->deformed_weights ? sizeof(double) : 0;
     return spec->count * each;

@@ -3,6 +3,14 @@
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
 
+static void free_parameter(spec_parameter *parameter)
+{
+    ffd_free(parameter->name);
+    ffd_free(parameter->value);
+    ffd_free(parameter->unit);
+    ffd_free(parameter->comment);
+}
+
 void ffd_spec_free(lattice_spec *spec)
 {
     if (!spec)
@@ -16,9 +24,13 @@ void ffd_spec_free(lattice_spec *spec)
     ffd_free(spec->points);
     ffd_free(spec->weights);
     ffd_free(spec->deformed_points);
+    ffd_free(spec->deformed_offsets);
     ffd_free(spec->deformed_weights);
     ffd_free(spec->moves);
     ffd_intern_free(&spec->open);
+    for (size_t i = 0; i < spec->parameter_count; i++)
+        free_parameter(&spec->parameters[i]);
+    ffd_free(spec->parameters);
     ffd_free(spec);
 }
 

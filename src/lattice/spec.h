@@ -50,6 +50,14 @@ typedef struct lattice_move {
     char pointer[32]; /* "/moves/3", for messages that need the built points */
 } lattice_move;
 
+/* What the file says of a placeholder's values. */
+typedef struct spec_parameter {
+    char *name;
+    char *value;          /* the default, as JSON; NULL: none */
+    char *unit, *comment; /* or NULL */
+    double min, max;      /* of each number; infinite where the file has none */
+} spec_parameter;
+
 typedef struct lattice_spec {
     char *name; /* of the file, for messages */
     size_t size[3];
@@ -74,6 +82,9 @@ typedef struct lattice_spec {
 
     double *weights;                            /* or NULL */
     double *deformed_points, *deformed_weights; /* or NULL */
+    double *deformed_offsets;                   /* or NULL; never beside deformed_points */
+    spec_parameter *parameters;                 /* parameter_count, in the file's order */
+    size_t parameter_count;
     bool box_units;
     lattice_move *moves;
     size_t move_count;

@@ -72,6 +72,9 @@ RICH = [
     {**POINTS, "weights": [1, 2, 1, 1, 1, 1, 1, 0.5], "deformed": {"points": CORNERS, "weights": [1, 1, 1, 1, 1, 1, 1, 3]}},
     {**RING, "knots": ["clamped", "periodic", "clamped"], "deformed": {}},
     {**POINTS, "moves": [{"at": [{"$": "A"}, "all", 0], "by": [0, {"$": "A"}, 0]}]},
+    {**BOX, "deformed": {"offsets": CORNERS, "weights": [2] * 8}, "parameters": {
+        "A": {"default": 1, "min": 0, "max": 90, "unit": "degrees", "comment": "how far"}, "B": {"default": [0, 1, "x"]}, "C": {}},
+     "moves": [{"by": [{"$": "A"}, {"$": "-A"}, {"$": "-A", "times": 0.5}]}]},
 ]
 
 
@@ -207,6 +210,18 @@ BROKEN = {
     "deformed: no other member": {**BOX, "deformed": {"point": CORNERS}},
     "deformed: points": {**BOX, "deformed": {"points": CORNERS[1:]}},
     "deformed: weights": {**BOX, "deformed": {"weights": [1] * 7 + [-1]}},
+    "deformed: points or offsets": {**BOX, "deformed": {"points": CORNERS, "offsets": CORNERS}},
+    "deformed: offsets": {**BOX, "deformed": {"offsets": CORNERS[1:]}},
+    "deformed: offsets are vectors": {**BOX, "deformed": {"offsets": [0] * 8}},
+    "parameters are an object": {**BOX, "parameters": [{"default": 1}]},
+    "a parameter is an object": {**BOX, "parameters": {"A": 1}},
+    "a parameter: no other member": {**BOX, "parameters": {"A": {"defualt": 1}}},
+    "a parameter: min": {**BOX, "parameters": {"A": {"min": "0"}}},
+    "a parameter: max": {**BOX, "parameters": {"A": {"max": None}}},
+    "a parameter: unit": {**BOX, "parameters": {"A": {"unit": 3}}},
+    "a parameter: comment": {**BOX, "parameters": {"A": {"comment": 3}}},
+    "a parameter has a name": {**BOX, "parameters": {"": {}}},
+    "a parameter: its name has no minus": {**BOX, "parameters": {"-A": {}}},
     "units": {**BOX, "units": "boxes"},
     "moves are an array": {**BOX, "moves": {}},
     "moves are no placeholder": {**BOX, "moves": {"$": "A"}},
@@ -294,7 +309,8 @@ BROKEN = {
     "mirror: a word": moved({"mirror": "u", "by": [0, 0, 0]}),
     "mirror: not a direction": moved({"mirror": [1, 0, 0], "by": [0, 0, 0]}),
     "mirror is no action": moved({"mirror": "x"}),
-    "a placeholder has no other members": moved({"by": {"$": "A", "times": 2}}),
+    "a placeholder has no other members": moved({"by": {"$": "A", "plus": 2}}),
+    "a placeholder: times": moved({"weight": {"$": "A", "times": "2"}, "by": [0, 0, 0]}),
     "a placeholder has a name": moved({"weight": {"$": 1}, "by": [0, 0, 0]}),
     "a placeholder is not an empty object": moved({"weight": {}, "by": [0, 0, 0]}),
     "JSON": json.dumps(BOX).encode()[:-1],
@@ -303,6 +319,8 @@ BROKEN = {
 
 # One for each rule that the schema does not express.
 UNSEEN = {
+    "a parameter: min is not above max": {**BOX, "parameters": {"A": {"min": 1, "max": 0}}},
+    "a parameter: the default is within": {**BOX, "parameters": {"A": {"min": 1, "default": [2, 0]}}},
     "points are as many as size says": {**POINTS, "size": [3, 2, 2]},
     "weights are as many as size says": {**BOX, "size": [3, 2, 2], "weights": [1] * 8},
     "deformed points are as many as size says": {**BOX, "size": [3, 2, 2], "deformed": {"points": CORNERS}},

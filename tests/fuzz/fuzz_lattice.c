@@ -6,8 +6,8 @@
 #include "check_folds.h"
 #include "fuzz_target.h"
 #include "lattice/spec.h"
-#include "lattice/spec_parse.h"
-#include "lattice/spec_text.h"
+#include "lattice/file/spec_parse.h"
+#include "lattice/file/spec_text.h"
 #include "promise.h"
 #include <math.h>
 #include <string.h>

@@ -183,6 +183,14 @@ m("misplaced-key", "left out", "cli_lattice_comments", "ffd_status status = refu
 m("lattice-member", "member name", "lattice_file, shapes, cli_lattice_new", '"height", spec->height',
   '"radius", spec->height')
 
+m("offsets-by-difference", "cancellation", "cli_parameters", "memcpy(lattice->difference, spec->deformed_offsets, size);",
+  "memcpy(lattice->difference, lattice->difference, size);")
+m("minus-forgotten", "sign", "cli_parameters", "placeholder->factor = -placeholder->factor;", "placeholder->factor = +placeholder->factor;")
+m("default-outside-its-bounds", "check left out", "cli_lattice_schema",
+  "if (find_outside(cursor.tree, cursor.value, parameter, &number))", "if (find_outside(cursor.tree, cursor.value, parameter, &number) && number == 0.25)")
+m("max-not-included", "bound", "cli_parameters", "*number <= parameter->max", "*number < parameter->max")
+m("product-of-infinity", "check left out", "cli_parameters", "&& isfinite(factor * number);", "&& !isnan(factor * number);")
+
 # deform
 
 m("kernel-sum", "kernel", "displacement", "sum[c] = i == 0 ? term : sum[c] + term;",

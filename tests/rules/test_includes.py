@@ -69,6 +69,7 @@ LAYERS = {
     "job/report": {"base", "base/file", "base/memory", "base/text", "json", "mesh"},
     "spline": {"base", "base/memory", "base/text"},
     "lattice": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "spline"},
+    "lattice/file": {"base", "base/file", "base/memory", "base/text", "base/vector", "json", "lattice", "spline"},
     "embed/frame": {"base/memory", "base/vector", "lattice", "spline"},
     "embed/boundary": {"base", "base/memory", "base/vector", "embed/frame", "lattice", "spline"},
     "deform": {"base", "base/vector", "embed/boundary", "lattice"},
@@ -85,7 +86,7 @@ LAYERS = {
     },
     "job/chain": {
         "base", "base/file", "base/memory", "base/system", "base/vector", "deform", "embed", "embed/boundary",
-        "embed/frame", "job/input", "lattice", "mesh",
+        "embed/frame", "job/input", "lattice", "lattice/file", "mesh",
     },
     "job/pass": {
         "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/input",
@@ -102,14 +103,14 @@ LAYERS = {
     "batch/manifest": {"base", "base/file", "base/memory", "base/system", "base/text", "json", "mesh"},
     "batch": {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "job/chain", "job/input",
-        "job/judge", "job/report", "json", "lattice", "mesh", "view",
+        "job/judge", "job/report", "json", "lattice", "lattice/file", "mesh", "view",
     },
     "cli": {"batch"},
     "cli/pages": {"cli"},
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
         "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "json",
-        "lattice", "mesh",
+        "lattice", "lattice/file", "mesh",
     },
 }
 

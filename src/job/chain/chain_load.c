@@ -8,7 +8,7 @@
 #include "job/input/embedding_file.h"
 #include "job/input/shown_box.h"
 #include "lattice/lattice.h"
-#include "lattice/spec_set.h"
+#include "lattice/file/spec_set.h"
 #include <stdio.h>
 #include <string.h>
 

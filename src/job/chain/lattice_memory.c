@@ -1,7 +1,7 @@
 #include "job/chain/lattice_memory.h"
 #include "job/chain/chain.h"
 #include "lattice/build.h"
-#include "lattice/spec_parse.h"
+#include "lattice/file/spec_parse.h"
 
 #define MEGABYTE 1000000
 

@@ -1,4 +1,4 @@
-#include "lattice/spec_text.h"
+#include "lattice/file/spec_text.h"
 #include "json/json_text.h"
 #include <string.h>
 
@@ -126,6 +126,8 @@ static void write_deformed(json_text *json, const lattice_spec *spec)
     ffd_json_object(json, "deformed", false);
     if (spec->deformed_points)
         write_points(json, "points", spec->deformed_points, spec->count);
+    if (spec->deformed_offsets)
+        write_points(json, "offsets", spec->deformed_offsets, spec->count);
     if (spec->deformed_weights)
         ffd_json_vector(json, "weights", spec->deformed_weights, spec->count);
     ffd_json_end(json, '}');
@@ -266,7 +268,7 @@ char *ffd_spec_text(const lattice_spec *spec, size_t *size)
     write_rest(&json, spec);
     if (spec->weights)
         ffd_json_vector(&json, "weights", spec->weights, spec->count);
-    if (spec->deformed_points || spec->deformed_weights)
+    if (spec->deformed_points || spec->deformed_offsets || spec->deformed_weights)
         write_deformed(&json, spec);
     if (spec->box_units)
         ffd_json_string(&json, "units", "box");

@@ -1,4 +1,4 @@
-#include "lattice/spec_values.h"
+#include "lattice/file/spec_values.h"
 #include "base/memory/memory.h"
 #include "base/vector/direction.h"
 #include <string.h>

@@ -1,8 +1,8 @@
-#include "lattice/spec_parse_moves.h"
+#include "lattice/file/spec_parse_moves.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/direction.h"
-#include "lattice/spec_values.h"
+#include "lattice/file/spec_values.h"
 #include <stdio.h>
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))

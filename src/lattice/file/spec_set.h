@@ -7,20 +7,30 @@
 #include "json/json_reader.h"
 #include "json/json_setting.h"
 
+/* A value times a number. */
+typedef struct spec_product {
+    char *text;
+    json_setting value; /* of the text */
+} spec_product;
+
 /* All zeros: empty. */
 typedef struct spec_values {
-    json_setting *values; /* one for each setting; parsed if it is used */
+    json_setting *values; /* one for each setting, then one for each parameter; parsed if it is used */
     size_t count;
     json_substitute *substitutes; /* one for each placeholder */
     size_t substitute_count, substitute_capacity;
+    spec_product **products; /* of placeholders with a factor */
+    size_t product_count, product_capacity;
     intern_table open; /* names of placeholders without a value */
 } spec_values;
 
-/* Makes the file's readers read these values instead of the placeholders that are somewhere within
-   moves (a value of the file's tree, or JSON_NONE), and marks those that are used. The values must
-   outlive the reading; free them after a failure too. Errors: FFD_E_INVALID for a placeholder without
-   a value (unless the settings allow it), FFD_E_MEMORY. */
-ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, spec_values *values);
+/* Makes the file's readers read these values, or the defaults of the spec's parameters, instead of the
+   placeholders that are somewhere within moves (a value of the file's tree, or JSON_NONE), and marks those
+   that are used. The values must outlive the reading; free them after a failure too. Errors: FFD_E_INVALID
+   for a placeholder without a value (unless the settings allow it) and for a value outside its bounds,
+   FFD_E_MEMORY. */
+ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings,
+                        const lattice_spec *spec, spec_values *values);
 /* Writes a message that these placeholders (at least one) have no values. */
 void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacity);
 /* Adds the names of a file's placeholders that have no value. Errors: those of ffd_lattice_load_rest. */

@@ -4,11 +4,11 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "lattice/build.h"
+#include "lattice/file/spec_parse.h"
+#include "lattice/file/spec_set.h"
+#include "lattice/file/spec_text.h"
 #include "lattice/lattice.h"
 #include "lattice/spec.h"
-#include "lattice/spec_parse.h"
-#include "lattice/spec_set.h"
-#include "lattice/spec_text.h"
 #include <string.h>
 
 /* Makes the lattice of a spec, which it takes. */

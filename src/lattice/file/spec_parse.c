@@ -1,18 +1,19 @@
-#include "lattice/spec_parse.h"
+#include "lattice/file/spec_parse.h"
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
+#include "lattice/file/spec_parameters.h"
+#include "lattice/file/spec_parse_moves.h"
+#include "lattice/file/spec_parse_rest.h"
+#include "lattice/file/spec_set.h"
+#include "lattice/file/spec_values.h"
 #include "lattice/lattice.h"
-#include "lattice/spec_parse_moves.h"
-#include "lattice/spec_parse_rest.h"
-#include "lattice/spec_set.h"
-#include "lattice/spec_values.h"
 #include "json/json_parse.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
-static const char *const top_keys[] = {"format",  "version",  "size",  "degree", "knots",   "rest",
-                                       "weights", "deformed", "units", "moves",  SPEC_NOTES};
+static const char *const top_keys[] = {"format",  "version",  "size",  "degree", "knots",      "rest",
+                                       "weights", "deformed", "units", "moves",  "parameters", SPEC_NOTES};
 
 static ffd_status read_format(json_cursor root)
 {
@@ -194,12 +195,18 @@ static ffd_status read_weights(json_cursor cursor, size_t count, double **weight
 
 static ffd_status read_deformed(json_cursor cursor, lattice_spec *spec)
 {
-    static const char *const keys[] = {"points", "weights", SPEC_NOTES};
+    static const char *const keys[] = {"points", "offsets", "weights", SPEC_NOTES};
     ffd_status status = ffd_spec_read_object(cursor, keys, COUNT_OF(keys));
     const json_cursor points = ffd_cursor_member(cursor, "points");
+    const json_cursor offsets = ffd_cursor_member(cursor, "offsets");
     const json_cursor weights = ffd_cursor_member(cursor, "weights");
+    if (!status && ffd_cursor_exists(points) && ffd_cursor_exists(offsets))
+        return ffd_cursor_fail(cursor, "has both \"points\" and \"offsets\"; the deformed control points are "
+                                       "given by one of them");
     if (!status && ffd_cursor_exists(points))
         status = ffd_spec_read_points(points, spec->count, &spec->deformed_points);
+    if (!status && ffd_cursor_exists(offsets))
+        status = ffd_spec_read_points(offsets, spec->count, &spec->deformed_offsets);
     if (!status && ffd_cursor_exists(weights))
         status = read_weights(weights, spec->count, &spec->deformed_weights);
     return status;
@@ -273,8 +280,11 @@ static ffd_status read_tree(json_file *file, const spec_settings *settings, latt
 {
     spec_values values = {0};
     ffd_status status = check_kind(ffd_cursor_top(file));
+    const json_cursor parameters = ffd_cursor_member(ffd_cursor_top(file), "parameters");
+    if (!status && ffd_cursor_exists(parameters))
+        status = ffd_spec_parse_parameters(parameters, spec);
     if (!status)
-        status = ffd_spec_set(file, ffd_json_span_member(file->tree, 0, "moves"), settings, &values);
+        status = ffd_spec_set(file, ffd_json_span_member(file->tree, 0, "moves"), settings, spec, &values);
     if (!status)
         status = read_root(ffd_cursor_top(file), values.open.count == 0, spec);
     spec->open = values.open;

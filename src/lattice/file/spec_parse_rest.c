@@ -1,9 +1,9 @@
-#include "lattice/spec_parse_rest.h"
+#include "lattice/file/spec_parse_rest.h"
 #include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/vector/direction.h"
 #include "base/vector/vec.h"
-#include "lattice/spec_values.h"
+#include "lattice/file/spec_values.h"
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 

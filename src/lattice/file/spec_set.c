@@ -1,0 +1,248 @@
+#include "lattice/file/spec_set.h"
+#include "base/memory/memory.h"
+#include "lattice/file/spec_parameters.h"
+#include "lattice/file/spec_values.h"
+#include "json/json_parse.h"
+#include "json/json_text.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A placeholder: {"$": "NAME"} or {"$": "-NAME"}, with "times": NUMBER or not. */
+typedef struct spec_placeholder {
+    json_cursor at;
+    char *name;
+    double factor;
+} spec_placeholder;
+
+/* The string under "$", beside which there may be a factor and notes; JSON_NONE: it is not a placeholder. */
+static uint32_t placeholder_text(const json_span *tree, uint32_t value)
+{
+    static const char *const others[] = {"times", SPEC_NOTES};
+    if (tree->values[value].kind != JSON_OBJECT)
+        return JSON_NONE;
+    const uint32_t name = ffd_json_span_member(tree, value, "$");
+    if (name == JSON_NONE || tree->values[name].kind != JSON_STRING)
+        return JSON_NONE;
+    size_t known = 1;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        known += ffd_json_span_member(tree, value, others[i]) != JSON_NONE;
+    return tree->values[value].count == known ? name : JSON_NONE;
+}
+
+/* Reads the placeholder at the cursor; free its name, after a failure too. */
+static ffd_status read_placeholder(json_cursor cursor, uint32_t text, spec_placeholder *placeholder)
+{
+    json_cursor times = cursor;
+    times.value = ffd_json_span_member(cursor.tree, cursor.value, "times");
+    placeholder->at = cursor;
+    placeholder->factor = 1;
+    placeholder->name = ffd_json_span_string(cursor.tree, text, NULL);
+    if (!placeholder->name)
+        return ffd_fail_memory(cursor.file->error);
+    ffd_status status = ffd_spec_check_notes(cursor);
+    if (!status && ffd_cursor_exists(times))
+        status = ffd_json_read_double(times, &placeholder->factor);
+    if (placeholder->name[0] == '-' && placeholder->name[1]) {
+        memmove(placeholder->name, placeholder->name + 1, strlen(placeholder->name));
+        placeholder->factor = -placeholder->factor;
+    }
+    return status;
+}
+
+/* The value that a setting or else a parameter's default has for a name; NULL: there is none. number: of its
+   place in spec_values. */
+static const char *find_text(const char *name, const spec_settings *settings, const lattice_spec *spec,
+                             size_t *number)
+{
+    for (size_t i = 0; i < settings->count; i++)
+        if (strcmp(settings->values[i].name, name) == 0) {
+            *number = i;
+            settings->used[i] = true;
+            return settings->values[i].value;
+        }
+    const spec_parameter *const parameter = ffd_spec_find_parameter(spec, name);
+    if (!parameter || !parameter->value)
+        return NULL;
+    *number = settings->count + (size_t)(parameter - spec->parameters);
+    return parameter->value;
+}
+
+/* The value of the placeholder, without its factor; none where it is open. */
+static ffd_status find_value(const spec_placeholder *placeholder, const spec_settings *settings,
+                             const lattice_spec *spec, spec_values *values, const json_span **tree)
+{
+    const spec_parameter *const parameter = ffd_spec_find_parameter(spec, placeholder->name);
+    size_t number;
+    const char *const text = find_text(placeholder->name, settings, spec, &number);
+    if (!text)
+        return FFD_OK;
+    json_setting *const value = &values->values[number];
+    ffd_status status = FFD_OK;
+    if (!value->tree.values)
+        status = ffd_json_setting_parse(text, JSON_NO_NUL | JSON_DOUBLES, value);
+    *tree = &value->tree;
+    if (status == FFD_E_INVALID)
+        return ffd_cursor_fail(placeholder->at, "the value of \"%.60s\" is neither JSON nor a text in UTF-8",
+                               placeholder->name);
+    if (status)
+        return ffd_fail_memory(placeholder->at.file->error);
+    return parameter ? ffd_spec_check_bounds(placeholder->at, parameter, *tree) : FFD_OK;
+}
+
+/* Writes a number, or an array of numbers, times the factor; false where it is neither. */
+static bool write_product(byte_buffer *text, const json_span *tree, double factor)
+{
+    const bool is_array = tree->values[0].kind == JSON_ARRAY;
+    double number = 0;
+    bool numbers = true;
+    json_text json;
+    ffd_json_begin(&json, text);
+    if (is_array)
+        ffd_json_array(&json, NULL, true);
+    for (uint32_t v = is_array; v < tree->count && numbers; v++) {
+        numbers = ffd_json_span_number(tree, v, &number) && isfinite(factor * number);
+        ffd_json_number(&json, NULL, factor * number);
+    }
+    if (is_array)
+        ffd_json_end(&json, ']');
+    return numbers;
+}
+
+/* Takes the text. */
+static ffd_status add_product(spec_values *values, char *text, const json_span **tree)
+{
+    spec_product *const product = text ? ffd_alloc_zero(1, sizeof *product) : NULL;
+    if (!product || !ffd_grow((void **)&values->products, &values->product_capacity,
+                              values->product_count + 1, sizeof *values->products)) {
+        ffd_free(product);
+        ffd_free(text);
+        return FFD_E_MEMORY;
+    }
+    values->products[values->product_count++] = product;
+    product->text = text;
+    *tree = &product->value.tree;
+    return ffd_json_setting_parse(text, JSON_NO_NUL | JSON_DOUBLES, &product->value);
+}
+
+/* Replaces the value by its product with the placeholder's factor. */
+static ffd_status multiply(const spec_placeholder *placeholder, spec_values *values, const json_span **tree)
+{
+    byte_buffer text = {0};
+    if (write_product(&text, *tree, placeholder->factor))
+        return add_product(values, ffd_buffer_finish(&text), tree)
+                   ? ffd_fail_memory(placeholder->at.file->error)
+                   : FFD_OK;
+    ffd_buffer_free(&text);
+    return ffd_cursor_fail(placeholder->at,
+                           "the value of \"%.60s\" is to be multiplied: it must be a number or an array of "
+                           "numbers, and the product finite",
+                           placeholder->name);
+}
+
+/* Notes the name of a placeholder without a value. */
+static ffd_status note_open(const spec_placeholder *placeholder, intern_table *open)
+{
+    uint32_t number;
+    return ffd_intern(open, placeholder->name, strlen(placeholder->name), &number)
+               ? FFD_OK
+               : ffd_fail_memory(placeholder->at.file->error);
+}
+
+/* Bytes of names in a message. */
+#define NAMES_SHOWN 300
+
+void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacity)
+{
+    char names[NAMES_SHOWN + 80] = "";
+    const char *const first = ffd_intern_key(open, 0);
+    size_t length = 0, shown = 0;
+    if (open->count == 1) {
+        snprintf(text, capacity, "the placeholder \"%.60s\" has no value (--set %.60s=VALUE)", first, first);
+        return;
+    }
+    for (; shown < open->count && length < NAMES_SHOWN; shown++)
+        length += (size_t)snprintf(names + length, sizeof names - length, "%s\"%.60s\"", shown ? ", " : "",
+                                   ffd_intern_key(open, (uint32_t)shown));
+    if (shown < open->count)
+        snprintf(names + length, sizeof names - length, " and %zu more", open->count - shown);
+    snprintf(text, capacity, "the placeholders %s have no values (--set NAME=VALUE for each)", names);
+}
+
+/* All of them at once, at the place of the first. */
+static ffd_status refuse_open(const json_file *file, uint32_t value, const intern_table *open)
+{
+    char text[480];
+    ffd_spec_describe_open(open, text, sizeof text);
+    return ffd_cursor_fail((json_cursor){file, file->tree, value, JSON_NONE}, "%s", text);
+}
+
+static ffd_status add_substitute(const json_file *file, uint32_t value, const json_span *tree,
+                                 spec_values *values)
+{
+    if (!ffd_grow((void **)&values->substitutes, &values->substitute_capacity, values->substitute_count + 1,
+                  sizeof *values->substitutes))
+        return ffd_fail_memory(file->error);
+    values->substitutes[values->substitute_count++] = (json_substitute){value, tree};
+    return FFD_OK;
+}
+
+/* Fills the placeholder at value v of the file, or notes that it is open. */
+static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_settings *settings,
+                       const lattice_spec *spec, spec_values *values)
+{
+    spec_placeholder placeholder = {0};
+    const json_span *value = NULL;
+    ffd_status status = read_placeholder((json_cursor){file, file->tree, v, JSON_NONE}, text, &placeholder);
+    if (!status)
+        status = find_value(&placeholder, settings, spec, values, &value);
+    if (!status && value && placeholder.factor != 1)
+        status = multiply(&placeholder, values, &value);
+    if (!status)
+        status = value ? add_substitute(file, v, value, values) : note_open(&placeholder, &values->open);
+    ffd_free(placeholder.name);
+    return status;
+}
+
+ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings,
+                        const lattice_spec *spec, spec_values *values)
+{
+    const json_span *const tree = file->tree;
+    const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
+    ffd_status status = FFD_OK;
+    uint32_t first_open = JSON_NONE;
+    values->count = settings->count + spec->parameter_count;
+    values->values = ffd_alloc_zero(values->count, sizeof *values->values);
+    if (!values->values)
+        return ffd_fail_memory(file->error);
+    /* All that is within moves follows it in the tree. */
+    for (uint32_t v = moves + 1; v < end && !status; v++) {
+        const uint32_t text = placeholder_text(tree, v);
+        if (text == JSON_NONE)
+            continue;
+        status = fill(file, v, text, settings, spec, values);
+        if (first_open == JSON_NONE && values->open.count > 0)
+            first_open = v;
+    }
+    if (!status && values->open.count > 0 && !settings->may_be_open)
+        status = refuse_open(file, first_open, &values->open);
+    file->substitutes = values->substitutes;
+    file->substitute_count = values->substitute_count;
+    return status;
+}
+
+void ffd_spec_values_free(spec_values *values)
+{
+    for (size_t i = 0; values->values && i < values->count; i++)
+        ffd_json_setting_free(&values->values[i]);
+    for (size_t i = 0; i < values->product_count; i++) {
+        ffd_json_setting_free(&values->products[i]->value);
+        ffd_free(values->products[i]->text);
+        ffd_free(values->products[i]);
+    }
+    ffd_free(values->products);
+    ffd_free(values->values);
+    ffd_free(values->substitutes);
+    ffd_intern_free(&values->open);
+    *values = (spec_values){0};
+}
