@@ -5,8 +5,8 @@
 #include "job/info_box.h"
 #include "job/info_layers.h"
 #include "lattice/build.h"
-#include "lattice/lattice.h"
 #include "lattice/file/spec_parse.h"
+#include "lattice/lattice.h"
 #include "mesh/bounds.h"
 #include <ffd/embedding.h>
 #include <math.h>

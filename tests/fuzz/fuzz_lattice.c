@@ -5,9 +5,9 @@
 #include "check_embedding.h"
 #include "check_folds.h"
 #include "fuzz_target.h"
-#include "lattice/spec.h"
 #include "lattice/file/spec_parse.h"
 #include "lattice/file/spec_text.h"
+#include "lattice/spec.h"
 #include "promise.h"
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* The lattice file: what it says, what is refused and how, and that it is written as it is read. */
 #include "base/memory/memory.h"
-#include "lattice/lattice.h"
 #include "lattice/file/spec_text.h"
+#include "lattice/lattice.h"
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

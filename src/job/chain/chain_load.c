@@ -7,8 +7,8 @@
 #include "job/chain/mesh_boxes.h"
 #include "job/input/embedding_file.h"
 #include "job/input/shown_box.h"
-#include "lattice/lattice.h"
 #include "lattice/file/spec_set.h"
+#include "lattice/lattice.h"
 #include <stdio.h>
 #include <string.h>
 
