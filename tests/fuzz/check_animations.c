@@ -1,3 +1,4 @@
+/* check_animations.c - animations that load give finite poses between their keys. */
 #include "check_animations.h"
 #include "io/gltf/animation/gltf_pose.h"
 #include "io/gltf/animation/gltf_sample.h"
