@@ -1,4 +1,4 @@
-/* embedding.h - u,v,w of an array of points (public: ffd/points.h). */
+/* embedding.h - u,v,w of an array of points (public: ffd/points.h). Declares functions of affected.c too. */
 #ifndef FFD_POINTS_EMBEDDING_H
 #define FFD_POINTS_EMBEDDING_H
 
