@@ -25,6 +25,10 @@ typedef enum ffd_vertex_status {
 
 #define FFD_VERTEX_STATUS_COUNT 5
 
+/* A point outside of a lattice stays, to the bit; moves as the continuation of the nearest border point's
+   displacement says; is a failure. */
+typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
+
 /* The search structure for one rest lattice: made once, never changed by a search, shared freely by threads.
  */
 typedef struct ffd_locator ffd_locator;

@@ -22,7 +22,8 @@ typedef enum ffd_status {
     FFD_E_EMBEDDING = -40,   /* the embedding failed, e.g. a vertex outside under --outside error (exit 5) */
     FFD_E_UNSUPPORTED = -50, /* valid, but this build cannot do it (exit 6) */
     FFD_E_MEMORY = -60,      /* out of memory (exit 7) */
-    FFD_E_LIMIT = -61        /* a documented limit was passed (exit 7) */
+    FFD_E_LIMIT = -61,       /* a documented limit was passed (exit 7) */
+    FFD_E_CANCELLED = -70    /* the caller's progress function said so (exit 1) */
 } ffd_status;
 
 /* The caller's own record of a failure; every function takes a pointer to one last, NULL where the words are

@@ -10,6 +10,7 @@
 #include <ffd/isa.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>
+#include <ffd/points.h>
 #include <ffd/version.h>
 
 #endif

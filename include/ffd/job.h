@@ -30,9 +30,6 @@ typedef enum ffd_format {
    FFD_FORMAT_AUTO if none. */
 FFD_API ffd_format ffd_format_from_name(const char *name);
 
-/* A vertex outside of a lattice stays; moves as the continuation of the nearest border point's displacement
-   says; is a failure. */
-typedef enum ffd_outside { FFD_OUTSIDE_KEEP = 0, FFD_OUTSIDE_EXTEND, FFD_OUTSIDE_ERROR } ffd_outside;
 /* Normals and tangents follow the deformation; stay; are those of the deformed faces: corners that had
    one position and one normal get one again, from all faces around them, by area and angle. */
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;

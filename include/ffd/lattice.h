@@ -79,11 +79,91 @@ FFD_API ffd_status ffd_lattice_load_rest(const char *path, const ffd_setting *va
 FFD_API ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ffd_lattice **lattice,
                                      ffd_error *error);
 
+/* A placeholder's parameter, as a lattice file declares it; valid during the call. */
+typedef struct ffd_parameter {
+    size_t struct_size; /* of the library's: members beyond are later ones */
+    const char *name;
+    const char *default_value;  /* as JSON; NULL: there is none */
+    const char *unit, *comment; /* NULL: there is none */
+    double min, max;            /* of each number of the value; infinite: no bound */
+} ffd_parameter;
+
+/* Takes one parameter; false ends the listing. */
+typedef bool (*ffd_parameter_function)(void *user, const ffd_parameter *parameter);
+
+/* Lists the parameters of a lattice file's text (size bytes; no final 0 needed) in its order. Errors: those
+   of ffd_lattice_parse, but for placeholders without values. Thread-safe. */
+FFD_API ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char *name,
+                                               ffd_parameter_function function, void *user, ffd_error *error);
+
 /* Makes an undeformed lattice that covers count points (xyz: 3*count doubles, world units).
    Extents of 0 are widened, so that the volume is not empty. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (no finite
    point), FFD_E_MEMORY, FFD_E_LIMIT. */
 FFD_API ffd_status ffd_lattice_create(const ffd_lattice_desc *desc, const double *xyz, size_t count,
                                       ffd_lattice **lattice, ffd_error *error);
+
+/* What a lattice is made of, as arrays, which are copied. Fill with ffd_lattice_arrays_init, then set size
+   and rest or the box. */
+typedef struct ffd_lattice_arrays {
+    size_t struct_size; /* sizeof(ffd_lattice_arrays) of the caller */
+    size_t size[3];     /* control points along u,v,w, n in all; at least degree+1 each */
+    int degree[3];      /* 1..9, or 0: 3, or size-1 where that is less */
+    ffd_knots knots[3]; /* default FFD_KNOTS_DEFAULT, which is clamped here */
+    /* Not NULL: the knots themselves, size+degree+1 of them, not falling; with FFD_KNOTS_CLOSED the size+1
+       breakpoints of one period. */
+    const double *knot_values[3];
+    size_t knot_count[3]; /* of knot_values */
+    const double *rest; /* 3*n, u fastest: the control points at rest, world units. NULL: those of the box, at
+                           the Greville abscissae, so that the map is affine. */
+    double box_min[3], box_max[3]; /* along the axes */
+    double axes[9];             /* three orthogonal unit vectors, row by row; all 0 (the default): x, y, z */
+    const double *rest_weights; /* n, positive; NULL: all 1 */
+} ffd_lattice_arrays;
+
+/* Fills arrays, of which the caller knows size bytes (sizeof(ffd_lattice_arrays)), with defaults. */
+FFD_API void ffd_lattice_arrays_init(ffd_lattice_arrays *arrays, size_t size);
+
+/* Makes an undeformed lattice of arrays. Errors: FFD_E_ARGUMENT, FFD_E_INVALID (numbers that are not finite,
+   weights that are not positive, knots that data/schema/lattice.md refuses), FFD_E_MEMORY, FFD_E_LIMIT. */
+FFD_API ffd_status ffd_lattice_from_arrays(const ffd_lattice_arrays *arrays, ffd_lattice **lattice,
+                                           ffd_error *error);
+
+/* Makes a lattice that is equal in all, and independent. Errors: FFD_E_MEMORY. */
+FFD_API ffd_status ffd_lattice_copy(const ffd_lattice *lattice, ffd_lattice **copy, ffd_error *error);
+
+/* Sets deformed control points: count of them, whose numbers (u fastest) are index, or 0, 1, ..., count-1
+   where index is NULL. xyz: 3*count doubles, world units. Of a number that occurs twice the last one counts.
+   What moves of a file have done is overwritten. Takes time in proportion to all control points: set many at
+   once. The lattice must not need bounds, and no other thread may use it meanwhile. Nothing is changed by a
+   failure. Errors: FFD_E_ARGUMENT (a number that the lattice does not have, a lattice that needs bounds),
+   FFD_E_INVALID (a number that is not finite or too large), FFD_E_MEMORY. */
+FFD_API ffd_status ffd_lattice_set_points(ffd_lattice *lattice, const size_t *index, size_t count,
+                                          const double *xyz, ffd_error *error);
+
+/* The same by displacements from the rest positions, which are used as they are: what has 0 0 0 moves
+   nothing, to the bit. */
+FFD_API ffd_status ffd_lattice_set_offsets(ffd_lattice *lattice, const size_t *index, size_t count,
+                                           const double *xyz, ffd_error *error);
+
+/* The same for the weights of deformed control points, count positive doubles. */
+FFD_API ffd_status ffd_lattice_set_weights(ffd_lattice *lattice, const size_t *index, size_t count,
+                                           const double *weights, ffd_error *error);
+
+/* The displacements of the control points, 3*size[0]*size[1]*size[2] doubles. Lent by the lattice, valid
+   until it is changed or destroyed; NULL while ffd_lattice_fit is still needed. */
+FFD_API const double *ffd_lattice_get_offsets(const ffd_lattice *lattice);
+
+/* The knots of a direction (0..2: u,v,w), lent by the lattice; returns how many. A closed direction of n
+   control points and degree d has those of the equal open one, n + 2 d + 1. */
+FFD_API size_t ffd_lattice_get_knots(const ffd_lattice *lattice, int direction, const double **knots);
+
+/* The text of the lattice's file (data/schema/lattice.md), with a final 0 that size does not count. Control
+   points that were set are offsets in it. *text is the caller's, freed with ffd_free. Errors: FFD_E_MEMORY.
+ */
+FFD_API ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error);
+
+/* Frees what functions of this library hand over to be freed by it. NULL is allowed. */
+FFD_API void ffd_free(void *block);
 
 /* Writes the lattice as a file (data/schema/lattice.md), complete or not at all. force:
    replace an existing file. */

@@ -126,6 +126,7 @@ int ffd_status_exit_code(ffd_status status)
     case FFD_OK:
         return 0;
     case FFD_E_GATE:
+    case FFD_E_CANCELLED:
         return 1;
     case FFD_E_ARGUMENT:
         return 2;

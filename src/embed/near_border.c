@@ -142,3 +142,23 @@ ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, s
     }
     return status;
 }
+
+/* Whether a point may be inside with what it stands for: with twice of that, for the rounding of this test.
+ */
+static bool is_near(const bounds *hull, const double x[3], const double half[3], double snap)
+{
+    double slack[3];
+    for (int a = 0; a < 3; a++)
+        slack[a] =
+            2 * (half[a] + snap) + 64 * DBL_EPSILON * (fabs(x[a]) + fabs(hull->lo[a]) + fabs(hull->hi[a]));
+    return bounds_hold(hull, x, slack);
+}
+
+ffd_status ffd_near_border_look_again(const ffd_locator *locator, const double x[3], const double half[3],
+                                      double snap, ffd_location *location, ffd_error *error)
+{
+    const ffd_border_allowance allowance = {half, snap};
+    if (!is_near(&locator->hull, x, half, snap))
+        return FFD_OK;
+    return ffd_near_border_find(locator, x, 1, &allowance, location, error);
+}

@@ -11,4 +11,9 @@ ffd_status ffd_near_border_find(const ffd_locator *locator, const double *xyz, s
                                 const ffd_border_allowance *allowance, ffd_location *locations,
                                 ffd_error *error);
 
+/* The same for one point without u,v,w, fast where it is far from the volume: half the cell that it stands
+   for, along each axis, and a snap (world units). */
+ffd_status ffd_near_border_look_again(const ffd_locator *locator, const double x[3], const double half[3],
+                                      double snap, ffd_location *location, ffd_error *error);
+
 #endif

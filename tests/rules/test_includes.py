@@ -80,6 +80,10 @@ LAYERS = {
         "spline",
     },
     "fold": {"base/memory", "base/system", "base/vector", "embed/frame", "lattice", "spline"},
+    "points": {
+        "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/boundary", "lattice",
+        "mesh", "spline",
+    },
     "job/input": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy", "lattice",
         "mesh",

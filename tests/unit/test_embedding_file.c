@@ -1,6 +1,7 @@
 /* test_embedding_file.c - hashes, and the file of `ffd embed`: what it holds, and that no other is taken for
    it. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "lattice/rest_hash.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -223,7 +224,7 @@ static hash128 hash_of_lattice(const char *members)
     const int size = snprintf(text, sizeof text, "{\"format\":\"ffd-lattice\",\"version\":1,%s}", members);
     if (ffd_lattice_parse(text, (size_t)size, "test", &lattice, &error) != FFD_OK)
         fail_msg("%s: %s", error.pointer, error.message);
-    const hash128 hash = ffd_embedding_hash_lattice(lattice);
+    const hash128 hash = ffd_rest_hash(lattice);
     ffd_lattice_destroy(&lattice);
     return hash;
 }
@@ -663,7 +664,7 @@ static void embed_writes_what_belongs_to_mesh_and_lattice(void **state)
     embedding_file file;
     assert_int_equal(ffd_lattice_load(lattice_path, &lattice, NULL), FFD_OK);
     assert_int_equal(ffd_lattice_fit(lattice, min, max, NULL), FFD_OK);
-    const hash128 lattice_hash = ffd_embedding_hash_lattice(lattice);
+    const hash128 lattice_hash = ffd_rest_hash(lattice);
     assert_int_equal(ffd_source_open(&desc.input, 0, &document, NULL), FFD_OK);
     assert_int_equal(ffd_embedding_hash_positions(document, 1, &mesh_hash, NULL), FFD_OK);
     assert_int_equal(ffd_embedding_open(output_path, 1500, &mesh_hash, &lattice_hash, &file, NULL), FFD_OK);

@@ -1,5 +1,6 @@
 /* test_pass.c - one pass over a document: its arrays and figures, what happens outside, u,v,w from a file. */
 #define _XOPEN_SOURCE 700 /* mkdtemp */
+#include "lattice/rest_hash.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -450,7 +451,7 @@ static void write_embedding(const lattice_chain *chain, const double *uvw, const
     cloud *mesh = make_cloud();
     hash128 positions;
     file_output *output;
-    const hash128 rest = ffd_embedding_hash_lattice(chain->links[0].lattice);
+    const hash128 rest = ffd_rest_hash(chain->links[0].lattice);
     assert_int_equal(ffd_embedding_hash_positions(&mesh->head, 1, &positions, NULL), FFD_OK);
     assert_int_equal(ffd_output_create(&output, NULL), FFD_OK);
     assert_int_equal(ffd_output_begin(output, path(), true, NULL), FFD_OK);

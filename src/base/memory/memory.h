@@ -2,6 +2,7 @@
 #ifndef FFD_BASE_MEMORY_MEMORY_H
 #define FFD_BASE_MEMORY_MEMORY_H
 
+#include <ffd/export.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -17,7 +18,7 @@ void *ffd_alloc_zero(size_t count, size_t size);
 /* Changes the size of a block (or NULL) of ffd_alloc. On failure the old block stays. */
 void *ffd_realloc(void *block, size_t count, size_t size);
 /* Frees a block of any of these; NULL is allowed. */
-void ffd_free(void *block);
+FFD_API void ffd_free(void *block);
 
 /* As ffd_alloc, for a block that will be used from end to end: a large one gets huge pages if the system has
    them, since the page fault at the first touch of a page costs more than filling it. Not for memory of which

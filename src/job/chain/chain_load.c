@@ -9,6 +9,7 @@
 #include "job/input/shown_box.h"
 #include "lattice/file/spec_set.h"
 #include "lattice/lattice.h"
+#include "lattice/rest_hash.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -191,7 +192,7 @@ static hash128 hash_rest(const ffd_lattice *lattice)
 {
     const bool is_box = lattice->form == REST_BOX_AFFINE;
     const double way[] = {is_box, lattice->rest_weights != NULL};
-    const hash128 parts[] = {ffd_embedding_hash_lattice(lattice), ffd_hash_doubles(way, 2),
+    const hash128 parts[] = {ffd_rest_hash(lattice), ffd_hash_doubles(way, 2),
                              ffd_hash_doubles(lattice->origin, is_box ? 3 : 0),
                              ffd_hash_doubles(lattice->frame, is_box ? 9 : 0)};
     return ffd_hash(parts, sizeof parts);

@@ -7,7 +7,7 @@
 #include "base/vector/vec.h"
 #include "io/npy/npy.h"
 #include "job/input/source.h"
-#include "lattice/border.h"
+#include "lattice/rest_hash.h"
 #include <inttypes.h>
 
 #define TILE ((size_t)1024)
@@ -99,45 +99,9 @@ ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threa
     return FFD_OK;
 }
 
-/* A lattice whose weights are moved has rest weights of its own, all 1, where it would have none else. */
-static bool has_weights(const ffd_lattice *lattice)
-{
-    for (size_t i = 0; lattice->rest_weights && i < lattice->count; i++)
-        if (lattice->rest_weights[i] != 1)
-            return true;
-    return false;
-}
-
-hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice)
-{
-    unsigned char shape[3][5 * 8];
-    hash128 knots[3], points, weights;
-    hash_block blocks[8];
-    size_t count = 0;
-    for (int a = 0; a < 3; a++) {
-        const knot_vector *k = &lattice->knots[a];
-        const size_t knot_count = k->functions + (size_t)k->degree + 1;
-        store_u64(shape[a], (uint64_t)k->degree);
-        store_u64(shape[a] + 8, k->points);
-        store_u64(shape[a] + 16, ffd_knots_closed(k));
-        store_u64(shape[a] + 24, ffd_lattice_is_seam(lattice, a));
-        store_u64(shape[a] + 32, knot_count);
-        knots[a] = ffd_hash_doubles(k->t, knot_count);
-        blocks[count++] = (hash_block){shape[a], sizeof shape[a]};
-        blocks[count++] = (hash_block){&knots[a], sizeof knots[a]};
-    }
-    points = ffd_hash_doubles(lattice->rest, 3 * lattice->count);
-    blocks[count++] = (hash_block){&points, sizeof points};
-    if (has_weights(lattice)) {
-        weights = ffd_hash_doubles(lattice->rest_weights, lattice->count);
-        blocks[count++] = (hash_block){&weights, sizeof weights};
-    }
-    return ffd_hash_blocks(blocks, count);
-}
-
 hash128 ffd_embedding_hash_rest(const ffd_lattice *lattice, double snap)
 {
-    const hash128 parts[] = {ffd_embedding_hash_lattice(lattice), ffd_hash_doubles(&snap, 1)};
+    const hash128 parts[] = {ffd_rest_hash(lattice), ffd_hash_doubles(&snap, 1)};
     return snap > 0 ? ffd_hash(parts, sizeof parts) : parts[0];
 }
 

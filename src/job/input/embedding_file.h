@@ -36,13 +36,7 @@
 ffd_status ffd_embedding_hash_positions(const mesh_document *document, int threads, hash128 *hash,
                                         ffd_error *error);
 
-/* Hashes what decides u,v,w, and nothing of what is moved. For each direction: degree, number of control
-   points, 1 if closed or else 0, 1 if its first and last face are a seam (lattice/border.h) or else 0, number
-   of knots (8 bytes each) and the hash of the knots; then the hash of the rest points; then, where a rest
-   weight is not 1, the hash of the weights. The lattice must be fitted to its mesh. */
-hash128 ffd_embedding_hash_lattice(const ffd_lattice *lattice);
-
-/* ffd_embedding_hash_lattice, or, with a snap (world units), the hash of that hash and the hash of the snap.
+/* ffd_rest_hash, or, with a snap (world units), the hash of that hash and the hash of the snap.
  */
 hash128 ffd_embedding_hash_rest(const ffd_lattice *lattice, double snap);
 

@@ -4,6 +4,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "lattice/build.h"
+#include "lattice/copy.h"
 #include "lattice/file/spec_parse.h"
 #include "lattice/file/spec_set.h"
 #include "lattice/file/spec_text.h"
@@ -27,6 +28,23 @@ ffd_status ffd_lattice_parse(const char *text, size_t size, const char *name, ff
     *lattice = NULL;
     const ffd_status status = ffd_spec_parse(text, size, name, NULL, &spec, error);
     return status ? status : build(spec, lattice, error);
+}
+
+ffd_status ffd_lattice_list_parameters(const char *text, size_t size, const char *name,
+                                       ffd_parameter_function function, void *user, ffd_error *error)
+{
+    const spec_settings settings = {.may_be_open = true};
+    lattice_spec *spec;
+    const ffd_status status = ffd_spec_parse(text, size, name, &settings, &spec, error);
+    bool goes_on = !status;
+    for (size_t i = 0; goes_on && i < spec->parameter_count; i++) {
+        const spec_parameter *const from = &spec->parameters[i];
+        const ffd_parameter parameter = {sizeof parameter, from->name, from->value, from->unit,
+                                         from->comment,    from->min,  from->max};
+        goes_on = function(user, &parameter);
+    }
+    ffd_spec_free(spec);
+    return status;
 }
 
 ffd_status ffd_lattice_load(const char *path, ffd_lattice **lattice, ffd_error *error)
@@ -100,14 +118,37 @@ ffd_status ffd_lattice_list_open(const char *path, const ffd_setting *values, si
     return status;
 }
 
+/* What the lattice's file says now: what moves have done and the caller has set as offsets. Borrows all from
+   the lattice and its spec. */
+static lattice_spec edited_spec(const ffd_lattice *lattice)
+{
+    lattice_spec spec = *lattice->spec;
+    if (!lattice->edited)
+        return spec;
+    spec.moves = NULL;
+    spec.move_count = 0;
+    spec.open = (intern_table){0};
+    spec.deformed_points = NULL;
+    spec.deformed_offsets = lattice->difference;
+    spec.deformed_weights = lattice->weights_moved ? lattice->deformed_weights : NULL;
+    return spec;
+}
+
+ffd_status ffd_lattice_text(const ffd_lattice *lattice, char **text, size_t *size, ffd_error *error)
+{
+    const lattice_spec spec = edited_spec(lattice);
+    *text = ffd_spec_text(&spec, size);
+    return *text ? FFD_OK : ffd_fail_memory(error);
+}
+
 ffd_status ffd_lattice_save(const ffd_lattice *lattice, const char *path, bool force, ffd_error *error)
 {
     size_t size;
-    char *const text = ffd_spec_text(lattice->spec, &size);
-    if (!text)
-        return ffd_fail_memory(error);
+    char *text;
     file_output *output = NULL;
-    ffd_status status = ffd_output_create(&output, error);
+    ffd_status status = ffd_lattice_text(lattice, &text, &size, error);
+    if (!status)
+        status = ffd_output_create(&output, error);
     if (!status)
         status = ffd_output_begin(output, path, force, error);
     if (!status)
@@ -147,13 +188,18 @@ ffd_status ffd_lattice_fit(ffd_lattice *lattice, const double min[3], const doub
         return FFD_OK;
     /* Built anew beside the old one, which stays as it is when that fails. */
     ffd_lattice *fitted;
-    const ffd_status status = ffd_spec_build(lattice->spec, min, max, &fitted, error);
-    if (status)
+    const lattice_spec now = edited_spec(lattice);
+    lattice_spec *const spec = lattice->edited ? ffd_spec_copy(&now) : lattice->spec;
+    const ffd_status status = spec ? ffd_spec_build(spec, min, max, &fitted, error) : ffd_fail_memory(error);
+    if (status) {
+        if (lattice->edited)
+            ffd_spec_free(spec);
         return status;
+    }
     const ffd_lattice old = *lattice;
     *lattice = *fitted;
     *fitted = old;
-    fitted->spec = NULL;
+    fitted->spec = old.edited ? old.spec : NULL;
     ffd_lattice_destroy(&fitted);
     return FFD_OK;
 }

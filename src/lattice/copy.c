@@ -1,0 +1,118 @@
+/* copy.c - copies of lattices and of their specs. */
+#include "lattice/copy.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "lattice/lattice.h"
+#include <string.h>
+
+/* Copies the block that *pointer is at, if there is one, and makes it point to the copy; NULL and false if
+   memory runs out. */
+static bool copy_block(void *pointer, size_t count, size_t size)
+{
+    void *from, *to = NULL;
+    memcpy(&from, pointer, sizeof from);
+    if (from)
+        to = ffd_alloc(count, size);
+    if (to)
+        memcpy(to, from, count * size);
+    memcpy(pointer, &to, sizeof to);
+    return !from || to;
+}
+
+static bool copy_text(char **text)
+{
+    const char *const from = *text;
+    *text = from ? ffd_text_copy(from) : NULL;
+    return !from || *text;
+}
+
+static bool copy_names(const intern_table *from, intern_table *to)
+{
+    bool whole = true;
+    *to = (intern_table){0};
+    for (uint32_t i = 0; i < from->count && whole; i++) {
+        uint32_t number;
+        const char *const name = ffd_intern_key(from, i);
+        whole = ffd_intern(to, name, strlen(name), &number);
+    }
+    return whole;
+}
+
+static bool copy_meshes(lattice_spec *copy)
+{
+    bool whole = copy_block(&copy->meshes, copy->mesh_count, sizeof *copy->meshes);
+    for (size_t i = 0; copy->meshes && i < copy->mesh_count; i++)
+        whole = copy_text(&copy->meshes[i]) && whole;
+    copy->mesh_count = copy->meshes ? copy->mesh_count : 0;
+    return whole;
+}
+
+static bool copy_parameters(lattice_spec *copy)
+{
+    bool whole = copy_block(&copy->parameters, copy->parameter_count, sizeof *copy->parameters);
+    for (size_t i = 0; copy->parameters && i < copy->parameter_count; i++) {
+        spec_parameter *const parameter = &copy->parameters[i];
+        char **const texts[] = {&parameter->name, &parameter->value, &parameter->unit, &parameter->comment};
+        for (size_t t = 0; t < sizeof texts / sizeof *texts; t++)
+            whole = copy_text(texts[t]) && whole;
+    }
+    copy->parameter_count = copy->parameters ? copy->parameter_count : 0;
+    return whole;
+}
+
+lattice_spec *ffd_spec_copy(const lattice_spec *spec)
+{
+    lattice_spec *copy = ffd_alloc(1, sizeof *copy);
+    if (!copy)
+        return NULL;
+    *copy = *spec;
+    bool whole = copy_text(&copy->name);
+    for (int a = 0; a < 3; a++)
+        whole = copy_block(&copy->list[a], copy->list_count[a], sizeof *copy->list[a]) && whole;
+    double **const vectors[] = {&copy->points, &copy->deformed_points, &copy->deformed_offsets};
+    double **const weights[] = {&copy->weights, &copy->deformed_weights};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        whole = copy_block(vectors[i], copy->count, 3 * sizeof(double)) && whole;
+    for (size_t i = 0; i < sizeof weights / sizeof *weights; i++)
+        whole = copy_block(weights[i], copy->count, sizeof(double)) && whole;
+    whole = copy_block(&copy->moves, copy->move_count, sizeof *copy->moves) && whole;
+    whole = copy_meshes(copy) && whole;
+    whole = copy_parameters(copy) && whole;
+    whole = copy_names(&spec->open, &copy->open) && whole;
+    if (!whole)
+        ffd_spec_free(copy);
+    return whole ? copy : NULL;
+}
+
+static bool copy_knots(knot_vector *knots)
+{
+    const size_t order = (size_t)knots->degree + 1;
+    bool whole = copy_block(&knots->t, knots->functions + order, sizeof *knots->t);
+    whole = copy_block(&knots->spans, knots->span_count, sizeof *knots->spans) && whole;
+    return copy_block(&knots->extractions, knots->span_count, order * order * sizeof *knots->extractions) &&
+           whole;
+}
+
+ffd_status ffd_lattice_copy(const ffd_lattice *lattice, ffd_lattice **copy, ffd_error *error)
+{
+    ffd_lattice *made = ffd_alloc(1, sizeof *made);
+    *copy = NULL;
+    if (!made)
+        return ffd_fail_memory(error);
+    *made = *lattice;
+    made->spec = lattice->spec ? ffd_spec_copy(lattice->spec) : NULL;
+    bool whole = !lattice->spec || made->spec;
+    for (int a = 0; a < 3; a++)
+        whole = copy_knots(&made->knots[a]) && whole;
+    double **const vectors[] = {&made->rest, &made->deformed, &made->difference};
+    double **const weights[] = {&made->rest_weights, &made->deformed_weights};
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++)
+        whole = copy_block(vectors[i], made->count, 3 * sizeof(double)) && whole;
+    for (size_t i = 0; i < sizeof weights / sizeof *weights; i++)
+        whole = copy_block(weights[i], made->count, sizeof(double)) && whole;
+    whole = copy_block(&made->moved, made->count, sizeof *made->moved) && whole;
+    if (!whole)
+        ffd_lattice_destroy(&made);
+    *copy = made;
+    return whole ? FFD_OK : ffd_fail_memory(error);
+}

@@ -1,0 +1,141 @@
+/* edit.c - control points and weights that the library's caller sets. */
+#include "base/memory/memory.h"
+#include "lattice/lattice.h"
+#include <string.h>
+
+typedef enum edit_kind { EDIT_POINTS, EDIT_OFFSETS, EDIT_WEIGHTS } edit_kind;
+
+/* Control points that are set, and what was there before. */
+typedef struct point_edit {
+    edit_kind kind;
+    const size_t *index; /* NULL: the first ones */
+    size_t count;
+    const double *values;
+    double *before; /* EDIT_WEIGHTS: one for each; else deformed and difference, 6 for each */
+} point_edit;
+
+static size_t point_of(const point_edit *edit, size_t i)
+{
+    return edit->index ? edit->index[i] : i;
+}
+
+static ffd_status check(const ffd_lattice *lattice, const point_edit *edit, ffd_error *error)
+{
+    if (!lattice->rest)
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "the lattice has no control points yet: its box is that of a mesh");
+    if (!edit->index && edit->count > lattice->count)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%zu values are given for %zu control points", edit->count,
+                        lattice->count);
+    for (size_t i = 0; edit->index && i < edit->count; i++)
+        if (edit->index[i] >= lattice->count)
+            return ffd_fail(error, FFD_E_ARGUMENT, "there is no control point %zu: the lattice has %zu",
+                            edit->index[i], lattice->count);
+    return FFD_OK;
+}
+
+/* Gives a lattice weights of 1, where it has none. */
+static ffd_status make_weights(ffd_lattice *lattice, ffd_error *error)
+{
+    if (lattice->rest_weights)
+        return FFD_OK;
+    double *const rest = ffd_alloc(lattice->count, sizeof *rest);
+    double *const deformed = ffd_alloc(lattice->count, sizeof *deformed);
+    if (!rest || !deformed) {
+        ffd_free(rest);
+        ffd_free(deformed);
+        return ffd_fail_memory(error);
+    }
+    for (size_t i = 0; i < lattice->count; i++)
+        rest[i] = deformed[i] = 1;
+    lattice->rest_weights = rest;
+    lattice->deformed_weights = deformed;
+    return FFD_OK;
+}
+
+/* Sets the values, and keeps what was there. */
+static void set_values(ffd_lattice *lattice, const point_edit *edit)
+{
+    for (size_t i = 0; i < edit->count; i++) {
+        const size_t point = point_of(edit, i);
+        double *const p = lattice->deformed + 3 * point, *const d = lattice->difference + 3 * point;
+        const double *const value = edit->values + (edit->kind == EDIT_WEIGHTS ? i : 3 * i);
+        if (edit->kind == EDIT_WEIGHTS) {
+            edit->before[i] = lattice->deformed_weights[point];
+            lattice->deformed_weights[point] = *value;
+            continue;
+        }
+        memcpy(edit->before + 6 * i, p, 3 * sizeof *p);
+        memcpy(edit->before + 6 * i + 3, d, 3 * sizeof *d);
+        for (size_t c = 0; c < 3; c++) {
+            const double rest = lattice->rest[3 * point + c];
+            p[c] = edit->kind == EDIT_POINTS ? value[c] : rest + value[c];
+            d[c] = edit->kind == EDIT_POINTS ? value[c] - rest : value[c];
+        }
+    }
+}
+
+/* Backwards, for what was set twice. */
+static void restore(ffd_lattice *lattice, const point_edit *edit)
+{
+    for (size_t i = edit->count; i-- > 0;) {
+        const size_t point = point_of(edit, i);
+        if (edit->kind == EDIT_WEIGHTS) {
+            lattice->deformed_weights[point] = edit->before[i];
+            continue;
+        }
+        memcpy(lattice->deformed + 3 * point, edit->before + 6 * i, 3 * sizeof(double));
+        memcpy(lattice->difference + 3 * point, edit->before + 6 * i + 3, 3 * sizeof(double));
+    }
+}
+
+static ffd_status apply(ffd_lattice *lattice, point_edit *edit, ffd_error *error)
+{
+    ffd_status status = check(lattice, edit, error);
+    if (!status && edit->kind == EDIT_WEIGHTS)
+        status = make_weights(lattice, error);
+    if (status)
+        return status;
+    edit->before = ffd_alloc(edit->count, (edit->kind == EDIT_WEIGHTS ? 1 : 6) * sizeof(double));
+    if (!edit->before)
+        return ffd_fail_memory(error);
+    set_values(lattice, edit);
+    status = ffd_lattice_finish_moved(lattice, error);
+    if (status) {
+        restore(lattice, edit);
+        ffd_lattice_finish_moved(lattice, NULL);
+    }
+    lattice->edited = lattice->edited || !status;
+    ffd_free(edit->before);
+    return status;
+}
+
+ffd_status ffd_lattice_set_points(ffd_lattice *lattice, const size_t *index, size_t count, const double *xyz,
+                                  ffd_error *error)
+{
+    return apply(lattice, &(point_edit){EDIT_POINTS, index, count, xyz, NULL}, error);
+}
+
+ffd_status ffd_lattice_set_offsets(ffd_lattice *lattice, const size_t *index, size_t count, const double *xyz,
+                                   ffd_error *error)
+{
+    return apply(lattice, &(point_edit){EDIT_OFFSETS, index, count, xyz, NULL}, error);
+}
+
+ffd_status ffd_lattice_set_weights(ffd_lattice *lattice, const size_t *index, size_t count,
+                                   const double *weights, ffd_error *error)
+{
+    return apply(lattice, &(point_edit){EDIT_WEIGHTS, index, count, weights, NULL}, error);
+}
+
+const double *ffd_lattice_get_offsets(const ffd_lattice *lattice)
+{
+    return lattice->difference;
+}
+
+size_t ffd_lattice_get_knots(const ffd_lattice *lattice, int direction, const double **knots)
+{
+    const knot_vector *const of = &lattice->knots[direction];
+    *knots = of->t;
+    return of->functions + (size_t)of->degree + 1;
+}

@@ -1,0 +1,207 @@
+/* embedding_deform.c - moves embedded points by a lattice. */
+#include "base/memory/memory.h"
+#include "base/vector/array_kernel.h"
+#include "deform/displacement.h"
+#include "deform/extension.h"
+#include "points/embedding.h"
+#include "points/point_run.h"
+#include "points/span.h"
+#include <float.h>
+#include <string.h>
+
+_Static_assert(POINT_TILE <= DISPLACEMENT_BATCH, "a tile is one batch");
+
+/* What one thread needs for a tile. */
+typedef struct deform_scratch {
+    double x[3 * POINT_TILE], delta[3 * POINT_TILE], gradient[9 * POINT_TILE];
+    uint32_t which[POINT_TILE];
+    uint8_t moves[POINT_TILE], changed[POINT_TILE];
+    double uvw[3 * POINT_TILE]; /* of listed vertices */
+    displacement_scratch displacement;
+} deform_scratch;
+
+typedef struct deform_work {
+    const ffd_embedding *embedding;
+    const ffd_lattice *lattice;
+    const uint32_t *vertices; /* NULL: all */
+    ffd_span in, out;
+    double *gradients;
+    ffd_isa isa;
+    const array_kernel *arrays;
+    deform_scratch *scratch; /* one a thread */
+} deform_work;
+
+/* The point that has the number i of those that are deformed. */
+static size_t point_of(const deform_work *work, size_t i)
+{
+    return work->vertices ? work->vertices[i] : i;
+}
+
+/* Lists the points of a tile that have u,v,w; the others get displacements of 0. Returns their count. */
+static size_t choose(const deform_work *work, size_t first, size_t count, deform_scratch *s)
+{
+    size_t chosen = 0;
+    for (size_t i = 0; i < count; i++) {
+        const size_t point = point_of(work, first + i);
+        if (work->vertices)
+            memcpy(s->uvw + 3 * i, work->embedding->uvw + 3 * point, 3 * sizeof *s->uvw);
+        if (ffd_embedding_has(work->embedding, point)) {
+            s->which[chosen++] = (uint32_t)i;
+            continue;
+        }
+        memset(s->delta + 3 * i, 0, 3 * sizeof *s->delta);
+        if (work->gradients)
+            memset(s->gradient + 9 * i, 0, 9 * sizeof *s->gradient);
+    }
+    return chosen;
+}
+
+/* Displaces the points of a tile that follow the border. */
+static void extend(const deform_work *work, size_t first, size_t count, deform_scratch *s)
+{
+    const ffd_embedding *const embedding = work->embedding;
+    size_t next = ffd_embedding_first_extended(embedding, point_of(work, first));
+    for (size_t i = 0; i < count && next < embedding->extended_count; i++) {
+        const size_t point = point_of(work, first + i);
+        while (next < embedding->extended_count && embedding->extended[next].point < point)
+            next++;
+        if (next == embedding->extended_count || embedding->extended[next].point != point)
+            continue;
+        ffd_extension_displacement(work->lattice, &embedding->extended[next].nearest, embedding->falloff,
+                                   s->delta + 3 * i, work->gradients ? s->gradient + 9 * i : NULL);
+    }
+}
+
+static void read_tile(const deform_work *work, size_t first, size_t count, deform_scratch *s)
+{
+    if (!work->vertices)
+        ffd_span_read(&work->in, first, count, s->x);
+    for (size_t i = 0; i < count && work->vertices; i++)
+        ffd_span_read(&work->in, work->vertices[first + i], 1, s->x + 3 * i);
+}
+
+/* What is not finite keeps its bytes, where the types are one: a conversion may change those of a NaN. */
+static void write_point(const deform_work *work, size_t point, const double x[3])
+{
+    const bool invalid = work->embedding->status[point] == FFD_POINT_INVALID;
+    if (!invalid || work->in.type != work->out.type)
+        ffd_span_write(&work->out, point, 1, x);
+    else if (work->in.data != work->out.data)
+        ffd_span_copy(&work->in, &work->out, point);
+}
+
+static void write_tile(const deform_work *work, size_t first, size_t count, const deform_scratch *s)
+{
+    const uint8_t *const status = work->embedding->status;
+    const bool whole = !work->vertices && !memchr(status + first, FFD_POINT_INVALID, count);
+    if (whole)
+        ffd_span_write(&work->out, first, count, s->x);
+    for (size_t i = 0; i < count && !whole; i++)
+        write_point(work, point_of(work, first + i), s->x + 3 * i);
+    for (size_t i = 0; i < count && work->gradients; i++)
+        memcpy(work->gradients + 9 * point_of(work, first + i), s->gradient + 9 * i,
+               9 * sizeof *work->gradients);
+}
+
+static ffd_status deform_tile(void *context, size_t first, size_t count, int worker, ffd_error *error)
+{
+    const deform_work *const work = context;
+    deform_scratch *const s = &work->scratch[worker];
+    const size_t chosen = choose(work, first, count, s);
+    const displacement_batch batch = {.uvw = work->vertices ? s->uvw : work->embedding->uvw + 3 * first,
+                                      .stride = 3,
+                                      .which = s->which,
+                                      .count = chosen,
+                                      .delta = s->delta,
+                                      .gradient = work->gradients ? s->gradient : NULL,
+                                      .moves = s->moves};
+    read_tile(work, first, count, s);
+    if (chosen > 0)
+        ffd_displacements(work->lattice, work->isa, &batch, &s->displacement);
+    if (work->embedding->extended_count > 0)
+        extend(work, first, count, s);
+    const double largest = work->out.type == FFD_FLOAT32 ? FLT_MAX : DBL_MAX;
+    const size_t unfit = work->arrays->displace(s->delta, count, largest, s->x, s->changed);
+    if (unfit < count)
+        return ffd_fail(error, FFD_E_INVALID, "point %zu would be too large for %s",
+                        point_of(work, first + unfit), work->out.type == FFD_FLOAT32 ? "float32" : "float64");
+    write_tile(work, first, count, s);
+    return FFD_OK;
+}
+
+static ffd_status check_vertices(const deform_work *work, size_t count, ffd_error *error)
+{
+    for (size_t i = 0; work->vertices && i < count; i++) {
+        if (work->vertices[i] >= work->embedding->count)
+            return ffd_fail(error, FFD_E_ARGUMENT, "there is no vertex %u: the embedding has %zu",
+                            (unsigned)work->vertices[i], work->embedding->count);
+        if (i > 0 && work->vertices[i] <= work->vertices[i - 1])
+            return ffd_fail(error, FFD_E_ARGUMENT, "vertex %u after %u: they must be in ascending order",
+                            (unsigned)work->vertices[i], (unsigned)work->vertices[i - 1]);
+    }
+    return FFD_OK;
+}
+
+static ffd_status check(deform_work *work, size_t count, ffd_error *error)
+{
+    const size_t all = work->embedding->count;
+    ffd_status status = ffd_embedding_check_lattice(work->embedding, work->lattice, error);
+    if (!status)
+        status = ffd_span_check(&work->in, all, "the array of points", error);
+    if (!status)
+        status = ffd_span_check(&work->out, all, "the array of results", error);
+    return status ? status : check_vertices(work, count, error);
+}
+
+static ffd_status make_scratch(const point_run *run, deform_work *work, ffd_error *error)
+{
+    const size_t threads = (size_t)run->run.threads;
+    work->isa = run->run.isa;
+    work->arrays = ffd_array_kernel(run->run.isa);
+    /* Megabytes, of which few points need little: they are not cleared. */
+    work->scratch = ffd_alloc(threads, sizeof *work->scratch);
+    if (!work->scratch)
+        return ffd_fail_memory(error);
+    for (size_t i = 0; i < threads; i++) {
+        ffd_displacement_scratch_clear(&work->scratch[i].displacement);
+        work->scratch[i].displacement.kept.threads = run->run.threads;
+    }
+    return FFD_OK;
+}
+
+static ffd_status deform(deform_work *work, size_t count, const ffd_run *callers, ffd_error *error)
+{
+    point_run run = {.total = 0};
+    ffd_status status = check(work, count, error);
+    if (!status)
+        status = ffd_point_run_begin(callers, count, &run, error);
+    if (!status)
+        status = make_scratch(&run, work, error);
+    if (!status)
+        status = ffd_point_run_tiles(&run, deform_tile, work, error);
+    ffd_free(work->scratch);
+    ffd_point_run_end(&run);
+    return status;
+}
+
+ffd_status ffd_embedding_deform(const ffd_embedding *embedding, const ffd_lattice *moved, ffd_span in,
+                                ffd_span out, double *gradients, const ffd_run *run, ffd_error *error)
+{
+    deform_work work = {
+        .embedding = embedding, .lattice = moved, .in = in, .out = out, .gradients = gradients};
+    return deform(&work, embedding->count, run, error);
+}
+
+ffd_status ffd_embedding_deform_some(const ffd_embedding *embedding, const ffd_lattice *moved,
+                                     const uint32_t *vertices, size_t count, ffd_span in, ffd_span out,
+                                     double *gradients, const ffd_run *run, ffd_error *error)
+{
+    static const uint32_t none = 0;
+    deform_work work = {.embedding = embedding,
+                        .lattice = moved,
+                        .vertices = count > 0 ? vertices : &none,
+                        .in = in,
+                        .out = out,
+                        .gradients = gradients};
+    return deform(&work, count, run, error);
+}

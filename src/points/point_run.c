@@ -1,0 +1,98 @@
+#include "points/point_run.h"
+#include "base/memory/memory.h"
+#include "base/struct_size.h"
+#include "base/vector/isa.h"
+
+void ffd_run_init(ffd_run *run, size_t size)
+{
+    const ffd_run defaults = {.struct_size = sizeof defaults};
+    ffd_struct_give(&defaults, sizeof defaults, run, size);
+}
+
+static int threads_for(int wanted, size_t total)
+{
+    const size_t tiles = total / POINT_TILE + 1;
+    const int threads = wanted > 0 ? wanted : ffd_processor_count();
+    return tiles < (size_t)threads ? (int)tiles : threads;
+}
+
+ffd_status ffd_point_run_begin(const ffd_run *callers, size_t total, point_run *run, ffd_error *error)
+{
+    *run = (point_run){.total = total};
+    ffd_run_init(&run->run, sizeof run->run);
+    const ffd_status status =
+        callers ? ffd_struct_take(&run->run, sizeof run->run, callers, "ffd_run", error) : FFD_OK;
+    if (status)
+        return status;
+    if (run->run.threads < 0)
+        return ffd_fail(error, FFD_E_ARGUMENT, "threads is %d: it is 0 for all cores, or positive",
+                        run->run.threads);
+    if (run->run.isa != FFD_ISA_AUTO && !ffd_isa_available(run->run.isa))
+        return ffd_fail(error, FFD_E_ARGUMENT, "instruction set %d is not available here", (int)run->run.isa);
+    run->run.threads = threads_for(run->run.threads, total);
+    atomic_init(&run->done, 0);
+    atomic_init(&run->stopped, false);
+    const size_t threads = (size_t)run->run.threads;
+    run->statuses = ffd_alloc_zero(threads, sizeof *run->statuses);
+    run->errors = ffd_alloc_zero(threads, sizeof *run->errors);
+    run->tiles = ffd_alloc_zero(threads, sizeof *run->tiles);
+    return run->statuses && run->errors && run->tiles ? FFD_OK : ffd_fail_memory(error);
+}
+
+void ffd_point_run_end(point_run *run)
+{
+    ffd_free(run->statuses);
+    ffd_free(run->errors);
+    ffd_free(run->tiles);
+}
+
+typedef struct tile_context {
+    point_run *run;
+    point_function function;
+    void *context;
+} tile_context;
+
+/* Tells the caller, in its own thread, how far all threads are. */
+static void tell(point_run *run, size_t done, int worker)
+{
+    if (worker != 0 || !run->run.progress)
+        return;
+    if (!run->run.progress(run->run.user, (double)done / (double)run->total)) {
+        run->statuses[0] = run->statuses[0] ? run->statuses[0] : FFD_E_CANCELLED;
+        atomic_store(&run->stopped, true);
+    }
+}
+
+static void run_tile(void *context, size_t tile, size_t first, size_t last, int worker)
+{
+    tile_context *const work = context;
+    point_run *const run = work->run;
+    if (atomic_load(&run->stopped))
+        return;
+    const ffd_status status =
+        work->function(work->context, first, last - first, worker, &run->errors[worker]);
+    if (status) {
+        run->statuses[worker] = status;
+        run->tiles[worker] = tile;
+        atomic_store(&run->stopped, true);
+        return;
+    }
+    tell(run, atomic_fetch_add(&run->done, last - first) + (last - first), worker);
+}
+
+ffd_status ffd_point_run_tiles(point_run *run, point_function function, void *context, ffd_error *error)
+{
+    tile_context work = {run, function, context};
+    int first = -1;
+    ffd_parallel_tiles(run->total, POINT_TILE, run->run.threads, run_tile, &work);
+    for (int i = 0; i < run->run.threads; i++)
+        if (run->statuses[i] && (first < 0 || run->tiles[i] < run->tiles[first]))
+            first = i;
+    if (first < 0)
+        return FFD_OK;
+    if (run->statuses[first] == FFD_E_CANCELLED)
+        return ffd_fail(error, FFD_E_CANCELLED, "cancelled by the progress function");
+    if (error)
+        *error = run->errors[first];
+    return run->statuses[first];
+}
