@@ -79,6 +79,18 @@ def check_c(place, findings):
         findings.append(f"C: exit {code} without a lattice: {said!r}")
 
 
+def check_points_alone(place, findings):
+    """A program of points.h alone, linked statically, needs no C++ library and none that reads files of others."""
+    archive = os.path.join(place.environment["LD_LIBRARY_PATH"], "libffd.a")
+    place.run(f"cc -std=c11 -o points_alone data/examples/c/deform_points.c $(pkg-config --cflags ffd) {archive} -lm -lpthread")
+    needed = place.run("ldd points_alone")
+    for library in ("libstdc++", "libOpenMesh", "libdraco", "libpng", "libjpeg"):
+        if library in needed:
+            findings.append(f"a program of points.h alone needs {library}")
+    place.run("./points_alone data/lattices/wave.json <points.txt >alone.txt")
+    equal(findings, place.rows("alone.txt"), place.rows("moved.txt"), "points alone")
+
+
 def check_cpp(place, findings):
     for name in ("spot.obj", "character.glb"):
         if place.read(f"out/{name}") != place.deformed(f"data/models/{name}", "data/lattices/bulge.json"):
@@ -111,7 +123,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         place = Place(folder, stage.Stage(sys.argv[1], os.path.join(folder, "root")))
         place.run(stage.readme("library"))
-        checks = (check_c, check_cpp, check_python)
+        checks = (check_c, check_points_alone, check_cpp, check_python)
         for check in checks:
             check(place, findings)
     stage.finish(len(checks), "examples", findings)

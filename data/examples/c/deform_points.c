@@ -3,7 +3,7 @@
        deform_points LATTICE <points >moved
 
    Points are text, one a line: x y z. What the lattice does not reach comes out as it went in. */
-#include <ffd/ffd.h>
+#include <ffd/points.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,30 +41,24 @@ static ffd_status place(ffd_lattice *lattice, const double *xyz, size_t count, f
     return ffd_lattice_fit(lattice, min, max, error);
 }
 
-/* The locator finds u,v,w of points: made once for a lattice, it serves any number of them. */
-static ffd_status locate(const ffd_lattice *lattice, const double *xyz, size_t count, ffd_location *locations,
-                         ffd_error *error)
+/* Points at rest, to be overwritten by where they go. An embedding is made once for a lattice at rest and its
+   points: it serves any number of moved lattices, from any thread. */
+static ffd_status move(const ffd_lattice *lattice, double *xyz, size_t count, ffd_error *error)
 {
-    ffd_locator *locator = NULL;
-    ffd_status status = ffd_locator_create(lattice, &locator, error);
+    const ffd_span points = {.data = xyz, .count = count, .type = FFD_FLOAT64};
+    ffd_embedding_desc desc;
+    ffd_embedding *embedding = NULL;
+    ffd_embedding_desc_init(&desc, sizeof desc);
+    desc.lattice = lattice;
+    desc.points = points;
+    ffd_status status = ffd_embedding_create(&desc, NULL, &embedding, error);
     if (!status)
-        status = ffd_locator_find(locator, xyz, count, locations, error);
-    ffd_locator_destroy(&locator);
+        status = ffd_embedding_deform(embedding, lattice, points, points, NULL, NULL, error);
+    ffd_embedding_destroy(&embedding);
     return status;
 }
 
-static void print_moved(const ffd_lattice *lattice, const double *xyz, size_t count, const ffd_location *at)
-{
-    for (size_t i = 0; i < count; i++) {
-        double delta[3] = {0, 0, 0};
-        if (!isnan(at[i].uvw[0])) /* else the point has no u,v,w: it is outside */
-            ffd_displacement(lattice, at[i].uvw, delta, NULL);
-        printf("%.17g %.17g %.17g\n", xyz[3 * i] + delta[0], xyz[3 * i + 1] + delta[1],
-               xyz[3 * i + 2] + delta[2]);
-    }
-}
-
-static int deform(const char *path, const double *xyz, size_t count, ffd_location *locations)
+static int deform(const char *path, double *xyz, size_t count)
 {
     ffd_lattice *lattice = NULL;
     ffd_error error;
@@ -72,14 +66,14 @@ static int deform(const char *path, const double *xyz, size_t count, ffd_locatio
     if (!status)
         status = place(lattice, xyz, count, &error);
     if (!status)
-        status = locate(lattice, xyz, count, locations, &error);
-    if (!status) {
-        print_moved(lattice, xyz, count, locations);
-    } else {
+        status = move(lattice, xyz, count, &error);
+    if (status) {
         char line[2048];
         ffd_error_format(&error, line, sizeof line);
         fprintf(stderr, "deform_points: %s\n", line);
     }
+    for (size_t i = 0; i < count && !status; i++)
+        printf("%.17g %.17g %.17g\n", xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
     ffd_lattice_destroy(&lattice);
     return ffd_status_exit_code(status); /* as the program ffd would end */
 }
@@ -87,18 +81,16 @@ static int deform(const char *path, const double *xyz, size_t count, ffd_locatio
 int main(int argc, char **argv)
 {
     double *xyz = NULL;
+    int code = 1;
     if (argc != 2) {
         fprintf(stderr, "usage: deform_points LATTICE <points >moved\n");
         return 2;
     }
     const size_t count = read_points(&xyz);
-    ffd_location *locations = calloc(count + 1, sizeof *locations);
-    int code = 1;
-    if (!count || !locations)
+    if (!count)
         fprintf(stderr, "deform_points: no points\n");
     else
-        code = deform(argv[1], xyz, count, locations);
-    free(locations);
+        code = deform(argv[1], xyz, count);
     free(xyz);
     return code;
 }
