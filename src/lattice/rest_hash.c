@@ -37,3 +37,21 @@ hash128 ffd_rest_hash(const ffd_lattice *lattice)
     }
     return ffd_hash_blocks(blocks, count);
 }
+
+static bool equal_knots(const knot_vector *a, const knot_vector *b)
+{
+    return a->degree == b->degree && a->points == b->points && a->functions == b->functions &&
+           memcmp(a->t, b->t, (a->functions + (size_t)a->degree + 1) * sizeof *a->t) == 0;
+}
+
+bool ffd_rest_equal(const ffd_lattice *a, const ffd_lattice *b)
+{
+    for (int d = 0; d < 3; d++)
+        if (!equal_knots(&a->knots[d], &b->knots[d]))
+            return false;
+    const size_t size = a->count * sizeof(double);
+    if (memcmp(a->rest, b->rest, 3 * size) != 0)
+        return false;
+    const bool weights = has_weights(a);
+    return weights == has_weights(b) && (!weights || memcmp(a->rest_weights, b->rest_weights, size) == 0);
+}

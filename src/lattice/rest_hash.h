@@ -11,4 +11,7 @@
    weight is not 1, the hash of the weights. The lattice must be fitted to its mesh. */
 hash128 ffd_rest_hash(const ffd_lattice *lattice);
 
+/* Whether two lattices have the rest volume that their hashes are of; as fast as reading both. */
+bool ffd_rest_equal(const ffd_lattice *a, const ffd_lattice *b);
+
 #endif

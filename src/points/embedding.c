@@ -253,8 +253,7 @@ ffd_status ffd_embedding_check_lattice(const ffd_embedding *embedding, const ffd
 {
     if (!lattice || !lattice->rest)
         return ffd_fail(error, FFD_E_ARGUMENT, "there is no lattice, or it has no control points yet");
-    const hash128 hash = ffd_rest_hash(lattice);
-    return ffd_hash_equal(&hash, &embedding->rest_hash)
+    return ffd_rest_equal(lattice, embedding->rest)
                ? FFD_OK
                : ffd_fail(error, FFD_E_INVALID,
                           "the embedding is of another lattice: rest points, knots or weights differ");

@@ -11,13 +11,16 @@
 
 _Static_assert(POINT_TILE <= DISPLACEMENT_BATCH, "a tile is one batch");
 
-/* What one thread needs for a tile. */
+/* So few points are displaced one by one: what a batch needs would take longer to make. The bits are the
+ * same. */
+#define FEW_POINTS ((size_t)32)
+
+/* What one thread needs for a tile, in one block. */
 typedef struct deform_scratch {
-    double x[3 * POINT_TILE], delta[3 * POINT_TILE], gradient[9 * POINT_TILE];
-    uint32_t which[POINT_TILE];
-    uint8_t moves[POINT_TILE], changed[POINT_TILE];
-    double uvw[3 * POINT_TILE]; /* of listed vertices */
-    displacement_scratch displacement;
+    double *x, *delta, *gradient, *uvw; /* 3, 3, 9, 3 a point; u,v,w of listed vertices */
+    uint32_t *which;
+    uint8_t *moves, *changed;
+    displacement_scratch *displacement; /* NULL: points are displaced one by one */
 } deform_scratch;
 
 typedef struct deform_work {
@@ -103,6 +106,15 @@ static void write_tile(const deform_work *work, size_t first, size_t count, cons
                9 * sizeof *work->gradients);
 }
 
+static void displace_few(const ffd_lattice *lattice, const displacement_batch *batch)
+{
+    for (size_t k = 0; k < batch->count; k++) {
+        const size_t n = batch->which[k];
+        ffd_displacement(lattice, batch->uvw + n * batch->stride, batch->delta + 3 * n,
+                         batch->gradient ? batch->gradient + 9 * n : NULL);
+    }
+}
+
 static ffd_status deform_tile(void *context, size_t first, size_t count, int worker, ffd_error *error)
 {
     const deform_work *const work = context;
@@ -116,8 +128,10 @@ static ffd_status deform_tile(void *context, size_t first, size_t count, int wor
                                       .gradient = work->gradients ? s->gradient : NULL,
                                       .moves = s->moves};
     read_tile(work, first, count, s);
-    if (chosen > 0)
-        ffd_displacements(work->lattice, work->isa, &batch, &s->displacement);
+    if (s->displacement)
+        ffd_displacements(work->lattice, work->isa, &batch, s->displacement);
+    else
+        displace_few(work->lattice, &batch);
     if (work->embedding->extended_count > 0)
         extend(work, first, count, s);
     const double largest = work->out.type == FFD_FLOAT32 ? FLT_MAX : DBL_MAX;
@@ -153,20 +167,49 @@ static ffd_status check(deform_work *work, size_t count, ffd_error *error)
     return status ? status : check_vertices(work, count, error);
 }
 
+/* Makes what one thread needs for tiles of so many points. */
+static bool make_thread_scratch(const point_run *run, size_t tile, deform_scratch *s)
+{
+    double *const block = ffd_alloc(tile, 18 * sizeof(double) + sizeof(uint32_t) + 2);
+    if (!block)
+        return false;
+    s->x = block;
+    s->delta = s->x + 3 * tile;
+    s->gradient = s->delta + 3 * tile;
+    s->uvw = s->gradient + 9 * tile;
+    s->which = (uint32_t *)(void *)(s->uvw + 3 * tile);
+    s->moves = (uint8_t *)(s->which + tile);
+    s->changed = s->moves + tile;
+    if (run->total <= FEW_POINTS)
+        return true;
+    /* Megabytes, which are not cleared: what is not touched costs nothing. */
+    s->displacement = ffd_alloc(1, sizeof *s->displacement);
+    if (!s->displacement)
+        return false;
+    ffd_displacement_scratch_clear(s->displacement);
+    s->displacement->kept.threads = run->run.threads;
+    return true;
+}
+
 static ffd_status make_scratch(const point_run *run, deform_work *work, ffd_error *error)
 {
-    const size_t threads = (size_t)run->run.threads;
+    const size_t threads = (size_t)run->run.threads, tile = run->total < POINT_TILE ? run->total : POINT_TILE;
     work->isa = run->run.isa;
     work->arrays = ffd_array_kernel(run->run.isa);
-    /* Megabytes, of which few points need little: they are not cleared. */
-    work->scratch = ffd_alloc(threads, sizeof *work->scratch);
-    if (!work->scratch)
-        return ffd_fail_memory(error);
-    for (size_t i = 0; i < threads; i++) {
-        ffd_displacement_scratch_clear(&work->scratch[i].displacement);
-        work->scratch[i].displacement.kept.threads = run->run.threads;
+    work->scratch = ffd_alloc_zero(threads, sizeof *work->scratch);
+    for (size_t i = 0; work->scratch && i < threads; i++)
+        if (!make_thread_scratch(run, tile, &work->scratch[i]))
+            return ffd_fail_memory(error);
+    return work->scratch ? FFD_OK : ffd_fail_memory(error);
+}
+
+static void free_scratch(const point_run *run, deform_scratch *scratch)
+{
+    for (int i = 0; scratch && i < run->run.threads; i++) {
+        ffd_free(scratch[i].x);
+        ffd_free(scratch[i].displacement);
     }
-    return FFD_OK;
+    ffd_free(scratch);
 }
 
 static ffd_status deform(deform_work *work, size_t count, const ffd_run *callers, ffd_error *error)
@@ -179,7 +222,7 @@ static ffd_status deform(deform_work *work, size_t count, const ffd_run *callers
         status = make_scratch(&run, work, error);
     if (!status)
         status = ffd_point_run_tiles(&run, deform_tile, work, error);
-    ffd_free(work->scratch);
+    free_scratch(&run, work->scratch);
     ffd_point_run_end(&run);
     return status;
 }

@@ -38,6 +38,7 @@ SUBJECTS = {
     "tears": jobs.tears,
     "displacement": kernels.displacement,
     "embedding": kernels.embedding,
+    "arrays": kernels.arrays,
     "picture": pictures.picture,
     "batch": batches.batch,
     "sweep": batches.sweep,

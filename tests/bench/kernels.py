@@ -89,3 +89,15 @@ def embedding(bench):
             microseconds, = values_of(line)
     if lines:
         bench.table.add(WARPED, [1 / value for value in microseconds], "M/s", bar=">= 1 M/s (2)")
+
+
+def arrays(bench):
+    """The calls on arrays, each beside the kernels that it calls."""
+    bench.table.title("Arrays in memory, one thread, box 8^3, degree 3")
+    kernels = None
+    for line in lines_of(bench, "arrays", bench.side ** 2):
+        name, found = line.rpartition(": ")[0], values_of(line)[0]
+        is_call = name.endswith("call")
+        row = bench.table.add(name, found, "M/s", kernels if is_call else None,
+                              ">= 0.87" if name.endswith("one call") and "u,v,w" not in name else "")
+        kernels = kernels if is_call else row

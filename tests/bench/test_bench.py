@@ -31,6 +31,8 @@ SUBJECTS = {
                    ".ply, binary: 5 % outside", ".off: 5 % outside"],
     "Displacement": ["copy", "kernel alone, box, scalar", "8^3 box, scalar", "64^3 general, scalar, with gradient"],
     "Finding u,v,w": ["smooth warp 8x8x8, degree 3"],
+    "Arrays in memory": ["float32: kernels", "float32: one call", "float64, gradients: one call", "u,v,w: one call",
+                         "float64: a point a call"],
     "Picture of 1600x900": ["copy of its bytes, new memory", "copy of its bytes, the same memory", "3200 triangles"],
     "Batch of 20 meshes": ["obj, box: batch", "glb, warped: a command each"],
     "Sweep of 2 lattices": ["box: a command each", "box: batch", "warped: batch"],

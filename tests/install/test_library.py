@@ -91,6 +91,26 @@ def check_points_alone(place, findings):
     equal(findings, place.rows("alone.txt"), place.rows("moved.txt"), "points alone")
 
 
+CMAKE = """cmake_minimum_required(VERSION 3.16)
+project(example C)
+find_package(ffd 0.1 REQUIRED)
+add_executable(by_cmake data/examples/c/deform_points.c)
+target_link_libraries(by_cmake ffd::ffd m)
+"""
+
+
+def check_cmake(place, findings):
+    """A project of CMake finds the library by its package config."""
+    if not shutil.which("cmake"):
+        return
+    with open(place.path("CMakeLists.txt"), "w", encoding="ascii") as file:
+        file.write(CMAKE)
+    libraries = place.environment["LD_LIBRARY_PATH"]
+    place.run(f"cmake -S . -B build-cmake -DCMAKE_PREFIX_PATH={libraries} && cmake --build build-cmake")
+    place.run("build-cmake/by_cmake data/lattices/wave.json <points.txt >by_cmake.txt")
+    equal(findings, place.rows("by_cmake.txt"), place.rows("moved.txt"), "CMake")
+
+
 def check_cpp(place, findings):
     for name in ("spot.obj", "character.glb"):
         if place.read(f"out/{name}") != place.deformed(f"data/models/{name}", "data/lattices/bulge.json"):
@@ -123,7 +143,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         place = Place(folder, stage.Stage(sys.argv[1], os.path.join(folder, "root")))
         place.run(stage.readme("library"))
-        checks = (check_c, check_points_alone, check_cpp, check_python)
+        checks = (check_c, check_points_alone, check_cmake, check_cpp, check_python)
         for check in checks:
             check(place, findings)
     stage.finish(len(checks), "examples", findings)
