@@ -569,6 +569,19 @@ def what_went_wrong_is_marked_in_pictures(run):
 
 
 @case
+def torn_edges_that_are_not_marked_are_counted(run):
+    """Those with the largest steps are kept: 5,000 of the 2,602 and 2,601 between two rows of vertices, one of which moves."""
+    start(run, [{"by": [0, 0, 0.25]}], "".join(f"v {x} {y} 0\n" for x in range(2602) for y in (0, 1)) +
+          "".join(f"f {i} {i + 2} {i + 3}\nf {i} {i + 3} {i + 1}\n" for i in range(1, 5202, 2)),
+          rest={"box": {"min": [-1, 0.5, -1], "max": [2602, 2, 1]}})
+    for name, what in (("p.png", "picture"), ("p.html", "page")):
+        said = []
+        run.ffd("view", "a.obj", "-l", "l.json", "-o", name, err=said.extend)
+        equal(said[1:], [f"a.obj: the {what}: 5000 of 5203 torn edges are marked, those with the largest steps"])
+    check("5000 of 5203 torn edges" in read_page(run, "p.html").scene["notices"][0], "the page's notice")
+
+
+@case
 def only_what_is_flipped_is_marked(run):
     """The half of the volume beyond x = 1 is laid back over the other one; a square in each, the flipped one above."""
     points = [[x, y, z] for z in (-1, 1) for y in (0, 1) for x in (0, 1, 0)]
