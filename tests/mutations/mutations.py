@@ -908,7 +908,7 @@ m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->st
 m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report && ffd_paths_meet(s->job.report, s->output))",
   "if (s->job.report && strcmp(s->job.report, s->output) == 1000)")
 m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)",
-  "s.picture && s.job.report && strcmp(s.job.report, s.picture) == 1000")
+  "s.picture && s.job.report && s.job.report == s.picture")
 m("lost-triangles-of-a-corner", "loop", "cli_view", "for (size_t c = 0; c < 3 && finite; c++)", "for (size_t c = 0; c < 1 && finite; c++)")
 m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(points, size[2], &points) && points <= left;",
   "ffd_multiply_size(points, size[2], &points) && points <= 1000 * left;")
