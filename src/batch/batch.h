@@ -1,5 +1,5 @@
 /* batch.h - many jobs, done by several workers, so that no job can harm another
-   (data/schema/formats.md 3). */
+   (data/schema/formats.md 3). batch_run.c has ffd_batch_run. */
 #ifndef FFD_BATCH_BATCH_H
 #define FFD_BATCH_BATCH_H
 

@@ -3,29 +3,20 @@
 #include "cli/job.h"
 #include <inttypes.h>
 #include <stdio.h>
-#include <string.h>
 
 typedef struct settings {
     cli_job job;
-    int resources;
-    const char *depfile;
+    cli_kept kept;
     const char *picture;
-    bool force, if_changed, in_place;
+    bool force;
 } settings;
 
-static const char *const resources_names[] = {"copy", "reference", NULL};
-
-/* Its own, and options of deform's that a command line may keep when "deform" becomes "check". */
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
     {"picture", 0, "FILE.png|FILE.html",
      "draw it too, before and after; of one IN (ffd view has more options)", cli_set_text, AT(picture), NULL},
-    {"in-place", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(in_place), NULL},
     {"force", 0, NULL, "overwrite an existing picture; else without effect", cli_set_flag, AT(force), NULL},
-    {"if-changed", 0, NULL, "without effect: nothing is written", cli_set_flag, AT(if_changed), NULL},
-    {"depfile", 0, "FILE", "without effect: nothing is written", cli_set_text, AT(depfile), NULL},
-    {"resources", 0, "copy|reference", "without effect: nothing is written", cli_set_choice, AT(resources),
-     resources_names},
+    CLI_KEPT_OPTIONS(AT(kept)),
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 

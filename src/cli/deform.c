@@ -8,8 +8,6 @@
 
 typedef cli_deform_settings settings;
 
-static const char *const resources_names[] = {"copy", "reference", NULL};
-
 #define AT(field) offsetof(settings, field)
 const cli_option cli_deform_options[] = {
     {"out-dir", 0, "DIR", "write every IN under its own name into this folder", cli_set_text, AT(out_dir),
@@ -22,7 +20,7 @@ const cli_option cli_deform_options[] = {
      NULL},
     {"resources", 0, "copy|reference",
      "images or materials of a mesh written elsewhere: copied, or referred to; default copy", cli_set_choice,
-     AT(resources), resources_names},
+     AT(resources), cli_resources_names},
     {"output-format", 0, "FORMAT", CLI_FORMATS "; needed for -", cli_set_format, AT(output_format), NULL},
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };

@@ -25,6 +25,8 @@ static bool add_selector(void *context, const cli_option *option, const char *va
     return true;
 }
 
+const char *const cli_resources_names[] = {"copy", "reference", NULL};
+
 static const char *const gate_names[] = {"folds", "outside", "multiple", "singular", "invalid", "tear",
                                          "tear=", "flipped", "flipped=", "edges=",   NULL};
 static const ffd_gate gates[] = {FFD_GATE_FOLDS,   FFD_GATE_OUTSIDE, FFD_GATE_MULTIPLE, FFD_GATE_SINGULAR,

@@ -38,6 +38,28 @@ typedef struct cli_job {
 
 extern const cli_option cli_job_options[];
 
+/* Options of deform's that a command line may keep when "deform" becomes another command. They do nothing
+   there. */
+typedef struct cli_kept {
+    int resources;
+    const char *depfile;
+    bool if_changed, in_place;
+} cli_kept;
+
+/* The names of ffd_resources. */
+extern const char *const cli_resources_names[];
+
+/* Their entries in a command's table; `at` is where its settings have a cli_kept. */
+#define CLI_KEPT_HELP "without effect: no mesh is written"
+#define CLI_KEPT_OPTIONS(at)                                                                                 \
+    {"in-place", 0, NULL, CLI_KEPT_HELP, cli_set_flag, (at) + offsetof(cli_kept, in_place), NULL},           \
+        {"if-changed", 0, NULL, CLI_KEPT_HELP, cli_set_flag, (at) + offsetof(cli_kept, if_changed), NULL},   \
+        {"depfile", 0, "FILE", CLI_KEPT_HELP, cli_set_text, (at) + offsetof(cli_kept, depfile), NULL},       \
+    {                                                                                                        \
+        "resources", 0, "copy|reference", CLI_KEPT_HELP, cli_set_choice,                                     \
+            (at) + offsetof(cli_kept, resources), cli_resources_names                                        \
+    }
+
 /* Parses the arguments into job, the head of the command's settings, and words. True to go on: then
    cli_job_end must follow; else *exit_code is there. */
 bool cli_job_begin(const cli_command *command, cli_job *job, int count, char **arguments, cli_words *words,

@@ -10,9 +10,7 @@ typedef struct settings {
     int color;
     uint32_t size[2], frames;
     bool full, force;
-    int resources;
-    const char *depfile;
-    bool if_changed, in_place;
+    cli_kept kept;
 } settings;
 
 /* Sides of a picture in pixels, and pictures in a row. */
@@ -100,7 +98,6 @@ static bool set_frames(void *context, const cli_option *option, const char *valu
 /* In the order of ffd_view_color. */
 static const char *const color_names[] = {"displacement", "status", "det", "plain", NULL};
 static const char *const camera_names[] = {"front", "back", "left", "right", "top", "iso", NULL};
-static const char *const resources_names[] = {"copy", "reference", NULL};
 
 #define AT(field) offsetof(settings, field)
 static const cli_option options[] = {
@@ -117,12 +114,7 @@ static const cli_option options[] = {
     {"full", 0, NULL, "a page shows all vertices; else a mesh of more than 200,000 is simplified",
      cli_set_flag, AT(full), NULL},
     {"force", 0, NULL, "overwrite an existing output", cli_set_flag, AT(force), NULL},
-    /* Options of deform's that a command line may keep when "deform" becomes "view". */
-    {"in-place", 0, NULL, "without effect: no mesh is written", cli_set_flag, AT(in_place), NULL},
-    {"if-changed", 0, NULL, "without effect: no mesh is written", cli_set_flag, AT(if_changed), NULL},
-    {"depfile", 0, "FILE", "without effect: no mesh is written", cli_set_text, AT(depfile), NULL},
-    {"resources", 0, "copy|reference", "without effect: no mesh is written", cli_set_choice, AT(resources),
-     resources_names},
+    CLI_KEPT_OPTIONS(AT(kept)),
     {NULL, 0, NULL, NULL, NULL, 0, NULL},
 };
 

@@ -8,8 +8,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* No image. */
+/* No image; one that cannot be had. */
 #define MATERIAL_NONE UINT32_MAX
+#define MATERIAL_LOST (UINT32_MAX - 1)
 
 /* A PNG or JPEG file, not decoded. */
 typedef struct mesh_image {
@@ -24,7 +25,7 @@ typedef struct mesh_material {
     char *name;           /* "": none */
     double color[4];      /* base colour and alpha, 0 to 1, linear */
     double alpha_cutoff;  /* drawn where alpha is not less; 0: everywhere */
-    uint32_t image;       /* base colour texture, or MATERIAL_NONE */
+    uint32_t image;       /* base colour texture, or one of those above */
     texture_wrap wrap[2]; /* along u and v */
     bool is_double_sided;
 } mesh_material;

@@ -70,6 +70,9 @@ static void say_what_is_left_out(page_work *work, size_t used)
     if (mesh->vertex_count < used)
         give_notice(work, "%zu of %zu vertices are drawn: the mesh is simplified (see --full)",
                     mesh->vertex_count, used);
+    if (work->scene->tear_edges > work->scene->tear_count)
+        give_notice(work, "%zu of %" PRIu64 " torn edges are marked, those with the largest steps",
+                    work->scene->tear_count, work->scene->tear_edges);
     if (work->scene->vertex_count == 0)
         give_notice(work, "the mesh has no vertices");
 }

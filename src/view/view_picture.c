@@ -6,6 +6,7 @@
 #include "view/view_fit.h"
 #include "view/view_palette.h"
 #include "view/view_surface.h"
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -125,6 +126,10 @@ static void say_what_is_left_out(const picture_work *w)
         ffd_log_line(w->options->log, FFD_LOG_WARNING,
                      "the picture: %zu %s not drawn where a vertex is not finite", lost,
                      ffd_plural(lost, "triangle is", "triangles are"));
+    if (scene->tear_edges > scene->tear_count)
+        ffd_log_line(w->options->log, FFD_LOG_WARNING,
+                     "the picture: %zu of %" PRIu64 " torn edges are marked, those with the largest steps",
+                     scene->tear_count, scene->tear_edges);
 }
 
 static ffd_status place(picture_work *w, step *s)

@@ -52,6 +52,7 @@ static ffd_status decode_all(const mesh_materials *from, const memory_budget *bu
 static void fill_material(const view_surface *s, const mesh_material *from, picture_material *to)
 {
     const texture *const of = from->image < s->texture_count ? &s->textures[from->image] : NULL;
+    const bool is_lost = from->image == MATERIAL_LOST || (of && of->level_count == 0);
     *to = (picture_material){.wrap = {from->wrap[0], from->wrap[1]},
                              .alpha_cutoff = from->alpha_cutoff,
                              .is_double_sided = from->is_double_sided};
@@ -59,9 +60,9 @@ static void fill_material(const view_surface *s, const mesh_material *from, pict
     const double *const c = to->color;
     if (!of && c[0] > WHITE && c[1] > WHITE && c[2] > WHITE)
         memcpy(to->color, paper, sizeof paper);
-    if (of && of->level_count > 0)
+    if (!is_lost)
         to->texture = of;
-    else if (of) {
+    else {
         memcpy(to->color, grey, sizeof grey);
         to->alpha_cutoff = 0; /* it was the texture's */
     }

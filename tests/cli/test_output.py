@@ -392,16 +392,16 @@ def input_and_output_may_be_in_other_folders(run):
 def a_report_or_depfile_under_another_spelling_of_out(run):
     """The report took the place of OUT, which was then said to exist: exit 3."""
     start(run)
-    run.folder_of("work/x")
-    os.symlink("work", os.path.join(run.folder, "link"))
+    run.folder_of("in/x")
+    os.symlink("in", os.path.join(run.folder, "link"))
     for option in ("--report", "--depfile"):
-        for out, other in (("b.obj", "./b.obj"), ("work/b.obj", "link/b.obj"), ("./work/../b.obj", "b.obj")):
+        for out, other in (("b.obj", "./b.obj"), ("in/b.obj", "link/b.obj"), ("./in/../b.obj", "b.obj")):
             run.ffd("deform", "a.obj", out, "-l", "l.json", option, other, code=USAGE, err=re.compile("would replace a mesh"))
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "./a.obj", "--depfile", "c.d", code=USAGE,
             err=re.compile("would replace a mesh"))
     run.ffd("deform", "a.obj", "b.obj", "-l", "l.json", "--report", "./l.json", code=USAGE, err=re.compile("would replace a lattice"))
-    equal(run.names(), ["a.obj", "expected.obj", "l.json", "link", "work"], "the folder")
-    run.ffd("deform", "a.obj", "work/b.obj", "-l", "l.json", "--report", "b.obj")
+    equal(run.names(), ["a.obj", "expected.obj", "in", "l.json", "link"], "the folder")
+    run.ffd("deform", "a.obj", "in/b.obj", "-l", "l.json", "--report", "b.obj")
 
 
 @case

@@ -114,7 +114,7 @@ static void check_material(const mesh_materials *materials, const mesh_material 
     for (int c = 0; c < 4; c++)
         PROMISE(m->color[c] >= 0 && m->color[c] <= 1, "a colour has %g", m->color[c]);
     PROMISE(m->name && m->alpha_cutoff >= 0 && isfinite(m->alpha_cutoff), "the cutoff %g", m->alpha_cutoff);
-    PROMISE(m->image == MATERIAL_NONE || m->image < materials->image_count, "image %u of %zu", m->image,
+    PROMISE(m->image >= MATERIAL_LOST || m->image < materials->image_count, "image %u of %zu", m->image,
             materials->image_count);
     PROMISE(m->wrap[0] <= TEXTURE_CLAMP && m->wrap[1] <= TEXTURE_CLAMP, "a wrap of %d and %d", m->wrap[0],
             m->wrap[1]);

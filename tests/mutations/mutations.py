@@ -306,7 +306,7 @@ m("copy-out-of-the-folder", "check left out", "gltf_save, cli_materials", "*left
 m("output-over-a-copy", "check left out", "gltf_save", "strcmp(resource->path, ffd_path_name(target)) == 0",
   "strcmp(resource->path, target) == 0")
 m("image-loaded-twice", "cache left out", "materials", "*image = images->numbers[number]; else",
-  "*image = MATERIAL_NONE;\n    else")
+  "*image = MATERIAL_LOST;\n    else")
 m("images-not-in-the-budget", "limit", "materials", "ffd_budget_take(images->budget, 1, all, &problem)",
   "ffd_budget_take(images->budget, 0, all, &problem)")
 m("other-images-kept", "check left out", "materials", "if (!is_shown(bytes, size)) {", "if (!is_shown(bytes, size) && size < 4) {")
@@ -351,6 +351,8 @@ m("cut-jpeg-taken", "error left out", "picture_image", "if (jpeg->err->msg_code 
 m("end-of-png-not-read", "error left out", "picture_image", "png_read_end(png, NULL);", "png_set_crc_action(png, PNG_CRC_DEFAULT, PNG_CRC_DEFAULT);")
 m("lattice-as-large-as-it-is", "bound", "cli_view", "#define REACH 2.0", "#define REACH 1e9")
 m("panels-all-kept", "freed resource", "view", "view_palette own;\n    free_step(w);", "view_palette own;")
+m("lost-image-in-its-colour", "check left out", "cli_view", "const bool is_lost = from->image == MATERIAL_LOST || (of && of->level_count == 0);",
+  "const bool is_lost = of && of->level_count == 0;")
 m("own-texture-replaced", "check left out", "cli_view", "is_named = ffd_file_same(files.paths[i], output);", "is_named = false;")
 m("other-spelling-of-out", "check left out", "cli_output", "const bool meet = here && there && (strcmp(here, there) == 0 || ffd_file_same(here, there));",
   "const bool meet = here && there && strcmp(a, b) == 0;")
@@ -906,7 +908,7 @@ m("smallest-torn-edges", "order", "view", "return x->step > y->step ? -1 : x->st
 m("report-over-its-picture", "check left out", "cli_view", "if (s->job.report && ffd_paths_meet(s->job.report, s->output))",
   "if (s->job.report && strcmp(s->job.report, s->output) == 1000)")
 m("report-over-the-picture-of-check", "check left out", "cli_view", "s.picture && s.job.report && ffd_paths_meet(s.job.report, s.picture)",
-  "s.picture && s.job.report && strcmp(s.job.report, s.picture) == 1000")
+  "s.picture && s.job.report && s.job.report == s.picture")
 m("lost-triangles-of-a-corner", "loop", "cli_view", "for (size_t c = 0; c < 3 && finite; c++)", "for (size_t c = 0; c < 1 && finite; c++)")
 m("cage-of-any-size", "limit left out", "cli_view", "ffd_multiply_size(points, size[2], &points) && points <= left;",
   "ffd_multiply_size(points, size[2], &points) && points <= 1000 * left;")

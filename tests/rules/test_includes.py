@@ -109,7 +109,7 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "batch/manifest", "io", "job/chain", "job/input",
         "job/judge", "job/report", "json", "lattice", "lattice/file", "mesh", "view",
     },
-    "cli": {"batch"},
+    "cli": {"base/file", "batch"},
     "cli/pages": {"cli"},
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",

@@ -6,7 +6,7 @@
 #include "mesh/resource/material_images.h"
 
 /* Loads an image of a bufferView, a data URI or a file beside the model, unless it is known. Sets *number to
-   its place among the images of the materials, to MATERIAL_NONE if it cannot be had. Errors: FFD_E_LIMIT,
+   its place among the images of the materials, to MATERIAL_LOST if it cannot be had. Errors: FFD_E_LIMIT,
    FFD_E_MEMORY. */
 ffd_status ffd_gltf_load_image(const gltf_document *document, material_images *images, size_t image,
                                uint32_t *number, ffd_error *error);

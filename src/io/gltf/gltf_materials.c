@@ -87,15 +87,14 @@ static const char *why_no_image(const gltf_document *d, uint32_t texture)
 }
 
 /* Says, once, why a texture (GLTF_NONE: one that is not there) has no image. */
-static ffd_status leave_texture(reader *r, size_t number, const char *why)
+static ffd_status leave_texture(reader *r, size_t number, const char *why, uint32_t *image)
 {
     char name[40] = "a texture", key[sizeof name + 1];
-    uint32_t none;
     bool is_known;
     if (number != GLTF_NONE)
         snprintf(name, sizeof name, "texture %zu", number);
     snprintf(key, sizeof key, "/%s", name); /* no path of a file: these are relative */
-    const ffd_status status = ffd_images_find(&r->images, key, &is_known, &none, r->error);
+    const ffd_status status = ffd_images_find(&r->images, key, &is_known, image, r->error);
     if (!status && !is_known)
         ffd_left_add(&r->images.left, name, why);
     return status;
@@ -107,7 +106,7 @@ static ffd_status read_texture(reader *r, uint32_t info, mesh_material *material
     const size_t number =
         ffd_gltf_index(d, ffd_json_span_member(&d->tree, info, "index"), d->texture_values.count);
     if (number == GLTF_NONE)
-        return leave_texture(r, GLTF_NONE, "that a material names is not there");
+        return leave_texture(r, GLTF_NONE, "that a material names is not there", &material->image);
     const uint32_t texture = d->texture_values.values[number];
     const size_t sampler =
         ffd_gltf_index(d, ffd_json_span_member(&d->tree, texture, "sampler"), d->sampler_values.count);
@@ -117,7 +116,7 @@ static ffd_status read_texture(reader *r, uint32_t info, mesh_material *material
         material->wrap[0] = read_wrap(d, d->sampler_values.values[sampler], "wrapS");
         material->wrap[1] = read_wrap(d, d->sampler_values.values[sampler], "wrapT");
     }
-    return image == GLTF_NONE ? leave_texture(r, number, why_no_image(d, texture))
+    return image == GLTF_NONE ? leave_texture(r, number, why_no_image(d, texture), &material->image)
                               : ffd_gltf_load_image(d, &r->images, image, &material->image, r->error);
 }
 

@@ -21,7 +21,7 @@ ffd_status ffd_images_find(material_images *images, const char *name, bool *is_k
 {
     const size_t known = images->known.count;
     uint32_t number;
-    *image = MATERIAL_NONE;
+    *image = MATERIAL_LOST;
     if (!ffd_intern(&images->known, name, strlen(name), &number) ||
         !ffd_grow((void **)&images->numbers, &images->capacity, images->known.count, sizeof *images->numbers))
         return ffd_fail_memory(error);
@@ -29,7 +29,7 @@ ffd_status ffd_images_find(material_images *images, const char *name, bool *is_k
     if (*is_known)
         *image = images->numbers[number];
     else
-        images->numbers[number] = MATERIAL_NONE;
+        images->numbers[number] = MATERIAL_LOST;
     return FFD_OK;
 }
 
@@ -51,7 +51,7 @@ ffd_status ffd_images_add(material_images *images, const char *name, const unsig
                           uint32_t *image, ffd_error *error)
 {
     mesh_materials *const m = images->materials;
-    *image = MATERIAL_NONE;
+    *image = MATERIAL_LOST;
     if (!is_shown(bytes, size)) {
         ffd_left_add(&images->left, name, "is neither PNG nor JPEG");
         return FFD_OK;

@@ -17,8 +17,8 @@ function perspective(aspect, near, far) {
 // At most so many points decide how far away the camera has to be.
 const FIT_POINTS = 4000;
 
-// The mesh is from -1 to 1. Cages widen the picture by two of its largest extent at most, as in view_fit.c.
-const FIT_REACH = 5;
+// The mesh is from -1 to 1. Cages widen the picture by its largest extent on each side at most; one can go back from there.
+const FIT_REACH = 3;
 
 // Points of both shapes and of the cages, evenly chosen.
 function listFitPoints(scene) {

@@ -1,26 +1,14 @@
-#include "batch/batch.h"
+#include "batch/batch_run.h"
 #include "base/file/input.h"
 #include "base/file/output.h"
-#include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "base/system/interrupt.h"
 #include "base/text/words.h"
-#include "batch/journal.h"
 #include "batch/measure.h"
-#include "batch/mesh_states.h"
-#include "batch/outputs.h"
-#include "batch/progress.h"
-#include "batch/run_view.h"
-#include "batch/task_text.h"
-#include "job/report/depfile.h"
 #include "job/report/report_file.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
-
-/* The most jobs that are known at a time. Where something is told in their order, those that end before an
-   earlier one wait here for their turn. */
-#define WINDOW ((size_t)1024)
 
 /* Jobs that wait for a worker; further ones are not read yet. */
 #define AHEAD ((size_t)256)
@@ -31,30 +19,6 @@
 /* Seconds between looks at the clock. */
 #define LOOK 0.1
 
-typedef struct batch_run {
-    const batch_desc *desc;
-    job_source *source;
-    worker_pool *pool;
-    job_journal *journal; /* NULL: there is none */
-    ffd_report *report;   /* likewise */
-    ffd_depfile *depfile; /* likewise */
-    run_view *view;       /* likewise */
-    shown_box box;        /* of all meshes, where they share one */
-    path_list box_files;  /* that it was taken from, where there is a depfile */
-    path_list outputs;    /* that depend on these */
-    run_outputs written;  /* by the jobs so far */
-    mesh_states meshes;   /* that they have read */
-    uint64_t jobs;        /* so far */
-    batch_progress progress;
-    batch_counts counts;
-    pool_task *tasks[WINDOW]; /* in their order; count of them */
-    size_t count, waiting;    /* those that have not begun */
-    bool ended;               /* the source has no more jobs */
-    bool starved;             /* the next one has not come yet */
-    bool ending;              /* no more jobs are begun */
-    bool dropped;             /* some were not begun */
-} batch_run;
-
 /* Reading jobs */
 
 static void fail_task(pool_task *task, const ffd_error *error)
@@ -62,13 +26,6 @@ static void fail_task(pool_task *task, const ffd_error *error)
     task->failure = *error;
     task->state = TASK_ENDED;
     task->outcome = OUTCOME_FAILED;
-}
-
-/* The name of what the jobs are lines of; NULL: they have none. */
-static const char *manifest_of(const batch_run *run)
-{
-    const job_source_desc *const jobs = &run->desc->jobs;
-    return jobs->manifest || jobs->table ? ffd_jobs_name(run->source) : NULL;
 }
 
 static void find_record(batch_run *run, pool_task *task)
@@ -97,7 +54,7 @@ static void add_task(batch_run *run, pool_task *task)
 static ffd_status read_jobs(batch_run *run, ffd_error *error)
 {
     run->starved = false;
-    while (!run->ended && !run->ending && run->count < WINDOW && run->waiting < AHEAD) {
+    while (!run->ended && !run->ending && run->count < BATCH_WINDOW && run->waiting < AHEAD) {
         line_state state;
         pool_task *const task = ffd_alloc_zero(1, sizeof *task);
         if (!task)
@@ -120,7 +77,7 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
     hash128 file;
     const ffd_status status = ffd_run_view_name(run->view, task, &file, error);
     return status ? status
-                  : ffd_outputs_claim_picture(&run->written, manifest_of(run), &task->job, &file,
+                  : ffd_outputs_claim_picture(&run->written, ffd_run_manifest(run), &task->job, &file,
                                               task->picture, error);
 }
 
@@ -128,7 +85,7 @@ static ffd_status claim_picture(batch_run *run, pool_task *task, ffd_error *erro
 static ffd_status claim_output(batch_run *run, pool_task *task, ffd_error *error)
 {
     batch_job *const job = &task->job;
-    if (ffd_outputs_claim(&run->written, manifest_of(run), job, &task->target, error))
+    if (ffd_outputs_claim(&run->written, ffd_run_manifest(run), job, &task->target, error))
         return FFD_E_MEMORY;
     static const task_state states[] = {
         [OTHERS_NONE] = TASK_WAITS, [OTHERS_KNOWN] = TASK_LOOKED, [OTHERS_BY_MESH] = TASK_NEW};
@@ -151,7 +108,7 @@ static ffd_status claim_others(batch_run *run, pool_task *task, ffd_error *error
         status = ffd_outputs_learn(&run->written, job, task->beside, &task->copied, error);
     ffd_buffer_free(&task->copied);
     if (!status)
-        status = ffd_outputs_claim_others(&run->written, manifest_of(run), job, error);
+        status = ffd_outputs_claim_others(&run->written, ffd_run_manifest(run), job, error);
     task->state = TASK_WAITS;
     if (!status && job->error.status)
         fail_task(task, &job->error);
@@ -174,143 +131,6 @@ static ffd_status claim_tasks(batch_run *run, ffd_error *error)
             status = claim_others(run, task, error);
         settled = settled && ffd_task_is_settled(task);
     }
-    return status;
-}
-
-/* Jobs that have ended */
-
-static void say_error(batch_run *run, const ffd_error *error)
-{
-    char line[2100];
-    const size_t length = ffd_error_format(error, line, sizeof line - 1);
-    memcpy(line + (length < sizeof line - 2 ? length : sizeof line - 2), "\n", 2);
-    ffd_progress_print(&run->progress, line);
-}
-
-static void print_plan(const pool_task *task)
-{
-    const batch_job *const job = &task->job;
-    printf("%s %s -> %s\n", task->outcome == OUTCOME_SKIPPED ? "up to date:" : "to do:", job->input,
-           ffd_job_output_name(job));
-}
-
-/* Where the worker has made no entry of a report, there is one afterwards. */
-static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
-{
-    if (!task->entry.size)
-        ffd_task_entry(task, run->desc->pool.stable, &task->entry);
-    return task->entry.failed ? ffd_fail_memory(error) : FFD_OK;
-}
-
-static ffd_status report_task(batch_run *run, pool_task *task, ffd_error *error)
-{
-    const ffd_status status = complete_entry(run, task, error);
-    return status ? status
-                  : ffd_report_add_text(run->report, task->number, task->entry.data, task->entry.size, error);
-}
-
-static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
-{
-    const ffd_status status = complete_entry(run, task, error);
-    return status ? status : ffd_run_view_add(run->view, task, &task->entry, error);
-}
-
-static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *error)
-{
-    byte_buffer lines = {0};
-    ffd_task_lines(task, manifest_of(run), &lines);
-    ffd_buffer_append(&lines, "", 1);
-    const ffd_status status = lines.failed ? ffd_fail_memory(error) : FFD_OK;
-    if (!status)
-        ffd_progress_print(&run->progress, lines.data);
-    ffd_buffer_free(&lines);
-    return status;
-}
-
-/* Does what follows at once from the end of a job, even if jobs before it still run. */
-static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
-{
-    uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
-    ++*counts[task->outcome];
-    task->noted = true;
-    ffd_status status = ffd_states_note(&run->meshes, task, error);
-    if (!status)
-        status = say_task(run, task, error);
-    if (task->outcome == OUTCOME_FAILED && run->desc->stop)
-        run->ending = true;
-    if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
-        ffd_journal_put(run->journal, &task->target, &task->record, task->figures.data, task->figures.size);
-    if (!status && run->report && !ffd_report_is_ordered(run->report))
-        status = report_task(run, task, error);
-    return status;
-}
-
-/* A job that is not valid ends when those before it have: it could be the one to stop at. Once no more are
-   begun it is not begun either. */
-static ffd_status note_ends(batch_run *run, ffd_error *error)
-{
-    bool is_first = true; /* of those that have not ended */
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < run->count && !status; i++) {
-        pool_task *const task = run->tasks[i];
-        const bool is_valid = !task->job.error.status;
-        is_first = is_first && (task->state == TASK_ENDED || task->state == TASK_DROPPED);
-        if (task->state != TASK_ENDED || task->noted || (!is_valid && !is_first && !run->ending))
-            continue;
-        if (run->ending && !is_valid) {
-            task->state = TASK_DROPPED;
-            run->dropped = true;
-        } else {
-            status = note_end(run, task, error);
-        }
-    }
-    return status;
-}
-
-/* What is told in the order of the jobs. */
-static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
-{
-    if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
-        print_plan(task);
-    if (run->depfile && task->rule.size) {
-        ffd_depfile_add(run->depfile, &task->rule);
-        if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
-            return FFD_E_MEMORY;
-    }
-    if (run->view) {
-        const ffd_status status = show_task(run, task, error);
-        if (status)
-            return status;
-    }
-    return run->report && ffd_report_is_ordered(run->report) ? report_task(run, task, error) : FFD_OK;
-}
-
-/* Whether something of the jobs is told in their order. */
-static bool tells_in_order(const batch_run *run)
-{
-    return run->desc->pool.dry || run->depfile || run->view ||
-           (run->report && ffd_report_is_ordered(run->report));
-}
-
-/* Takes ended jobs out of the window; where they are told in their order, up to the first one that has not
-   ended. */
-static ffd_status take_ended(batch_run *run, ffd_error *error)
-{
-    const bool in_order = tells_in_order(run);
-    size_t kept = 0;
-    ffd_status status = FFD_OK;
-    for (size_t i = 0; i < run->count; i++) {
-        pool_task *const task = run->tasks[i];
-        const bool is_over = task->state == TASK_DROPPED || (task->state == TASK_ENDED && task->noted);
-        if (status || !is_over || (in_order && kept > 0)) {
-            run->tasks[kept++] = task;
-            continue;
-        }
-        if (task->state == TASK_ENDED)
-            status = tell_task(run, task, error);
-        ffd_task_free(task);
-    }
-    run->count = kept;
     return status;
 }
 
@@ -379,12 +199,12 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
             first = begin_jobs(run, error);
         const ffd_status waited = wait_for_ends(run, first ? NULL : error);
         first = first ? first : waited;
-        status = note_ends(run, first ? NULL : error);
+        status = ffd_run_note_ends(run, first ? NULL : error);
         heed_interrupts(run);
         if (!status)
-            status = note_ends(run, first ? NULL : error); /* of those that were stopped */
+            status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were stopped */
         if (!status)
-            status = take_ended(run, first ? NULL : error);
+            status = ffd_run_take_ended(run, first ? NULL : error);
         count_waiting(run);
         ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
         if (run->count == 0 && (run->ended || run->ending))
@@ -413,7 +233,7 @@ static ffd_status open_journal(batch_run *run, ffd_error *error)
         return FFD_OK;
     if (!desc->journal) { /* a journal only saves time */
         if (desc->pool.resume)
-            say_error(run, &reason);
+            ffd_run_say_error(run, &reason);
         return FFD_OK;
     }
     if (error)
@@ -527,7 +347,7 @@ static void say_none(batch_run *run)
     if (run->desc->quiet || !run->ended || ffd_jobs_count(run->source) > 0)
         return;
     ffd_fail_file(&note, FFD_E_INVALID, ffd_jobs_name(run->source), "has no jobs");
-    say_error(run, &note);
+    ffd_run_say_error(run, &note);
 }
 
 /* With one rule for all outputs of what the box that they share was taken from. */

@@ -1,0 +1,144 @@
+/* batch_ends.c - jobs of a batch that have ended: what is said, counted, recorded and reported of them. */
+#include "base/memory/memory.h"
+#include "batch/batch_run.h"
+#include "batch/task_text.h"
+#include "job/report/report_file.h"
+#include <stdio.h>
+#include <string.h>
+
+const char *ffd_run_manifest(const batch_run *run)
+{
+    const job_source_desc *const jobs = &run->desc->jobs;
+    return jobs->manifest || jobs->table ? ffd_jobs_name(run->source) : NULL;
+}
+
+void ffd_run_say_error(batch_run *run, const ffd_error *error)
+{
+    char line[2100];
+    const size_t length = ffd_error_format(error, line, sizeof line - 1);
+    memcpy(line + (length < sizeof line - 2 ? length : sizeof line - 2), "\n", 2);
+    ffd_progress_print(&run->progress, line);
+}
+
+static void print_plan(const pool_task *task)
+{
+    const batch_job *const job = &task->job;
+    printf("%s %s -> %s\n", task->outcome == OUTCOME_SKIPPED ? "up to date:" : "to do:", job->input,
+           ffd_job_output_name(job));
+}
+
+/* Where the worker has made no entry of a report, there is one afterwards. */
+static ffd_status complete_entry(const batch_run *run, pool_task *task, ffd_error *error)
+{
+    if (!task->entry.size)
+        ffd_task_entry(task, run->desc->pool.stable, &task->entry);
+    return task->entry.failed ? ffd_fail_memory(error) : FFD_OK;
+}
+
+static ffd_status report_task(batch_run *run, pool_task *task, ffd_error *error)
+{
+    const ffd_status status = complete_entry(run, task, error);
+    return status ? status
+                  : ffd_report_add_text(run->report, task->number, task->entry.data, task->entry.size, error);
+}
+
+static ffd_status show_task(batch_run *run, pool_task *task, ffd_error *error)
+{
+    const ffd_status status = complete_entry(run, task, error);
+    return status ? status : ffd_run_view_add(run->view, task, &task->entry, error);
+}
+
+static ffd_status say_task(batch_run *run, const pool_task *task, ffd_error *error)
+{
+    byte_buffer lines = {0};
+    ffd_task_lines(task, ffd_run_manifest(run), &lines);
+    ffd_buffer_append(&lines, "", 1);
+    const ffd_status status = lines.failed ? ffd_fail_memory(error) : FFD_OK;
+    if (!status)
+        ffd_progress_print(&run->progress, lines.data);
+    ffd_buffer_free(&lines);
+    return status;
+}
+
+/* Does what follows at once from the end of a job, even if jobs before it still run. */
+static ffd_status note_end(batch_run *run, pool_task *task, ffd_error *error)
+{
+    uint64_t *const counts[] = {&run->counts.done, &run->counts.skipped, &run->counts.failed};
+    ++*counts[task->outcome];
+    task->noted = true;
+    ffd_status status = ffd_states_note(&run->meshes, task, error);
+    if (!status)
+        status = say_task(run, task, error);
+    if (task->outcome == OUTCOME_FAILED && run->desc->stop)
+        run->ending = true;
+    if (run->journal && task->outcome == OUTCOME_DONE && task->has_record)
+        ffd_journal_put(run->journal, &task->target, &task->record, task->figures.data, task->figures.size);
+    if (!status && run->report && !ffd_report_is_ordered(run->report))
+        status = report_task(run, task, error);
+    return status;
+}
+
+ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error)
+{
+    bool is_first = true; /* of those that have not ended */
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < run->count && !status; i++) {
+        pool_task *const task = run->tasks[i];
+        const bool is_valid = !task->job.error.status;
+        is_first = is_first && (task->state == TASK_ENDED || task->state == TASK_DROPPED);
+        if (task->state != TASK_ENDED || task->noted || (!is_valid && !is_first && !run->ending))
+            continue;
+        if (run->ending && !is_valid) {
+            task->state = TASK_DROPPED;
+            run->dropped = true;
+        } else {
+            status = note_end(run, task, error);
+        }
+    }
+    return status;
+}
+
+/* What is told in the order of the jobs. */
+static ffd_status tell_task(batch_run *run, pool_task *task, ffd_error *error)
+{
+    if (run->desc->pool.dry && task->outcome != OUTCOME_FAILED)
+        print_plan(task);
+    if (run->depfile && task->rule.size) {
+        ffd_depfile_add(run->depfile, &task->rule);
+        if (run->box_files.count && ffd_paths_add(&run->outputs, task->job.target, error))
+            return FFD_E_MEMORY;
+    }
+    if (run->view) {
+        const ffd_status status = show_task(run, task, error);
+        if (status)
+            return status;
+    }
+    return run->report && ffd_report_is_ordered(run->report) ? report_task(run, task, error) : FFD_OK;
+}
+
+/* Whether something of the jobs is told in their order. */
+static bool tells_in_order(const batch_run *run)
+{
+    return run->desc->pool.dry || run->depfile || run->view ||
+           (run->report && ffd_report_is_ordered(run->report));
+}
+
+ffd_status ffd_run_take_ended(batch_run *run, ffd_error *error)
+{
+    const bool in_order = tells_in_order(run);
+    size_t kept = 0;
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < run->count; i++) {
+        pool_task *const task = run->tasks[i];
+        const bool is_over = task->state == TASK_DROPPED || (task->state == TASK_ENDED && task->noted);
+        if (status || !is_over || (in_order && kept > 0)) {
+            run->tasks[kept++] = task;
+            continue;
+        }
+        if (task->state == TASK_ENDED)
+            status = tell_task(run, task, error);
+        ffd_task_free(task);
+    }
+    run->count = kept;
+    return status;
+}
