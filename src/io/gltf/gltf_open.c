@@ -8,7 +8,8 @@
 #include "io/gltf/model/gltf_schema.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_parts.h"
-#include "io/gltf/scene/gltf_places.h"
+#include "io/gltf/rig/gltf_places.h"
+#include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/scene/gltf_required.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_scene.h"
@@ -291,6 +292,7 @@ static void free_document(gltf_document *d)
     ffd_free(d->first_primitive);
     ffd_free(d->buffers);
     ffd_free(d->layouts);
+    ffd_gltf_free_rig(d);
     ffd_free(d->world);
     ffd_free(d->in_scene);
     ffd_free(d->scene_ranks);

@@ -1,0 +1,91 @@
+#include "io/gltf/rig/gltf_rig_edit.h"
+#include "base/text/number.h"
+
+/* Inserts a text after an object's last member. */
+static void insert_members(const json_span *tree, uint32_t object, const byte_buffer *text, json_edits *edits)
+{
+    uint32_t last = JSON_NONE;
+    for (uint32_t v = ffd_json_span_first(tree, object); v != JSON_NONE; v = ffd_json_span_after(tree, v))
+        last = v;
+    const uint32_t at = last == JSON_NONE ? tree->values[object].begin + 1 : tree->values[last].end;
+    edits->failed = edits->failed || text->failed;
+    if (text->size == 0 || text->failed)
+        return;
+    if (last != JSON_NONE)
+        ffd_edits_replace(edits, at, at, ",", 1);
+    ffd_edits_replace(edits, at, at, text->data, text->size);
+}
+
+/* Replaces the numbers of an array that change. */
+static void edit_numbers(const json_span *tree, uint32_t array, const double *values, size_t count,
+                         json_edits *edits)
+{
+    size_t i = 0;
+    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && i < count;
+         v = ffd_json_span_after(tree, v), i++) {
+        double old;
+        char text[FFD_NUMBER_CAPACITY];
+        if (ffd_json_span_number(tree, v, &old) && old == values[i])
+            continue;
+        const size_t size = ffd_number_format(values[i], text);
+        ffd_edits_replace(edits, tree->values[v].begin, tree->values[v].end, text, size);
+    }
+}
+
+/* Sets a member of a node: the numbers of an array that is there, or else one in the text that is added. */
+static void set_array(const json_span *tree, uint32_t node, const char *key, const double *values,
+                      size_t count, byte_buffer *added, json_edits *edits)
+{
+    const uint32_t member = ffd_json_span_member(tree, node, key);
+    if (member != JSON_NONE) {
+        edit_numbers(tree, member, values, count, edits);
+        return;
+    }
+    ffd_buffer_format(added, "%s\"%s\":[", added->size > 0 ? "," : "", key);
+    for (size_t i = 0; i < count; i++) {
+        char text[FFD_NUMBER_CAPACITY];
+        const size_t size = ffd_number_format(values[i], text);
+        ffd_buffer_text(added, i > 0 ? "," : "");
+        ffd_buffer_append(added, text, size);
+    }
+    ffd_buffer_text(added, "]");
+}
+
+void ffd_gltf_edit_nodes(const gltf_document *d, json_edits *edits)
+{
+    for (size_t i = 0; d->rig && i < d->rig->node_count; i++) {
+        const gltf_moved_node *const made = &d->rig->nodes[i];
+        const uint32_t node = d->node_values.values[made->node];
+        byte_buffer added = {0};
+        if (d->model.nodes[made->node].has_matrix) {
+            set_array(&d->tree, node, "matrix", made->matrix, 16, &added, edits);
+        } else {
+            if (made->translates)
+                set_array(&d->tree, node, "translation", made->translation, 3, &added, edits);
+            if (made->rotates)
+                set_array(&d->tree, node, "rotation", made->rotation, 4, &added, edits);
+        }
+        insert_members(&d->tree, node, &added, edits);
+        ffd_buffer_free(&added);
+    }
+}
+
+void ffd_gltf_edit_skins(const gltf_document *d, const size_t *outputs, json_edits *edits)
+{
+    for (size_t s = 0; d->rig && s < d->skin_values.count; s++) {
+        const size_t content = d->rig->skin_contents[s];
+        const uint32_t skin = d->skin_values.values[s];
+        const uint32_t member = ffd_json_span_member(&d->tree, skin, "inverseBindMatrices");
+        byte_buffer added = {0};
+        if (content == GLTF_NONE || outputs[content] == d->rig->contents[content].accessor)
+            continue;
+        if (member != JSON_NONE) {
+            ffd_edits_format(edits, d->tree.values[member].begin, d->tree.values[member].end, "%zu",
+                             outputs[content]);
+            continue;
+        }
+        ffd_buffer_format(&added, "\"inverseBindMatrices\":%zu", outputs[content]);
+        insert_members(&d->tree, skin, &added, edits);
+        ffd_buffer_free(&added);
+    }
+}
