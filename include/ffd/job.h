@@ -257,14 +257,14 @@ typedef struct ffd_behind {
 /* Joints, pivots and sockets of a glTF: whether there are any, and how far they are from where the lattice
    moves the mesh. */
 typedef struct ffd_rig_result {
-    bool is_there;      /* there are some; else all is 0 */
+    bool is_there; /* there are some; else all is 0 */
     uint64_t joints;
     uint64_t moved;     /* nodes that are written otherwise */
     uint64_t sheared;   /* of these: nodes that turn as their parents do, since they would be sheared else */
     uint64_t singular;  /* nodes that stay, as do those below them: their matrices have no inverse */
     uint64_t partial;   /* nodes that stay because their meshes are selected in part */
     double largest_lag; /* |D(x) - x'| over joints, pivots and sockets */
-    char worst[80];     /* the name of the first one with this lag, as ffd_behind has names; "": there is none */
+    char worst[80]; /* the name of the first one with this lag, as ffd_behind has names; "": there is none */
     uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with some lag; skins: of some joint */
 } ffd_rig_result;
 
@@ -334,7 +334,7 @@ typedef struct ffd_job_result {
     double deviation_max, deviation_mean;     /* of straight edges from the deformed surface */
     ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* by ffd_behind_kind */
     ffd_rig_result rig;
-    ffd_flaw flaws[FFD_FLAWS];                /* flaw_count, of the input */
+    ffd_flaw flaws[FFD_FLAWS]; /* flaw_count, of the input */
     size_t flaw_count;
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
     const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */

@@ -74,8 +74,9 @@ typedef struct mesh_part {
     bool splats;
     size_t place; /* of splats: the number by which place_name knows what shows them; or MESH_NO_PLACE */
 
-    /* What shows the part is moved itself (follow): deformed points are taken through y + (carry y + carry[9..])
-       in the lattice's space, 9 numbers row by row and an offset, before they go back to the file's space. */
+    /* What shows the part is moved itself (follow): deformed points are taken through y + (carry y +
+       carry[9..]) in the lattice's space, 9 numbers row by row and an offset, before they go back to the
+       file's space. */
     bool carried;
     double carry[12];
     /* A vertex whose byte is 0 is in no face, line or point. NULL: all are in one, or there are none, or

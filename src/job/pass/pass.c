@@ -78,8 +78,8 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
     }
 }
 
-/* Where the part's node or skin is moved, vertices stay where the deformation brings them: what they are moved
-   by in their own space is another displacement. Those that are not finite stay as they are. */
+/* Where the part's node or skin is moved, vertices stay where the deformation brings them: what they are
+   moved by in their own space is another displacement. Those that are not finite stay as they are. */
 static void carry(const part_work *work, tile_scratch *scratch, size_t count, bool gradients,
                   pass_totals *totals)
 {

@@ -121,9 +121,8 @@ static void warn_of_lag(const ffd_rig_result *figures, const mesh_log *log)
     const bool animates = figures->lagging_skins + figures->lagging_pivots > 0;
     tell_lagging(figures, lagging, sizeof lagging);
     ffd_log_line(log, FFD_LOG_WARNING, "%s %s up to %g off the deformed mesh (%s)%s: see --rig", lagging,
-                 figures->lagging_skins == 0 && things == 1 ? "lies" : "lie",
-                 figures->largest_lag, figures->worst,
-                 animates ? "; animations will turn it about the old places" : "");
+                 figures->lagging_skins == 0 && things == 1 ? "lies" : "lie", figures->largest_lag,
+                 figures->worst, animates ? "; animations will turn it about the old places" : "");
 }
 
 void ffd_rig_warn(const ffd_rig_result *figures, bool follows, double diagonal, const mesh_log *log)
@@ -131,12 +130,14 @@ void ffd_rig_warn(const ffd_rig_result *figures, bool follows, double diagonal, 
     if (!follows && figures->largest_lag > LAG_SAID * diagonal)
         warn_of_lag(figures, log);
     if (figures->sheared)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s: a parent is scaled unevenly, and would shear %s",
-                     figures->sheared,
-                     ffd_plural(figures->sheared, "node turns as its parent does", "nodes turn as their parents do"),
-                     ffd_plural(figures->sheared, "it", "them"));
+        ffd_log_line(
+            log, FFD_LOG_WARNING, "%" PRIu64 " %s: a parent is scaled unevenly, and would shear %s",
+            figures->sheared,
+            ffd_plural(figures->sheared, "node turns as its parent does", "nodes turn as their parents do"),
+            ffd_plural(figures->sheared, "it", "them"));
     if (figures->singular)
-        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s: the matrix of %s, or of a node above, has no inverse",
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " %s: the matrix of %s, or of a node above, has no inverse",
                      figures->singular,
                      ffd_plural(figures->singular, "node does not follow the deformation",
                                 "nodes do not follow the deformation"),

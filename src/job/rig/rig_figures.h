@@ -4,8 +4,8 @@
 
 #include "job/rig/rig_places.h"
 
-/* How far a place is, in the output, from where vertices in it would be moved. What is only rounding counts as
-   nothing: diagonal is that of the scene. */
+/* How far a place is, in the output, from where vertices in it would be moved. What is only rounding counts
+   as nothing: diagonal is that of the scene. */
 double ffd_rig_lag(const mesh_place_move *move, double diagonal);
 
 /* Fills the figures from the places and what follow has done. Errors: FFD_E_MEMORY. */

@@ -1,10 +1,25 @@
 #include "io/gltf/rig/gltf_rig.h"
+#include "base/memory/hash.h"
 #include "base/memory/memory.h"
+#include "io/gltf/rig/gltf_rig_channels.h"
 #include "io/gltf/rig/gltf_rig_nodes.h"
 #include "io/gltf/rig/gltf_rig_skins.h"
 
 size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content content)
 {
+    const hash_block blocks[] = {{&content.accessor, sizeof content.accessor},
+                                 {&content.count, sizeof content.count},
+                                 {content.values, content.count * content.width * sizeof *content.values}};
+    const hash128 hash = ffd_hash_blocks(blocks, 3);
+    uint32_t number;
+    if (!ffd_intern(&rig->known, &hash, sizeof hash, &number)) {
+        ffd_free(content.values);
+        return GLTF_NONE;
+    }
+    if (number < rig->content_count) {
+        ffd_free(content.values);
+        return number;
+    }
     if (!ffd_grow((void **)&rig->contents, &rig->content_capacity, rig->content_count + 1,
                   sizeof *rig->contents)) {
         ffd_free(content.values);
@@ -21,6 +36,14 @@ void ffd_gltf_free_rig(gltf_document *d)
         return;
     for (size_t i = 0; i < rig->content_count; i++)
         ffd_free(rig->contents[i].values);
+    for (size_t a = 0; rig->changes && a < rig->animations.count; a++) {
+        ffd_free(rig->changes[a].contents);
+        ffd_free(rig->changes[a].channels);
+        ffd_free(rig->changes[a].copies);
+    }
+    ffd_gltf_free_animations(d, &rig->animations);
+    ffd_intern_free(&rig->known);
+    ffd_free(rig->changes);
     ffd_free(rig->contents);
     ffd_free(rig->skin_contents);
     ffd_free(rig->world);
@@ -55,6 +78,8 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
     status = ffd_gltf_follow_nodes(d, places, moves, d->rig, following, error);
     if (status == FFD_OK)
         status = ffd_gltf_follow_skins(d, places, moves, d->rig, error);
+    if (status == FFD_OK)
+        status = ffd_gltf_follow_animations(d, d->rig, error);
     if (status)
         ffd_gltf_free_rig(d);
     return status;

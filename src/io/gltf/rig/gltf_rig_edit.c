@@ -16,6 +16,11 @@ static void insert_members(const json_span *tree, uint32_t object, const byte_bu
     ffd_edits_replace(edits, at, at, text->data, text->size);
 }
 
+static void replace_number(const json_span *tree, uint32_t value, size_t number, json_edits *edits)
+{
+    ffd_edits_format(edits, tree->values[value].begin, tree->values[value].end, "%zu", number);
+}
+
 /* Replaces the numbers of an array that change. */
 static void edit_numbers(const json_span *tree, uint32_t array, const double *values, size_t count,
                          json_edits *edits)
@@ -80,12 +85,58 @@ void ffd_gltf_edit_skins(const gltf_document *d, const size_t *outputs, json_edi
         if (content == GLTF_NONE || outputs[content] == d->rig->contents[content].accessor)
             continue;
         if (member != JSON_NONE) {
-            ffd_edits_format(edits, d->tree.values[member].begin, d->tree.values[member].end, "%zu",
-                             outputs[content]);
+            replace_number(&d->tree, member, outputs[content], edits);
             continue;
         }
         ffd_buffer_format(&added, "\"inverseBindMatrices\":%zu", outputs[content]);
         insert_members(&d->tree, skin, &added, edits);
         ffd_buffer_free(&added);
     }
+}
+
+/* The accessor that holds a sampler's output. */
+static size_t output_of(const gltf_animation_sampler *sampler, size_t content, const size_t *outputs)
+{
+    return content == GLTF_NONE ? sampler->output : outputs[content];
+}
+
+/* Adds the text of a sampler with another output. */
+static void add_sampler(const json_span *tree, const gltf_animation_sampler *sampler, size_t output,
+                        byte_buffer *text)
+{
+    const json_value *const whole = &tree->values[sampler->value];
+    const json_value *const member = &tree->values[ffd_json_span_member(tree, sampler->value, "output")];
+    ffd_buffer_text(text, text->size > 0 ? "," : "");
+    ffd_buffer_append(text, tree->text + whole->begin, member->begin - whole->begin);
+    ffd_buffer_format(text, "%zu", output);
+    ffd_buffer_append(text, tree->text + member->end, whole->end - member->end);
+}
+
+static void edit_animation(const json_span *tree, const gltf_animation *animation,
+                           const gltf_rig_animation *change, const size_t *outputs, json_edits *edits)
+{
+    byte_buffer text = {0};
+    for (size_t s = 0; s < animation->sampler_count; s++) {
+        const gltf_animation_sampler *const sampler = &animation->samplers[s];
+        const size_t output = output_of(sampler, change->contents[s], outputs);
+        if (output != sampler->output)
+            replace_number(tree, ffd_json_span_member(tree, sampler->value, "output"), output, edits);
+    }
+    for (size_t c = 0; c < animation->channel_count; c++)
+        if (change->channels[c] != animation->channels[c].sampler)
+            replace_number(tree, ffd_json_span_member(tree, animation->channels[c].value, "sampler"),
+                           change->channels[c], edits);
+    for (size_t i = 0; i < change->copy_count; i++) {
+        const gltf_animation_sampler *const sampler = &animation->samplers[change->copies[i].sampler];
+        add_sampler(tree, sampler, output_of(sampler, change->copies[i].content, outputs), &text);
+    }
+    insert_members(tree, ffd_json_span_member(tree, animation->value, "samplers"), &text, edits);
+    ffd_buffer_free(&text);
+}
+
+void ffd_gltf_edit_animations(const gltf_document *d, const size_t *outputs, json_edits *edits)
+{
+    for (size_t a = 0; d->rig && a < d->rig->animations.count; a++)
+        if (d->rig->changes[a].contents)
+            edit_animation(&d->tree, &d->rig->animations.list[a], &d->rig->changes[a], outputs, edits);
 }

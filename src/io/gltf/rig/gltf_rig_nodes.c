@@ -119,8 +119,8 @@ static double clamp(double value)
 }
 
 /* Writes the node's own transform: g before its linear part, and an offset. */
-static void set_local(const gltf_node *node, const double g[9], const double turn[4],
-                      const double offset[3], gltf_moved_node *made)
+static void set_local(const gltf_node *node, const double g[9], const double turn[4], const double offset[3],
+                      gltf_moved_node *made)
 {
     double linear[9], old[3], product[9];
     if (node->has_matrix) {

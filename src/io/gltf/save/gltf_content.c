@@ -17,7 +17,8 @@ static size_t buffer_of(const gltf_document *d, size_t accessor)
 
 size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
 {
-    if (accessor != GLTF_NONE && d->model.accessors[accessor].view >= 0 && d->buffers[buffer_of(d, accessor)].kind != BUFFER_EMPTY)
+    if (accessor != GLTF_NONE && d->model.accessors[accessor].view >= 0 &&
+        d->buffers[buffer_of(d, accessor)].kind != BUFFER_EMPTY)
         return buffer_of(d, accessor);
     size_t b = 0;
     while (b < d->buffer_values.count && d->buffers[b].kind == BUFFER_EMPTY)

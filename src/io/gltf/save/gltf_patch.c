@@ -93,8 +93,8 @@ static void write_target(const gltf_saver *saver, const gltf_version *version, b
 static void write_view(const gltf_saver *saver, const gltf_append *append, size_t buffer, byte_buffer *text)
 {
     const gltf_version *version = &saver->plan.versions[append->version];
-    const size_t element = ffd_gltf_version_numbers(saver->document, version) *
-                           ffd_gltf_component_size(version->component);
+    const size_t element =
+        ffd_gltf_version_numbers(saver->document, version) * ffd_gltf_component_size(version->component);
     ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
                       text->size > 0 ? "," : "", buffer, append->offset, append->size);
     if (append->stride > element)
@@ -162,8 +162,8 @@ static void announce_floats(const gltf_saver *saver, const gltf_version *version
 static void add_matrices(gltf_saver *saver, const gltf_version *version, size_t view)
 {
     byte_buffer text = {0};
-    ffd_buffer_format(&text, "{\"bufferView\":%zu,\"componentType\":%d,\"count\":%zu,\"type\":\"MAT4\"}", view,
-                      GLTF_FLOAT, version->count);
+    ffd_buffer_format(&text, "{\"bufferView\":%zu,\"componentType\":%d,\"count\":%zu,\"type\":\"MAT4\"}",
+                      view, GLTF_FLOAT, version->count);
     ffd_gltf_add_elements(saver, &saver->document->accessor_values, "accessors", &text);
     ffd_buffer_free(&text);
 }
@@ -252,6 +252,7 @@ static void edit_rig(gltf_saver *saver)
     if (outputs) {
         ffd_gltf_edit_nodes(d, &saver->edits);
         ffd_gltf_edit_skins(d, outputs, &saver->edits);
+        ffd_gltf_edit_animations(d, outputs, &saver->edits);
     }
     ffd_free(outputs);
 }

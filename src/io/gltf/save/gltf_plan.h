@@ -39,8 +39,8 @@ typedef struct gltf_plan {
     gltf_node_change *changes;
     size_t change_count;
     size_t *rig_versions; /* per content of the document's rig; NULL: it has none */
-    size_t *in_place; /* per accessor: the version that overwrites it, or GLTF_NONE */
-    size_t *appended; /* versions with new bufferViews, in their order */
+    size_t *in_place;     /* per accessor: the version that overwrites it, or GLTF_NONE */
+    size_t *appended;     /* versions with new bufferViews, in their order */
     size_t appended_count;
 } gltf_plan;
 
