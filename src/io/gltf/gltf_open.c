@@ -292,7 +292,6 @@ static void free_document(gltf_document *d)
     ffd_free(d->first_primitive);
     ffd_free(d->buffers);
     ffd_free(d->layouts);
-    ffd_gltf_free_rig(d);
     ffd_free(d->world);
     ffd_free(d->in_scene);
     ffd_free(d->scene_ranks);
@@ -407,6 +406,7 @@ void ffd_gltf_close(mesh_document *document)
     if (!document)
         return;
     gltf_document *d = (gltf_document *)document;
+    ffd_gltf_free_rig(d);
     ffd_file_unload(&d->input);
     free_document(d);
 }
