@@ -35,7 +35,7 @@ FFD_API ffd_format ffd_format_from_name(const char *name);
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
 /* Joints, pivots, sockets, cameras, lights and animations of a glTF stay where they are; or go along with the
-   deformation, so that characters keep moving (src/maths.md 8.3). */
+   deformation, so that characters keep moving (src/maths.md 9.5). */
 typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
 /* Images of a glTF, material libraries and maps of an OBJ, whose output is in another folder: they are copied
    beside it; or the URIs of a glTF lead back to them. */

@@ -214,6 +214,10 @@ static void write_rig(json_text *json, const ffd_rig_result *rig)
     else
         ffd_json_null(json, "worst");
     ffd_json_count(json, "sheared", rig->sheared);
+    if (rig->singular)
+        ffd_json_count(json, "singular", rig->singular);
+    if (rig->partial)
+        ffd_json_count(json, "partial", rig->partial);
     ffd_json_end(json, '}');
 }
 

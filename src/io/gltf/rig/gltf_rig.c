@@ -3,6 +3,7 @@
 #include "base/memory/memory.h"
 #include "io/gltf/rig/gltf_rig_channels.h"
 #include "io/gltf/rig/gltf_rig_nodes.h"
+#include "io/gltf/rig/gltf_rig_said.h"
 #include "io/gltf/rig/gltf_rig_skins.h"
 
 size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content content)
@@ -66,7 +67,6 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
                            const mesh_log *log, mesh_following *following, ffd_error *error)
 {
     gltf_document *const d = (gltf_document *)document;
-    (void)log;
     ffd_gltf_free_rig(d);
     *following = (mesh_following){0};
     ffd_status status = check_memory(d, error);
@@ -80,6 +80,8 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
         status = ffd_gltf_follow_skins(d, places, moves, d->rig, error);
     if (status == FFD_OK)
         status = ffd_gltf_follow_animations(d, d->rig, error);
+    if (status == FFD_OK)
+        ffd_gltf_warn_of_rig(d, places, d->rig, log);
     if (status)
         ffd_gltf_free_rig(d);
     return status;

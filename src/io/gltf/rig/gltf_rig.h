@@ -1,4 +1,4 @@
-/* gltf_rig.h - the nodes, skins and animations of a file as they follow the deformation (src/maths.md 8.3):
+/* gltf_rig.h - the nodes, skins and animations of a file as they follow the deformation (src/maths.md 9.5):
    what of them is written otherwise. Made by ffd_gltf_follow for one deformation, read by saving. */
 #ifndef FFD_IO_GLTF_RIG_GLTF_RIG_H
 #define FFD_IO_GLTF_RIG_GLTF_RIG_H
