@@ -9,6 +9,7 @@
 #include "io/gltf/gltf_open.h"
 #include "io/gltf/rig/gltf_places.h"
 #include "io/gltf/rig/gltf_rig.h"
+#include "io/gltf/rig/gltf_rig_follow.h"
 #include "io/gltf/save/gltf_output_names.h"
 #include "io/gltf/save/gltf_resources.h"
 #include "io/gltf/scene/gltf_faces.h"

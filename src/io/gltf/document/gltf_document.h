@@ -172,8 +172,8 @@ typedef struct gltf_document {
     ffd_status instancing_status;
     ffd_error instancing_error;
     struct gltf_rig *rig; /* how nodes follow the deformation (io/gltf/rig); NULL: they do not */
-    size_t *targets; /* per morph target of an instance: the part that holds its offsets;
-                        GLTF_NONE: none is deformed */
+    size_t *targets;      /* per morph target of an instance: the part that holds its offsets;
+                             GLTF_NONE: none is deformed */
 } gltf_document;
 
 /* Decides whether the document keeps the pages of its files, once they are open. */

@@ -58,9 +58,6 @@ typedef struct gltf_rig {
     size_t *skin_contents; /* of each skin: its inverse bind matrices in contents; GLTF_NONE: as they were */
 } gltf_rig;
 
-/* mesh_format's follow. */
-mesh_follow_function ffd_gltf_follow;
-
 /* Frees document->rig: nothing follows any more, and no part is carried. */
 void ffd_gltf_free_rig(gltf_document *document);
 
