@@ -8,7 +8,7 @@ import re
 import struct
 
 from gltf_build import Scene
-from harness import INVALID, USAGE, case, check, equal, lattice, main, near
+from harness import INVALID, LIMIT, USAGE, case, check, equal, lattice, main, near
 from posed import Posed, point
 from said import anything, entry, not_told, told
 
@@ -187,6 +187,8 @@ def a_default_pose_that_is_not_the_bind_pose(run):
     made.asset["nodes"][2]["rotation"] = quaternion([1, 0, 0], -35)
     _, _, follow = both(run, made, RIGID)
     moves_as(Posed(run.read("a.glb")), follow, rigid)
+    _, _, follow = both(run, made, [{"scale": {"factor": 2, "about": [0, 0, 0]}}])
+    moves_as(Posed(run.read("a.glb")), follow, lambda p: [2 * x for x in p])
     both(run, made, BEND)
 
 
@@ -279,11 +281,12 @@ def uneven_scales_turn_with_their_parents(run):
     told(done, r"nodes? turns? as (its|their)", "scaled unevenly")
     job = entry(run, "deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow")
     check(job["rig"]["sheared"] >= 1, str(job["rig"]))
-    # A group of uneven scale stays in its place.
+    # A group of uneven scale turns with all: nothing below it is sheared.
     grouped = arm()
-    grouped.asset["nodes"][0] |= {"scale": [1, 2, 1]}
-    _, _, follow = both(run, grouped, BEND)
-    equal(follow.nodes[0], grouped.asset["nodes"][0])
+    grouped.asset["nodes"][0] |= {"scale": [1, 1.5, 1], "rotation": quaternion([0, 0.6, 0.8], 30)}
+    done, _, follow = both(run, grouped, RIGID)
+    moves_as(Posed(run.read("a.glb")), follow, rigid)
+    not_told(done, "scaled unevenly")
 
 
 @case
@@ -389,6 +392,22 @@ def a_broken_animation_stops_only_who_needs_it(run):
     deform(run, made, BEND)
     run.ffd("deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow", "--force", code=INVALID, err=anything)
     deform(run, made, [], "--rig", "follow")
+
+
+@case
+def keys_that_become_those_of_many_channels_are_limited(run):
+    """One sampler of 20,000 keys for 2,000 nodes, each of which the bend turns otherwise."""
+    made = arm()
+    first = len(made.asset["nodes"])
+    for i in range(2000):
+        made.asset["nodes"].append({"translation": [0.001 * i, 0.002 * i, 0]})
+    made.asset["nodes"][0]["children"] += range(first, first + 2000)
+    times = made.add([[float(i)] for i in range(20000)], shape="SCALAR", bounds=True)
+    made.asset["animations"] = [{"samplers": [{"input": times, "output": made.add([[0, 0, 0, 1]] * 20000, shape="VEC4")}],
+                                 "channels": [{"sampler": 0, "target": {"node": first + i, "path": "rotation"}} for i in range(2000)]}]
+    run.write("a.glb", made.glb())
+    run.write("l.json", box(BEND))
+    run.ffd("deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow", code=LIMIT, err=anything)
 
 
 main()

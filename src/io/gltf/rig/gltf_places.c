@@ -177,14 +177,17 @@ static bool has_own(const gltf_document *d, size_t n)
 /* Off a scale that is the same in all directions, as a part of it. */
 #define UNEVEN 1e-6
 
-/* Whether the world matrix of a node stretches more in some directions than in others. */
+/* Whether the world matrix of a node stretches more in some directions than in others: M^T M is no multiple
+   of the identity. */
 static bool is_uneven(const double m[9])
 {
     const double square = (vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6)) / 3;
     for (int r = 0; r < 3; r++)
-        for (int c = 0; c <= r; c++)
-            if (fabs(vec_dot(m + 3 * r, m + 3 * c) - (r == c ? square : 0)) > UNEVEN * square)
+        for (int c = 0; c <= r; c++) {
+            const double sum = m[r] * m[c] + m[3 + r] * m[3 + c] + m[6 + r] * m[6 + c];
+            if (fabs(sum - (r == c ? square : 0)) > UNEVEN * square)
                 return true;
+        }
     return false;
 }
 
@@ -197,12 +200,12 @@ static bool is_anchor(const survey *s, size_t n, mesh_place *place)
     if (!(s->nodes[n] & IS_SHOWN))
         return false;
     place->kinds = kinds_of(s, n);
-    const bool follows = place->kinds || has_own(d, n);
+    const bool follows = place->kinds || has_own(d, n) || is_uneven(d->world + 12 * n);
     place->partial = chosen && d->model.nodes[n].skin < 0 && (s->nodes[n] & parts) == parts;
-    place->stays = !follows || !chosen || instanced || place->partial;
+    place->stays = !chosen || instanced || place->partial;
     if (!chosen)
         place->kinds = 0;
-    return follows || is_uneven(d->world + 12 * n);
+    return follows;
 }
 
 static ffd_status list_nodes(const survey *s, bool all, mesh_places *places, ffd_error *error)

@@ -7,9 +7,9 @@
 
 /* mesh_format's list_places: joints, cameras, lights, animated pivots, physics shapes, and sockets: empty
    nodes without children. After ffd_gltf_select only those of the nodes that it selects, of the empty nodes
-   below, and of their skins. All: also nodes that place a mesh or have an extension; and, to stay, what is
-   not selected, and groups whose scale in the scene is uneven, which would shear what is below them if they
-   turned with it. */
+   below, and of their skins. All: also nodes that place a mesh or have an extension, and groups whose scale
+   in the scene is uneven, which would shear what is below them if that turned and they did not; and, to stay,
+   what is not selected. */
 mesh_list_places_function ffd_gltf_list_places;
 
 /* mesh_format's count_skins: of the skins of the scene. */

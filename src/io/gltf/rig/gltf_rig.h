@@ -52,6 +52,7 @@ typedef struct gltf_rig {
     gltf_rig_content *contents; /* no two are equal */
     size_t content_count, content_capacity;
     intern_table known;          /* their hashes */
+    memory_budget *budget;       /* the document's, of which they have taken theirs */
     gltf_animations animations;  /* of the file, without their keys */
     gltf_rig_animation *changes; /* of each animation */
     size_t pointers_left;        /* channels that drive a changed part of a node in a way that is not known */
@@ -61,8 +62,12 @@ typedef struct gltf_rig {
 /* Frees document->rig: nothing follows any more, and no part is carried. */
 void ffd_gltf_free_rig(gltf_document *document);
 
-/* Adds new elements, whose values it takes, also when it fails, unless they are there already. Returns their
-   number, GLTF_NONE where memory runs out. */
-size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content content);
+/* Makes the values of new elements, out of the budget. Errors: FFD_E_LIMIT, FFD_E_MEMORY. */
+ffd_status ffd_gltf_make_elements(gltf_rig *rig, gltf_rig_content *content, ffd_error *error);
+/* Frees them, where they are not added. */
+void ffd_gltf_free_elements(gltf_rig *rig, gltf_rig_content *content);
+/* Adds new elements, unless they are there already: the values are not the caller's any more, also when it
+   fails. Returns their number, GLTF_NONE where memory runs out. */
+size_t ffd_gltf_add_content(gltf_rig *rig, gltf_rig_content *content);
 
 #endif

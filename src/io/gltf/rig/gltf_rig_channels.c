@@ -87,24 +87,17 @@ static float as_stored(const change_key *key, bool is_tangent, double value)
     return (float)value;
 }
 
-/* Makes the new elements of an output. *changes: whether a value differs. */
-static ffd_status make_values(const channel_work *w, const change_key *key,
-                              const gltf_animation_sampler *sampler, float **values, bool *changes)
+/* Fills the new elements of an output. *changes: whether a value differs. */
+static ffd_status fill_values(const channel_work *w, const change_key *key,
+                              const gltf_animation_sampler *sampler, const gltf_rig_content *content,
+                              bool *changes)
 {
-    const size_t width = key->path == GLTF_ROTATION ? 4 : 3,
-                 count = sampler->key_count * (key->cubic ? 3 : 1);
-    const ffd_status status =
-        ffd_budget_check(&w->document->base.budget, count, width * sizeof **values, w->error);
-    *values = NULL;
+    const size_t width = content->width;
     *changes = false;
-    if (status)
-        return status;
-    *values = ffd_alloc(count, width * sizeof **values);
-    if (!*values)
-        return ffd_fail_memory(w->error);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < content->count; i++) {
         const bool is_tangent = key->cubic && i % 3 != 1;
         const double *const old = sampler->values + width * i;
+        float *const values = content->values + width * i;
         double made[4];
         change_value(key, is_tangent, old, made);
         for (size_t c = 0; c < width; c++) {
@@ -112,28 +105,31 @@ static ffd_status make_values(const channel_work *w, const change_key *key,
                 return ffd_json_span_fail(&w->document->tree, sampler->value, w->document->name,
                                           FFD_E_INVALID, w->error,
                                           "floats cannot hold element %zu of the output that follows", i);
-            (*values)[width * i + c] = as_stored(key, is_tangent, made[c]);
-            *changes = *changes || (*values)[width * i + c] != (float)old[c];
+            values[c] = as_stored(key, is_tangent, made[c]);
+            *changes = *changes || values[c] != (float)old[c];
         }
     }
     return FFD_OK;
 }
 
 static ffd_status make_content(const channel_work *w, const change_key *key,
-                               const gltf_animation_sampler *sampler, size_t *content)
+                               const gltf_animation_sampler *sampler, size_t *number)
 {
-    const size_t width = key->path == GLTF_ROTATION ? 4 : 3;
-    const size_t count = (size_t)w->document->model.accessors[sampler->output].count;
-    float *values;
+    gltf_rig_content content = {.accessor = sampler->output,
+                                .count = sampler->key_count * (key->cubic ? 3 : 1),
+                                .width = key->path == GLTF_ROTATION ? 4 : 3};
     bool changes;
-    *content = GLTF_NONE;
-    const ffd_status status = make_values(w, key, sampler, &values, &changes);
+    *number = GLTF_NONE;
+    ffd_status status = ffd_gltf_make_elements(w->rig, &content, w->error);
+    if (status)
+        return status;
+    status = fill_values(w, key, sampler, &content, &changes);
     if (status || !changes) {
-        ffd_free(values);
+        ffd_gltf_free_elements(w->rig, &content);
         return status;
     }
-    *content = ffd_gltf_add_content(w->rig, (gltf_rig_content){sampler->output, count, width, values});
-    return *content == GLTF_NONE ? ffd_fail_memory(w->error) : FFD_OK;
+    *number = ffd_gltf_add_content(w->rig, &content);
+    return *number == GLTF_NONE ? ffd_fail_memory(w->error) : FFD_OK;
 }
 
 /* The content that a channel wants for its sampler's output; GLTF_NONE: as it is. */

@@ -24,6 +24,7 @@ ffd_status ffd_gltf_follow(mesh_document *document, const mesh_places *places, m
     d->rig = ffd_alloc_zero(1, sizeof *d->rig);
     if (!d->rig)
         return ffd_fail_memory(error);
+    d->rig->budget = &d->base.budget;
     status = ffd_gltf_follow_nodes(d, places, moves, d->rig, following, error);
     if (status == FFD_OK)
         status = ffd_gltf_follow_skins(d, places, moves, d->rig, error);

@@ -154,42 +154,53 @@ static bool put_matrix(const affine *change, float *values)
 }
 
 /* The inverse bind matrices as the file has them: the identity where it has none. */
-static float *read_matrices(const gltf_document *d, const gltf_skin *skin, size_t count)
+static void read_matrices(const gltf_document *d, const gltf_skin *skin, const gltf_rig_content *content)
 {
-    float *const values = ffd_alloc(count, 16 * sizeof *values);
-    for (size_t j = 0; j < count && values; j++) {
+    for (size_t j = 0; j < content->count; j++) {
         double read[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
         if (skin->inverse_bind >= 0)
             ffd_gltf_read(d, (size_t)skin->inverse_bind, j, 1, 16, read);
         for (size_t i = 0; i < 16; i++)
-            values[16 * j + i] = (float)read[i];
+            content->values[16 * j + i] = (float)read[i];
     }
-    return values;
+}
+
+/* Makes the skin's inverse bind matrices anew, where some change. */
+static ffd_status make_matrices(const gltf_document *d, size_t s, const affine *similarity, gltf_rig *rig,
+                                gltf_rig_content *content, ffd_error *error)
+{
+    const gltf_skin *const skin = &d->skins[s];
+    affine change;
+    for (size_t j = 0; j < skin->joint_count; j++) {
+        if (!find_change(d, rig, skin->joints[j], similarity, &change))
+            continue;
+        if (!content->values) {
+            const ffd_status status = ffd_gltf_make_elements(rig, content, error);
+            if (status)
+                return status;
+            read_matrices(d, skin, content);
+        }
+        if (!put_matrix(&change, content->values + 16 * j))
+            return refuse_infinite(d, s, j, error);
+    }
+    return FFD_OK;
 }
 
 static ffd_status follow_skin(const gltf_document *d, size_t s, const affine *similarity, gltf_rig *rig,
                               ffd_error *error)
 {
     const gltf_skin *const skin = &d->skins[s];
-    const bool has_accessor = skin->inverse_bind >= 0;
-    const size_t count =
-        has_accessor ? (size_t)d->model.accessors[skin->inverse_bind].count : skin->joint_count;
-    float *values = NULL;
-    affine change;
-    for (size_t j = 0; j < skin->joint_count; j++) {
-        if (!find_change(d, rig, skin->joints[j], similarity, &change))
-            continue;
-        if (!values && !(values = read_matrices(d, skin, count)))
-            return ffd_fail_memory(error);
-        if (!put_matrix(&change, values + 16 * j)) {
-            ffd_free(values);
-            return refuse_infinite(d, s, j, error);
-        }
+    gltf_rig_content content = {.accessor = GLTF_NONE, .count = skin->joint_count, .width = 16};
+    if (skin->inverse_bind >= 0) {
+        content.accessor = (size_t)skin->inverse_bind;
+        content.count = (size_t)d->model.accessors[skin->inverse_bind].count;
     }
-    if (!values)
-        return FFD_OK;
-    rig->skin_contents[s] = ffd_gltf_add_content(
-        rig, (gltf_rig_content){has_accessor ? (size_t)skin->inverse_bind : GLTF_NONE, count, 16, values});
+    const ffd_status status = make_matrices(d, s, similarity, rig, &content, error);
+    if (status || !content.values) {
+        ffd_gltf_free_elements(rig, &content);
+        return status;
+    }
+    rig->skin_contents[s] = ffd_gltf_add_content(rig, &content);
     return rig->skin_contents[s] == GLTF_NONE ? ffd_fail_memory(error) : FFD_OK;
 }
 
