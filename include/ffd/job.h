@@ -34,6 +34,9 @@ FFD_API ffd_format ffd_format_from_name(const char *name);
    one position and one normal get one again, from all faces around them, by area and angle. */
 typedef enum ffd_normals { FFD_NORMALS_TRANSFORM = 0, FFD_NORMALS_KEEP, FFD_NORMALS_RECOMPUTE } ffd_normals;
 typedef enum ffd_space { FFD_SPACE_SCENE = 0, FFD_SPACE_MESH } ffd_space;
+/* Joints, pivots, sockets, cameras, lights and animations of a glTF stay where they are; or go along with the
+   deformation, so that characters keep moving (src/maths.md 9.5). */
+typedef enum ffd_rig { FFD_RIG_KEEP = 0, FFD_RIG_FOLLOW } ffd_rig;
 /* Images of a glTF, material libraries and maps of an OBJ, whose output is in another folder: they are copied
    beside it; or the URIs of a glTF lead back to them. */
 typedef enum ffd_resources { FFD_RESOURCES_COPY = 0, FFD_RESOURCES_REFERENCE } ffd_resources;
@@ -188,6 +191,8 @@ typedef struct ffd_deform_desc {
     double edges_most;
     bool quality; /* fill the result's folds, flipped faces and det F too: they cost time and memory */
     ffd_normals normals;
+    /* FOLLOW: FFD_E_ARGUMENT with as_morph, in mesh space, and where input or output is no glTF. */
+    ffd_rig rig;
     const char *as_morph; /* to glTF: leave the base shape and add the deformation as a morph target of this
                              name, weight 0, or replace the one of this name, whose weight stays; NULL: deform
                              it. ffd_check_run does not look at it. */
@@ -248,6 +253,20 @@ typedef struct ffd_behind {
        characters as '?'; "": there is none. */
     char names[FFD_BEHIND_NAMES][80];
 } ffd_behind;
+
+/* Joints, pivots and sockets of a glTF: whether there are any, and how far they are from where the lattice
+   moves the mesh. */
+typedef struct ffd_rig_result {
+    bool is_there; /* there are some; else all is 0 */
+    uint64_t joints;
+    uint64_t moved;     /* nodes that are written otherwise */
+    uint64_t sheared;   /* of these: nodes that turn as their parents do, since they would be sheared else */
+    uint64_t singular;  /* nodes that stay, as do those below them: their matrices have no inverse */
+    uint64_t partial;   /* nodes that stay because their meshes are selected in part */
+    double largest_lag; /* |D(x) - x'| over joints, pivots and sockets */
+    char worst[80]; /* the name of the first one with this lag, as ffd_behind has names; "": there is none */
+    uint64_t lagging_skins, lagging_pivots, lagging_sockets; /* with some lag; skins: of some joint */
+} ffd_rig_result;
 
 /* What a job did: the figures of the report (data/schema/formats.md 2). Lengths in world units
    unless said otherwise. */
@@ -314,7 +333,8 @@ typedef struct ffd_job_result {
     uint64_t edges;          /* each counted once */
     double deviation_max, deviation_mean;     /* of straight edges from the deformed surface */
     ffd_behind behind[FFD_BEHIND_KIND_COUNT]; /* by ffd_behind_kind */
-    ffd_flaw flaws[FFD_FLAWS];                /* flaw_count, of the input */
+    ffd_rig_result rig;
+    ffd_flaw flaws[FFD_FLAWS]; /* flaw_count, of the input */
     size_t flaw_count;
     uint64_t indices_left; /* indices in extensions of a glTF that do not follow its deformed meshes */
     const char *picture;   /* what ffd_view_run has written, lent by its description; else NULL */

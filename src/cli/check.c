@@ -95,6 +95,19 @@ static void print_tear(const ffd_job_result *result)
     printf("\n");
 }
 
+static void print_rig(const ffd_rig_result *rig)
+{
+    if (!rig->is_there)
+        return;
+    printf("  rig            %" PRIu64 " joint%s, ", rig->joints, rig->joints == 1 ? "" : "s");
+    if (rig->moved)
+        printf("%" PRIu64 " node%s, ", rig->moved, rig->moved == 1 ? " follows" : "s follow");
+    printf("the largest lag is %g", rig->largest_lag);
+    if (*rig->worst)
+        printf(" (%s)", rig->worst);
+    printf("\n");
+}
+
 static void print_summary(const cli_job *job, const char *input, const ffd_job_result *result)
 {
     printf("%s\n", cli_display_name(input));
@@ -106,6 +119,7 @@ static void print_summary(const cli_job *job, const char *input, const ffd_job_r
         printf("  det F          %g to %g at the vertices\n", result->det_min, result->det_max);
     printf("  edges          %" PRIu64 ", %g at most from the deformed surface, %g on average\n",
            result->edges, result->deviation_max, result->deviation_mean);
+    print_rig(&result->rig);
 }
 
 /* The check, and where one is asked for, its picture. */

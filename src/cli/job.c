@@ -110,6 +110,7 @@ static bool add_gates(void *context, const cli_option *option, const char *value
 static const char *const outside_names[] = {"keep", "extend", "error", NULL};
 static const char *const normals_names[] = {"transform", "keep", "recompute", NULL};
 static const char *const isa_names[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
+static const char *const rig_names[] = {"keep", "follow", NULL};
 static const char *const space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(cli_job, field)
@@ -137,6 +138,9 @@ const cli_option cli_job_options[] = {
     {"space", 0, "scene|mesh",
      "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_choice,
      AT(space), space_names},
+    {"rig", 0, "keep|follow",
+     "glTF: joints, pivots, sockets, cameras, lights, animations stay, or go along; default keep",
+     cli_set_choice, AT(rig), rig_names},
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
      add_selector, 0, NULL},
@@ -234,6 +238,10 @@ const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, s
 {
     if (job->falloff > 0 && job->outside != FFD_OUTSIDE_EXTEND)
         return "--falloff needs --outside extend";
+    if (job->rig == FFD_RIG_FOLLOW && job->as_morph)
+        return "--rig follow moves the shape itself, which --as-morph leaves";
+    if (job->rig == FFD_RIG_FOLLOW && job->space == FFD_SPACE_MESH)
+        return "--rig follow moves nodes, which have no place with --space mesh";
     if (job->embedding && job->blocks)
         return "--embedding works with one lattice, and not with --blocks";
     if (job->embedding && job->lattice_count > 1)
@@ -279,6 +287,7 @@ void cli_job_describe(cli_job *job, const char *input, ffd_deform_desc *desc)
     desc->snap_relative = job->snap.is_relative;
     desc->blocks = job->blocks;
     desc->embedding = job->embedding;
+    desc->rig = (ffd_rig)job->rig;
     desc->as_morph = job->as_morph;
     desc->fail_on = job->fail_on;
     desc->tear_most = job->tear_most;

@@ -14,7 +14,7 @@ typedef struct cli_job {
     size_t only_count;
     cli_values values;
     cli_names allowed; /* extensions */
-    int outside, normals, space;
+    int outside, normals, space, rig;
     double falloff; /* 0: not given */
     cli_distance snap;
     bool blocks;

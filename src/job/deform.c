@@ -216,6 +216,14 @@ static ffd_status check_morph(const deform_job *job, const mesh_save_options *op
                          "cannot hold a morph target: only .gltf and .glb can (--as-morph)");
 }
 
+static ffd_status check_rig(const deform_job *job, const mesh_save_options *options, ffd_error *error)
+{
+    if (job->desc->rig == FFD_RIG_KEEP || !ffd_conversion_needed(job->document, options->format))
+        return FFD_OK;
+    return ffd_fail_file(error, FFD_E_ARGUMENT, options->path,
+                         "cannot hold nodes that follow: only .gltf and .glb can (--rig follow)");
+}
+
 /* Keeps the base shape if a morph target is wanted. */
 static ffd_status begin_morph(deform_job *job, ffd_error *error)
 {
@@ -248,6 +256,8 @@ static ffd_status run(deform_job *job, ffd_job_result *result, ffd_error *error)
     job->only_positions = !status && needs_only_positions(job->desc, &options);
     if (!status)
         status = ffd_deform_job_open(job, result, error);
+    if (!status)
+        status = check_rig(job, &options, error);
     if (!status)
         status = ffd_conversion_check(job->document, options.format, error);
     if (!status)

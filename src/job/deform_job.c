@@ -19,6 +19,7 @@
 #include "job/pass/pass.h"
 #include "job/pass/recompute.h"
 #include "job/report/output_set.h"
+#include "job/rig/rig_figures.h"
 #include <math.h>
 #include <string.h>
 
@@ -52,6 +53,9 @@ static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
         return ffd_fail(error, FFD_E_ARGUMENT, "the snap %g is not a length", desc->snap);
     if (desc->falloff > 0 && desc->outside != FFD_OUTSIDE_EXTEND)
         return ffd_fail(error, FFD_E_ARGUMENT, "--falloff needs --outside extend");
+    if (desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->input.space == FFD_SPACE_MESH))
+        return ffd_fail(error, FFD_E_ARGUMENT, "--rig follow cannot be used with %s",
+                        desc->as_morph ? "--as-morph" : "--space mesh");
     if (!ffd_isa_available(desc->isa))
         return ffd_fail(error, FFD_E_ARGUMENT,
                         "this build or this processor does not support the instruction set %s",
@@ -123,6 +127,9 @@ ffd_status ffd_deform_job_open(deform_job *job, ffd_job_result *result, ffd_erro
     job->document_is_shared = job->document;
     if (!status && !job->document)
         status = open_mesh(job, error);
+    if (!status && desc->rig == FFD_RIG_FOLLOW && !job->document->format->follow)
+        status = ffd_fail_file(error, FFD_E_ARGUMENT, ffd_source_name(&desc->input),
+                               "has no nodes that could follow: only glTF has (--rig follow)");
     if (!status)
         ffd_result_note_flaws(result, &job->document->flaws);
     for (size_t l = 0; l < job->chain.count; l++)
@@ -209,6 +216,43 @@ static ffd_status locate(deform_job *job, ffd_error *error)
     const chain_link *const link = &job->chain.links[0];
     return ffd_embedding_reuse(embedding, job->document, link->lattice, link->snap, job->threads,
                                &job->embedding, error);
+}
+
+/* Whether it matters what the document places beside vertices: no conversion and no morph target has it. */
+static bool has_rig(const deform_job *job)
+{
+    return !job->desc->as_morph && (!job->document->converted || job->details);
+}
+
+/* Finds what the lattices do where the document places something, and moves it along if it follows. */
+static ffd_status move_rig(deform_job *job, ffd_error *error)
+{
+    const bool follows = job->desc->rig == FFD_RIG_FOLLOW;
+    const mesh_format *const format = job->document->format;
+    if (!has_rig(job))
+        return FFD_OK;
+    const ffd_status status = ffd_rig_places_find(job->document, &job->chain, follows, &job->rig, error);
+    return status || !follows || job->rig.places.count == 0
+               ? status
+               : format->follow(job->document, &job->rig.places, job->rig.moves, &job->log, &job->following,
+                                error);
+}
+
+/* What is left behind, and how far joints, pivots and sockets lag. */
+static ffd_status find_left(deform_job *job, ffd_job_result *result, ffd_error *error)
+{
+    const ffd_status status = ffd_behind_find(job, result, error);
+    return status ? status
+                  : ffd_rig_figures_find(job->document, &job->rig, &job->following,
+                                         ffd_rig_diagonal(&result->before), &result->rig, error);
+}
+
+static void warn_of_left(const deform_job *job, const ffd_job_result *result)
+{
+    const double diagonal = ffd_rig_diagonal(&result->before);
+    ffd_behind_warn(result, job->desc->rig, &job->log);
+    if (job->totals.moved > 0)
+        ffd_rig_warn(&result->rig, job->desc->rig == FFD_RIG_FOLLOW, diagonal, &job->log);
 }
 
 /* What u,v,w of a mesh depend on. */
@@ -331,10 +375,12 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         status = ffd_tear_figures_prepare(job, error);
     if (!status)
+        status = move_rig(job, error);
+    if (!status)
         status = deform(job, &arrays, error);
     if (!status) {
         ffd_result_fill(result, &job->totals, ffd_clock_seconds() - prepared);
-        status = ffd_behind_find(job, result, error);
+        status = find_left(job, result, error);
     }
     if (!status) {
         status = judge(job, &arrays, result, error);
@@ -347,7 +393,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         ffd_result_warn(&job->totals, &job->chain, true, &job->log);
     if (!status)
-        ffd_behind_warn(result, &job->log);
+        warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
         ffd_log_line(&job->log, FFD_LOG_WARNING, "%s",
                      job->desc->only_count ? "--only selects no vertices"
@@ -359,6 +405,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (job->details)
         keep_arrays(&arrays, job->details);
     ffd_figures_free(&arrays);
+    ffd_rig_places_free(&job->rig);
     ffd_free(job->kept);
     job->kept = NULL;
     return status;

@@ -73,6 +73,12 @@ typedef struct mesh_part {
     /* The vertices are the centres of Gaussian splats, whose rotations and scales the streams do not show. */
     bool splats;
     size_t place; /* of splats: the number by which place_name knows what shows them; or MESH_NO_PLACE */
+
+    /* What shows the part is moved itself (follow): deformed points are taken through y + (carry y +
+       carry[9..]) in the lattice's space, 9 numbers row by row and an offset, before they go back to the
+       file's space. */
+    bool carried;
+    double carry[12];
     /* A vertex whose byte is 0 is in no face, line or point. NULL: all are in one, or there are none, or
        ffd_mesh_mark_used was not called. Lent by the document. */
     const uint8_t *used;
@@ -108,10 +114,29 @@ typedef struct mesh_faces {
 /* What the file has at a point beside vertices: a joint, a camera and so on. */
 typedef struct mesh_place {
     double at[3];   /* in the lattice's space */
-    unsigned kinds; /* a set of PLACE_BIT */
+    unsigned kinds; /* a set of PLACE_BIT; 0: what follow moves all the same */
+    bool stays;     /* follow leaves it where it is, whatever it is below; */
+    bool partial;   /* because its mesh is selected in part */
     size_t number;  /* by which place_name knows it */
 } mesh_place;
 #define PLACE_BIT(kind) (1u << (kind)) /* of an ffd_behind_kind */
+
+/* What the deformation does at a place. */
+typedef struct mesh_place_move {
+    bool moves;         /* vertices there would be moved */
+    bool singular;      /* the gradient there is not to be trusted */
+    double to[3];       /* where they would come to */
+    double gradient[9]; /* F - I there; zeros where nothing moves */
+    double became[3];   /* where the place is in the output */
+} mesh_place_move;
+
+/* What follow has done. */
+typedef struct mesh_following {
+    uint64_t written;  /* nodes that are written otherwise */
+    uint64_t sheared;  /* that turn as their parents do, since they would be sheared else */
+    uint64_t singular; /* that stay, with all below them, since their matrices have no inverse */
+    uint64_t partial;  /* that stay since their meshes are selected in part */
+} mesh_following;
 
 typedef struct mesh_places {
     mesh_place *list;
@@ -185,9 +210,14 @@ typedef ffd_status mesh_warn_function(const mesh_document *document, const mesh_
 
 typedef ffd_status mesh_check_reach_function(const mesh_document *document, const ffd_bounds *reach,
                                              ffd_error *error);
-typedef ffd_status mesh_list_places_function(const mesh_document *document, mesh_places *places,
+typedef ffd_status mesh_list_places_function(const mesh_document *document, bool all, mesh_places *places,
                                              ffd_error *error);
 typedef char *mesh_place_name_function(const mesh_document *document, size_t number);
+typedef ffd_status mesh_count_skins_function(const mesh_document *document, const mesh_places *places,
+                                             const uint8_t *marks, uint64_t *count, ffd_error *error);
+typedef ffd_status mesh_follow_function(mesh_document *document, const mesh_places *places,
+                                        mesh_place_move *moves, const mesh_log *log,
+                                        mesh_following *following, ffd_error *error);
 typedef ffd_status mesh_select_function(mesh_document *document, const mesh_selector *selectors, size_t count,
                                         ffd_error *error);
 typedef struct mesh_listing mesh_listing; /* listing.h */
@@ -257,12 +287,19 @@ typedef struct mesh_format {
     /* Refuses (FFD_E_UNSUPPORTED) if, in a box of the lattice's space (edges may be infinite), the document
        shows something that its parts cannot change and that is selected. NULL: the parts are all. */
     mesh_check_reach_function *check_reach;
-    /* Lists what the file has beside vertices that stays where it is, as far as it belongs to what is
-       selected, in the order of the file. places->list is the caller's to free, also after a failure. NULL:
-       nothing. */
+    /* Lists what the file places beside vertices, as far as it belongs to what is selected, in the order of
+       the file; all: with what has no kind and what is not selected, for follow. places->list is the caller's
+       to free, also after a failure. NULL: nothing. */
     mesh_list_places_function *list_places;
     /* The name of such a place, the caller's to free; NULL where memory runs out. */
     mesh_place_name_function *place_name;
+    /* Counts the skins that have a marked place (a byte each) as a joint. */
+    mesh_count_skins_function *count_skins;
+    /* Moves the places (all of them) with the deformation, what is animated there, and the skins: after
+       begin_results, which undoes it, and before vertices are written, whose parts it may set to be carried.
+       Fills became. NULL: the format has none. Errors: FFD_E_MEMORY, FFD_E_LIMIT, and what is found in the
+       file. */
+    mesh_follow_function *follow;
     bool normals_of_faces; /* faces have normals, which saving renews, and vertices none */
 
     /* From now on only what one of the selectors names is moved, counted and written: sets selected and

@@ -9,7 +9,7 @@ import struct
 from gltf_build import SHEAR, SHIFT, Scene, vectors
 from harness import (EMBEDDING, INVALID, NO, OK, UNSUPPORTED, announce, case, check, equal, glb_split, gltf_vectors, lattice, main, near, npy)
 
-announce("joints? stays? where")
+announce("off the deformed mesh")
 
 
 def column_major(linear, offset):

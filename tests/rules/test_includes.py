@@ -40,13 +40,17 @@ LAYERS = {
         "base/memory", "base/text", "base/vector", "io/gltf/decode", "io/gltf/document", "io/gltf/refer",
         "io/gltf/scene",
     },
+    "io/gltf/rig": {
+        "base", "base/memory", "base/text", "base/vector", "io/gltf/animation", "io/gltf/decode", "io/gltf/document",
+        "io/gltf/refer", "io/gltf/scene", "json", "mesh",
+    },
     "io/gltf/save": {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/refer", "io/gltf/scene", "json", "mesh", "mesh/resource",
+        "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
     "io/gltf": {
         "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/model", "io/gltf/save", "io/gltf/scene", "json", "mesh", "mesh/resource",
+        "io/gltf/file", "io/gltf/model", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},
@@ -96,9 +100,10 @@ LAYERS = {
         "base/memory", "base/system", "base/vector", "deform", "io/openmesh", "job/chain", "job/input",
         "lattice", "mesh",
     },
+    "job/rig": {"base/memory", "base/text", "job/chain", "mesh"},
     "job/judge": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
-        "job/chain", "job/input", "job/pass", "lattice", "mesh",
+        "job/chain", "job/input", "job/pass", "job/rig", "lattice", "mesh",
     },
     "job/view": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",
@@ -113,8 +118,8 @@ LAYERS = {
     "cli/pages": {"cli"},
     "job": {
         "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "io", "io/npy",
-        "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "json",
-        "lattice", "lattice/file", "mesh",
+        "io/openmesh", "io/write", "job/chain", "job/input", "job/judge", "job/pass", "job/report", "job/rig",
+        "json", "lattice", "lattice/file", "mesh",
     },
 }
 

@@ -7,6 +7,9 @@
 #include "io/gltf/gltf_extract.h"
 #include "io/gltf/gltf_materials.h"
 #include "io/gltf/gltf_open.h"
+#include "io/gltf/rig/gltf_places.h"
+#include "io/gltf/rig/gltf_rig.h"
+#include "io/gltf/rig/gltf_rig_follow.h"
 #include "io/gltf/save/gltf_output_names.h"
 #include "io/gltf/save/gltf_resources.h"
 #include "io/gltf/scene/gltf_faces.h"
@@ -15,7 +18,6 @@
 #include "io/gltf/scene/gltf_listing.h"
 #include "io/gltf/scene/gltf_mixed.h"
 #include "io/gltf/scene/gltf_names.h"
-#include "io/gltf/scene/gltf_places.h"
 #include "io/gltf/scene/gltf_refuse.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_select.h"
@@ -54,6 +56,12 @@ static void read_offsets(const mesh_document *document, size_t part, size_t shap
     ffd_gltf_read(d, d->parts[target].streams[stream].accessor, first, count, 3, xyz);
 }
 
+static ffd_status begin_results(mesh_document *document, bool normals, bool tangents, ffd_error *error)
+{
+    ffd_gltf_free_rig((gltf_document *)document);
+    return ffd_gltf_begin_results(document, normals, tangents, error);
+}
+
 const mesh_format ffd_gltf_format = {
     .format = FFD_FORMAT_GLTF,
     .name = "glTF",
@@ -69,6 +77,8 @@ const mesh_format ffd_gltf_format = {
     .check_reach = ffd_gltf_check_reach,
     .list_places = ffd_gltf_list_places,
     .place_name = ffd_gltf_place_name,
+    .count_skins = ffd_gltf_count_skins,
+    .follow = ffd_gltf_follow,
     .keep_base = ffd_gltf_keep_base,
     .largest_coordinate = FLT_MAX,
     .selector_kinds = SELECTOR_BIT(SELECT_NODE) | SELECTOR_BIT(SELECT_MESH) | SELECTOR_BIT(SELECT_MATERIAL),
@@ -80,7 +90,7 @@ const mesh_format ffd_gltf_format = {
     .read_tangents = read_tangents,
     .read_transforms = ffd_gltf_read_transforms,
     .read_offsets = read_offsets,
-    .begin_results = ffd_gltf_begin_results,
+    .begin_results = begin_results,
     .write_positions = ffd_gltf_write_positions,
     .write_normals = ffd_gltf_write_normals,
     .write_tangents = ffd_gltf_write_tangents,

@@ -6,9 +6,10 @@
 #include "io/gltf/decode/gltf_drawing.h"
 #include "io/gltf/decode/gltf_indices.h"
 #include "io/gltf/model/gltf_schema.h"
+#include "io/gltf/rig/gltf_places.h"
+#include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_parts.h"
-#include "io/gltf/scene/gltf_places.h"
 #include "io/gltf/scene/gltf_required.h"
 #include "io/gltf/scene/gltf_results.h"
 #include "io/gltf/scene/gltf_scene.h"
@@ -405,6 +406,7 @@ void ffd_gltf_close(mesh_document *document)
     if (!document)
         return;
     gltf_document *d = (gltf_document *)document;
+    ffd_gltf_free_rig(d);
     ffd_file_unload(&d->input);
     free_document(d);
 }

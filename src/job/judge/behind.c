@@ -1,19 +1,12 @@
 #include "job/judge/behind.h"
 #include "base/memory/memory.h"
 #include "base/text/words.h"
-#include "job/chain/chain_apply.h"
+#include "job/rig/rig_figures.h"
 #include "lattice/lattice.h"
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* What the chain needs to move a run of places. */
-typedef struct place_run {
-    chain_scratch chain;
-    double points[3 * CHAIN_RUN], delta[3 * CHAIN_RUN];
-    point_outcome outcomes[CHAIN_RUN];
-} place_run;
 
 /* Adds a name where there is room for one. */
 static ffd_status add_name(const mesh_document *document, size_t place, ffd_behind *behind, ffd_error *error)
@@ -44,42 +37,17 @@ static ffd_status count_place(const mesh_document *document, const mesh_place *p
     return status;
 }
 
-/* Counts those of the places at which vertices would be moved. */
-static ffd_status count_places(const deform_job *job, const mesh_places *places, place_run *run,
-                               ffd_job_result *result, ffd_error *error)
-{
-    ffd_status status = FFD_OK;
-    ffd_displacement_scratch_clear(&run->chain.displacement);
-    run->chain.displacement.kept.threads = 1;
-    for (size_t first = 0; first < places->count && status == FFD_OK; first += CHAIN_RUN) {
-        const mesh_place *list = places->list + first;
-        const size_t left = places->count - first, count = left < CHAIN_RUN ? left : CHAIN_RUN;
-        chain_run sent = {.x = run->points,
-                          .count = count,
-                          .scratch = &run->chain,
-                          .delta = run->delta,
-                          .outcomes = run->outcomes};
-        for (size_t i = 0; i < count; i++)
-            memcpy(run->points + 3 * i, list[i].at, sizeof list[i].at);
-        status = ffd_chain_apply(&job->chain, job->chain.count, &sent, error);
-        for (size_t i = 0; i < count && status == FFD_OK; i++)
-            if (run->outcomes[i].moved)
-                status = count_place(job->document, &list[i], result, error);
-    }
-    return status;
-}
-
+/* Counts those of the places at which vertices would be moved and that have not gone along. */
 static ffd_status find_places(const deform_job *job, ffd_job_result *result, ffd_error *error)
 {
-    mesh_places places = {0};
-    ffd_status status = job->document->format->list_places(job->document, &places, error);
-    place_run *run = status == FFD_OK && places.count > 0 ? ffd_alloc(1, sizeof *run) : NULL;
-    if (run)
-        status = count_places(job, &places, run, result, error);
-    else if (status == FFD_OK && places.count > 0)
-        status = ffd_fail_memory(error);
-    ffd_free(run);
-    ffd_free(places.list);
+    const double diagonal = ffd_rig_diagonal(&result->before);
+    ffd_status status = FFD_OK;
+    for (size_t i = 0; i < job->rig.places.count && status == FFD_OK; i++) {
+        const mesh_place_move *const move = &job->rig.moves[i];
+        const bool stays = job->desc->rig == FFD_RIG_KEEP || ffd_rig_lag(move, diagonal) > 0;
+        if (move->moves && stays)
+            status = count_place(job->document, &job->rig.places.list[i], result, error);
+    }
     return status;
 }
 
@@ -126,7 +94,7 @@ ffd_status ffd_behind_find(const deform_job *job, ffd_job_result *result, ffd_er
     ffd_status status = FFD_OK;
     if (job->totals.splats_moved > 0 && !only_translates(&job->chain))
         status = find_splats(job, &result->behind[FFD_BEHIND_SPLAT], error);
-    return status || !job->document->format->list_places ? status : find_places(job, result, error);
+    return status ? status : find_places(job, result, error);
 }
 
 /* "hand, foot, tail and 2 more"; more: how many there are in all, 0 where the names are not of each. */
@@ -141,7 +109,14 @@ static void tell_names(const ffd_behind *behind, uint64_t all, char *text, size_
         snprintf(text + length, capacity - length, " and %" PRIu64 " more", all - named);
 }
 
-void ffd_behind_warn(const ffd_job_result *result, const mesh_log *log)
+/* Of what is moved with the rig one line says all, and how far it lags. */
+static bool is_said_elsewhere(int kind, ffd_rig rig)
+{
+    return rig == FFD_RIG_KEEP &&
+           (kind == FFD_BEHIND_JOINT || kind == FFD_BEHIND_PIVOT || kind == FFD_BEHIND_SOCKET);
+}
+
+void ffd_behind_warn(const ffd_job_result *result, ffd_rig rig, const mesh_log *log)
 {
     static const char *const one[FFD_BEHIND_KIND_COUNT] = {
         [FFD_BEHIND_SOCKET] = "socket",        [FFD_BEHIND_CAMERA] = "camera",
@@ -150,7 +125,7 @@ void ffd_behind_warn(const ffd_job_result *result, const mesh_log *log)
     char names[FFD_BEHIND_NAMES * (sizeof result->behind[0].names[0] + 2) + 40];
     for (int kind = 0; kind < FFD_BEHIND_SPLAT; kind++) {
         const ffd_behind *behind = &result->behind[kind];
-        if (behind->count == 0)
+        if (behind->count == 0 || is_said_elsewhere(kind, rig))
             continue;
         tell_names(behind, behind->count, names, sizeof names);
         ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s%s, though the lattice moves the mesh there%s",

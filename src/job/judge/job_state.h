@@ -6,6 +6,7 @@
 #include "job/input/embedding_file.h"
 #include "job/judge/details.h"
 #include "job/pass/pass_totals.h"
+#include "job/rig/rig_places.h"
 #include "mesh/mesh.h"
 
 /* What a job holds while it runs. */
@@ -21,6 +22,8 @@ typedef struct deform_job {
     mesh_document *document;
     bool document_is_shared;  /* it is the last job's */
     embedding_file embedding; /* where one is named */
+    rig_places rig;           /* what the document places beside vertices */
+    mesh_following following; /* what became of it where it follows */
     pass_totals totals;
     uint8_t *kept;        /* marks of the pass (job/chain/chain.h); NULL: no vertices */
     job_details *details; /* to be filled, or NULL */

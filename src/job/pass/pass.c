@@ -78,6 +78,23 @@ static void fill_arrays(const part_work *work, const tile_scratch *scratch, size
     }
 }
 
+/* Where the part's node or skin is moved, vertices stay where the deformation brings them: what they are
+   moved by in their own space is another displacement. Those that are not finite stay as they are. */
+static void carry(const part_work *work, tile_scratch *scratch, size_t count, bool gradients,
+                  pass_totals *totals)
+{
+    for (size_t i = 0; i < count && work->part->carried; i++) {
+        double *const delta = scratch->delta + 3 * i;
+        const double *const place = scratch->position + 3 * i;
+        if (!vec_is_finite(place))
+            continue;
+        totals->moved += !work->part->repeats_positions && (delta[0] != 0 || delta[1] != 0 || delta[2] != 0);
+        ffd_part_carry(work->part, place, delta);
+        if (gradients)
+            ffd_part_carry_gradient(work->part, scratch->gradient + 9 * i);
+    }
+}
+
 /* Only the displacement goes back to the file's space: p' = p + linear^{-1} delta. */
 static void bring_back(const part_work *work, tile_scratch *scratch, size_t count)
 {
@@ -95,7 +112,7 @@ static void finish_positions(const part_work *work, tile_scratch *scratch, size_
     const size_t unfit = ffd_array_kernel(pass->chain->isa)
                              ->displace(scratch->delta, count, ffd_largest_coordinate(pass->document),
                                         scratch->raw, scratch->changed);
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && !work->part->carried; i++)
         totals->moved += scratch->changed[i];
     if (unfit < count)
         totals->first_overflow = work->first_vertex + first + unfit;
@@ -406,11 +423,12 @@ static void run_tile(void *context, size_t tile, size_t first, size_t last, int 
         return;
     }
     spread(scratch, count);
-    bring_back(work, scratch, count);
-    if (!part->repeats_positions) {
+    if (!part->repeats_positions)
         fill_arrays(work, scratch, first, count, totals);
+    carry(work, scratch, count, gradients, totals);
+    bring_back(work, scratch, count);
+    if (!part->repeats_positions)
         finish_positions(work, scratch, first, count, totals);
-    }
     if (attributes)
         finish_attributes(work, scratch, first, count, totals);
     if (shapes)

@@ -129,6 +129,17 @@ static void find_rounding(const void *context, size_t point, bool is_first, cons
     ffd_vertex_rounding_place(&transform, half);
 }
 
+/* As for the base: the offset is what is between two places that are carried alike. */
+static void carry(const shape_work *work, size_t k, bool gradients)
+{
+    shape_scratch *s = work->scratch;
+    if (!vec_is_finite(s->position + 3 * k))
+        return;
+    ffd_part_carry(work->part->part, s->position + 3 * k, s->moved_delta + 3 * k);
+    if (gradients)
+        ffd_part_carry_gradient(work->part->part, s->moved_gradient + 9 * k);
+}
+
 /* The base's gradients are there where it has normals; they then are in the file's own
    space, and so are these. */
 static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *error)
@@ -149,6 +160,8 @@ static ffd_status send_moved(const shape_work *work, bool gradients, ffd_error *
     for (size_t k = 0; k < s->moved_count && !status; k++) {
         const size_t i = s->moved[k];
         const vertex_transform transform = ffd_vertex_transform_of(&work->tile->transforms, i);
+        if (work->part->part->carried)
+            carry(work, k, gradients);
         if (gradients)
             ffd_gradient_to_file(&transform, s->moved_gradient + 9 * k);
         s->gradients[i] = s->moved_gradient + 9 * k;

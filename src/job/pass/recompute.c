@@ -22,11 +22,24 @@ typedef struct recomputing {
     uint8_t changed[BLOCK];
 } recomputing;
 
+/* Takes a normal to where the part's vertices are before its node or skin is moved. */
+static void carry_direction(const mesh_part *part, double n[3])
+{
+    double linear[9], cofactor[9];
+    for (int i = 0; i < 9; i++)
+        linear[i] = part->carry[i] + (i % 4 == 0 ? 1 : 0);
+    mat_cofactor(linear, cofactor);
+    mat_apply(cofactor, n, n);
+}
+
 /* The normal that shows as `direction` in the lattice's space: M^T of it (normal_groups.c: show). */
-static void bring_back(const vertex_transform *transform, const double direction[3], double n[3])
+static void bring_back(const mesh_part *part, const vertex_transform *transform, const double direction[3],
+                       double n[3])
 {
     memcpy(n, direction, 3 * sizeof *n);
-    if (transform->identity)
+    if (part->carried)
+        carry_direction(part, n);
+    else if (transform->identity)
         return;
     const double *m = transform->linear;
     const double transposed[9] = {m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]};
@@ -41,6 +54,8 @@ static void read_gradient(const recomputing *r, const vertex_transform *transfor
                           double gradient[9])
 {
     memcpy(gradient, r->gradients + 9 * (r->first_vertex + vertex), 9 * sizeof *gradient);
+    if (r->document->parts[r->part].carried)
+        ffd_part_carry_gradient(&r->document->parts[r->part], gradient);
     ffd_gradient_to_file(transform, gradient);
 }
 
@@ -69,7 +84,7 @@ static bool recompute(const recomputing *r, const vertex_transform *transform, s
         return false;
     if (outcome == NORMAL_LOST)
         return carry(r, transform, vertex, n);
-    bring_back(transform, r->groups->directions + 3 * (size_t)group, n);
+    bring_back(part, transform, r->groups->directions + 3 * (size_t)group, n);
     return true;
 }
 

@@ -32,3 +32,11 @@ void ffd_gradient_to_file(const vertex_transform *transform, double gradient[9])
     mat_multiply(gradient, transform->linear, product);
     mat_multiply(transform->inverse, product, gradient);
 }
+
+void ffd_part_carry_gradient(const mesh_part *part, double gradient[9])
+{
+    double product[9];
+    mat_multiply(part->carry, gradient, product);
+    for (int i = 0; i < 9; i++)
+        gradient[i] += part->carry[i] + product[i];
+}

@@ -51,4 +51,17 @@ static inline void ffd_displacement_to_file(const vertex_transform *transform, d
    where there is no inverse. */
 void ffd_gradient_to_file(const vertex_transform *transform, double gradient[9]);
 
+/* Adds what moving the part's node or skin adds to the displacement of a vertex that the deformation has
+   brought to y, both in the lattice's space. */
+static inline void ffd_part_carry(const mesh_part *part, const double y[3], double delta[3])
+{
+    double more[3];
+    mat_apply(part->carry, y, more);
+    for (int a = 0; a < 3; a++)
+        delta[a] += more[a] + part->carry[9 + a];
+}
+
+/* The same for the gradient E of the deformation, in the lattice's space. */
+void ffd_part_carry_gradient(const mesh_part *part, double gradient[9]);
+
 #endif

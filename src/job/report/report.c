@@ -200,6 +200,27 @@ static void write_targets(json_text *json, const ffd_job_result *result)
     ffd_json_end(json, '}');
 }
 
+/* Only where there are joints, pivots or sockets. */
+static void write_rig(json_text *json, const ffd_rig_result *rig)
+{
+    if (!rig->is_there)
+        return;
+    ffd_json_object(json, "rig", true);
+    ffd_json_count(json, "joints", rig->joints);
+    ffd_json_count(json, "moved", rig->moved);
+    ffd_json_number(json, "largest_lag", rig->largest_lag);
+    if (*rig->worst)
+        ffd_json_string(json, "worst", rig->worst);
+    else
+        ffd_json_null(json, "worst");
+    ffd_json_count(json, "sheared", rig->sheared);
+    if (rig->singular)
+        ffd_json_count(json, "singular", rig->singular);
+    if (rig->partial)
+        ffd_json_count(json, "partial", rig->partial);
+    ffd_json_end(json, '}');
+}
+
 static void write_figures(json_text *json, const ffd_job_result *result)
 {
     static const char *const names[] = {"inside", "outside", "multiple", "singular", "invalid"};
@@ -237,6 +258,7 @@ static void write_figures(json_text *json, const ffd_job_result *result)
     ffd_json_number(json, "rms", result->displacement_rms);
     ffd_json_end(json, '}');
     write_behind(json, result);
+    write_rig(json, &result->rig);
     write_indices_left(json, result);
     write_flaws(json, result);
 }

@@ -5,7 +5,8 @@
 
 #include "io/gltf/model/gltf_model.h"
 
-#define GLTF_LARGEST_VECTOR 16 /* bytes of a VEC4 of floats */
+#define GLTF_LARGEST_VECTOR 16  /* bytes of a VEC4 of floats */
+#define GLTF_LARGEST_ELEMENT 64 /* of a MAT4 of floats */
 
 /* Returns the number nearest to value that the type represents, or would with a larger range; ties go
    to the even integer. The result depends only on value and type. */

@@ -171,8 +171,9 @@ typedef struct gltf_document {
     /* Why their transforms are unknown, if they are: such a document can only be described. */
     ffd_status instancing_status;
     ffd_error instancing_error;
-    size_t *targets; /* per morph target of an instance: the part that holds its offsets;
-                        GLTF_NONE: none is deformed */
+    struct gltf_rig *rig; /* how nodes follow the deformation (io/gltf/rig); NULL: they do not */
+    size_t *targets;      /* per morph target of an instance: the part that holds its offsets;
+                             GLTF_NONE: none is deformed */
 } gltf_document;
 
 /* Decides whether the document keeps the pages of its files, once they are open. */

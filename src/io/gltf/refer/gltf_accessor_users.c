@@ -61,12 +61,16 @@ static void mark_primitive(const gltf_primitive *primitive, bool *used)
         used[primitive->indices] = true;
 }
 
+void ffd_gltf_mark_rig_users(const gltf_document *d, bool *used)
+{
+    mark_animations(d, used);
+    mark_skins(d, used);
+}
+
 void ffd_gltf_mark_other_users(const gltf_document *d, bool *used)
 {
     for (size_t m = 0; m < d->model.mesh_count; m++)
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
             mark_primitive(&d->model.meshes[m].primitives[p], used);
-    mark_animations(d, used);
-    mark_skins(d, used);
     ffd_gltf_visit_indices(d, mark_extension, &(marks){d, used});
 }

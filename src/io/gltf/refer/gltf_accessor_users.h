@@ -4,9 +4,12 @@
 
 #include "io/gltf/document/gltf_document.h"
 
-/* Sets used[a] for each accessor a that something other than a deformed attribute uses: animations,
-   skins, other attributes, indices, extensions. An extension of a mesh that names an accessor of the mesh's
+/* Sets used[a] for each accessor a that something other than a deformed attribute, a skin and an animation
+   uses: other attributes, indices, extensions. An extension of a mesh that names an accessor of the mesh's
    own attributes follows these. */
 void ffd_gltf_mark_other_users(const gltf_document *document, bool *used);
+
+/* Sets it for those that skins and animations use. */
+void ffd_gltf_mark_rig_users(const gltf_document *document, bool *used);
 
 #endif

@@ -34,7 +34,8 @@ static size_t count_floats(const gltf_saver *saver)
     size_t count = 0;
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
-        count += version->component != saver->document->model.accessors[version->accessor].component;
+        count += version->accessor != GLTF_NONE &&
+                 version->component != saver->document->model.accessors[version->accessor].component;
     }
     return count;
 }

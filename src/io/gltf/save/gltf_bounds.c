@@ -9,7 +9,7 @@
 
 /* Bounds are stored numbers: for normalized integers, the integers (glTF 2.0, 3.6.2.5). */
 typedef struct stored_bounds {
-    double least[4], largest[4];
+    double least[16], largest[16];
 } stored_bounds;
 
 static void widen(stored_bounds *bounds, double least, double largest, size_t c)
@@ -48,17 +48,16 @@ static stored_bounds find_bounds(const gltf_document *d, size_t a, const gltf_ve
     const gltf_accessor *accessor = &d->model.accessors[a];
     const int component = version ? version->component : accessor->component;
     const size_t size = ffd_gltf_component_size(component);
+    const size_t numbers = version ? ffd_gltf_version_numbers(d, version) : (size_t)accessor->rows;
     stored_bounds bounds = {{0}, {0}};
-    if (version && component == GLTF_FLOAT && accessor->rows == 3)
+    if (version && version->width == 0 && component == GLTF_FLOAT && accessor->rows == 3)
         return find_float_bounds(version->values, (size_t)accessor->count, tiles_of(d, version));
     for (size_t i = 0; i < accessor->count; i++) {
-        unsigned char encoded[GLTF_LARGEST_VECTOR];
-        const unsigned char *element = ffd_gltf_element(d, a, i);
-        if (version) {
-            ffd_gltf_encode(accessor, component, element, version->values + 3 * i, encoded);
-            element = encoded;
-        }
-        for (size_t c = 0; c < (size_t)accessor->rows; c++) {
+        unsigned char encoded[GLTF_LARGEST_ELEMENT];
+        const unsigned char *element = version ? encoded : ffd_gltf_element(d, a, i);
+        if (version)
+            ffd_gltf_version_encode(d, version, i, encoded);
+        for (size_t c = 0; c < numbers; c++) {
             const double value = ffd_gltf_read_number(element + c * size, component, false);
             if (i == 0 || value < bounds.least[c])
                 bounds.least[c] = value;
@@ -80,12 +79,12 @@ static bool says(double number, double wanted, int component)
 }
 
 /* Edits a "min" or "max" where it differs from the stored values. */
-static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[4], int component,
+static void edit_bound(const gltf_saver *saver, uint32_t array, const double bound[16], int component,
                        json_edits *edits)
 {
     const json_span *tree = &saver->document->tree;
     size_t c = 0;
-    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && c < 4;
+    for (uint32_t v = ffd_json_span_first(tree, array); v != JSON_NONE && c < 16;
          v = ffd_json_span_after(tree, v), c++) {
         double old;
         if (ffd_json_span_number(tree, v, &old) && says(old, bound[c], component))

@@ -17,7 +17,8 @@ static size_t buffer_of(const gltf_document *d, size_t accessor)
 
 size_t ffd_gltf_append_buffer(const gltf_document *d, size_t accessor)
 {
-    if (d->model.accessors[accessor].view >= 0 && d->buffers[buffer_of(d, accessor)].kind != BUFFER_EMPTY)
+    if (accessor != GLTF_NONE && d->model.accessors[accessor].view >= 0 &&
+        d->buffers[buffer_of(d, accessor)].kind != BUFFER_EMPTY)
         return buffer_of(d, accessor);
     size_t b = 0;
     while (b < d->buffer_values.count && d->buffers[b].kind == BUFFER_EMPTY)
@@ -119,7 +120,7 @@ static void list_overwrites(gltf_saver *saver)
                              .begin = location.begin,
                              .end = location.begin + (count - 1) * layout->stride + layout->element_size,
                              .stride = layout->stride,
-                             .values = saver->plan.versions[version].values};
+                             .version = &saver->plan.versions[version]};
     }
     for (size_t b = 0; b < saver->buffer_count; b++) {
         gltf_new_buffer *buffer = &saver->buffers[b];
@@ -136,7 +137,7 @@ static void list_overwrites(gltf_saver *saver)
 
 static size_t element_size(const gltf_document *d, const gltf_version *version)
 {
-    return (size_t)d->model.accessors[version->accessor].rows * ffd_gltf_component_size(version->component);
+    return ffd_gltf_version_numbers(d, version) * ffd_gltf_component_size(version->component);
 }
 
 static ffd_status add_append(const gltf_saver *saver, size_t b, gltf_append append, ffd_error *error)
@@ -172,7 +173,7 @@ static ffd_status list_appends(gltf_saver *saver, ffd_error *error)
         const size_t number = saver->plan.appended[i];
         const gltf_version *version = &saver->plan.versions[number];
         const size_t stride = ffd_gltf_align(element_size(d, version));
-        const size_t size = (size_t)d->model.accessors[version->accessor].count * stride;
+        const size_t size = ffd_gltf_version_count(d, version) * stride;
         const gltf_append append = {.size = size, .stride = stride, .version = number};
         status = add_append(saver, ffd_gltf_append_buffer(d, version->accessor), append, error);
     }
@@ -225,28 +226,32 @@ static void put_vectors(const float *xyz, size_t count, unsigned char *bytes)
         store_float(bytes + 4 * c, xyz[c]);
 }
 
+/* Whether the version is its vectors of three floats, one after the other. */
+static bool has_vectors(const gltf_document *d, const gltf_version *version)
+{
+    return version->component == GLTF_FLOAT && ffd_gltf_version_numbers(d, version) == 3;
+}
+
 static void apply_overwrite(const gltf_document *d, const gltf_overwrite *overwrite, size_t offset,
                             size_t size, unsigned char *bytes)
 {
-    const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];
     const size_t element = d->layouts[overwrite->accessor].element_size;
-    const bool is_vector = accessor->component == GLTF_FLOAT && accessor->rows == 3;
+    const bool is_vector = has_vectors(d, overwrite->version);
     size_t i =
         offset > overwrite->begin + element ? (offset - overwrite->begin - element) / overwrite->stride : 0;
     for (size_t at = overwrite->begin + i * overwrite->stride; at < offset + size && at < overwrite->end;
          i++, at += overwrite->stride) {
-        unsigned char encoded[GLTF_LARGEST_VECTOR];
+        unsigned char encoded[GLTF_LARGEST_ELEMENT];
         if (is_vector && at >= offset && at + element <= offset + size) {
             /* Contiguous elements are copied at once. */
             const size_t end = overwrite->end < offset + size ? overwrite->end : offset + size;
             const size_t count = overwrite->stride == element ? (end - at) / element : 1;
-            put_vectors(overwrite->values + 3 * i, count, bytes + (at - offset));
+            put_vectors(overwrite->version->values + 3 * i, count, bytes + (at - offset));
             i += count - 1;
             at += (count - 1) * element;
             continue;
         }
-        ffd_gltf_encode(accessor, accessor->component, ffd_gltf_element(d, overwrite->accessor, i),
-                        overwrite->values + 3 * i, encoded);
+        ffd_gltf_version_encode(d, overwrite->version, i, encoded);
         copy_common(encoded, at, element, offset, size, bytes);
     }
 }
@@ -283,13 +288,11 @@ static void apply_append(const gltf_saver *saver, const gltf_append *append, siz
         return;
     }
     const gltf_version *version = &saver->plan.versions[append->version];
-    const gltf_accessor *accessor = &saver->document->model.accessors[version->accessor];
     const size_t element = element_size(saver->document, version), stride = append->stride;
     size_t i = offset > append->offset ? (offset - append->offset) / stride : 0;
     for (; i * stride < append->size && append->offset + i * stride < offset + size; i++) {
-        unsigned char encoded[GLTF_LARGEST_VECTOR];
-        ffd_gltf_encode(accessor, version->component, ffd_gltf_element(saver->document, version->accessor, i),
-                        version->values + 3 * i, encoded);
+        unsigned char encoded[GLTF_LARGEST_ELEMENT];
+        ffd_gltf_version_encode(saver->document, version, i, encoded);
         copy_common(encoded, append->offset + i * stride, element, offset, size, bytes);
     }
 }
@@ -331,10 +334,9 @@ void ffd_gltf_content_read(const gltf_saver *saver, size_t b, size_t offset, siz
 /* Returns the values of an overwrite if they are in memory exactly as they are to be written, else NULL. */
 static const unsigned char *values_in_place(const gltf_document *d, const gltf_overwrite *overwrite)
 {
-    const gltf_accessor *accessor = &d->model.accessors[overwrite->accessor];
-    const bool is_float = accessor->component == GLTF_FLOAT && accessor->rows == 3;
-    return LITTLE_ENDIAN_MACHINE && is_float && overwrite->stride == 3 * sizeof(float)
-               ? (const unsigned char *)overwrite->values
+    return LITTLE_ENDIAN_MACHINE && has_vectors(d, overwrite->version) &&
+                   overwrite->stride == 3 * sizeof(float)
+               ? (const unsigned char *)overwrite->version->values
                : NULL;
 }
 

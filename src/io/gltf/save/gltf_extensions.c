@@ -88,7 +88,8 @@ static bool lost_quantization(gltf_saver *saver)
     bool lost = false;
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
-        lost = lost || version->component != d->model.accessors[version->accessor].component;
+        lost = lost ||
+               (version->width == 0 && version->component != d->model.accessors[version->accessor].component);
     }
     for (size_t m = 0; m < d->model.mesh_count && lost; m++)
         lost = !is_quantized_mesh(saver, m, saver->plan.base_uses[m]);

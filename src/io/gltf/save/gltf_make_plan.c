@@ -3,6 +3,8 @@
 #include "io/gltf/decode/gltf_encode.h"
 #include "io/gltf/decode/gltf_read.h"
 #include "io/gltf/refer/gltf_accessor_users.h"
+#include "io/gltf/rig/gltf_rig.h"
+#include "io/gltf/rig/gltf_rig_users.h"
 #include "io/gltf/save/gltf_join_uses.h"
 #include "io/gltf/save/gltf_overlap.h"
 #include "io/gltf/save/gltf_plan.h"
@@ -116,15 +118,34 @@ static void choose_component(const gltf_document *d, gltf_version *version)
     version->component = fits ? accessor->component : GLTF_FLOAT;
 }
 
+/* Adds a version for each content of the rig; no two of one accessor are equal. */
+static void add_rig(const gltf_rig *rig, gltf_plan *plan)
+{
+    for (size_t i = 0; i < rig->content_count; i++) {
+        const gltf_rig_content *const content = &rig->contents[i];
+        gltf_version *const made = &plan->versions[plan->version_count];
+        *made = (gltf_version){.accessor = content->accessor,
+                               .values = content->values,
+                               .width = content->width,
+                               .count = content->count,
+                               .needed = true,
+                               .component = GLTF_FLOAT,
+                               .output = GLTF_NONE};
+        plan->rig_versions[i] = plan->version_count++;
+    }
+}
+
 static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_error *error)
 {
     const size_t most = ffd_gltf_part_count(d) * GLTF_DEFORMED;
+    const size_t contents = d->rig ? d->rig->content_count : 0;
     candidate *candidates = ffd_alloc(most, sizeof *candidates);
     size_t *numbers = ffd_alloc(most, sizeof *numbers);
-    plan->versions = ffd_alloc(most, sizeof *plan->versions);
+    plan->versions = ffd_alloc(most + contents, sizeof *plan->versions);
+    plan->rig_versions = ffd_alloc(contents, sizeof *plan->rig_versions);
     plan->part_versions = ffd_alloc(most, sizeof *plan->part_versions);
     ffd_status status = FFD_OK;
-    if (!candidates || !numbers || !plan->versions || !plan->part_versions) {
+    if (!candidates || !numbers || !plan->versions || !plan->part_versions || !plan->rig_versions) {
         status = ffd_fail_memory(error);
         goto done;
     }
@@ -140,6 +161,8 @@ static ffd_status make_versions(const gltf_document *d, gltf_plan *plan, ffd_err
     for (size_t i = 0; i < most; i++)
         if (plan->part_versions[i] != GLTF_NONE)
             plan->part_versions[i] = numbers[plan->part_versions[i]];
+    if (d->rig)
+        add_rig(d->rig, plan);
 done:
     ffd_free(candidates);
     ffd_free(numbers);
@@ -299,11 +322,15 @@ static ffd_status choose_in_place(const gltf_document *d, gltf_plan *plan, ffd_e
     for (size_t i = 0; i < plan->copy_count; i++)
         mark_mesh(d, plan, plan->copies[i].mesh, plan->copies[i].use, original);
     ffd_gltf_mark_other_users(d, original);
+    if (d->rig)
+        ffd_gltf_mark_rig_originals(d, original);
+    else
+        ffd_gltf_mark_rig_users(d, original);
     for (size_t a = 0; a < d->model.accessor_count; a++)
         plan->in_place[a] = GLTF_NONE;
     for (size_t v = plan->version_count; v-- > 0;) {
         gltf_version *version = &plan->versions[v];
-        if (!version->needed || original[version->accessor])
+        if (!version->needed || version->accessor == GLTF_NONE || original[version->accessor])
             continue;
         if (can_overwrite(d, version))
             plan->in_place[version->accessor] = v;
@@ -323,7 +350,7 @@ static ffd_status append_rest(const gltf_document *d, gltf_plan *plan, ffd_error
     size_t added = 0;
     for (size_t v = 0; v < plan->version_count; v++) {
         gltf_version *version = &plan->versions[v];
-        if (plan->in_place[version->accessor] == v) {
+        if (version->accessor != GLTF_NONE && plan->in_place[version->accessor] == v) {
             version->output = version->accessor;
         } else if (version->needed) {
             version->output = version->rebinds ? version->accessor : d->model.accessor_count + added++;

@@ -26,6 +26,7 @@ unsigned char *ffd_gltf_count_users(const gltf_document *d)
         return NULL;
     }
     ffd_gltf_mark_other_users(d, others);
+    ffd_gltf_mark_rig_users(d, others);
     for (size_t a = 0; a < count; a++)
         users[a] = others[a] ? 2 : 0;
     for (size_t m = 0; m < d->model.mesh_count; m++)

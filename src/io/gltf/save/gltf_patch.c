@@ -1,6 +1,7 @@
 #include "io/gltf/save/gltf_patch.h"
 #include "base/memory/memory.h"
 #include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/rig/gltf_rig_edit.h"
 #include "io/gltf/save/gltf_bounds.h"
 #include "io/gltf/save/gltf_container.h"
 #include "io/gltf/save/gltf_content.h"
@@ -72,10 +73,12 @@ static void add_copy(gltf_saver *saver, const gltf_values *list, const char *key
 }
 
 /* Copies the "target" of the accessor's bufferView; if it had no bufferView, it still is an attribute. */
-static void write_target(const gltf_saver *saver, size_t accessor, byte_buffer *text)
+static void write_target(const gltf_saver *saver, const gltf_version *version, byte_buffer *text)
 {
     const gltf_document *d = saver->document;
-    const int view = d->model.accessors[accessor].view;
+    if (version->width)
+        return; /* no attribute */
+    const int view = d->model.accessors[version->accessor].view;
     if (view < 0) {
         ffd_buffer_text(text, ",\"target\":34962");
         return;
@@ -90,13 +93,13 @@ static void write_target(const gltf_saver *saver, size_t accessor, byte_buffer *
 static void write_view(const gltf_saver *saver, const gltf_append *append, size_t buffer, byte_buffer *text)
 {
     const gltf_version *version = &saver->plan.versions[append->version];
-    const size_t element = (size_t)saver->document->model.accessors[version->accessor].rows *
-                           ffd_gltf_component_size(version->component);
+    const size_t element =
+        ffd_gltf_version_numbers(saver->document, version) * ffd_gltf_component_size(version->component);
     ffd_buffer_format(text, "%s{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu",
                       text->size > 0 ? "," : "", buffer, append->offset, append->size);
     if (append->stride > element)
         ffd_buffer_format(text, ",\"byteStride\":%zu", append->stride);
-    write_target(saver, version->accessor, text);
+    write_target(saver, version, text);
     ffd_buffer_text(text, "}");
 }
 
@@ -155,12 +158,26 @@ static void announce_floats(const gltf_saver *saver, const gltf_version *version
             version->accessor, component, version->output);
 }
 
+/* An accessor that the file does not have. */
+static void add_matrices(gltf_saver *saver, const gltf_version *version, size_t view)
+{
+    byte_buffer text = {0};
+    ffd_buffer_format(&text, "{\"bufferView\":%zu,\"componentType\":%d,\"count\":%zu,\"type\":\"MAT4\"}",
+                      view, GLTF_FLOAT, version->count);
+    ffd_gltf_add_elements(saver, &saver->document->accessor_values, "accessors", &text);
+    ffd_buffer_free(&text);
+}
+
 static void add_accessors(gltf_saver *saver)
 {
     const gltf_document *d = saver->document;
     for (size_t i = 0; i < saver->plan.appended_count; i++) {
         const gltf_version *version = &saver->plan.versions[saver->plan.appended[i]];
         json_edits edits = {0}, *own = version->rebinds ? &saver->edits : &edits;
+        if (version->accessor == GLTF_NONE) {
+            add_matrices(saver, version, d->view_values.count + i);
+            continue;
+        }
         edit_storage(saver, version, d->view_values.count + i, own);
         ffd_gltf_edit_bounds(saver, version, own);
         if (version->rebinds)
@@ -222,6 +239,24 @@ static void edit_buffers(gltf_saver *saver)
     }
 }
 
+/* Nodes that follow the deformation, and what names the accessors of their skins and animations. */
+static void edit_rig(gltf_saver *saver)
+{
+    const gltf_document *d = saver->document;
+    if (!d->rig)
+        return;
+    size_t *const outputs = ffd_alloc(d->rig->content_count, sizeof *outputs);
+    saver->edits.failed = saver->edits.failed || !outputs;
+    for (size_t i = 0; i < d->rig->content_count && outputs; i++)
+        outputs[i] = saver->plan.versions[saver->plan.rig_versions[i]].output;
+    if (outputs) {
+        ffd_gltf_edit_nodes(d, &saver->edits);
+        ffd_gltf_edit_skins(d, outputs, &saver->edits);
+        ffd_gltf_edit_animations(d, outputs, &saver->edits);
+    }
+    ffd_free(outputs);
+}
+
 ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
 {
     const gltf_document *d = saver->document;
@@ -240,6 +275,7 @@ ffd_status ffd_gltf_make_edits(gltf_saver *saver, ffd_error *error)
     const ffd_status status = ffd_gltf_follow_meshes(saver, error);
     if (status)
         return status;
+    edit_rig(saver);
     edit_buffers(saver);
     ffd_gltf_move_buffers(saver);
     ffd_gltf_add_buffer(saver);

@@ -1,5 +1,8 @@
 #include "io/gltf/save/gltf_plan.h"
+#include "base/little_endian.h"
 #include "base/memory/memory.h"
+#include "io/gltf/decode/gltf_encode.h"
+#include "io/gltf/decode/gltf_read.h"
 
 size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t mesh, size_t p, size_t slot,
                            size_t use)
@@ -14,8 +17,19 @@ size_t ffd_gltf_version_at(const gltf_document *d, const gltf_plan *plan, size_t
     return part == GLTF_NONE ? GLTF_NONE : plan->part_versions[part * GLTF_DEFORMED + slot % GLTF_DEFORMED];
 }
 
+void ffd_gltf_version_encode(const gltf_document *d, const gltf_version *version, size_t i,
+                             unsigned char *element)
+{
+    for (size_t c = 0; c < version->width; c++)
+        store_float(element + 4 * c, version->values[version->width * i + c]);
+    if (version->width == 0)
+        ffd_gltf_encode(&d->model.accessors[version->accessor], version->component,
+                        ffd_gltf_element(d, version->accessor, i), version->values + 3 * i, element);
+}
+
 void ffd_gltf_free_plan(gltf_plan *plan)
 {
+    ffd_free(plan->rig_versions);
     ffd_free(plan->versions);
     ffd_free(plan->part_versions);
     ffd_free(plan->base_uses);

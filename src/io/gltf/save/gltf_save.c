@@ -1,6 +1,7 @@
 #include "io/gltf/save/gltf_save.h"
 #include "base/little_endian.h"
 #include "base/text/base64.h"
+#include "io/gltf/rig/gltf_rig.h"
 #include "io/gltf/save/gltf_announce.h"
 #include "io/gltf/save/gltf_container.h"
 #include "io/gltf/save/gltf_content.h"
@@ -153,7 +154,8 @@ static ffd_status put_glb(const gltf_saver *saver, ffd_error *error)
     if (status == FFD_OK && d->binary)
         status = put(saver, d->input.data + d->glb.rest_begin, sizes.rest, error);
     /* Bytes past the stated length are kept only if nothing else changed. */
-    if (status == FFD_OK && d->binary && saver->plan.version_count == 0)
+    const bool still = saver->plan.version_count == 0 && !(d->rig && d->rig->node_count > 0);
+    if (status == FFD_OK && d->binary && still)
         status = put(saver, d->input.data + d->glb.end, d->input.size - d->glb.end, error);
     return status;
 }

@@ -10,7 +10,7 @@ typedef struct gltf_overwrite {
     size_t accessor;
     size_t begin, end, stride; /* in its buffer */
     size_t end_so_far;         /* the largest end up to this one in the list */
-    const float *values;
+    const gltf_version *version;
 } gltf_overwrite;
 
 /* Compressed data that is written decoded: a whole bufferView, or the elements of one accessor. */

@@ -1,5 +1,7 @@
-#include "io/gltf/scene/gltf_places.h"
+#include "io/gltf/rig/gltf_places.h"
 #include "base/memory/memory.h"
+#include "base/vector/vec.h"
+#include "io/gltf/scene/gltf_instancing.h"
 #include "io/gltf/scene/gltf_references.h"
 #include <string.h>
 
@@ -9,7 +11,9 @@ enum {
     IS_CHOSEN = 2,
     IS_JOINT = 4,
     IS_ANIMATED = 8,
-    HAS_SHAPE = 16
+    HAS_SHAPE = 16,
+    HAS_SELECTED = 32, /* of its mesh: primitives that are selected, */
+    HAS_OTHERS = 64    /* and some that are not */
 };
 
 typedef struct survey {
@@ -65,6 +69,7 @@ static void choose_instances(const survey *s, size_t m, size_t p)
     const gltf_mesh_uses *uses = &d->mesh_uses[m];
     const gltf_instance *instances = ffd_gltf_instances(d, m, p);
     for (size_t n = 0; n < uses->node_count; n++) {
+        s->nodes[uses->nodes[n]] |= instances[n].selected ? HAS_SELECTED : HAS_OTHERS;
         if (!instances[n].selected)
             continue;
         const int skin = d->model.nodes[uses->nodes[n]].skin;
@@ -161,25 +166,65 @@ static unsigned kinds_of(const survey *s, size_t n)
     return kinds;
 }
 
-static ffd_status list_nodes(const survey *s, mesh_places *places, ffd_error *error)
+/* Whether the node has a mesh that it places, or something that an extension places. */
+static bool has_own(const gltf_document *d, size_t n)
+{
+    const gltf_node *node = &d->model.nodes[n];
+    return (node->mesh >= 0 && node->skin < 0) ||
+           ffd_json_span_member(&d->tree, d->node_values.values[n], "extensions") != JSON_NONE;
+}
+
+/* Off a scale that is the same in all directions, as a part of it. */
+#define UNEVEN 1e-6
+
+/* Whether the world matrix of a node stretches more in some directions than in others: M^T M is no multiple
+   of the identity. */
+static bool is_uneven(const double m[9])
+{
+    const double square = (vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6)) / 3;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c <= r; c++) {
+            const double sum = m[r] * m[c] + m[3 + r] * m[3 + c] + m[6 + r] * m[6 + c];
+            if (fabs(sum - (r == c ? square : 0)) > UNEVEN * square)
+                return true;
+        }
+    return false;
+}
+
+/* A node that follow moves, or keeps in its place. */
+static bool is_anchor(const survey *s, size_t n, mesh_place *place)
+{
+    const gltf_document *d = s->document;
+    const unsigned parts = HAS_SELECTED | HAS_OTHERS;
+    const bool chosen = s->nodes[n] & IS_CHOSEN, instanced = ffd_gltf_instanced_node(d, n);
+    if (!(s->nodes[n] & IS_SHOWN))
+        return false;
+    place->kinds = kinds_of(s, n);
+    const bool follows = place->kinds || has_own(d, n) || is_uneven(d->world + 12 * n);
+    place->partial = chosen && d->model.nodes[n].skin < 0 && (s->nodes[n] & parts) == parts;
+    place->stays = !chosen || instanced || place->partial;
+    if (!chosen)
+        place->kinds = 0;
+    return follows;
+}
+
+static ffd_status list_nodes(const survey *s, bool all, mesh_places *places, ffd_error *error)
 {
     const gltf_document *d = s->document;
     places->list = ffd_alloc(d->model.node_count, sizeof *places->list);
     if (!places->list)
         return ffd_fail_memory(error);
     for (size_t n = 0; n < d->model.node_count; n++) {
-        const unsigned wanted = IS_SHOWN | IS_CHOSEN;
-        const unsigned kinds = (s->nodes[n] & wanted) == wanted ? kinds_of(s, n) : 0;
-        if (kinds == 0)
-            continue;
-        mesh_place *place = &places->list[places->count++];
-        *place = (mesh_place){.kinds = kinds, .number = n};
+        mesh_place *place = &places->list[places->count];
+        *place = (mesh_place){.number = n};
         memcpy(place->at, d->world + 12 * n + 9, sizeof place->at);
+        places->count += is_anchor(s, n, place) && (all || place->kinds);
     }
     return FFD_OK;
 }
 
-ffd_status ffd_gltf_list_places(const mesh_document *document, mesh_places *places, ffd_error *error)
+ffd_status ffd_gltf_list_places(const mesh_document *document, bool all, mesh_places *places,
+                                ffd_error *error)
 {
     const gltf_document *d = ffd_gltf_of(document);
     const size_t count = d->model.node_count;
@@ -197,9 +242,39 @@ ffd_status ffd_gltf_list_places(const mesh_document *document, mesh_places *plac
         status = mark_animated(&s, error);
     }
     if (status == FFD_OK)
-        status = list_nodes(&s, places, error);
+        status = list_nodes(&s, all, places, error);
     ffd_free(s.nodes);
     ffd_free(s.pending);
+    return status;
+}
+
+static bool has_mark(const gltf_skin *skin, const bool *marked)
+{
+    for (size_t j = 0; j < skin->joint_count; j++)
+        if (marked[skin->joints[j]])
+            return true;
+    return false;
+}
+
+ffd_status ffd_gltf_count_skins(const mesh_document *document, const mesh_places *places,
+                                const uint8_t *marks, uint64_t *count, ffd_error *error)
+{
+    const gltf_document *d = ffd_gltf_of(document);
+    bool *const marked = ffd_alloc_zero(d->model.node_count, sizeof *marked);
+    bool *const shown = ffd_alloc_zero(d->skin_values.count, sizeof *shown);
+    *count = 0;
+    if (marked && shown) {
+        for (size_t i = 0; i < places->count; i++)
+            marked[places->list[i].number] = marks[i];
+        for (size_t n = 0; n < d->model.node_count; n++)
+            if (d->in_scene[n] && d->model.nodes[n].mesh >= 0 && d->model.nodes[n].skin >= 0)
+                shown[d->model.nodes[n].skin] = true;
+        for (size_t i = 0; i < d->skin_values.count; i++)
+            *count += shown[i] && has_mark(&d->skins[i], marked);
+    }
+    const ffd_status status = marked && shown ? FFD_OK : ffd_fail_memory(error);
+    ffd_free(marked);
+    ffd_free(shown);
     return status;
 }
 

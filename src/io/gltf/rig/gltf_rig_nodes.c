@@ -1,0 +1,284 @@
+#include "io/gltf/rig/gltf_rig_nodes.h"
+#include "base/memory/memory.h"
+#include "base/vector/polar.h"
+#include "base/vector/vec.h"
+#include "io/gltf/scene/gltf_scene.h"
+#include <float.h>
+#include <string.h>
+
+/* What turns that come out of several matrices are off by, and offsets, in eps of the coordinates. */
+#define TURN_ROUNDING 1e-12
+#define PLACE_ROUNDING (64 * DBL_EPSILON)
+/* Of g^T g from the identity: beyond it the node would be sheared. */
+#define SHEAR 1e-6
+
+/* What is known of a node while the nodes are done. */
+enum { IS_WAITING, IS_BEGUN, IS_DONE };
+
+typedef struct node_walk {
+    const gltf_document *document;
+    gltf_rig *rig;
+    mesh_following *following;
+    const mesh_place **places; /* of each node; NULL: it keeps its own transform */
+    mesh_place_move **moves;
+    uint8_t *states;
+    bool *changed;  /* its matrix in the scene */
+    bool *singular; /* its matrix in the scene, or that of a node above, has no inverse */
+    size_t *climb;  /* a stack */
+} node_walk;
+
+static const double identity[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+
+static const double *world_of(const node_walk *w, size_t n)
+{
+    return n == GLTF_NONE ? identity : w->document->world + 12 * n;
+}
+
+static const double *made_of(const node_walk *w, size_t n)
+{
+    return n == GLTF_NONE ? identity : w->rig->world + 12 * n;
+}
+
+/* Whether a matrix has an inverse that can be trusted: that of a scale of 0 has none, that of 1e-30 has. */
+static bool has_inverse(const double m[9])
+{
+    double det, inverse[9];
+    return !ffd_mat_is_singular(m, &det) && mat_invert(m, inverse);
+}
+
+/* What becomes of a place. */
+typedef struct target {
+    double place[3], turn[9]; /* D(x), R */
+    double gradient[9];       /* F */
+} target;
+
+static target find_target(const mesh_place *place, const mesh_place_move *move)
+{
+    target t;
+    const bool stays = place->stays || !move->moves;
+    memcpy(t.place, stays ? place->at : move->to, sizeof t.place);
+    for (int i = 0; i < 9; i++)
+        t.gradient[i] = identity[i] + (stays ? 0 : move->gradient[i]);
+    ffd_mat_rotation(t.gradient, t.turn);
+    return t;
+}
+
+static bool is_still(const mesh_place *place, const target *t)
+{
+    return ffd_mat_is_near_identity(t->turn, 0) && memcmp(t->place, place->at, sizeof t->place) == 0 &&
+           ffd_mat_is_near_identity(t->gradient, 0);
+}
+
+/* product = inverse middle outer. */
+static void conjugate(const double inverse[9], const double middle[9], const double outer[9],
+                      double product[9])
+{
+    double first[9];
+    mat_multiply(inverse, middle, first);
+    mat_multiply(first, outer, product);
+}
+
+static bool would_shear(const double g[9])
+{
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            double sum = r == c ? -1 : 0;
+            for (int k = 0; k < 3; k++)
+                sum += g[3 * k + r] * g[3 * k + c];
+            if (!(fabs(sum) <= SHEAR))
+                return true;
+        }
+    return false;
+}
+
+/* The node's own offset that brings it to a place; the old one where only rounding differs. */
+static bool find_offset(const double parent[12], const double inverse[9], const double place[3],
+                        const double old[3], double offset[3])
+{
+    double from[3], size = 0;
+    bool differs = false;
+    for (int a = 0; a < 3; a++) {
+        from[a] = place[a] - parent[9 + a];
+        size = larger_of(size, larger_of(fabs(place[a]), fabs(parent[9 + a])));
+    }
+    mat_apply(inverse, from, offset);
+    for (int a = 0; a < 3; a++) {
+        const double row = fabs(inverse[3 * a]) + fabs(inverse[3 * a + 1]) + fabs(inverse[3 * a + 2]);
+        const double rounding = PLACE_ROUNDING * (row * size + fabs(old[a]));
+        if (fabs(offset[a] - old[a]) <= rounding)
+            offset[a] = old[a];
+        else
+            differs = true;
+    }
+    return differs;
+}
+
+static double clamp(double value)
+{
+    return value < -1 ? -1 : value > 1 ? 1 : value;
+}
+
+/* Writes the node's own transform: g before its linear part, and an offset. */
+static void set_local(const gltf_node *node, const double g[9], const double turn[4], const double offset[3],
+                      gltf_moved_node *made)
+{
+    double linear[9], old[3], product[9];
+    if (node->has_matrix) {
+        ffd_gltf_local_matrix(node, linear, old);
+        mat_multiply(g, linear, product);
+        memcpy(made->matrix, node->matrix, sizeof made->matrix);
+        for (int r = 0; r < 3; r++) {
+            for (int c = 0; c < 3 && made->rotates; c++)
+                made->matrix[4 * c + r] = product[3 * r + c];
+            made->matrix[12 + r] = offset[r];
+        }
+        return;
+    }
+    memcpy(made->translation, offset, sizeof made->translation);
+    memcpy(made->rotation, node->rotation, sizeof made->rotation);
+    if (made->rotates)
+        ffd_quaternion_multiply(turn, node->rotation, made->rotation);
+    for (int i = 0; i < 4; i++)
+        made->rotation[i] = clamp(made->rotation[i]);
+}
+
+/* The node's matrix in the scene, of its own transform as it is written. */
+static void join_world(const node_walk *w, size_t n, const gltf_moved_node *made)
+{
+    gltf_node node = w->document->model.nodes[n];
+    double linear[9], offset[3];
+    if (made) {
+        memcpy(node.matrix, made->matrix, sizeof node.matrix);
+        memcpy(node.translation, made->translation, sizeof node.translation);
+        memcpy(node.rotation, made->rotation, sizeof node.rotation);
+    }
+    ffd_gltf_local_matrix(&node, linear, offset);
+    ffd_gltf_join_matrix(made_of(w, w->document->parents[n]), linear, offset, w->rig->world + 12 * n);
+}
+
+static void carry_along(const node_walk *w, size_t n)
+{
+    w->changed[n] = w->document->parents[n] != GLTF_NONE && w->changed[w->document->parents[n]];
+    if (w->changed[n])
+        join_world(w, n, NULL);
+    else
+        memcpy(w->rig->world + 12 * n, w->document->world + 12 * n, 12 * sizeof *w->rig->world);
+}
+
+/* Notes how translations and rotations that are animated change. */
+static void note_motion(const double g[9], const double turn[4], const double along[9],
+                        gltf_node_motion *motion)
+{
+    motion->turns = !ffd_mat_is_near_identity(g, TURN_ROUNDING);
+    motion->carries = !ffd_mat_is_near_identity(along, TURN_ROUNDING);
+    memcpy(motion->turn, turn, sizeof motion->turn);
+    memcpy(motion->carry, along, sizeof motion->carry);
+}
+
+/* Moves a node that has a place, below parents that are done. */
+static void move_node(const node_walk *w, size_t n, const target *t)
+{
+    const size_t p = w->document->parents[n];
+    const gltf_node *const node = &w->document->model.nodes[n];
+    const double *const parent = made_of(w, p);
+    gltf_moved_node made = {.node = n};
+    double inverse[9], g[9], along[9], rotation[9], turn[4], linear[9], old[3], offset[3];
+    if (!mat_invert(parent, inverse)) {
+        carry_along(w, n);
+        return;
+    }
+    conjugate(inverse, t->turn, world_of(w, p), g);
+    conjugate(inverse, t->gradient, world_of(w, p), along);
+    const bool shears = would_shear(g);
+    if (shears || ffd_mat_is_near_identity(g, TURN_ROUNDING))
+        memcpy(g, identity, sizeof g);
+    w->following->sheared += shears;
+    ffd_mat_rotation(g, rotation);
+    ffd_mat_quaternion(rotation, turn);
+    ffd_gltf_local_matrix(node, linear, old);
+    made.translates = find_offset(parent, inverse, t->place, old, offset);
+    made.rotates = !ffd_mat_is_near_identity(g, 0);
+    set_local(node, g, turn, offset, &made);
+    note_motion(g, turn, along, &w->rig->motions[n]);
+    if (made.translates || made.rotates) {
+        w->rig->motions[n].moved = w->rig->node_count;
+        w->rig->nodes[w->rig->node_count++] = made;
+        w->following->written++;
+    }
+    join_world(w, n, made.translates || made.rotates ? &made : NULL);
+    w->changed[n] = memcmp(made_of(w, n), world_of(w, n), sizeof identity) != 0;
+}
+
+static void do_node(const node_walk *w, size_t n)
+{
+    const size_t p = w->document->parents[n];
+    const mesh_place *const place = w->places[n];
+    const bool is_below = p != GLTF_NONE && w->singular[p];
+    w->singular[n] = is_below || !has_inverse(w->document->world + 12 * n);
+    w->states[n] = IS_DONE;
+    w->following->partial += place && place->partial;
+    if (!place || w->singular[n]) {
+        w->following->singular += place && w->moves[n]->moves;
+        carry_along(w, n);
+    } else {
+        const target t = find_target(place, w->moves[n]);
+        if (is_still(place, &t) && !(p != GLTF_NONE && w->changed[p]))
+            carry_along(w, n);
+        else
+            move_node(w, n, &t);
+    }
+    if (place)
+        memcpy(w->moves[n]->became, w->rig->world + 12 * n + 9, sizeof w->moves[n]->became);
+}
+
+/* Does a node after those above it. A file of stand-ins can make a circle of parents: it ends there. */
+static void do_chain(const node_walk *w, size_t n)
+{
+    size_t count = 0;
+    while (n != GLTF_NONE && w->states[n] == IS_WAITING) {
+        w->states[n] = IS_BEGUN;
+        w->climb[count++] = n;
+        n = w->document->parents[n];
+    }
+    while (count > 0)
+        do_node(w, w->climb[--count]);
+}
+
+static bool allocate(node_walk *w, size_t count)
+{
+    gltf_rig *const rig = w->rig;
+    w->places = ffd_alloc_zero(count, sizeof *w->places);
+    w->moves = ffd_alloc_zero(count, sizeof *w->moves);
+    w->states = ffd_alloc_zero(count, sizeof *w->states);
+    w->changed = ffd_alloc_zero(count, sizeof *w->changed);
+    w->singular = ffd_alloc_zero(count, sizeof *w->singular);
+    w->climb = ffd_alloc(count, sizeof *w->climb);
+    rig->world = ffd_alloc_zero(count, 12 * sizeof *rig->world);
+    rig->motions = ffd_alloc_zero(count, sizeof *rig->motions);
+    rig->nodes = ffd_alloc(count, sizeof *rig->nodes);
+    return w->places && w->moves && w->states && w->changed && w->singular && w->climb && rig->world &&
+           rig->motions && rig->nodes;
+}
+
+ffd_status ffd_gltf_follow_nodes(const gltf_document *d, const mesh_places *places, mesh_place_move *moves,
+                                 gltf_rig *rig, mesh_following *following, ffd_error *error)
+{
+    const size_t count = d->model.node_count;
+    node_walk w = {.document = d, .rig = rig, .following = following};
+    const bool allocated = allocate(&w, count);
+    for (size_t i = 0; i < places->count && allocated; i++) {
+        w.places[places->list[i].number] = &places->list[i];
+        w.moves[places->list[i].number] = &moves[i];
+    }
+    for (size_t n = 0; n < count && allocated; n++)
+        rig->motions[n].moved = GLTF_NONE;
+    for (size_t n = 0; n < count && allocated; n++)
+        do_chain(&w, n);
+    ffd_free(w.places);
+    ffd_free(w.moves);
+    ffd_free(w.states);
+    ffd_free(w.changed);
+    ffd_free(w.singular);
+    ffd_free(w.climb);
+    return allocated ? FFD_OK : ffd_fail_memory(error);
+}

@@ -1,0 +1,277 @@
+#include "io/gltf/rig/gltf_rig_skins.h"
+#include "base/memory/memory.h"
+#include "base/vector/polar.h"
+#include "base/vector/vec.h"
+#include "io/gltf/decode/gltf_read.h"
+#include "io/gltf/scene/gltf_scene.h"
+#include <float.h>
+#include <string.h>
+
+#define TURN_ROUNDING 1e-12
+#define PLACE_ROUNDING (64 * DBL_EPSILON)
+
+/* A map x -> linear x + offset. */
+typedef struct affine {
+    double linear[9], offset[3];
+} affine;
+
+static const affine still = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
+
+/* A linear part that is the identity but for rounding is the identity, and so are offsets of coordinates of
+   this size. Returns whether nothing is left. */
+static bool settle(affine *map, double size)
+{
+    bool is_still = ffd_mat_is_near_identity(map->linear, TURN_ROUNDING);
+    if (is_still)
+        memcpy(map->linear, still.linear, sizeof map->linear);
+    for (int a = 0; a < 3; a++)
+        is_still = is_still && fabs(map->offset[a]) <= PLACE_ROUNDING * size;
+    return is_still;
+}
+
+static double size_of(const double a[3], const double b[3])
+{
+    double size = 0;
+    for (int i = 0; i < 3; i++)
+        size = larger_of(size, larger_of(fabs(a[i]), fabs(b[i])));
+    return size;
+}
+
+/* The map with this linear part that takes one point to another. */
+static void pin(const double from[3], const double to[3], affine *map)
+{
+    double turned[3];
+    mat_apply(map->linear, from, turned);
+    for (int a = 0; a < 3; a++)
+        map->offset[a] = to[a] - turned[a];
+}
+
+/* Looks up a node among the places, which are in the order of their numbers. */
+static size_t find_place(const mesh_places *places, size_t node)
+{
+    size_t low = 0, high = places->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (places->list[middle].number < node)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < places->count && places->list[low].number == node ? low : SIZE_MAX;
+}
+
+/* The similarity that a skin's first joint is moved by, and its inverse: where all is moved by one, the skin
+   is carried whatever its default pose. */
+static void find_similarity(const mesh_place *place, const mesh_place_move *move, affine *similarity,
+                            affine *inverse)
+{
+    double f[9], rotation[9];
+    *similarity = *inverse = still;
+    if (place->stays || !move->moves)
+        return;
+    for (int i = 0; i < 9; i++)
+        f[i] = still.linear[i] + move->gradient[i];
+    const double scale = ffd_mat_rotation(f, rotation) ? ffd_cube_root(mat_determinant(f)) : 1;
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++) {
+            similarity->linear[3 * r + c] = scale * rotation[3 * r + c];
+            inverse->linear[3 * c + r] = rotation[3 * r + c] / scale;
+        }
+    settle(similarity, 0);
+    settle(inverse, 0);
+    pin(place->at, move->to, similarity);
+    pin(move->to, place->at, inverse);
+}
+
+/* Marks the skins that the scene shows, and those that show something which is not selected. */
+static void mark_skins(const gltf_document *d, bool *shown, bool *partial)
+{
+    for (size_t m = 0; m < d->model.mesh_count; m++) {
+        const gltf_mesh_uses *const uses = &d->mesh_uses[m];
+        for (size_t n = 0; uses->nodes && n < uses->node_count; n++) {
+            const int skin = d->model.nodes[uses->nodes[n]].skin;
+            if (skin < 0)
+                continue;
+            shown[skin] = true;
+            for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
+                partial[skin] = partial[skin] || !ffd_gltf_instances(d, m, p)[n].selected;
+        }
+    }
+}
+
+/* W'^-1 E W of a joint; false where that is the identity, or W' has no inverse. */
+static bool find_change(const gltf_document *d, const gltf_rig *rig, size_t joint, const affine *similarity,
+                        affine *change)
+{
+    const double *const old = d->world + 12 * joint, *const made = rig->world + 12 * joint;
+    double inverse[9], product[9], place[3], singular;
+    if (ffd_mat_is_singular(old, &singular) || ffd_mat_is_singular(made, &singular) ||
+        !mat_invert(made, inverse))
+        return false;
+    mat_multiply(similarity->linear, old, product);
+    mat_multiply(inverse, product, change->linear);
+    mat_apply(similarity->linear, old + 9, place);
+    for (int a = 0; a < 3; a++)
+        place[a] += similarity->offset[a];
+    const double size = size_of(place, made + 9);
+    for (int a = 0; a < 3; a++)
+        place[a] -= made[9 + a];
+    mat_apply(inverse, place, change->offset);
+    double row = 0;
+    for (int a = 0; a < 3; a++)
+        row = larger_of(row, fabs(inverse[3 * a]) + fabs(inverse[3 * a + 1]) + fabs(inverse[3 * a + 2]));
+    return !settle(change, row * size);
+}
+
+static ffd_status refuse_infinite(const gltf_document *d, size_t skin, size_t joint, ffd_error *error)
+{
+    return ffd_json_span_fail(&d->tree, d->skin_values.values[skin], d->name, FFD_E_INVALID, error,
+                              "floats cannot hold inverse bind matrix %zu of the joint that follows", joint);
+}
+
+/* Puts a change before an inverse bind matrix of 16 numbers, column by column. */
+static bool put_matrix(const affine *change, float *values)
+{
+    double matrix[12], joined[12];
+    bool fits = true;
+    for (int r = 0; r < 3; r++) {
+        for (int c = 0; c < 3; c++)
+            matrix[3 * r + c] = values[4 * c + r];
+        matrix[9 + r] = values[12 + r];
+    }
+    double whole[12];
+    memcpy(whole, change->linear, sizeof change->linear);
+    memcpy(whole + 9, change->offset, sizeof change->offset);
+    ffd_gltf_join_matrix(whole, matrix, matrix + 9, joined);
+    for (int i = 0; i < 12; i++)
+        fits = fits && fabs(joined[i]) <= FLT_MAX;
+    for (int r = 0; r < 3 && fits; r++) {
+        for (int c = 0; c < 3; c++)
+            values[4 * c + r] = (float)joined[3 * r + c];
+        values[12 + r] = (float)joined[9 + r];
+    }
+    return fits;
+}
+
+/* The inverse bind matrices as the file has them: the identity where it has none. */
+static void read_matrices(const gltf_document *d, const gltf_skin *skin, const gltf_rig_content *content)
+{
+    for (size_t j = 0; j < content->count; j++) {
+        double read[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        if (skin->inverse_bind >= 0)
+            ffd_gltf_read(d, (size_t)skin->inverse_bind, j, 1, 16, read);
+        for (size_t i = 0; i < 16; i++)
+            content->values[16 * j + i] = (float)read[i];
+    }
+}
+
+/* Makes the skin's inverse bind matrices anew, where some change. */
+static ffd_status make_matrices(const gltf_document *d, size_t s, const affine *similarity, gltf_rig *rig,
+                                gltf_rig_content *content, ffd_error *error)
+{
+    const gltf_skin *const skin = &d->skins[s];
+    affine change;
+    for (size_t j = 0; j < skin->joint_count; j++) {
+        if (!find_change(d, rig, skin->joints[j], similarity, &change))
+            continue;
+        if (!content->values) {
+            const ffd_status status = ffd_gltf_make_elements(rig, content, error);
+            if (status)
+                return status;
+            read_matrices(d, skin, content);
+        }
+        if (!put_matrix(&change, content->values + 16 * j))
+            return refuse_infinite(d, s, j, error);
+    }
+    return FFD_OK;
+}
+
+static ffd_status follow_skin(const gltf_document *d, size_t s, const affine *similarity, gltf_rig *rig,
+                              ffd_error *error)
+{
+    const gltf_skin *const skin = &d->skins[s];
+    gltf_rig_content content = {.accessor = GLTF_NONE, .count = skin->joint_count, .width = 16};
+    if (skin->inverse_bind >= 0) {
+        content.accessor = (size_t)skin->inverse_bind;
+        content.count = (size_t)d->model.accessors[skin->inverse_bind].count;
+    }
+    const ffd_status status = make_matrices(d, s, similarity, rig, &content, error);
+    if (status || !content.values) {
+        ffd_gltf_free_elements(rig, &content);
+        return status;
+    }
+    rig->skin_contents[s] = ffd_gltf_add_content(rig, &content);
+    return rig->skin_contents[s] == GLTF_NONE ? ffd_fail_memory(error) : FFD_OK;
+}
+
+/* Sets a part to be taken through a map. */
+static void set_carry(const affine *map, mesh_part *part)
+{
+    part->carried = true;
+    for (int i = 0; i < 9; i++)
+        part->carry[i] = map->linear[i] - still.linear[i];
+    memcpy(part->carry + 9, map->offset, sizeof map->offset);
+}
+
+/* The map W W'^-1 of what a node shows. */
+static void carry_by_node(const gltf_document *d, const gltf_rig *rig, size_t node, mesh_part *part)
+{
+    const double *const old = d->world + 12 * node, *const made = rig->world + 12 * node;
+    double inverse[9];
+    affine map;
+    if (part->singular || memcmp(old, made, 12 * sizeof *old) == 0 || !mat_invert(made, inverse))
+        return;
+    mat_multiply(old, inverse, map.linear);
+    if (ffd_mat_is_near_identity(map.linear, TURN_ROUNDING))
+        memcpy(map.linear, still.linear, sizeof map.linear);
+    pin(made + 9, old + 9, &map);
+    if (!settle(&map, size_of(old + 9, made + 9)))
+        set_carry(&map, part);
+}
+
+static void carry_parts(gltf_document *d, const gltf_rig *rig, const affine *inverses)
+{
+    for (size_t i = 0; i < d->base.part_count; i++) {
+        const gltf_part *const part = &d->parts[i];
+        if (part->node == GLTF_NONE)
+            continue;
+        if (!part->skin) {
+            carry_by_node(d, rig, part->node, &d->mesh_parts[i]);
+            continue;
+        }
+        affine map = inverses[part->skin - d->skins];
+        if (!settle(&map, 0))
+            set_carry(&map, &d->mesh_parts[i]);
+    }
+}
+
+ffd_status ffd_gltf_follow_skins(gltf_document *d, const mesh_places *places, const mesh_place_move *moves,
+                                 gltf_rig *rig, ffd_error *error)
+{
+    const size_t count = d->skin_values.count;
+    affine *const inverses = ffd_alloc(count, sizeof *inverses);
+    bool *const shown = ffd_alloc_zero(count, sizeof *shown);
+    bool *const partial = ffd_alloc_zero(count, sizeof *partial);
+    rig->skin_contents = ffd_alloc(count, sizeof *rig->skin_contents);
+    const bool allocated = inverses && shown && partial && rig->skin_contents;
+    ffd_status status = allocated ? FFD_OK : ffd_fail_memory(error);
+    if (allocated)
+        mark_skins(d, shown, partial);
+    for (size_t s = 0; s < count && status == FFD_OK; s++) {
+        affine similarity = still;
+        const gltf_skin *const skin = &d->skins[s];
+        const size_t first = skin->joint_count ? find_place(places, skin->joints[0]) : SIZE_MAX;
+        inverses[s] = still;
+        rig->skin_contents[s] = GLTF_NONE;
+        if (shown[s] && !partial[s] && first != SIZE_MAX)
+            find_similarity(&places->list[first], &moves[first], &similarity, &inverses[s]);
+        if (shown[s])
+            status = follow_skin(d, s, &similarity, rig, error);
+    }
+    if (status == FFD_OK)
+        carry_parts(d, rig, inverses);
+    ffd_free(inverses);
+    ffd_free(shown);
+    ffd_free(partial);
+    return status;
+}

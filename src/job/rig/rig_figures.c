@@ -1,0 +1,149 @@
+#include "job/rig/rig_figures.h"
+#include "base/memory/memory.h"
+#include "base/text/words.h"
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+/* Parts of the scene's diagonal: what is worth a warning, and what is only rounding. */
+#define LAG_SAID 1e-3
+#define LAG_ROUNDING 1e-12
+
+#define OF_THE_RIG (PLACE_BIT(FFD_BEHIND_JOINT) | PLACE_BIT(FFD_BEHIND_PIVOT) | PLACE_BIT(FFD_BEHIND_SOCKET))
+
+double ffd_rig_diagonal(const ffd_bounds *box)
+{
+    double sides[3];
+    for (int a = 0; a < 3; a++) {
+        sides[a] = box->max[a] - box->min[a];
+        if (!(sides[a] >= 0))
+            return 0;
+    }
+    return vec_length(sides);
+}
+
+double ffd_rig_lag(const mesh_place_move *move, double diagonal)
+{
+    double off[3];
+    for (int a = 0; a < 3; a++)
+        off[a] = move->to[a] - move->became[a];
+    const double lag = vec_length(off);
+    return lag > LAG_ROUNDING * diagonal ? lag : 0;
+}
+
+static ffd_status name_worst(const mesh_document *document, size_t number, ffd_rig_result *figures,
+                             ffd_error *error)
+{
+    char *name = document->format->place_name(document, number);
+    if (!name)
+        return ffd_fail_memory(error);
+    ffd_name_shown(name, figures->worst, sizeof figures->worst);
+    ffd_free(name);
+    return FFD_OK;
+}
+
+/* Marks the joints that lag; returns the first place with the largest lag, or SIZE_MAX. */
+static size_t measure(const rig_places *rig, double diagonal, ffd_rig_result *figures, uint8_t *lagging)
+{
+    size_t worst = SIZE_MAX;
+    for (size_t i = 0; i < rig->places.count; i++) {
+        const unsigned kinds = rig->places.list[i].kinds;
+        const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;
+        const bool is_joint = kinds & PLACE_BIT(FFD_BEHIND_JOINT);
+        figures->is_there = figures->is_there || kinds & OF_THE_RIG;
+        figures->joints += is_joint;
+        figures->lagging_pivots += lag > 0 && kinds & PLACE_BIT(FFD_BEHIND_PIVOT);
+        figures->lagging_sockets += lag > 0 && kinds & PLACE_BIT(FFD_BEHIND_SOCKET);
+        lagging[i] = is_joint && lag > 0;
+        if (lag > figures->largest_lag) {
+            figures->largest_lag = lag;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
+ffd_status ffd_rig_figures_find(const mesh_document *document, const rig_places *rig,
+                                const mesh_following *following, double diagonal, ffd_rig_result *figures,
+                                ffd_error *error)
+{
+    *figures = (ffd_rig_result){0};
+    if (rig->places.count == 0)
+        return FFD_OK;
+    uint8_t *const lagging = ffd_alloc(rig->places.count, sizeof *lagging);
+    if (!lagging)
+        return ffd_fail_memory(error);
+    ffd_status status = FFD_OK;
+    const size_t worst = measure(rig, diagonal, figures, lagging);
+    figures->moved = following->written;
+    figures->sheared = following->sheared;
+    figures->singular = following->singular;
+    figures->partial = following->partial;
+    if (worst != SIZE_MAX) {
+        status = name_worst(document, rig->places.list[worst].number, figures, error);
+        if (status == FFD_OK)
+            status = document->format->count_skins(document, &rig->places, lagging, &figures->lagging_skins,
+                                                   error);
+    }
+    ffd_free(lagging);
+    return status;
+}
+
+/* "the joints of 1 skin, 2 animated pivots and 1 socket" */
+static void tell_lagging(const ffd_rig_result *figures, char *text, size_t capacity)
+{
+    const struct {
+        uint64_t count;
+        const char *before, *one, *many;
+    } kinds[] = {{figures->lagging_skins, "the joints of ", "skin", "skins"},
+                 {figures->lagging_pivots, "", "animated pivot", "animated pivots"},
+                 {figures->lagging_sockets, "", "socket", "sockets"}};
+    size_t length = 0, left = 0;
+    *text = 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        left += kinds[k].count > 0;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
+        if (kinds[k].count == 0)
+            continue;
+        left--;
+        length += (size_t)snprintf(text + length, capacity - length, "%s%" PRIu64 " %s%s", kinds[k].before,
+                                   kinds[k].count, ffd_plural(kinds[k].count, kinds[k].one, kinds[k].many),
+                                   left > 1    ? ", "
+                                   : left == 1 ? " and "
+                                               : "");
+    }
+}
+
+static void warn_of_lag(const ffd_rig_result *figures, const mesh_log *log)
+{
+    char lagging[200];
+    const uint64_t things = figures->lagging_pivots + figures->lagging_sockets;
+    const bool animates = figures->lagging_skins + figures->lagging_pivots > 0;
+    tell_lagging(figures, lagging, sizeof lagging);
+    ffd_log_line(log, FFD_LOG_WARNING, "%s %s up to %g off the deformed mesh (%s)%s: see --rig", lagging,
+                 figures->lagging_skins == 0 && things == 1 ? "lies" : "lie", figures->largest_lag,
+                 figures->worst, animates ? "; animations will turn it about the old places" : "");
+}
+
+void ffd_rig_warn(const ffd_rig_result *figures, bool follows, double diagonal, const mesh_log *log)
+{
+    if (!follows && figures->largest_lag > LAG_SAID * diagonal)
+        warn_of_lag(figures, log);
+    if (figures->sheared)
+        ffd_log_line(
+            log, FFD_LOG_WARNING, "%" PRIu64 " %s: a parent is scaled unevenly, and would shear %s",
+            figures->sheared,
+            ffd_plural(figures->sheared, "node turns as its parent does", "nodes turn as their parents do"),
+            ffd_plural(figures->sheared, "it", "them"));
+    if (figures->singular)
+        ffd_log_line(log, FFD_LOG_WARNING,
+                     "%" PRIu64 " %s: the matrix of %s, or of a node above, has no inverse",
+                     figures->singular,
+                     ffd_plural(figures->singular, "node does not follow the deformation",
+                                "nodes do not follow the deformation"),
+                     ffd_plural(figures->singular, "it", "them"));
+    if (figures->partial)
+        ffd_log_line(log, FFD_LOG_WARNING, "%" PRIu64 " %s: --only selects a part of %s", figures->partial,
+                     ffd_plural(figures->partial, "node stays where it is", "nodes stay where they are"),
+                     ffd_plural(figures->partial, "its mesh", "their meshes"));
+}

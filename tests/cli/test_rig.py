@@ -1,0 +1,413 @@
+#!/usr/bin/env python3
+"""--rig: with follow, nodes, skins and animations go along with the deformation, and the default pose is the same; with
+keep, what lags is said. Poses come from an evaluator of the tests' own (posed.py)."""
+
+import json
+import math
+import re
+import struct
+
+from gltf_build import Scene
+from harness import INVALID, LIMIT, USAGE, case, check, equal, lattice, main, near
+from posed import Posed, point
+from said import anything, entry, not_told, told
+
+TIMES = [0, 0.125, 0.25, 0.4, 0.5, 0.75, 0.9, 1.0]
+
+
+def quaternion(axis, degrees):
+    half = math.radians(degrees) / 2
+    return [math.sin(half) * x for x in axis] + [math.cos(half)]
+
+
+def arm(bare=False):
+    """Two bones along y below a group: upper at (0, 1, 0), lower at (0, 3, 0), hand (a socket) at (0, 5, 0); a skin over
+    both, and a plate without a skin at the hand. Every part of it is animated."""
+    made = Scene(scene=0, scenes=[{"nodes": [0]}])
+    made.asset["nodes"] = [
+        {"name": "root", "children": [1, 5]},
+        {"name": "upper", "translation": [0, 1, 0], "children": [2]},
+        {"name": "lower", "translation": [0, 2, 0], "children": [3, 4]},
+        {"name": "hand", "translation": [0, 2, 0]},
+        {"name": "plate", "mesh": 1, "translation": [0.5, 1, 0], "rotation": quaternion([0, 1, 0], 30)},
+        {"name": "skinned", "mesh": 0, "skin": 0}]
+    column = [[x, y / 2, z] for y in range(2, 11) for x, z in ((-0.25, 0), (0.25, 0), (0, 0.25))]
+    weights = [[1 - f, f, 0.0, 0.0] for f in (min(1, max(0, y - 2.5)) for _, y, _ in column)]
+    attributes = {"POSITION": made.add(column, bounds=True), "NORMAL": made.add([[0, 0, 1]] * len(column)),
+                  "JOINTS_0": made.add([[0, 1, 0, 0]] * len(column), 5121, "VEC4"), "WEIGHTS_0": made.add(weights, shape="VEC4")}
+    made.asset["meshes"] = [{"primitives": [{"attributes": attributes}]},
+                            {"primitives": [{"attributes": {"POSITION": made.add([[0, 0, 0], [0.5, 0, 0], [0, 0.5, 0.1]], bounds=True),
+                                                            "NORMAL": made.add([[0, 0, 1]] * 3)}}]}]
+    binds = [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, y, 0, 1] for y in (-1, -3)]
+    made.asset["skins"] = [{"joints": [1, 2]} | ({} if bare else {"inverseBindMatrices": made.add(binds, shape="MAT4")})]
+    times = made.add([[0.0], [0.5], [1.0]], shape="SCALAR", bounds=True)
+    turns = [quaternion([0, 0, 1], a) for a in (0, 50, -20)]
+    shifts = [[0, 2, 0], [0.25, 2.5, 0.5], [0, 2, -0.25]]
+    cubic = [[0, 0, 0], [0.5, 1, 0], [0.1, 0, 0], [0, 0.25, 0], [0.25, 1.5, 0.25], [0, 0.5, 0], [0, 0, 0.5], [0.5, 1, 0.5], [0, 0, 0]]
+    samplers = [{"input": times, "output": made.add(turns, shape="VEC4")},
+                {"input": times, "output": made.add(shifts, bounds=True), "interpolation": "LINEAR"},
+                {"input": times, "output": made.add(cubic), "interpolation": "CUBICSPLINE"},
+                {"input": times, "output": made.add([[1, 1, 1], [1, 2, 1], [1, 1, 1]]), "interpolation": "STEP"}]
+    made.asset["animations"] = [{"name": "wave", "samplers": samplers, "channels": [
+        {"sampler": s, "target": {"node": n, "path": path}} for s, n, path in
+        ((0, 1, "rotation"), (0, 2, "rotation"), (1, 2, "translation"), (2, 4, "translation"), (3, 4, "scale"))]}]
+    return made
+
+
+def box(moves, **members):
+    return lattice(low=(-8, -8, -8), high=(8, 8, 8), moves=moves, **members)
+
+
+RIGID = [{"rotate": {"axis": "z", "degrees": 90, "about": [1, 0, 0]}}, {"by": [0.5, -1, 2]}]
+
+
+def rigid(p):
+    """RIGID: (x, y) about (1, 0) to (-y, x)."""
+    return [1 - p[1] + 0.5, p[0] - 1 - 1, p[2] + 2]
+
+
+def deform(run, made, moves, *options, out="f.glb", **members):
+    run.write("a.glb", made.glb() if isinstance(made, Scene) else made)
+    run.write("l.json", moves if isinstance(moves, dict) else box(moves, **members))
+    done = run.ffd("deform", "a.glb", out, "-l", "l.json", "--force", *options, err=anything)
+    return done, Posed(run.read(out))
+
+
+def farthest(a, b):
+    return max(abs(x - y) for key in a for p, q in zip(a[key], b[key], strict=True) for x, y in zip(p, q))
+
+
+def both(run, made, moves, *options, tolerance=4e-7, **members):
+    """Deformed with keep and with follow: the default pose is the same."""
+    _, keep = deform(run, made, moves, "--rig", "keep", *options, out="k.glb", **members)
+    done, follow = deform(run, made, moves, "--rig", "follow", *options, **members)
+    size = max(abs(x) for rows in keep.vertices().values() for p in rows for x in p)
+    distance = farthest(keep.vertices(), follow.vertices())
+    check(distance <= tolerance * size, f"the default poses differ by {distance} of {size}")
+    return done, keep, follow
+
+
+def moves_as(before, after, expected, tolerance=1e-5, animation=0):
+    for time in TIMES:
+        wanted = {key: [expected(p) for p in rows] for key, rows in before.vertices(animation, time).items()}
+        found = after.vertices(animation, time)
+        distance = farthest(wanted, found)
+        check(distance <= tolerance, f"at {time} the animation is off by {distance}")
+
+
+BEND = [{"bend": {"axis": "y", "toward": [1, 0, 0], "degrees": 60}}]
+
+
+@case
+def a_rigid_motion_of_everything_moves_every_pose(run):
+    for made in (arm(), arm(bare=True)):
+        _, _, follow = both(run, made, RIGID)
+        moves_as(Posed(run.read("a.glb")), follow, rigid)
+        equal([n for n, (a, b) in enumerate(zip(follow.nodes, made.asset["nodes"])) if a != b], [1],
+              "one node is written otherwise, and those below it follow")
+
+
+@case
+def a_scale_of_everything_scales_every_pose(run):
+    made = arm()
+    del made.asset["animations"][0]["channels"][-1]
+    _, _, follow = both(run, made, [{"scale": {"factor": 2, "about": [0, 0, 0]}}])
+    moves_as(Posed(run.read("a.glb")), follow, lambda p: [2 * x for x in p])
+
+
+@case
+def bends_keep_the_default_pose_and_a_joint_where_the_mesh_is(run):
+    for moves in (BEND, [{"twist": {"axis": "y", "degrees": 100}}], [{"taper": {"axis": "y", "factor": 0.5}}],
+                  [{"scale": {"factor": [1, 1.5, 1], "about": [0, 0, 0]}}]):
+        _, _, follow = both(run, arm(), moves)
+        run.write("p.obj", "v 0 1 0\nv 0 3 0\nv 0 5 0\nv 0.5 4 0\n")
+        run.ffd("deform", "p.obj", "q.obj", "-l", "l.json", "--force", err=anything)
+        wanted = [[float(x) for x in line.split()[1:4]] for line in run.text("q.obj").splitlines()]
+        worlds = follow.worlds()
+        near([[worlds[n][r][3] for r in range(3)] for n in (1, 2, 3, 4)], wanted, 1e-12, "the joints")
+
+
+@case
+def normals_of_a_turned_node_stay_with_the_mesh(run):
+    def shown(posed):
+        """Of the plate: the normals in the scene."""
+        m = posed.worlds()[4]
+        primitive = posed.asset["meshes"][posed.nodes[4]["mesh"]]["primitives"][0]
+        return [point([row[:3] + [0] for row in m[:3]] + [m[3]], n) for n in posed.read(primitive["attributes"]["NORMAL"])]
+
+    for options in ((), ("--normals", "recompute")):
+        made = arm()
+        made.asset["meshes"][1]["primitives"][0]["mode"] = 4
+        _, keep, follow = both(run, made, BEND, *options)
+        near(shown(follow), shown(keep), 1e-6, str(options))
+        check(follow.read(follow.asset["meshes"][1]["primitives"][0]["attributes"]["NORMAL"])
+              != keep.read(keep.asset["meshes"][1]["primitives"][0]["attributes"]["NORMAL"]), "the node has turned")
+
+
+@case
+def morph_targets_of_a_node_that_turns(run):
+    made = arm()
+    offsets = [[0.25, 0, 0.125], [0, 0, 0], [0, -0.25, 0.25]]
+    made.asset["meshes"][1]["primitives"][0]["targets"] = [{"POSITION": made.add(offsets, bounds=True)}]
+    _, keep, follow = both(run, made, BEND)
+    for posed in (keep, follow):
+        primitive = posed.asset["meshes"][1]["primitives"][0]
+        base, target = map(posed.read, (primitive["attributes"]["POSITION"], primitive["targets"][0]["POSITION"]))
+        world = posed.worlds()[4]
+        posed.shown = [point(world, [a + b for a, b in zip(p, m)]) for p, m in zip(base, target)]
+        posed.still = target[1]
+    near(follow.shown, keep.shown, 1e-6, "the target in full")
+    equal(follow.still, [0, 0, 0], "an offset of zeros")
+
+
+@case
+def nothing_moves_and_no_byte_changes(run):
+    for made in (arm(), arm(bare=True)):
+        deform(run, made, [], "--rig", "follow")
+        equal(run.read("f.glb"), run.read("a.glb"))
+        # The lattice is elsewhere.
+        far = lattice(low=(50, 50, 50), high=(60, 60, 60), moves=[{"by": [1, 0, 0]}])
+        deform(run, made, far, "--rig", "follow")
+        equal(run.read("f.glb"), run.read("a.glb"))
+
+
+@case
+def equal_bytes_for_any_threads_and_kernels(run):
+    found = set()
+    for options in (("-j", "1"), ("-j", "3"), ("--isa", "scalar")):
+        deform(run, arm(), BEND, "--rig", "follow", *options)
+        found.add(run.read("f.glb"))
+    equal(len(found), 1)
+
+
+@case
+def a_default_pose_that_is_not_the_bind_pose(run):
+    made = arm()
+    made.asset["nodes"][1]["rotation"] = quaternion([0, 0, 1], 40)
+    made.asset["nodes"][2]["rotation"] = quaternion([1, 0, 0], -35)
+    _, _, follow = both(run, made, RIGID)
+    moves_as(Posed(run.read("a.glb")), follow, rigid)
+    _, _, follow = both(run, made, [{"scale": {"factor": 2, "about": [0, 0, 0]}}])
+    moves_as(Posed(run.read("a.glb")), follow, lambda p: [2 * x for x in p])
+    both(run, made, BEND)
+
+
+@case
+def samplers_and_outputs_that_channels_share_are_copied(run):
+    """Both joints turn by one sampler; below the bend each wants another output."""
+    _, _, follow = both(run, arm(), BEND)
+    old, new = Posed(run.read("a.glb")), follow
+    animation = new.asset["animations"][0]
+    outputs = [animation["samplers"][channel["sampler"]]["output"] for channel in animation["channels"]]
+    check(outputs[0] != outputs[1], "the joints turn differently")
+    equal(animation["samplers"][animation["channels"][4]["sampler"]]["output"],
+          old.asset["animations"][0]["samplers"][3]["output"], "a scale stays")
+    for index in set(outputs):
+        accessor = new.asset["accessors"][index]
+        for key, edge in (("min", min), ("max", max)):
+            if key in accessor:
+                near(accessor[key], [edge(column) for column in zip(*new.read(index))], 1e-9, key)
+
+
+@case
+def inverse_binds_that_skins_share_are_copied(run):
+    """A second skin, with the joints the other way round, over the same matrices."""
+    made = arm()
+    made.asset["skins"].append({"joints": [2, 1], "inverseBindMatrices": made.asset["skins"][0]["inverseBindMatrices"]})
+    made.asset["nodes"] += [{"name": "second", "mesh": 0, "skin": 1}]
+    made.asset["nodes"][0]["children"].append(6)
+    _, _, follow = both(run, made, BEND)
+    accessors = [skin["inverseBindMatrices"] for skin in follow.asset["skins"]]
+    check(accessors[0] != accessors[1], "one accessor serves both")
+    same = arm()
+    same.asset["skins"].append(dict(same.asset["skins"][0]))
+    same.asset["nodes"] += [{"name": "second", "mesh": 0, "skin": 1}]
+    same.asset["nodes"][0]["children"].append(6)
+    _, _, follow = both(run, same, BEND)
+    equal(*[skin["inverseBindMatrices"] for skin in follow.asset["skins"]], "equal results are one accessor")
+
+
+@case
+def quantized_and_sparse_outputs(run):
+    made = arm()
+    turns = [[round(32767 * x) for x in quaternion([0, 0, 1], a)] for a in (0, 50, -20)]
+    samplers = made.asset["animations"][0]["samplers"]
+    samplers[0]["output"] = made.add(turns, 5122, "VEC4", normalized=True)
+    places = made.view(bytes([1]))
+    values = made.view(struct.pack("<3f", 0.25, 2.5, 0.5))
+    made.asset["accessors"].append({"componentType": 5126, "count": 3, "type": "VEC3", "sparse": {
+        "count": 1, "indices": {"bufferView": places, "componentType": 5121}, "values": {"bufferView": values}}})
+    samplers[1]["output"] = len(made.asset["accessors"]) - 1
+    _, _, follow = both(run, made, RIGID)
+    moves_as(Posed(run.read("a.glb")), follow, rigid, 1e-4)
+    _, _, follow = both(run, made, BEND)
+    found = follow.asset["animations"][0]
+    for channel in found["channels"][:3]:
+        accessor = follow.asset["accessors"][found["samplers"][channel["sampler"]]["output"]]
+        check(accessor["componentType"] == 5126 and not accessor.get("normalized") and "sparse" not in accessor, str(accessor))
+
+
+@case
+def pointers_to_transforms_are_followed(run):
+    plain, pointed = arm(), arm()
+    for channel in pointed.asset["animations"][0]["channels"]:
+        target = channel["target"]
+        channel["target"] = {"path": "pointer", "extensions": {"KHR_animation_pointer": {
+            "pointer": f"/nodes/{target['node']}/{target['path']}"}}}
+    pointed.asset["extensionsUsed"] = ["KHR_animation_pointer"]
+    _, _, follow = both(run, pointed, BEND)
+    _, other = deform(run, plain, BEND, "--rig", "follow", out="p.glb")
+    for time in TIMES:
+        near([farthest(follow.vertices(0, time), other.vertices(0, time))], [0], 1e-12, str(time))
+
+
+@case
+def a_matrix_stays_a_matrix(run):
+    made = arm()
+    made.asset["nodes"][4] = {"name": "plate", "mesh": 1, "matrix": [0, 1, 0, 0, -2, 0, 0, 0, 0, 0, 1, 0, 0.5, 1, 0, 1]}
+    del made.asset["animations"][0]["channels"][3:]
+    _, _, follow = both(run, made, BEND)
+    check("matrix" in follow.nodes[4] and "translation" not in follow.nodes[4] and "rotation" not in follow.nodes[4], "")
+    _, _, follow = both(run, made, RIGID)
+    moves_as(Posed(run.read("a.glb")), follow, rigid)
+
+
+@case
+def uneven_scales_turn_with_their_parents(run):
+    """The upper arm is scaled along x, and turns otherwise than the lower one, which would be sheared."""
+    made = arm()
+    made.asset["nodes"][1]["scale"] = [2, 1, 1]
+    done, _, follow = both(run, made, BEND)
+    told(done, r"nodes? turns? as (its|their)", "scaled unevenly")
+    job = entry(run, "deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow")
+    check(job["rig"]["sheared"] >= 1, str(job["rig"]))
+    # A group of uneven scale turns with all: nothing below it is sheared.
+    grouped = arm()
+    grouped.asset["nodes"][0] |= {"scale": [1, 1.5, 1], "rotation": quaternion([0, 0.6, 0.8], 30)}
+    done, _, follow = both(run, grouped, RIGID)
+    moves_as(Posed(run.read("a.glb")), follow, rigid)
+    not_told(done, "scaled unevenly")
+
+
+@case
+def a_node_without_an_inverse_stays(run):
+    made = arm()
+    made.asset["nodes"][3]["scale"] = [0, 0, 0]
+    done, _, follow = both(run, made, BEND)
+    told(done, r"\b1 node does not follow", "no inverse")
+    equal(follow.nodes[3], made.asset["nodes"][3])
+
+
+@case
+def cameras_and_lights_go_along(run):
+    made = arm()
+    made.asset["nodes"][3] |= {"camera": 0}
+    made.asset["cameras"] = [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]
+    done, _, follow = both(run, made, RIGID)
+    not_told(done, "stays? where")
+    m = follow.worlds()[3]
+    near([[m[r][c] for c in range(4)] for r in range(3)], [[0, -1, 0, -3.5], [1, 0, 0, -2], [0, 0, 1, 2]], 1e-9)
+
+
+@case
+def only_moves_the_nodes_of_what_it_selects(run):
+    made = arm()
+    made.asset["nodes"] += [{"name": "car", "children": [7]}, {"name": "wheel", "mesh": 1, "translation": [-2, 0, 0]}]
+    made.asset["scenes"][0]["nodes"].append(6)
+    _, _, follow = both(run, made, BEND, "--only", "node:skinned")
+    changed = [follow.nodes[n].get("name") for n in range(len(follow.nodes)) if follow.nodes[n] != made.asset["nodes"][n]]
+    equal(sorted(changed), ["hand", "lower", "plate", "upper"], "joints move, the plate below stays in its place")
+    before = Posed(run.read("a.glb"))
+    for key in ((4, 0), (7, 0)):
+        near(follow.vertices()[key], before.vertices()[key], 1e-6, "what is not selected")
+    _, _, follow = both(run, made, BEND, "--only", "node:wheel")
+    equal([node["name"] for node, old in zip(follow.nodes, made.asset["nodes"]) if node != old], ["wheel"])
+
+
+@case
+def a_mesh_that_is_selected_in_part_keeps_its_node(run):
+    made = arm()
+    made.asset["materials"] = [{"name": "red"}, {"name": "blue"}]
+    primitives = made.asset["meshes"][1]["primitives"]
+    primitives[0]["material"] = 0
+    primitives.append({"attributes": {"POSITION": made.add([[0, 0, 0], [0.5, 0, 0], [0, 0.5, 0.1]], bounds=True)}, "material": 1})
+    done, _, follow = both(run, made, BEND, "--only", "material:red")
+    equal(follow.nodes, made.asset["nodes"])
+    told(done, "1 node stays where it is", "--only", "part of its mesh")
+
+
+@case
+def keep_says_how_far_joints_lag(run):
+    made = arm()
+    for rig in ((), ("--rig", "keep")):
+        done, keep = deform(run, made, [{"by": [0, 0, 0.5]}], *rig)
+        told(done, "the joints of 1 skin", "1 animated pivot", "1 socket", r"lie up to 0\.5 off the deformed mesh", "--rig")
+        equal(keep.nodes, made.asset["nodes"])
+        equal(keep.asset["animations"], made.asset["animations"])
+    for command in (["deform", "a.glb", "k.glb"], ["check", "a.glb"]):
+        equal(entry(run, *command, "-l", "l.json")["rig"],
+              {"joints": 2, "moved": 0, "largest_lag": 0.5, "worst": "upper", "sheared": 0})
+        found = entry(run, *command, "-l", "l.json", "--rig", "follow")["rig"]
+        check(found["moved"] >= 1, str(found))
+        equal({**found, "moved": 0}, {"joints": 2, "moved": 0, "largest_lag": 0, "worst": None, "sheared": 0})
+    told_of = run.ffd("check", "a.glb", "-l", "l.json", err=anything).out
+    check(re.search(r"2 joints, the largest lag is 0\.5 \(upper\)", str(told_of)), str(told_of))
+    # Too little to be worth a line.
+    not_told(deform(run, made, [{"by": [0, 0, 0.001]}])[0], "--rig")
+    not_told(deform(run, made, [{"by": [0, 0, 0.5]}], "--rig", "follow")[0], "off the deformed mesh|stays? where")
+
+
+@case
+def what_cannot_follow_is_a_usage_error(run):
+    run.write("a.glb", arm().glb())
+    run.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    run.write("l.json", box(BEND))
+    for arguments in (["a.glb", "b.glb", "--as-morph", "x"], ["a.glb", "b.glb", "--space", "mesh"], ["a.glb", "b.obj"],
+                      ["a.obj", "b.obj"], ["a.obj", "b.glb"]):
+        run.ffd("deform", *arguments, "-l", "l.json", "--rig", "follow", code=USAGE, err=anything)
+    run.ffd("check", "a.obj", "-l", "l.json", "--rig", "follow", code=USAGE, err=anything)
+    run.write("jobs.jsonl", json.dumps({"in": "a.glb", "lattice": "l.json", "out": "o.glb", "options": {"rig": "follow"}}) + "\n")
+    run.ffd("batch", "jobs.jsonl", err=anything)
+    deform(run, arm(), BEND, "--rig", "follow")
+    equal(run.read("o.glb"), run.read("f.glb"), "a job of a batch")
+
+
+@case
+def spring_bones_and_shapes_are_said(run):
+    made = arm()
+    made.asset["extensions"] = {"VRM": {"secondaryAnimation": {"boneGroups": []}, "firstPerson": {"firstPersonBoneOffset": {}}}}
+    made.asset["extensionsUsed"] = ["VRM"]
+    done, _ = deform(run, made, BEND, "--rig", "follow")
+    told(done, "rotation", r"VRM 0\.x")
+    told(done, "spring bones")
+    told(done, "eyes")
+    done, _ = deform(run, made, [], "--rig", "follow")
+    equal(done.err, [])
+
+
+@case
+def a_broken_animation_stops_only_who_needs_it(run):
+    made = arm()
+    made.asset["accessors"][made.asset["animations"][0]["samplers"][0]["input"]]["count"] = 2
+    deform(run, made, BEND)
+    run.ffd("deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow", "--force", code=INVALID, err=anything)
+    deform(run, made, [], "--rig", "follow")
+
+
+@case
+def keys_that_become_those_of_many_channels_are_limited(run):
+    """One sampler of 20,000 keys for 2,000 nodes, each of which the bend turns otherwise."""
+    made = arm()
+    first = len(made.asset["nodes"])
+    for i in range(2000):
+        made.asset["nodes"].append({"translation": [0.001 * i, 0.002 * i, 0]})
+    made.asset["nodes"][0]["children"] += range(first, first + 2000)
+    times = made.add([[float(i)] for i in range(20000)], shape="SCALAR", bounds=True)
+    made.asset["animations"] = [{"samplers": [{"input": times, "output": made.add([[0, 0, 0, 1]] * 20000, shape="VEC4")}],
+                                 "channels": [{"sampler": 0, "target": {"node": first + i, "path": "rotation"}} for i in range(2000)]}]
+    run.write("a.glb", made.glb())
+    run.write("l.json", box(BEND))
+    run.ffd("deform", "a.glb", "f.glb", "-l", "l.json", "--rig", "follow", code=LIMIT, err=anything)
+
+
+main()
