@@ -201,7 +201,8 @@ static ffd_status build(lattice_spec *spec, memory_budget *budget, ffd_lattice *
 static ffd_status load(const ffd_info_desc *desc, ffd_lattice **lattice, bool *fits, ffd_error *error)
 {
     bool *const used = ffd_alloc_zero(desc->set_count, sizeof *used);
-    const spec_settings settings = {desc->set, used, desc->set_count, true};
+    const spec_settings settings = {
+        .values = desc->set, .used = used, .count = desc->set_count, .may_be_open = true};
     memory_budget budget = ffd_budget_make(desc->file.memory);
     lattice_spec *spec = NULL;
     size_t size = 0;

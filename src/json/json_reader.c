@@ -1,4 +1,5 @@
 #include "json/json_reader.h"
+#include "base/memory/memory.h"
 #include "base/text/number.h"
 #include "base/text/words.h"
 #include "json/json_chars.h"
@@ -180,11 +181,20 @@ ffd_status ffd_json_read_array(json_cursor cursor, size_t count, const char *wha
     return FFD_OK;
 }
 
+static ffd_status trace_number(json_cursor cursor, double *number)
+{
+    json_trace *const trace = cursor.file->trace;
+    if (!ffd_grow((void **)&trace->entries, &trace->capacity, trace->count + 1, sizeof *trace->entries))
+        return ffd_fail_memory(cursor.file->error);
+    trace->entries[trace->count++] = (json_trace_entry){number, cursor.replaced, cursor.value};
+    return FFD_OK;
+}
+
 ffd_status ffd_json_read_double(json_cursor cursor, double *number)
 {
     if (!ffd_json_span_number(cursor.tree, cursor.value, number))
         return ffd_cursor_fail(cursor, "must be a number, not %s", ffd_json_describe(cursor).text);
-    return FFD_OK;
+    return cursor.file->trace && is_substitute(cursor) ? trace_number(cursor, number) : FFD_OK;
 }
 
 ffd_status ffd_json_read_integer(json_cursor cursor, double *number)

@@ -10,13 +10,27 @@ typedef struct json_substitute {
     const json_span *tree; /* its top is read instead */
 } json_substitute;
 
+/* A number that was read from within a substitute. */
+typedef struct json_trace_entry {
+    double *number;    /* where it went */
+    uint32_t replaced; /* in the file's tree: what the substitute is read instead of */
+    uint32_t value;    /* in the substitute's tree */
+} json_trace_entry;
+
+/* All zeros: empty. Its entries are freed with ffd_free. */
+typedef struct json_trace {
+    json_trace_entry *entries;
+    size_t count, capacity;
+} json_trace;
+
 /* A parsed file. Its strings must not hold the character U+0000 (JSON_NO_NUL). */
 typedef struct json_file {
     const char *name; /* in messages */
     const json_span *tree;
     const json_substitute *substitutes; /* by ascending value */
     size_t substitute_count;
-    ffd_error *error; /* of the functions below; may be NULL */
+    json_trace *trace; /* gets all numbers that are read from substitutes; or NULL */
+    ffd_error *error;  /* of the functions below; may be NULL */
 } json_file;
 
 /* One value of the file. */

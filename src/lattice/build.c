@@ -140,7 +140,7 @@ static ffd_status set_deformed(const lattice_spec *spec, ffd_lattice *lattice, f
 }
 
 static ffd_status set_points(const lattice_spec *spec, const double *min, const double *max,
-                             ffd_lattice *lattice, ffd_error *error)
+                             const move_observer *observer, ffd_lattice *lattice, ffd_error *error)
 {
     rest_region region;
     ffd_status status = make_points(lattice, error);
@@ -152,24 +152,28 @@ static ffd_status set_points(const lattice_spec *spec, const double *min, const 
         return status;
     status = set_deformed(spec, lattice, error);
     if (!status && spec->move_count > 0)
-        status = ffd_moves_apply(spec, &region, lattice, error);
+        status = ffd_moves_apply(spec, &region, lattice, observer, error);
     return status ? status : ffd_lattice_finish_moved(lattice, error);
 }
 
 static ffd_status build(lattice_spec *spec, const double *min, const double *max, bool points,
-                        ffd_lattice **lattice, ffd_error *error)
+                        const move_observer *observer, ffd_lattice **lattice, ffd_error *error)
 {
     *lattice = NULL;
     ffd_lattice *result = ffd_alloc_zero(1, sizeof *result);
     ffd_status status = result ? make_knots(spec, result, error) : ffd_fail_memory(error);
     if (!status && points)
-        status = set_points(spec, min, max, result, error);
+        status = set_points(spec, min, max, observer, result, error);
     if (status) {
         ffd_fail_name_file(error, spec->name);
         ffd_lattice_destroy(&result);
         return status;
     }
     result->spec = spec;
+    for (int c = 0; c < 3 && min; c++) {
+        result->fitted_min[c] = min[c];
+        result->fitted_max[c] = max[c];
+    }
     *lattice = result;
     return FFD_OK;
 }
@@ -177,12 +181,25 @@ static ffd_status build(lattice_spec *spec, const double *min, const double *max
 ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
                           ffd_error *error)
 {
-    return build(spec, min, max, spec->rest != SPEC_BOX_MESH || min, lattice, error);
+    return build(spec, min, max, spec->rest != SPEC_BOX_MESH || min, NULL, lattice, error);
+}
+
+ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *observer, ffd_error *error)
+{
+    const bool fitted = lattice->spec->rest == SPEC_BOX_MESH;
+    ffd_lattice *again;
+    const ffd_status status = build(lattice->spec, fitted ? lattice->fitted_min : NULL,
+                                    fitted ? lattice->fitted_max : NULL, true, observer, &again, error);
+    if (status)
+        return status;
+    again->spec = NULL; /* is the lattice's */
+    ffd_lattice_destroy(&again);
+    return FFD_OK;
 }
 
 ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error)
 {
-    return build(spec, NULL, NULL, false, lattice, error);
+    return build(spec, NULL, NULL, false, NULL, lattice, error);
 }
 
 uint64_t ffd_spec_knot_bytes(const lattice_spec *spec)

@@ -2,6 +2,7 @@
 #ifndef FFD_LATTICE_BUILD_H
 #define FFD_LATTICE_BUILD_H
 
+#include "lattice/moves.h"
 #include "lattice/spec.h"
 #include <stdint.h>
 
@@ -17,6 +18,9 @@ uint64_t ffd_spec_point_bytes(const lattice_spec *spec);
    caller's. */
 ffd_status ffd_spec_build(lattice_spec *spec, const double *min, const double *max, ffd_lattice **lattice,
                           ffd_error *error);
+
+/* Applies the moves of a lattice that has its control points once more, for somebody who sees them. */
+ffd_status ffd_lattice_replay(const ffd_lattice *lattice, const move_observer *observer, ffd_error *error);
 
 /* Makes a lattice that has only its knots. */
 ffd_status ffd_spec_build_knots(lattice_spec *spec, ffd_lattice **lattice, ffd_error *error);

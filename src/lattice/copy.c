@@ -47,6 +47,18 @@ static bool copy_meshes(lattice_spec *copy)
     return whole;
 }
 
+static bool copy_variables(lattice_spec *copy)
+{
+    bool whole = copy_block(&copy->variables, copy->variable_count, sizeof *copy->variables);
+    for (size_t i = 0; copy->variables && i < copy->variable_count; i++) {
+        spec_variable *const variable = &copy->variables[i];
+        whole = copy_text(&variable->name) && whole;
+        whole = copy_block(&variable->numbers, variable->size, sizeof *variable->numbers) && whole;
+    }
+    copy->variable_count = copy->variables ? copy->variable_count : 0;
+    return copy_block(&copy->seeds, copy->seed_count, sizeof *copy->seeds) && whole;
+}
+
 static bool copy_parameters(lattice_spec *copy)
 {
     bool whole = copy_block(&copy->parameters, copy->parameter_count, sizeof *copy->parameters);
@@ -78,6 +90,7 @@ lattice_spec *ffd_spec_copy(const lattice_spec *spec)
     whole = copy_block(&copy->moves, copy->move_count, sizeof *copy->moves) && whole;
     whole = copy_meshes(copy) && whole;
     whole = copy_parameters(copy) && whole;
+    whole = copy_variables(copy) && whole;
     whole = copy_names(&spec->open, &copy->open) && whole;
     if (!whole)
         ffd_spec_free(copy);

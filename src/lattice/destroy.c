@@ -31,6 +31,12 @@ void ffd_spec_free(lattice_spec *spec)
     for (size_t i = 0; i < spec->parameter_count; i++)
         free_parameter(&spec->parameters[i]);
     ffd_free(spec->parameters);
+    for (size_t i = 0; i < spec->variable_count; i++) {
+        ffd_free(spec->variables[i].name);
+        ffd_free(spec->variables[i].numbers);
+    }
+    ffd_free(spec->variables);
+    ffd_free(spec->seeds);
     ffd_free(spec);
 }
 

@@ -38,7 +38,8 @@ struct ffd_lattice {
     size_t size[3];
     size_t count; /* size[0]*size[1]*size[2] */
 
-    bool edited; /* control points or weights were set after the spec's moves */
+    double fitted_min[3], fitted_max[3]; /* of a box round a mesh: the mesh's bounds */
+    bool edited;                         /* control points or weights were set after the spec's moves */
 
     /* NULL until built (a "mesh" box is built when it is fitted to its mesh). */
     double *rest;                            /* 3*count */

@@ -265,3 +265,12 @@ ffd_status ffd_move_bend_exactly(const exact_bend *bend, ffd_error *error)
         status = check_layers(&a, first, last);
     return status ? status : bend_arcs(&a);
 }
+
+exact_layers ffd_move_exact_layers(const exact_bend *bend)
+{
+    size_t first[3], last[3];
+    arcs a = {.bend = bend};
+    find_block(bend, first, last);
+    find_direction(&a, first, last);
+    return (exact_layers){a.direction, a.step, a.first, a.last};
+}

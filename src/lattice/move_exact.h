@@ -13,6 +13,16 @@ typedef struct exact_bend {
     const char *file;
 } exact_bend;
 
+/* The layers that an exact bend bends. */
+typedef struct exact_layers {
+    int direction;
+    size_t step;        /* from a point to the next along the direction */
+    size_t first, last; /* both joints of arcs; every second one between them too */
+} exact_layers;
+
+/* Finds the layers of a bend that is known to be possible. */
+exact_layers ffd_move_exact_layers(const exact_bend *bend);
+
 /* Moves points, differences and deformed weights; makes the weights where there are none. The direction along
    the axis must be made of quadratic Bezier arcs, and its selected points be all of some of these, in
    straight rows along the axis. Errors: FFD_E_INVALID at the move, FFD_E_MEMORY. */

@@ -28,6 +28,7 @@ typedef struct move_work {
     double slack[3];   /* rounding of the coordinates that `within` compares */
     mirror_tree rest;  /* where mirror images are looked up; made for the first mirrored move */
     const char *file;
+    const move_observer *observer; /* or NULL */
     ffd_error *error;
 } move_work;
 
@@ -258,11 +259,28 @@ static ffd_status move_point(const move_work *work, ready_move *ready, const mir
     return check_finite(work, move, point);
 }
 
+static ffd_status observe(const move_work *work, size_t number, const lattice_move *move,
+                          const ready_move *ready, const mirror_plane *plane)
+{
+    const move_step step = {.move = move,
+                            .number = number,
+                            .ready = ready,
+                            .plane = plane,
+                            .selected = work->selected,
+                            .lattice = work->lattice,
+                            .region = &work->region,
+                            .inverse = work->box_units ? work->inverse : NULL};
+    return work->observer ? work->observer->see(work->observer->context, &step, work->error) : FFD_OK;
+}
+
 /* The selected points; plane: of the images of a mirrored move. */
-static ffd_status move_points(const move_work *work, ready_move *ready, const mirror_plane *plane)
+static ffd_status move_points(const move_work *work, size_t number, const lattice_move *move,
+                              ready_move *ready, const mirror_plane *plane)
 {
     const exact_bend bend = {work->lattice, work->selected, ready, plane, work->file};
-    ffd_status status = ready->move.exact ? ffd_move_bend_exactly(&bend, work->error) : FFD_OK;
+    ffd_status status = observe(work, number, move, ready, plane);
+    if (!status && ready->move.exact)
+        status = ffd_move_bend_exactly(&bend, work->error);
     for (size_t i = 0; i < work->lattice->count && !status; i++) {
         if (!work->selected[i])
             continue;
@@ -272,9 +290,8 @@ static ffd_status move_points(const move_work *work, ready_move *ready, const mi
 }
 
 /* The action again, reflected, on the mirror images of the points. */
-static ffd_status move_images(move_work *work, ready_move *ready)
+static ffd_status move_images(move_work *work, size_t number, const lattice_move *move, ready_move *ready)
 {
-    const lattice_move *const move = &ready->move;
     const size_t *const size = work->lattice->size, count = work->lattice->count;
     const mirror_plane plane = ffd_mirror_plane(work->lattice, move->mirror);
     size_t missing;
@@ -283,7 +300,7 @@ static ffd_status move_images(move_work *work, ready_move *ready)
     if (status)
         return status;
     if (missing == count)
-        return move_points(work, ready, &plane);
+        return move_points(work, number, move, ready, &plane);
     return ffd_fail_at(work->error, FFD_E_INVALID, work->file, move->pointer,
                        "control point %zu,%zu,%zu has no mirror image in %c: no other rests across the plane "
                        "%c = %s",
@@ -291,8 +308,9 @@ static ffd_status move_images(move_work *work, ready_move *ready)
                        "xyz"[move->mirror], "xyz"[move->mirror], ffd_number_text(0.5 * plane.twice).text);
 }
 
-static ffd_status apply_move(move_work *work, const lattice_move *move)
+static ffd_status apply_move(move_work *work, const lattice_spec *spec, size_t number)
 {
+    const lattice_move *const move = &spec->moves[number];
     ready_move ready = {.move = *move, .degrees = NAN};
     const size_t count = select_points(work, move);
     if (count == 0)
@@ -303,12 +321,12 @@ static ffd_status apply_move(move_work *work, const lattice_move *move)
         find_centroid(work, count, ready.move.about);
     if (ffd_move_has_extent(move->action))
         find_extent(work, &ready);
-    const ffd_status status = move_points(work, &ready, NULL);
-    return status || !move->has_mirror ? status : move_images(work, &ready);
+    const ffd_status status = move_points(work, number, move, &ready, NULL);
+    return status || !move->has_mirror ? status : move_images(work, number, move, &ready);
 }
 
 ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, ffd_lattice *lattice,
-                           ffd_error *error)
+                           const move_observer *observer, ffd_error *error)
 {
     move_work work = {.lattice = lattice,
                       .points = lattice->deformed,
@@ -316,6 +334,7 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
                       .box_units = spec->box_units,
                       .region = *region,
                       .file = spec->name,
+                      .observer = observer,
                       .error = error};
     if (work.box_units && !mat_invert(region->frame, work.inverse))
         return ffd_fail_at(error, FFD_E_INVALID, spec->name, "/units",
@@ -326,7 +345,7 @@ ffd_status ffd_moves_apply(const lattice_spec *spec, const rest_region *region, 
         return ffd_fail_memory(error);
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < spec->move_count && !status; i++)
-        status = apply_move(&work, &spec->moves[i]);
+        status = apply_move(&work, spec, i);
     ffd_mirror_tree_free(&work.rest);
     ffd_free(work.selected);
     return status;

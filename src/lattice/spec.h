@@ -26,6 +26,7 @@ typedef enum falloff_kind { FALLOFF_NONE, FALLOFF_AXIS, FALLOFF_BALL } falloff_k
 typedef struct move_falloff {
     falloff_kind kind;
     double axis[3], from, to; /* FALLOFF_AXIS; unit length; from and to differ */
+    double raw_axis[3];       /* as the file has it */
     double center[3], radius; /* FALLOFF_BALL; the radius is positive */
 } move_falloff;
 
@@ -40,7 +41,8 @@ typedef struct lattice_move {
     double vector[3]; /* by (also of a pull), to, scale factors, toward (of unit length, perpendicular to
                          axis) */
     double axis[3];   /* unit length */
-    double amount;    /* degrees, taper factor */
+    double raw_axis[3], raw_toward[3]; /* as the file has them */
+    double amount;                     /* degrees, taper factor */
     double matrix[16];
     double point[3], radius; /* of a pull, in the file's units */
     bool exact;              /* of a bend: as a rational quadratic */
@@ -57,6 +59,21 @@ typedef struct spec_parameter {
     char *unit, *comment; /* or NULL */
     double min, max;      /* of each number; infinite where the file has none */
 } spec_parameter;
+
+/* A number, or an array of numbers, that moves depend on: a placeholder's value. */
+typedef struct spec_variable {
+    char *name;
+    bool is_array;
+    size_t size; /* its numbers; 0: it is something else */
+    double *numbers;
+} spec_variable;
+
+/* A number of a move that is a factor times a number of a variable. */
+typedef struct spec_seed {
+    size_t move, offset; /* of the number in the lattice_move, in bytes */
+    size_t variable, component;
+    double factor;
+} spec_seed;
 
 typedef struct lattice_spec {
     char *name; /* of the file, for messages */
@@ -85,6 +102,11 @@ typedef struct lattice_spec {
     double *deformed_offsets;                   /* or NULL; never beside deformed_points */
     spec_parameter *parameters;                 /* parameter_count, in the file's order */
     size_t parameter_count;
+    /* Only where the settings ask for them: in the order of their first use, and what comes from them. */
+    spec_variable *variables;
+    size_t variable_count;
+    spec_seed *seeds;
+    size_t seed_count;
     bool box_units;
     lattice_move *moves;
     size_t move_count;
@@ -122,6 +144,8 @@ typedef struct spec_settings {
     bool *used;                /* likewise; marked, never cleared */
     size_t count;
     bool may_be_open; /* where a placeholder has no value, the moves are left out instead of refused */
+    bool derives; /* the spec is to say what comes from placeholders: FFD_E_INVALID for one that is no number
+                   */
 } spec_settings;
 
 #define SPEC_FORMAT "ffd-lattice"

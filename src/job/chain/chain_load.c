@@ -68,7 +68,11 @@ static void tell_open(const chain_files *files, size_t i, bool *used, ffd_error 
 static ffd_status load_lattice(const chain_files *files, bool *used, size_t i, uint64_t file_size,
                                memory_budget *memory, ffd_lattice **lattice, ffd_error *error)
 {
-    const spec_settings settings = {files->set, used, files->set_count, files->rest_only};
+    const spec_settings settings = {.values = files->set,
+                                    .used = used,
+                                    .count = files->set_count,
+                                    .may_be_open = files->rest_only,
+                                    .derives = files->derives};
     const ffd_status status =
         *lattice ? ffd_lattice_memory_take(memory, (*lattice)->spec, file_size, error)
                  : ffd_lattice_memory_load(files->paths[i], &settings, memory, lattice, error);

@@ -12,6 +12,7 @@ typedef struct chain_files {
     const ffd_setting *set; /* set_count, or NULL */
     size_t set_count;
     bool rest_only;               /* a placeholder without a value does not matter (ffd_lattice_load_rest) */
+    bool derives;                 /* the lattices are to say what comes from placeholders */
     const ffd_source *mesh;       /* of the job: meshes that lattices name are read likewise, and lattices
                                      take of its memory; NULL where they name none */
     const ffd_shared_box *shared; /* what "box": "mesh" goes round; NULL: the mesh of the job */

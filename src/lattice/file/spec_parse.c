@@ -279,14 +279,21 @@ static ffd_status read_root(json_cursor root, bool with_moves, lattice_spec *spe
 static ffd_status read_tree(json_file *file, const spec_settings *settings, lattice_spec *spec)
 {
     spec_values values = {0};
+    json_trace trace = {0};
     ffd_status status = check_kind(ffd_cursor_top(file));
     const json_cursor parameters = ffd_cursor_member(ffd_cursor_top(file), "parameters");
     if (!status && ffd_cursor_exists(parameters))
         status = ffd_spec_parse_parameters(parameters, spec);
     if (!status)
         status = ffd_spec_set(file, ffd_json_span_member(file->tree, 0, "moves"), settings, spec, &values);
+    if (settings->derives)
+        file->trace = &trace;
     if (!status)
         status = read_root(ffd_cursor_top(file), values.open.count == 0, spec);
+    if (!status && settings->derives)
+        status = ffd_spec_make_seeds(file, &values.origins, spec);
+    file->trace = NULL;
+    ffd_free(trace.entries);
     spec->open = values.open;
     values.open = (intern_table){0};
     ffd_spec_values_free(&values);

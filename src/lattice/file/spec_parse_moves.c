@@ -4,6 +4,7 @@
 #include "base/vector/direction.h"
 #include "lattice/file/spec_values.h"
 #include <stdio.h>
+#include <string.h>
 
 #define COUNT_OF(array) (sizeof(array) / sizeof *(array))
 
@@ -95,8 +96,9 @@ static ffd_status read_factor(json_cursor cursor, double factor[3])
 {
     if (ffd_cursor_is(cursor, JSON_ARRAY))
         return ffd_json_read_doubles(cursor, 3, factor);
-    const ffd_status status = ffd_json_read_double(cursor, &factor[0]);
-    factor[1] = factor[2] = factor[0];
+    ffd_status status = FFD_OK;
+    for (int c = 0; c < 3 && !status; c++)
+        status = ffd_json_read_double(cursor, &factor[c]);
     return status;
 }
 
@@ -112,6 +114,14 @@ static ffd_status read_scale(json_cursor cursor, lattice_move *move)
     return status ? status : read_about(cursor, move);
 }
 
+/* An axis as it is written, of one that was read. */
+static ffd_status read_raw_axis(json_cursor object, const char *key, const double axis[3], double raw[3])
+{
+    const json_cursor member = ffd_cursor_member(object, key);
+    memcpy(raw, axis, 3 * sizeof *raw);
+    return ffd_cursor_is(member, JSON_ARRAY) ? ffd_json_read_doubles(member, 3, raw) : FFD_OK;
+}
+
 /* An axis, in a bend the direction "toward", an amount under this key, "about". */
 static ffd_status read_axial(json_cursor cursor, const char *const *known, size_t count, const char *amount,
                              lattice_move *move)
@@ -119,8 +129,12 @@ static ffd_status read_axial(json_cursor cursor, const char *const *known, size_
     ffd_status status = ffd_spec_read_object(cursor, known, count);
     if (!status)
         status = ffd_spec_read_axis(cursor, "axis", move->axis);
+    if (!status)
+        status = read_raw_axis(cursor, "axis", move->axis, move->raw_axis);
     if (!status && move->action == MOVE_BEND)
         status = ffd_spec_read_axis(cursor, "toward", move->vector);
+    if (!status && move->action == MOVE_BEND)
+        status = read_raw_axis(cursor, "toward", move->vector, move->raw_toward);
     if (!status)
         status = ffd_json_member_double(cursor, amount, &move->amount);
     return status ? status : read_about(cursor, move);
@@ -262,6 +276,8 @@ static ffd_status read_axis_falloff(json_cursor cursor, move_falloff *falloff)
 {
     falloff->kind = FALLOFF_AXIS;
     ffd_status status = ffd_spec_read_axis(cursor, "axis", falloff->axis);
+    if (!status)
+        status = read_raw_axis(cursor, "axis", falloff->axis, falloff->raw_axis);
     if (!status)
         status = ffd_json_member_double(cursor, "from", &falloff->from);
     if (!status)

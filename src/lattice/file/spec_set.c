@@ -189,13 +189,16 @@ static ffd_status add_substitute(const json_file *file, uint32_t value, const js
 
 /* Fills the placeholder at value v of the file, or notes that it is open. */
 static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_settings *settings,
-                       const lattice_spec *spec, spec_values *values)
+                       lattice_spec *spec, spec_values *values)
 {
     spec_placeholder placeholder = {0};
     const json_span *value = NULL;
     ffd_status status = read_placeholder((json_cursor){file, file->tree, v, JSON_NONE}, text, &placeholder);
     if (!status)
         status = find_value(&placeholder, settings, spec, values, &value);
+    if (!status && value && settings->derives)
+        status = ffd_spec_add_origin(file, (spec_origin){.value = v, .factor = placeholder.factor},
+                                     placeholder.name, value, spec, &values->origins);
     if (!status && value && placeholder.factor != 1)
         status = multiply(&placeholder, values, &value);
     if (!status)
@@ -204,8 +207,8 @@ static ffd_status fill(json_file *file, uint32_t v, uint32_t text, const spec_se
     return status;
 }
 
-ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings,
-                        const lattice_spec *spec, spec_values *values)
+ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, lattice_spec *spec,
+                        spec_values *values)
 {
     const json_span *const tree = file->tree;
     const uint32_t end = moves == JSON_NONE ? 0 : tree->values[moves].next;
@@ -243,6 +246,7 @@ void ffd_spec_values_free(spec_values *values)
     ffd_free(values->products);
     ffd_free(values->values);
     ffd_free(values->substitutes);
+    ffd_free(values->origins.origins);
     ffd_intern_free(&values->open);
     *values = (spec_values){0};
 }

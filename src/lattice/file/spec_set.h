@@ -3,8 +3,7 @@
 #ifndef FFD_LATTICE_SPEC_SET_H
 #define FFD_LATTICE_SPEC_SET_H
 
-#include "lattice/spec.h"
-#include "json/json_reader.h"
+#include "lattice/file/spec_seeds.h"
 #include "json/json_setting.h"
 
 /* A value times a number. */
@@ -21,7 +20,8 @@ typedef struct spec_values {
     size_t substitute_count, substitute_capacity;
     spec_product **products; /* of placeholders with a factor */
     size_t product_count, product_capacity;
-    intern_table open; /* names of placeholders without a value */
+    spec_origins origins; /* of placeholders, where the settings ask for what comes from them */
+    intern_table open;    /* names of placeholders without a value */
 } spec_values;
 
 /* Makes the file's readers read these values, or the defaults of the spec's parameters, instead of the
@@ -29,8 +29,8 @@ typedef struct spec_values {
    that are used. The values must outlive the reading; free them after a failure too. Errors: FFD_E_INVALID
    for a placeholder without a value (unless the settings allow it) and for a value outside its bounds,
    FFD_E_MEMORY. */
-ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings,
-                        const lattice_spec *spec, spec_values *values);
+ffd_status ffd_spec_set(json_file *file, uint32_t moves, const spec_settings *settings, lattice_spec *spec,
+                        spec_values *values);
 /* Writes a message that these placeholders (at least one) have no values. */
 void ffd_spec_describe_open(const intern_table *open, char *text, size_t capacity);
 /* Adds the names of a file's placeholders that have no value. Errors: those of ffd_lattice_load_rest. */

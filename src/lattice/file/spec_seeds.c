@@ -1,0 +1,101 @@
+#include "lattice/file/spec_seeds.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include <string.h>
+
+/* Whether a value is a number or an array of numbers. */
+static bool is_numbers(const json_span *tree)
+{
+    double number;
+    if (ffd_json_span_number(tree, 0, &number))
+        return true;
+    bool all = tree->values[0].kind == JSON_ARRAY;
+    for (uint32_t v = 1; v < tree->count && all; v++)
+        all = ffd_json_span_number(tree, v, &number);
+    return all;
+}
+
+static ffd_status fill_variable(const json_file *file, const char *name, const json_span *tree,
+                                spec_variable *variable)
+{
+    *variable = (spec_variable){.name = ffd_text_copy(name), .is_array = tree->values[0].kind == JSON_ARRAY};
+    const size_t first = variable->is_array, size = is_numbers(tree) ? tree->count - first : 0;
+    variable->numbers = ffd_alloc(size, sizeof *variable->numbers);
+    if (!variable->name || !variable->numbers)
+        return ffd_fail_memory(file->error);
+    variable->size = size;
+    for (size_t i = 0; i < size; i++)
+        ffd_json_span_number(tree, (uint32_t)(first + i), &variable->numbers[i]);
+    return FFD_OK;
+}
+
+ffd_status ffd_spec_add_origin(const json_file *file, spec_origin origin, const char *name,
+                               const json_span *tree, lattice_spec *spec, spec_origins *origins)
+{
+    for (origin.variable = 0; origin.variable < spec->variable_count; origin.variable++)
+        if (strcmp(spec->variables[origin.variable].name, name) == 0)
+            break;
+    if (!ffd_grow((void **)&origins->origins, &origins->capacity, origins->count + 1,
+                  sizeof *origins->origins))
+        return ffd_fail_memory(file->error);
+    origins->origins[origins->count++] = origin;
+    if (origin.variable < spec->variable_count)
+        return FFD_OK;
+    spec_variable *const more =
+        ffd_realloc(spec->variables, spec->variable_count + 1, sizeof *spec->variables);
+    if (!more)
+        return ffd_fail_memory(file->error);
+    spec->variables = more;
+    return fill_variable(file, name, tree, &more[spec->variable_count++]);
+}
+
+static json_cursor cursor_at(const json_file *file, uint32_t value)
+{
+    return (json_cursor){file, file->tree, value, JSON_NONE};
+}
+
+/* Whether a number selects points. */
+static bool selects(size_t offset)
+{
+    const size_t first = offsetof(lattice_move, within_min), last = offsetof(lattice_move, within_max);
+    return offset >= first && offset < last + sizeof((lattice_move *)0)->within_max;
+}
+
+static ffd_status refuse(const json_file *file, const spec_origin *origin, const lattice_spec *spec)
+{
+    return ffd_cursor_fail(cursor_at(file, origin->value),
+                           "there is no derivative by \"%.60s\": here it is not a number that moves points",
+                           spec->variables[origin->variable].name);
+}
+
+static ffd_status add_seed(const json_file *file, const spec_origin *origin, const json_trace_entry *entry,
+                           lattice_spec *spec)
+{
+    const size_t at = (size_t)((const char *)entry->number - (const char *)spec->moves);
+    const spec_variable *const variable = &spec->variables[origin->variable];
+    const spec_seed seed = {at / sizeof *spec->moves, at % sizeof *spec->moves, origin->variable,
+                            entry->value - variable->is_array, origin->factor};
+    if (variable->size == 0 || selects(seed.offset))
+        return refuse(file, origin, spec);
+    spec->seeds[spec->seed_count++] = seed;
+    return FFD_OK;
+}
+
+ffd_status ffd_spec_make_seeds(const json_file *file, const spec_origins *origins, lattice_spec *spec)
+{
+    const json_trace *const trace = file->trace;
+    ffd_status status = FFD_OK;
+    spec->seeds = ffd_alloc(trace->count, sizeof *spec->seeds);
+    if (!spec->seeds)
+        return ffd_fail_memory(file->error);
+    for (size_t i = 0; i < origins->count && !status; i++) {
+        const spec_origin *const origin = &origins->origins[i];
+        const size_t before = spec->seed_count;
+        for (size_t t = 0; t < trace->count && !status; t++)
+            if (trace->entries[t].replaced == origin->value)
+                status = add_seed(file, origin, &trace->entries[t], spec);
+        if (!status && spec->seed_count == before)
+            status = refuse(file, origin, spec);
+    }
+    return status;
+}

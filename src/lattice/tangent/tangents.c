@@ -1,0 +1,172 @@
+#include "lattice/tangent/tangents.h"
+#include "base/memory/memory.h"
+#include "base/vector/trig.h"
+#include "lattice/build.h"
+#include "lattice/move_exact.h"
+#include "lattice/tangent/move_tangent.h"
+#include <string.h>
+
+/* What goes along with the moves of a lattice. */
+typedef struct tangent_work {
+    const lattice_spec *spec;
+    lattice_tangents *tangents;
+    size_t count;         /* control points */
+    lattice_move *seeded; /* one a column: the derivatives of the numbers of the move at hand */
+    dual_move *moves;     /* one a column; kept for the mirror image of a move */
+    dual *parts, *halves; /* one a layer of an exact bend */
+} tangent_work;
+
+size_t ffd_spec_column_count(const lattice_spec *spec)
+{
+    size_t columns = 0;
+    for (size_t i = 0; i < spec->variable_count; i++)
+        columns += spec->variables[i].size;
+    return columns;
+}
+
+static size_t first_column(const lattice_spec *spec, size_t variable)
+{
+    size_t column = 0;
+    for (size_t i = 0; i < variable; i++)
+        column += spec->variables[i].size;
+    return column;
+}
+
+/* The derivatives of the numbers of one move by each column. */
+static void seed_move(tangent_work *work, size_t number)
+{
+    memset(work->seeded, 0, work->tangents->columns * sizeof *work->seeded);
+    for (size_t i = 0; i < work->spec->seed_count; i++) {
+        const spec_seed *const seed = &work->spec->seeds[i];
+        if (seed->move != number)
+            continue;
+        const size_t column = first_column(work->spec, seed->variable) + seed->component;
+        double value;
+        char *const at = (char *)&work->seeded[column] + seed->offset;
+        memcpy(&value, at, sizeof value);
+        value += seed->factor;
+        memcpy(at, &value, sizeof value);
+    }
+}
+
+static double *points_of(const tangent_work *work, size_t column)
+{
+    return work->tangents->points + column * 3 * work->count;
+}
+
+/* Where the layers of an exact bend are on its arc, as parts of the whole angle. */
+static void find_parts(const tangent_work *work, const dual_move *move, const exact_layers *layers,
+                       size_t column)
+{
+    const double *const points = points_of(work, column);
+    for (size_t layer = layers->first; layer <= layers->last; layer++) {
+        const size_t point = layer * layers->step;
+        work->parts[layer] = dual_div(
+            dual_sub(ffd_dual_move_along(move, point, points + 3 * point), move->first), move->length);
+    }
+    for (size_t layer = layers->first + 1; layer < layers->last; layer += 2) {
+        const dual before = work->parts[layer - 1], after = work->parts[layer + 1];
+        work->halves[layer] = dual_scale(dual_sub(after, before), 0.5);
+        work->parts[layer] = dual_add(before, work->halves[layer]);
+    }
+}
+
+/* The weight of a point between joints gets the factor cos h: h = half the angle of its arc. */
+static void bend_weight(const tangent_work *work, const dual_move *move, size_t point, dual half,
+                        size_t column)
+{
+    const double *const weights = move->step->lattice->deformed_weights;
+    const double radians = 3.14159265358979323846 / 180;
+    double *const d = work->tangents->weights + column * work->count + point;
+    const dual degrees = dual_mul(move->amount, half);
+    double sine_of_half, cosine_of_half;
+    ffd_sincos_degrees(degrees.v, &sine_of_half, &cosine_of_half);
+    const dual cosine = {cosine_of_half, -sine_of_half * radians * degrees.d};
+    *d = dual_mul((dual){weights ? weights[point] : 1, *d}, cosine).d;
+}
+
+static void bend_exactly(const tangent_work *work, const dual_move *move, size_t column)
+{
+    const move_step *const step = move->step;
+    const exact_bend bend = {step->lattice, step->selected, step->ready, step->plane, ""};
+    const exact_layers layers = ffd_move_exact_layers(&bend);
+    const size_t size = step->lattice->size[layers.direction];
+    if (!(move->length.v > 0))
+        return;
+    find_parts(work, move, &layers, column);
+    for (size_t i = 0; i < work->count; i++) {
+        const size_t layer = i / layers.step % size;
+        const bool between = (layer - layers.first) % 2 == 1;
+        if (!step->selected[i])
+            continue;
+        ffd_dual_move_point(move, i, &work->parts[layer], between ? &work->halves[layer] : NULL,
+                            points_of(work, column) + 3 * i);
+        if (between)
+            bend_weight(work, move, i, work->halves[layer], column);
+    }
+}
+
+static ffd_status see(void *context, const move_step *step, ffd_error *error)
+{
+    tangent_work *const work = context;
+    (void)error;
+    if (!step->plane)
+        seed_move(work, step->number);
+    for (size_t column = 0; column < work->tangents->columns; column++) {
+        dual_move *const move = &work->moves[column];
+        double *const points = points_of(work, column);
+        if (!step->plane)
+            ffd_dual_move_make(step, &work->seeded[column], points, move);
+        move->step = step;
+        if (step->move->exact) {
+            bend_exactly(work, move, column);
+            continue;
+        }
+        for (size_t i = 0; i < work->count; i++)
+            if (step->selected[i])
+                ffd_dual_move_point(move, i, NULL, NULL, points + 3 * i);
+    }
+    return FFD_OK;
+}
+
+static ffd_status make(const ffd_lattice *lattice, tangent_work *work, ffd_error *error)
+{
+    lattice_tangents *const tangents = work->tangents;
+    size_t numbers, layers = 0;
+    for (int a = 0; a < 3; a++)
+        layers = lattice->size[a] > layers ? lattice->size[a] : layers;
+    if (!ffd_multiply_size(tangents->columns, 3 * work->count, &numbers))
+        return ffd_fail_memory(error);
+    tangents->points = ffd_alloc_zero(numbers, sizeof *tangents->points);
+    tangents->weights =
+        ffd_spec_has_exact(work->spec) ? ffd_alloc_zero(numbers / 3, sizeof *tangents->weights) : NULL;
+    work->seeded = ffd_alloc(tangents->columns, sizeof *work->seeded);
+    work->moves = ffd_alloc(tangents->columns, sizeof *work->moves);
+    work->parts = ffd_alloc(layers, sizeof *work->parts);
+    work->halves = ffd_alloc(layers, sizeof *work->halves);
+    return tangents->points && (tangents->weights || !ffd_spec_has_exact(work->spec)) && work->seeded &&
+                   work->moves && work->parts && work->halves
+               ? FFD_OK
+               : ffd_fail_memory(error);
+}
+
+ffd_status ffd_lattice_tangents_find(const ffd_lattice *lattice, lattice_tangents *tangents, ffd_error *error)
+{
+    tangent_work work = {.spec = lattice->spec, .tangents = tangents, .count = lattice->count};
+    *tangents = (lattice_tangents){.columns = ffd_spec_column_count(lattice->spec)};
+    ffd_status status = make(lattice, &work, error);
+    if (!status)
+        status = ffd_lattice_replay(lattice, &(move_observer){see, &work}, error);
+    ffd_free(work.seeded);
+    ffd_free(work.moves);
+    ffd_free(work.parts);
+    ffd_free(work.halves);
+    return status;
+}
+
+void ffd_lattice_tangents_free(lattice_tangents *tangents)
+{
+    ffd_free(tangents->points);
+    ffd_free(tangents->weights);
+    *tangents = (lattice_tangents){0};
+}
