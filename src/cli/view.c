@@ -1,5 +1,6 @@
 /* view.c - ffd view: a page or a picture that shows a mesh before and after. */
 #include "base/file/folder.h"
+#include "base/file/path.h"
 #include "cli/job.h"
 #include <string.h>
 
@@ -157,6 +158,20 @@ static const char *mistake_of_files(const settings *s, const cli_words *words)
     return cli_job_option_mistake(&s->job, words, words->count);
 }
 
+/* An option of the other kind of output would do nothing. */
+static const char *mistake_of_kind(const settings *s)
+{
+    const bool is_picture = ffd_path_has_ending(s->output, ".png"),
+               is_page = ffd_path_has_ending(s->output, ".html") || ffd_path_has_ending(s->output, ".htm");
+    if (is_picture && s->full)
+        return "--full is of a page, and the output is a picture";
+    if (is_page && s->size[0])
+        return "--size is of a picture, and the output is a page";
+    if (is_page && s->frames)
+        return "--frames is of a picture, and the output is a page";
+    return NULL;
+}
+
 static const char *mistake(const settings *s, const cli_words *words)
 {
     if (words->count == 0)
@@ -165,6 +180,9 @@ static const char *mistake(const settings *s, const cli_words *words)
         return "takes IN and one OUT-MESH at most";
     if (!s->output)
         return "no output is given (-o FILE.html or FILE.png)";
+    const char *const why = mistake_of_kind(s);
+    if (why)
+        return why;
     if (words->count == 2 || s->job.lattice_count == 0)
         return mistake_of_files(s, words);
     if (s->job.report && ffd_paths_meet(s->job.report, s->output))

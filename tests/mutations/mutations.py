@@ -353,6 +353,7 @@ m("lattice-as-large-as-it-is", "bound", "cli_view", "#define REACH 2.0", "#defin
 m("panels-all-kept", "freed resource", "view", "view_palette own;\n    free_step(w);", "view_palette own;")
 m("lost-image-in-its-colour", "check left out", "cli_view", "const bool is_lost = from->image == MATERIAL_LOST || (of && of->level_count == 0);",
   "const bool is_lost = of && of->level_count == 0;")
+m("size-of-a-page", "check left out", "cli_view", "if (is_page && s->size[0])", "if (is_page && s->size[0] > 40000)")
 m("own-texture-replaced", "check left out", "cli_view", "is_named = ffd_file_same(files.paths[i], output);", "is_named = false;")
 m("other-spelling-of-out", "check left out", "cli_output", "const bool meet = here && there && (strcmp(here, there) == 0 || ffd_file_same(here, there));",
   "const bool meet = here && there && strcmp(a, b) == 0;")
