@@ -286,6 +286,7 @@ def uneven_scales_turn_with_their_parents(run):
     done, _, follow = both(run, grouped, RIGID)
     moves_as(Posed(run.read("a.glb")), follow, rigid)
     not_told(done, "scaled unevenly")
+    equal(follow.nodes[5], grouped.asset["nodes"][5], "a mesh with a skin is seen elsewhere")
 
 
 @case

@@ -963,8 +963,8 @@ m("rig-singular", "check left out", "cli_rig", "w->singular[n] = is_below || !ha
   "w->singular[n] = is_below || (!has_inverse(w->document->world + 12 * n) && !place);")
 m("rig-below-what-moves", "condition", "cli_rig", "const bool is_below_changed = p != GLTF_NONE && w->changed[p];",
   "const bool is_below_changed = p != GLTF_NONE && w->changed[p] && place->kinds;")
-m("rig-uneven-groups-stay", "left out", "cli_rig", "place->kinds || has_own(d, n) || is_uneven(d->world + 12 * n)",
-  "place->kinds || has_own(d, n) || (chosen && n > 99 && is_uneven(d->world + 12 * n))")
+m("rig-uneven-groups-stay", "left out", "cli_rig", "place->kinds || has_own(d, n) || is_uneven(d, n)",
+  "place->kinds || has_own(d, n) || (chosen && n > 99 && is_uneven(d, n))")
 m("rig-part-of-a-mesh", "check left out", "cli_rig", "place->stays = !chosen || instanced || place->partial;",
   "place->stays = !chosen || instanced;")
 m("rig-not-selected", "check left out", "cli_rig", "place->stays = !chosen || instanced || place->partial;",
