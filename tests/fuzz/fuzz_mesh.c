@@ -29,6 +29,7 @@ typedef struct trial {
     ffd_format format;
     ffd_space space;
     ffd_normals normals;
+    ffd_rig rig;
     bool is_quantized;          /* some positions of the input are whole numbers */
     const char *input, *output; /* names in the work folder */
     char lattice[WORK_PATH];
@@ -222,6 +223,7 @@ static bool deform(const trial *of, mesh_document *document, uint64_t *moved)
     desc.lattices = lattices;
     desc.lattice_count = 1;
     desc.normals = of->normals;
+    desc.rig = of->rig;
     desc.threads = 1;
     ffd_status status = ffd_deform_job_begin(&job, &desc, false, &result);
     job.document = document;
@@ -412,6 +414,11 @@ void fuzz_mesh(ffd_format format, const uint8_t *data, size_t size)
         size = (size_t)(end - data);
     }
     run(&of, data, size);
+    if (is_gltf(format)) {
+        of.rig = FFD_RIG_FOLLOW;
+        run(&of, data, size);
+        of.rig = FFD_RIG_KEEP;
+    }
     of.space = FFD_SPACE_MESH;
     of.normals = is_gltf(format) ? FFD_NORMALS_TRANSFORM : FFD_NORMALS_KEEP;
     run(&of, data, size);

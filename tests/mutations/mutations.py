@@ -625,11 +625,12 @@ m("obj-name-joins-lines", "format", "cli_convert", "(*c == '\\\\' && !c[1]);", "
 
 # job
 
-m("behind-out-of-reach", "check left out", "cli_stays_behind", "if (run->outcomes[i].moved)", "if (run->outcomes[i].located)")
+m("behind-out-of-reach", "check left out", "cli_stays_behind", "if (move->moves && stays)", "if (stays)")
 m("behind-a-name-cut", "operation", "cli_stays_behind", "((unsigned char)name[length] & 0xc0) == 0x80",
   "((unsigned char)name[length] & 0xc0) == 0xc0")
-m("behind-a-morph", "check left out", "cli_stays_behind", "job->totals.moved == 0 || job->desc->as_morph",
-  "job->totals.moved == 0")
+m("behind-a-morph", "check left out", "cli_stays_behind",
+  "return !job->desc->as_morph && (!job->document->converted || job->details);",
+  "return !job->document->converted || job->details;")
 m("splats-moved", "figure", "cli_stays_behind, job", "totals->splats_moved += moved;", "totals->splats_moved = moved;")
 m("report-rms", "figure", "cli_deform",
   'ffd_json_number(json, "rms", result->residual_rms);', 'ffd_json_number(json, "rms", result->residual_max);')
@@ -947,3 +948,49 @@ m("texture-of-a-broken-image", "colour left out", "cli_view", "to->alpha_cutoff 
 m("frames-of-any-number", "limit left out", "view", "if (frames == 1 || frames > VIEW_FRAMES)", "if (frames == 1)")
 m("picture-not-said", "result left out", "cli_view", "result->picture = desc->output;", "result->picture = NULL;")
 m("tears-in-the-first-picture", "condition", "cli_view", "if (!status && share > 0) status = add_marks", "if (!status)\n        status = add_marks")
+
+# rigs that follow
+
+m("polar-of-a-mirror", "check left out", "polar", "if (ffd_mat_is_singular(x, &det) || !(det > 0)) return false;",
+  "if (ffd_mat_is_singular(x, &det)) return false;")
+m("polar-not-scaled", "operation", "polar", "const double scale = sqrt(sqrt(square_sum(inverse) / square_sum(x)));",
+  "const double scale = sqrt(sqrt(square_sum(x) / square_sum(inverse)));")
+m("polar-noise-kept", "threshold", "polar, cli_rig", "#define ROUNDING 1e-12", "#define ROUNDING 0.0")
+m("quaternion-of-half-a-turn", "selection", "polar", "if (squares[i] > squares[most]) most = i;",
+  "if (squares[i] < squares[most]) most = i;")
+m("rig-offset-noise-written", "threshold", "cli_rig", "if (fabs(offset[a] - old[a]) <= rounding)", "if (fabs(offset[a] - old[a]) < 0 * rounding)")
+m("rig-sheared", "check left out", "cli_rig", "const bool shears = would_shear(g);", "const bool shears = would_shear(g) && n == SIZE_MAX;")
+m("rig-singular", "check left out", "cli_rig", "w->singular[n] = is_below || !has_inverse(w->document->world + 12 * n);",
+  "w->singular[n] = is_below || (!has_inverse(w->document->world + 12 * n) && !place);")
+m("rig-below-what-moves", "condition", "cli_rig", "const bool is_below_changed = p != GLTF_NONE && w->changed[p];",
+  "const bool is_below_changed = p != GLTF_NONE && w->changed[p] && place->kinds;")
+m("rig-uneven-groups-stay", "left out", "cli_rig", "place->kinds || has_own(d, n) || is_uneven(d, n)",
+  "place->kinds || has_own(d, n) || (chosen && n > 99 && is_uneven(d, n))")
+m("rig-part-of-a-mesh", "check left out", "cli_rig", "place->stays = !chosen || instanced || place->partial;",
+  "place->stays = !chosen || instanced;")
+m("rig-not-selected", "check left out", "cli_rig", "place->stays = !chosen || instanced || place->partial;",
+  "place->stays = instanced || place->partial;")
+m("rig-similarity-without-scale", "operation", "cli_rig",
+  "ffd_mat_rotation(f, rotation) ? ffd_cube_root(mat_determinant(f)) : 1", "ffd_mat_rotation(f, rotation) ? 1 : 1")
+m("rig-similarity-left-out", "call left out", "cli_rig", "if (shown[s] && !partial[s] && first != SIZE_MAX)",
+  "if (shown[s] && partial[s] && first != SIZE_MAX)")
+m("rig-binds-of-all-skins-in-place", "share", "cli_rig", "if (known && number < rig->content_count)", "if (known && rig->content_count)")
+m("rig-normals-not-carried", "left out", "cli_rig", "if (gradients) ffd_part_carry_gradient(work->part, scratch->gradient + 9 * i);", "(void)gradients;")
+m("rig-targets-not-carried", "left out", "cli_rig", "if (work->part->part->carried) carry(work, k, gradients);",
+  "if (work->part->part->carried && k > 99) carry(work, k, gradients);")
+m("rig-recomputed-normals-not-carried", "left out", "cli_rig", "if (part->carried) carry_direction(part, n);",
+  "if (part->carried && n[0] > 2) carry_direction(part, n);")
+m("rig-translation-not-of-the-rest", "operation", "cli_rig", "from[a] = value[a] - (is_tangent ? 0 : key->rest[a]);", "from[a] = value[a];")
+m("rig-tangents-as-values", "operation", "cli_rig", "const bool is_tangent = key->cubic && i % 3 != 1;", "const bool is_tangent = key->cubic && i % 3 == 5;")
+m("rig-sampler-of-several-channels", "share", "cli_rig", "if (change->contents[own] == content) return true;", "if (taken[own]) return true;")
+m("rig-outputs-overwritten", "left out", "cli_rig", "if (!change->contents || change->contents[s] == GLTF_NONE) mark(animation->samplers[s].output, used);",
+  "(void)change;")
+m("rig-values-not-counted", "limit left out", "cli_rig", "ffd_budget_take(rig->budget, content->count, size, error)",
+  "ffd_budget_take(rig->budget, 0, size, error)")
+m("rig-left-for-the-next-job", "clean-up left out", "rig", "ffd_gltf_free_rig((gltf_document *)document); return ffd_gltf_begin_results(",
+  "return ffd_gltf_begin_results(")
+m("rig-lag-of-cameras", "selection", "cli_stays_behind, cli_rig", "const double lag = kinds & OF_THE_RIG ? ffd_rig_lag(&rig->moves[i], diagonal) : 0;",
+  "const double lag = ffd_rig_lag(&rig->moves[i], diagonal);")
+m("rig-small-lags-said", "threshold", "cli_rig", "#define LAG_SAID 1e-3", "#define LAG_SAID 1e-6")
+m("rig-by-a-morph", "check left out", "rig", "desc->rig == FFD_RIG_FOLLOW && (desc->as_morph || desc->input.space == FFD_SPACE_MESH)",
+  "desc->rig == FFD_RIG_FOLLOW && desc->input.space == FFD_SPACE_MESH")

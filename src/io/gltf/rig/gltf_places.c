@@ -177,12 +177,13 @@ static bool has_own(const gltf_document *d, size_t n)
 /* Off a scale that is the same in all directions, as a part of it. */
 #define UNEVEN 1e-6
 
-/* Whether the world matrix of a node stretches more in some directions than in others: M^T M is no multiple
-   of the identity. */
-static bool is_uneven(const double m[9])
+/* Whether there are nodes below one whose world matrix stretches more in some directions than in others: M^T
+   M is no multiple of the identity. */
+static bool is_uneven(const gltf_document *d, size_t n)
 {
+    const double *const m = d->world + 12 * n;
     const double square = (vec_dot(m, m) + vec_dot(m + 3, m + 3) + vec_dot(m + 6, m + 6)) / 3;
-    for (int r = 0; r < 3; r++)
+    for (int r = 0; r < 3 && d->model.nodes[n].child_count > 0; r++)
         for (int c = 0; c <= r; c++) {
             const double sum = m[r] * m[c] + m[3 + r] * m[3 + c] + m[6 + r] * m[6 + c];
             if (fabs(sum - (r == c ? square : 0)) > UNEVEN * square)
@@ -200,7 +201,7 @@ static bool is_anchor(const survey *s, size_t n, mesh_place *place)
     if (!(s->nodes[n] & IS_SHOWN))
         return false;
     place->kinds = kinds_of(s, n);
-    const bool follows = place->kinds || has_own(d, n) || is_uneven(d->world + 12 * n);
+    const bool follows = place->kinds || has_own(d, n) || is_uneven(d, n);
     place->partial = chosen && d->model.nodes[n].skin < 0 && (s->nodes[n] & parts) == parts;
     place->stays = !chosen || instanced || place->partial;
     if (!chosen)

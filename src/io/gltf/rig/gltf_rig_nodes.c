@@ -175,38 +175,48 @@ static void note_motion(const double g[9], const double turn[4], const double al
     memcpy(motion->carry, along, sizeof motion->carry);
 }
 
-/* Moves a node that has a place, below parents that are done. */
-static void move_node(const node_walk *w, size_t n, const target *t)
+static bool is_finite(const double *values, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            return false;
+    return true;
+}
+
+/* Moves a node that has a place, below parents that are done. False: its transform would not be finite, and
+   it keeps its own. */
+static bool move_node(const node_walk *w, size_t n, const target *t)
 {
     const size_t p = w->document->parents[n];
     const gltf_node *const node = &w->document->model.nodes[n];
     const double *const parent = made_of(w, p);
     gltf_moved_node made = {.node = n};
     double inverse[9], g[9], along[9], rotation[9], turn[4], linear[9], old[3], offset[3];
-    if (!mat_invert(parent, inverse)) {
-        carry_along(w, n);
-        return;
-    }
+    if (!mat_invert(parent, inverse))
+        return false;
     conjugate(inverse, t->turn, world_of(w, p), g);
     conjugate(inverse, t->gradient, world_of(w, p), along);
     const bool shears = would_shear(g);
     if (shears || ffd_mat_is_near_identity(g, TURN_ROUNDING))
         memcpy(g, identity, sizeof g);
-    w->following->sheared += shears;
     ffd_mat_rotation(g, rotation);
     ffd_mat_quaternion(rotation, turn);
     ffd_gltf_local_matrix(node, linear, old);
     made.translates = find_offset(parent, inverse, t->place, old, offset);
     made.rotates = !ffd_mat_is_near_identity(g, 0);
     set_local(node, g, turn, offset, &made);
+    join_world(w, n, made.translates || made.rotates ? &made : NULL);
+    if (!is_finite(offset, 3) || !is_finite(along, 9) || !is_finite(made_of(w, n), 12))
+        return false;
+    w->following->sheared += shears;
     note_motion(g, turn, along, &w->rig->motions[n]);
     if (made.translates || made.rotates) {
         w->rig->motions[n].moved = w->rig->node_count;
         w->rig->nodes[w->rig->node_count++] = made;
         w->following->written++;
     }
-    join_world(w, n, made.translates || made.rotates ? &made : NULL);
     w->changed[n] = memcmp(made_of(w, n), world_of(w, n), sizeof identity) != 0;
+    return true;
 }
 
 static void do_node(const node_walk *w, size_t n)
@@ -214,19 +224,19 @@ static void do_node(const node_walk *w, size_t n)
     const size_t p = w->document->parents[n];
     const mesh_place *const place = w->places[n];
     const bool is_below = p != GLTF_NONE && w->singular[p];
+    bool is_tried = false;
     w->singular[n] = is_below || !has_inverse(w->document->world + 12 * n);
     w->states[n] = IS_DONE;
     w->following->partial += place && place->partial;
-    if (!place || w->singular[n]) {
-        w->following->singular += place && w->moves[n]->moves;
-        carry_along(w, n);
-    } else {
+    if (place && !w->singular[n]) {
         const target t = find_target(place, w->moves[n]);
-        if (is_still(place, &t) && !(p != GLTF_NONE && w->changed[p]))
-            carry_along(w, n);
-        else
-            move_node(w, n, &t);
+        const bool is_below_changed = p != GLTF_NONE && w->changed[p];
+        is_tried = !is_still(place, &t) || is_below_changed;
+        w->singular[n] = is_tried && !move_node(w, n, &t);
     }
+    w->following->singular += place && w->singular[n] && w->moves[n]->moves;
+    if (!is_tried || w->singular[n])
+        carry_along(w, n);
     if (place)
         memcpy(w->moves[n]->became, w->rig->world + 12 * n + 9, sizeof w->moves[n]->became);
 }

@@ -72,6 +72,8 @@ static void find_similarity(const mesh_place *place, const mesh_place_move *move
     for (int i = 0; i < 9; i++)
         f[i] = still.linear[i] + move->gradient[i];
     const double scale = ffd_mat_rotation(f, rotation) ? ffd_cube_root(mat_determinant(f)) : 1;
+    if (!(scale > 0) || !isfinite(scale) || !isfinite(1 / scale))
+        return;
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++) {
             similarity->linear[3 * r + c] = scale * rotation[3 * r + c];

@@ -1,0 +1,186 @@
+/* test_rig.c - a rig that follows, through the library: its figures, memory that ends anywhere, and jobs that
+   share its mesh. */
+#define _XOPEN_SOURCE 700 /* mkdtemp */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "../support/test_folder.h"
+#include "base/memory/memory.h"
+#include <ffd/job.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A triangle with two joints, hip and knee, and another one below the hip; all turn or shift. */
+static const char scene[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0, 1]}], \"nodes\": [{\"mesh\": 0, "
+    "\"skin\":"
+    " 0}, {\"name\": \"hip\", \"children\": [2, 3], \"translation\": [0.25, 0.25, 0]}, {\"name\": \"knee\","
+    " \"translation\": [0.5, 0.25, 0]}, {\"name\": \"box\", \"mesh\": 1, \"translation\": [0.25, 0, 0.5]}"
+    "], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0, \"JOINTS_0\": 1, \"WEIGHTS_0\": 2"
+    "}}]}, {\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}], \"skins\": [{\"joints\": [1, 2]}], \""
+    "animations\": [{\"samplers\": [{\"input\": 3, \"output\": 4}, {\"input\": 3, \"output\": 5}], \"channe"
+    "ls\": [{\"sampler\": 0, \"target\": {\"node\": 1, \"path\": \"rotation\"}}, {\"sampler\": 0, "
+    "\"target\": "
+    "{\"node\": 2, \"path\": \"rotation\"}}, {\"sampler\": 1, \"target\": {\"path\": \"pointer\", "
+    "\"extensions"
+    "\": {\"KHR_animation_pointer\": {\"pointer\": \"/nodes/3/translation\"}}}}]}], \"accessors\": [{\"bu"
+    "fferView\": 0, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\", \"min\": [0, 0, 0], \"max\": "
+    "[1, 1, 0]}, {\"bufferView\": 1, \"componentType\": 5121, \"count\": 3, \"type\": \"VEC4\"}, {\"buffer"
+    "View\": 2, \"componentType\": 5126, \"count\": 3, \"type\": \"VEC4\"}, {\"bufferView\": 3, \"component"
+    "Type\": 5126, \"count\": 2, \"type\": \"SCALAR\", \"min\": [0], \"max\": [1]}, {\"bufferView\": 4, \"com"
+    "ponentType\": 5126, \"count\": 2, \"type\": \"VEC4\"}, {\"bufferView\": 5, \"componentType\": 5126, \""
+    "count\": 2, \"type\": \"VEC3\"}], \"bufferViews\": [{\"buffer\": 0, \"byteOffset\": 0, \"byteLength\": "
+    "36}, {\"buffer\": 0, \"byteOffset\": 36, \"byteLength\": 12}, {\"buffer\": 0, \"byteOffset\": 48, \"b"
+    "yteLength\": 48}, {\"buffer\": 0, \"byteOffset\": 96, \"byteLength\": 8}, {\"buffer\": 0, \"byteOffs"
+    "et\": 104, \"byteLength\": 32}, {\"buffer\": 0, \"byteOffset\": 136, \"byteLength\": 24}], \"buffers"
+    "\": [{\"byteLength\": 160, \"uri\": \"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAP"
+    "wAAAAAAAAAAAAAAAAAAgD8AAAAAAAEAAAABAAAAAQAAAACAPwAAAAAAAAAAAAAAAAAAAD8AAAA/AAAAAAAAAAAAAAA"
+    "AAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAACamRk/zcxMPwAAAAAAAAAAAAAAAAAAA"
+    "AAAAIA+AAAAAA==\"}]}";
+
+static char mesh[64], lattice[64], output[64], kept[64];
+static const char *const lattices[] = {lattice};
+
+static int set_up(void **state)
+{
+    assert_int_equal(make_folder(state), 0);
+    put_text("a.gltf", scene);
+    put_text("l.json",
+             "{\"format\": \"ffd-lattice\", \"version\": 1, \"size\": [4, 4, 4], \"rest\": {\"box\": "
+             "{\"min\": [-1, -1, -1], \"max\": [2, 2, 2]}}, \"moves\": [{\"bend\": {\"axis\": \"y\", "
+             "\"toward\": [1, 0, 0], "
+             "\"degrees\": 60}}]}");
+    strcpy(mesh, in_folder("a.gltf"));
+    strcpy(lattice, in_folder("l.json"));
+    strcpy(output, in_folder("b.gltf"));
+    strcpy(kept, in_folder("c.gltf"));
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    unlink(output);
+    unlink(kept);
+    unlink(mesh);
+    unlink(lattice);
+    (void)state;
+    return rmdir(folder);
+}
+
+static ffd_deform_desc describe(ffd_rig rig)
+{
+    ffd_deform_desc desc;
+    ffd_deform_desc_init(&desc);
+    desc.input.path = mesh;
+    desc.output = output;
+    desc.lattices = lattices;
+    desc.lattice_count = 1;
+    desc.threads = 1;
+    desc.force = true;
+    desc.rig = rig;
+    return desc;
+}
+
+static void the_result_says_what_lags_and_what_follows(void **state)
+{
+    ffd_job_result result;
+    ffd_deform_desc desc = describe(FFD_RIG_KEEP);
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
+    assert_true(result.rig.is_there && result.rig.largest_lag > 0.01);
+    assert_int_equal(result.rig.joints, 2);
+    assert_int_equal(result.rig.moved, 0);
+    assert_int_equal(result.rig.lagging_skins, 1);
+    assert_int_equal(result.rig.lagging_pivots, 1);
+    assert_int_equal(result.rig.lagging_sockets, 0);
+    assert_true(result.rig.worst[0]);
+    desc.rig = FFD_RIG_FOLLOW;
+    assert_int_equal(ffd_check_run(&desc, &result, NULL), FFD_OK);
+    assert_int_equal(result.rig.moved, 3);
+    assert_true(result.rig.largest_lag == 0);
+    assert_string_equal(result.rig.worst, "");
+    (void)state;
+}
+
+static void memory_may_end_anywhere(void **state)
+{
+    const ffd_deform_desc desc = describe(FFD_RIG_FOLLOW);
+    long failures = 0;
+    (void)state;
+    for (ffd_status status = FFD_E_MEMORY; status; failures++) {
+        ffd_job_result result;
+        ffd_error error = {0};
+        ffd_alloc_fail_after(failures);
+        status = ffd_deform_run(&desc, &result, &error);
+        ffd_alloc_fail_after(-1);
+        if (status) {
+            assert_int_equal(status, FFD_E_MEMORY);
+            assert_non_null(strstr(error.message, "out of memory"));
+            assert_int_not_equal(access(output, F_OK), 0);
+        }
+    }
+    assert_true(failures > 60);
+}
+
+static long read_all(const char *path, char *text, size_t capacity)
+{
+    FILE *const file = fopen(path, "rb");
+    assert_non_null(file);
+    const size_t size = fread(text, 1, capacity, file);
+    fclose(file);
+    return (long)size;
+}
+
+/* A job that follows leaves nothing to the next one, which has the mesh from it and does not. */
+static void a_job_after_one_that_follows_is_as_alone(void **state)
+{
+    static char alone[1 << 16], after[1 << 16];
+    ffd_job_result result;
+    ffd_share *share;
+    (void)state;
+    for (int k = 0; k < 2; k++) {
+        const ffd_rig first = k ? FFD_RIG_KEEP : FFD_RIG_FOLLOW;
+        ffd_deform_desc desc = describe(first == FFD_RIG_KEEP ? FFD_RIG_FOLLOW : FFD_RIG_KEEP);
+        desc.output = kept;
+        assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+        const long size = read_all(kept, alone, sizeof alone);
+        assert_int_equal(ffd_share_create(&share, NULL), FFD_OK);
+        ffd_deform_desc before = describe(first);
+        before.share = desc.share = share;
+        assert_int_equal(ffd_deform_run(&before, &result, NULL), FFD_OK);
+        assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_OK);
+        ffd_share_destroy(&share);
+        assert_int_equal(read_all(kept, after, sizeof after), size);
+        assert_memory_equal(alone, after, (size_t)size);
+    }
+}
+
+static void what_cannot_follow_is_refused(void **state)
+{
+    ffd_job_result result;
+    ffd_deform_desc desc = describe(FFD_RIG_FOLLOW);
+    (void)state;
+    desc.as_morph = "x";
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_E_ARGUMENT);
+    desc.as_morph = NULL;
+    desc.input.space = FFD_SPACE_MESH;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_E_ARGUMENT);
+    desc.input.space = FFD_SPACE_SCENE;
+    desc.output_format = FFD_FORMAT_OBJ;
+    assert_int_equal(ffd_deform_run(&desc, &result, NULL), FFD_E_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_result_says_what_lags_and_what_follows),
+        cmocka_unit_test(memory_may_end_anywhere),
+        cmocka_unit_test(a_job_after_one_that_follows_is_as_alone),
+        cmocka_unit_test(what_cannot_follow_is_refused),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
