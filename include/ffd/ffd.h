@@ -8,6 +8,7 @@
 #include <ffd/export.h>
 #include <ffd/fold.h>
 #include <ffd/isa.h>
+#include <ffd/jacobian.h>
 #include <ffd/job.h>
 #include <ffd/lattice.h>
 #include <ffd/points.h>

@@ -5,14 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool add_lattice(void *context, const cli_option *option, const char *value)
+bool cli_add_lattice(void *context, const cli_option *option, const char *value)
 {
     cli_job *job = context;
     job->lattices[job->lattice_count] = NULL;
     return cli_set_text(&job->lattices[job->lattice_count++], option, value);
 }
 
-static bool add_selector(void *context, const cli_option *option, const char *value)
+bool cli_add_selector(void *context, const cli_option *option, const char *value)
 {
     cli_job *job = context;
     ffd_error error;
@@ -107,16 +107,16 @@ static bool add_gates(void *context, const cli_option *option, const char *value
 }
 
 /* In the order of the enums. */
-static const char *const outside_names[] = {"keep", "extend", "error", NULL};
+const char *const cli_outside_names[] = {"keep", "extend", "error", NULL};
 static const char *const normals_names[] = {"transform", "keep", "recompute", NULL};
-static const char *const isa_names[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
+const char *const cli_isa_names[] = {"auto", "scalar", "sse2", "avx2", "avx512", NULL};
 static const char *const rig_names[] = {"keep", "follow", NULL};
-static const char *const space_names[] = {"scene", "mesh", NULL};
+const char *const cli_space_names[] = {"scene", "mesh", NULL};
 
 #define AT(field) offsetof(cli_job, field)
 const cli_option cli_job_options[] = {
     {"lattice", 'l', "LATTICE", "lattice file; several act in this order, or with --blocks side by side",
-     add_lattice, 0, NULL},
+     cli_add_lattice, 0, NULL},
     {"set", 0, "NAME=VALUE",
      "value of the placeholder {\"$\": \"NAME\"} in the moves of a lattice; repeatable", cli_add_value,
      AT(values), NULL},
@@ -125,7 +125,7 @@ const cli_option cli_job_options[] = {
      AT(shares_box), NULL},
     {"outside", 0, "keep|extend|error",
      "vertices outside the lattice: stay, follow its border, or fail (exit 5); default keep", cli_set_choice,
-     AT(outside), outside_names},
+     AT(outside), cli_outside_names},
     {"falloff", 0, "R", "with --outside extend: the displacement fades to zero over this distance",
      cli_set_positive, AT(falloff), NULL},
     {"snap", 0, "D|Dr", CLI_SNAP, cli_set_distance, AT(snap), NULL},
@@ -137,13 +137,13 @@ const cli_option cli_job_options[] = {
      AT(normals), normals_names},
     {"space", 0, "scene|mesh",
      "glTF: the lattice is in the space of the scene, or of each mesh; default scene", cli_set_choice,
-     AT(space), space_names},
+     AT(space), cli_space_names},
     {"rig", 0, "keep|follow",
      "glTF: joints, pivots, sockets, cameras, lights, animations stay, or go along; default keep",
      cli_set_choice, AT(rig), rig_names},
     {"only", 0, "KIND:NAME",
      "only this, repeatable; glTF: node (and below), mesh, material; OBJ: group, object, material",
-     add_selector, 0, NULL},
+     cli_add_selector, 0, NULL},
     {"as-morph", 0, "NAME",
      "glTF out: leave the shape; add, or replace, the morph target of this name by the deformation",
      cli_set_text, AT(as_morph), NULL},
@@ -159,7 +159,7 @@ const cli_option cli_job_options[] = {
      cli_set_count, AT(threads), NULL},
     {"isa", 0, "auto|scalar|sse2|avx2|avx512",
      "instruction set of the kernels; never changes the output; default auto", cli_set_choice, AT(isa),
-     isa_names},
+     cli_isa_names},
     {"memory", 0, "SIZE", CLI_MEMORY, cli_set_bytes, AT(memory), NULL},
     {"allow-extension", 0, "NAME", CLI_ALLOW_EXTENSION, cli_add_name, AT(allowed), NULL},
     {"strict", 0, NULL, CLI_STRICT, cli_set_flag, AT(strict), NULL},

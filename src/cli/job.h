@@ -38,6 +38,13 @@ typedef struct cli_job {
 
 extern const cli_option cli_job_options[];
 
+/* Setters of settings that begin with a cli_job. */
+bool cli_add_lattice(void *settings, const cli_option *option, const char *value);
+bool cli_add_selector(void *settings, const cli_option *option, const char *value);
+
+/* The names of ffd_outside, ffd_space and ffd_isa. */
+extern const char *const cli_outside_names[], *const cli_space_names[], *const cli_isa_names[];
+
 /* Options of deform's that a command line may keep when "deform" becomes another command. They do nothing
    there. */
 typedef struct cli_kept {

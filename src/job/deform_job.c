@@ -105,6 +105,7 @@ ffd_status ffd_deform_job_load_chain(deform_job *job, const chain_outside *outsi
                                .set = desc->set,
                                .set_count = desc->set_count,
                                .mesh = &desc->input,
+                               .derives = job->derives,
                                .shared = desc->shared_box,
                                .log = &job->log};
     const ffd_status status = ffd_chain_load(&files, outside, desc->isa, share, &job->chain, error);

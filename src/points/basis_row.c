@@ -23,14 +23,14 @@ static void make_factor(const knot_vector *knots, int span, const double value[M
     }
 }
 
-/* R_j = h_j N N N / sum h N N N, times the scale (NURBS Book 4.2). */
-static void fill(const ffd_lattice *lattice, const double *weights, const double uvw[3], double scale,
-                 basis_row *row)
+void ffd_basis_row_at(const ffd_lattice *lattice, const double *weights, const double uvw[3], double scale,
+                      basis_row *row)
 {
     lattice_basis basis;
     factor of[3];
     double sum = 0;
     double inside[3];
+    row->count = 0;
     for (int a = 0; a < 3; a++)
         inside[a] = ffd_knots_wrap(&lattice->knots[a], uvw[a]);
     ffd_lattice_basis(lattice, inside, &basis);
@@ -58,7 +58,7 @@ void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t
 {
     row->count = 0;
     if (ffd_embedding_has(embedding, point)) {
-        fill(embedding->rest, weights, embedding->uvw + 3 * point, 1, row);
+        ffd_basis_row_at(embedding->rest, weights, embedding->uvw + 3 * point, 1, row);
         return;
     }
     while (*next < embedding->extended_count && embedding->extended[*next].point < point)
@@ -68,5 +68,5 @@ void ffd_basis_row(const ffd_embedding *embedding, const double *weights, size_t
     const boundary_point *const nearest = &embedding->extended[*next].nearest;
     const double fade = ffd_extension_fade(nearest->distance, embedding->falloff, NULL);
     if (fade > 0)
-        fill(embedding->rest, weights, nearest->uvw, fade, row);
+        ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);
 }

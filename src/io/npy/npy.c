@@ -12,6 +12,11 @@ size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char heade
         snprintf(shape, sizeof shape, "(%zu, %zu)", rows, columns);
     else
         snprintf(shape, sizeof shape, "(%zu,)", rows);
+    return ffd_npy_header_of(descr, shape, header);
+}
+
+size_t ffd_npy_header_of(const char *descr, const char *shape, char header[NPY_HEADER_CAPACITY])
+{
     const size_t prefix = 10; /* magic, version, length of the text */
     int length = snprintf(header + prefix, NPY_HEADER_CAPACITY - prefix,
                           "{'descr': '%s', 'fortran_order': False, 'shape': %s, }", descr, shape);

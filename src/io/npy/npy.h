@@ -11,6 +11,9 @@
    ("<f8", "|u1"). Returns its length, a multiple of 64. */
 size_t ffd_npy_header(const char *descr, size_t rows, size_t columns, char header[NPY_HEADER_CAPACITY]);
 
+/* The same for an array of any shape, as NumPy writes it: "()", "(2, 3, 4)". */
+size_t ffd_npy_header_of(const char *descr, const char *shape, char header[NPY_HEADER_CAPACITY]);
+
 /* Writes that header. The values follow by ffd_output_write. */
 ffd_status ffd_npy_begin(file_output *output, const char *descr, size_t rows, size_t columns,
                          ffd_error *error);

@@ -14,6 +14,7 @@ typedef struct deform_job {
     const ffd_deform_desc *desc;
     bool check;          /* nothing will be written; all figures are wanted */
     bool recomputes;     /* there are normals, and they are to be those of the deformed faces */
+    bool derives;        /* set before opening: the lattices are to say what comes from placeholders */
     bool only_positions; /* set before opening: nothing asked for looks at normals */
     unsigned losses;     /* of inputs, before this job (base/file/mapping.h) */
     int threads;

@@ -1,0 +1,13 @@
+/* npy_read.h - reads arrays of numbers from NumPy's files, versions 1 to 3. */
+#ifndef FFD_IO_NPY_NPY_READ_H
+#define FFD_IO_NPY_NPY_READ_H
+
+#include "base/fail.h"
+#include <stddef.h>
+
+/* Reads an array of float32 or float64 numbers in C order whose shape has `numbers` numbers in all, whatever
+   its dimensions, as doubles (free with ffd_free). Errors: FFD_E_INVALID for another file, type, order or
+   size, FFD_E_IO, FFD_E_MEMORY. */
+ffd_status ffd_npy_read(const char *path, size_t numbers, double **values, ffd_error *error);
+
+#endif

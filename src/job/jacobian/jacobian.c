@@ -1,0 +1,118 @@
+/* jacobian.c - the job of `ffd jacobian`. */
+#include "base/file/output.h"
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "base/struct_size.h"
+#include "job/input/source.h"
+#include "job/jacobian/jacobian_check.h"
+#include "job/jacobian/jacobian_output.h"
+#include "job/jacobian/jacobian_product.h"
+#include "job/judge/result.h"
+#include <string.h>
+
+void ffd_jacobian_desc_init(ffd_jacobian_desc *desc, size_t size)
+{
+    const ffd_jacobian_desc defaults = {.struct_size = sizeof defaults, .of = FFD_LATTICE_LAST};
+    ffd_struct_give(&defaults, sizeof defaults, desc, size);
+}
+
+static bool is_product(const ffd_jacobian_desc *desc)
+{
+    return desc->times || desc->transposed;
+}
+
+static ffd_status check_output(const ffd_jacobian_desc *desc, ffd_error *error)
+{
+    const char *const path = desc->output;
+    const bool npy = ffd_path_has_ending(path, ".npy"), by_points = desc->by == FFD_BY_POINTS;
+    if (ffd_output_is_stream(path))
+        return ffd_fail(error, FFD_E_ARGUMENT, "a matrix cannot be written to a stream");
+    if (is_product(desc) ? !npy
+                         : !npy && !ffd_path_has_ending(path, ".npz") && !ffd_path_has_ending(path, ".mtx"))
+        return ffd_fail_file(error, FFD_E_ARGUMENT, path, "must end in %s",
+                             is_product(desc) ? ".npy: a product is an array" : ".npz, .mtx or .npy");
+    if (npy && !is_product(desc) && by_points)
+        return ffd_fail_file(error, FFD_E_ARGUMENT, path,
+                             "a matrix by control points is sparse: it is written as .npz or .mtx");
+    return ffd_output_check(path, desc->job->force, error);
+}
+
+static ffd_status check_desc(const ffd_jacobian_desc *desc, ffd_error *error)
+{
+    if (!desc->job || !desc->output)
+        return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
+    if (desc->by != FFD_BY_POINTS && desc->by != FFD_BY_PARAMETERS)
+        return ffd_fail(error, FFD_E_ARGUMENT, "%d is not what positions can be differentiated by",
+                        (int)desc->by);
+    if (desc->times && desc->transposed)
+        return ffd_fail(error, FFD_E_ARGUMENT, "--times and --transposed cannot be used together");
+    if (desc->of != FFD_LATTICE_LAST && desc->by == FFD_BY_PARAMETERS)
+        return ffd_fail(error, FFD_E_ARGUMENT,
+                        "--of is for --wrt points: parameters are those of all lattices");
+    if (desc->job->blocks && desc->job->lattice_count > 1)
+        return ffd_fail(error, FFD_E_UNSUPPORTED,
+                        "the derivative by lattices side by side (--blocks) is not known here");
+    return check_output(desc, error);
+}
+
+static ffd_status check_differences(const jacobian *j, double *worst, ffd_error *error)
+{
+    const ffd_status status = ffd_jacobian_check(j, worst, error);
+    if (status || *worst <= JACOBIAN_TOLERANCE)
+        return status;
+    return ffd_fail(error, FFD_E_GATE, "central differences disagree by %.2g, more than %g", *worst,
+                    JACOBIAN_TOLERANCE);
+}
+
+static ffd_status make(jacobian *j, ffd_jacobian_result *result, ffd_error *error)
+{
+    uint64_t *starts = NULL;
+    ffd_status status = ffd_jacobian_prepare(j, error);
+    if (!status)
+        starts = ffd_alloc(j->rows + 1, sizeof *starts);
+    if (!status && !starts)
+        status = ffd_fail_memory(error);
+    if (!status)
+        status = ffd_jacobian_count(j, starts, &result->moving, error);
+    if (!status && j->desc->check)
+        status = check_differences(j, &result->worst, error);
+    if (!status)
+        status = is_product(j->desc) ? ffd_jacobian_multiply(j, error) : ffd_jacobian_write(j, starts, error);
+    result->rows = j->rows;
+    result->columns = j->columns;
+    result->vertices = j->count;
+    result->entries = starts ? starts[j->rows] : 0;
+    ffd_free(starts);
+    return status;
+}
+
+ffd_status ffd_jacobian_run(const ffd_jacobian_desc *callers, ffd_jacobian_result *callers_result,
+                            ffd_error *error)
+{
+    ffd_jacobian_desc desc;
+    ffd_jacobian_result result = {.struct_size = sizeof result};
+    ffd_job_result figures;
+    ffd_error own;
+    ffd_jacobian_desc_init(&desc, sizeof desc);
+    ffd_status status = ffd_struct_take(&desc, sizeof desc, callers, "ffd_jacobian_desc", &own);
+    if (!status)
+        status = check_desc(&desc, &own);
+    if (status) {
+        if (error)
+            *error = own;
+        return status;
+    }
+    jacobian j = {.desc = &desc};
+    status = ffd_deform_job_begin(&j.job, desc.job, true, &figures);
+    j.job.derives = desc.by == FFD_BY_PARAMETERS;
+    j.job.only_positions = true;
+    if (!status)
+        status = ffd_deform_job_open(&j.job, &figures, &figures.error);
+    if (!status)
+        status = make(&j, &result, &figures.error);
+    ffd_jacobian_free(&j);
+    status = ffd_deform_job_end(&j.job, status, &figures, error);
+    if (callers_result)
+        ffd_struct_give(&result, sizeof result, callers_result, callers_result->struct_size);
+    return status;
+}

@@ -1,0 +1,14 @@
+/* jacobian_output.h - writes the matrix. */
+#ifndef FFD_JOB_JACOBIAN_JACOBIAN_OUTPUT_H
+#define FFD_JOB_JACOBIAN_JACOBIAN_OUTPUT_H
+
+#include "job/jacobian/jacobian_state.h"
+
+/* How many values there are; starts: rows + 1, filled: where each row begins. moving: the vertices whose rows
+   are not empty. Errors: FFD_E_MEMORY. */
+ffd_status ffd_jacobian_count(const jacobian *j, uint64_t *starts, uint64_t *moving, ffd_error *error);
+/* Writes the matrix to the description's output, by the name's ending; by parameters the names of the columns
+   beside it (STEM.columns.txt). */
+ffd_status ffd_jacobian_write(const jacobian *j, const uint64_t *starts, ffd_error *error);
+
+#endif

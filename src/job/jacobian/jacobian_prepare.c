@@ -1,0 +1,278 @@
+#include "base/file/path.h"
+#include "base/memory/memory.h"
+#include "embed/boundary/boundary.h"
+#include "job/chain/chain_apply.h"
+#include "job/jacobian/jacobian_state.h"
+#include "job/pass/chain_fit.h"
+#include "job/pass/pass.h"
+#include "job/pass/vertex_rounding.h"
+#include "points/embedding.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static mesh_pass pass_of(const jacobian *j, size_t links)
+{
+    return (mesh_pass){
+        .document = j->job.document, .chain = &j->job.chain, .links = links, .threads = j->job.threads};
+}
+
+ffd_status ffd_jacobian_positions(const jacobian *j, size_t link, double *before, ffd_error *error)
+{
+    pass_totals totals;
+    mesh_pass pass = pass_of(j, link);
+    pass.deformed = before;
+    return ffd_pass_run(&pass, &totals, error);
+}
+
+/* Lists the vertices without u,v,w that follow the border. */
+static ffd_status find_extended(const jacobian *j, const chain_link *link, const double *before,
+                                ffd_embedding *embedding, ffd_error *error)
+{
+    const double reach = link->falloff > 0 ? link->falloff : HUGE_VAL;
+    size_t capacity = 0;
+    ffd_status status = FFD_OK;
+    embedding->falloff = link->falloff;
+    for (size_t i = 0; i < j->count && !status; i++) {
+        boundary_point nearest;
+        if (ffd_embedding_has(embedding, i) || embedding->status[i] == FFD_POINT_INVALID ||
+            !vec_is_finite(before + 3 * i))
+            continue;
+        status = ffd_boundary_find(link->border, before + 3 * i, reach, &nearest, error);
+        if (status || !nearest.found)
+            continue;
+        if (!ffd_grow((void **)&embedding->extended, &capacity, embedding->extended_count + 1,
+                      sizeof *embedding->extended))
+            return ffd_fail_memory(error);
+        embedding->extended[embedding->extended_count++] = (extended_point){i, nearest};
+    }
+    return status;
+}
+
+/* Vertices that are not selected have no status of their own: none is outside then but of what is selected.
+ */
+static ffd_status mark_selected(const jacobian *j, uint8_t *selected, ffd_error *error)
+{
+    vertex_owners owners;
+    const mesh_document *const document = j->job.document;
+    const ffd_status status = ffd_vertex_owners_list(document, &owners, error);
+    memset(selected, 1, j->count);
+    for (size_t o = 0; o < owners.count && !status; o++) {
+        const mesh_part *const part = &document->parts[owners.parts[o]];
+        for (size_t i = 0; i < part->vertex_count; i++)
+            selected[owners.first[o] + i] = ffd_part_selects(part, i);
+    }
+    ffd_vertex_owners_free(&owners);
+    return status;
+}
+
+static ffd_status extend(const jacobian *j, size_t number, ffd_embedding *embedding, ffd_error *error)
+{
+    const chain_link *const link = &j->job.chain.links[number];
+    double *const before = ffd_alloc(j->count, 3 * sizeof *before);
+    uint8_t *const selected = ffd_alloc(j->count, 1);
+    ffd_status status =
+        before && selected ? ffd_jacobian_positions(j, number, before, error) : ffd_fail_memory(error);
+    if (!status)
+        status = mark_selected(j, selected, error);
+    for (size_t i = 0; i < j->count && !status; i++)
+        if (!selected[i])
+            before[3 * i] = (double)NAN;
+    if (!status)
+        status = find_extended(j, link, before, embedding, error);
+    ffd_free(before);
+    ffd_free(selected);
+    return status;
+}
+
+static ffd_status fill_embedding(const jacobian *j, jacobian_link *link, ffd_error *error)
+{
+    const chain_link *const of = &j->job.chain.links[link->number];
+    pass_totals totals;
+    ffd_status status = ffd_embedding_make(of->lattice, j->count, &link->embedding, error);
+    if (status)
+        return status;
+    mesh_pass pass = pass_of(j, link->number + 1);
+    pass.uvw = link->embedding->uvw;
+    pass.statuses = link->embedding->status;
+    status = ffd_pass_run(&pass, &totals, error);
+    return status || !of->border ? status : extend(j, link->number, link->embedding, error);
+}
+
+/* What a run of points through the later links needs. */
+typedef struct later_scratch {
+    double x[3 * CHAIN_RUN], delta[3 * CHAIN_RUN];
+    point_outcome outcomes[CHAIN_RUN];
+    chain_scratch chain;
+} later_scratch;
+
+/* Sends positions through the later links and gives their F. */
+static ffd_status find_later_run(const lattice_chain *later, const double *after, size_t count,
+                                 later_scratch *s, double *gradients, ffd_error *error)
+{
+    chain_run run = {.x = s->x,
+                     .count = count,
+                     .scratch = &s->chain,
+                     .delta = s->delta,
+                     .gradient = gradients,
+                     .outcomes = s->outcomes};
+    memcpy(s->x, after, 3 * count * sizeof *s->x);
+    const ffd_status status = ffd_chain_apply(later, later->count, &run, error);
+    for (size_t i = 0; i < count && !status; i++)
+        for (int d = 0; d < 9; d += 4)
+            gradients[9 * i + (size_t)d] += 1;
+    return status;
+}
+
+/* F of all links after one, at each vertex. */
+static ffd_status find_later(const jacobian *j, jacobian_link *link, ffd_error *error)
+{
+    lattice_chain later = j->job.chain;
+    later.links += link->number + 1;
+    later.count -= link->number + 1;
+    later.seam_count = 0;
+    later.share = NULL;
+    if (later.count == 0)
+        return FFD_OK;
+    double *const after = ffd_alloc(j->count, 3 * sizeof *after);
+    later_scratch *const scratch = ffd_alloc_zero(1, sizeof *scratch);
+    link->later = ffd_alloc(j->count, 9 * sizeof *link->later);
+    ffd_status status = after && scratch && link->later
+                            ? ffd_jacobian_positions(j, link->number + 1, after, error)
+                            : ffd_fail_memory(error);
+    for (size_t first = 0; first < j->count && !status; first += CHAIN_RUN) {
+        const size_t left = j->count - first, count = left < CHAIN_RUN ? left : CHAIN_RUN;
+        status = find_later_run(&later, after + 3 * first, count, scratch, link->later + 9 * first, error);
+    }
+    ffd_free(after);
+    ffd_free(scratch);
+    return status;
+}
+
+/* M^-1 of all vertices, where one is not I. */
+static ffd_status find_inverses(jacobian *j, ffd_error *error)
+{
+    const mesh_document *const document = j->job.document;
+    vertex_owners owners;
+    bool any = false;
+    ffd_status status = ffd_vertex_owners_list(document, &owners, error);
+    for (size_t o = 0; o < owners.count && !status; o++)
+        any = any || !document->parts[owners.parts[o]].identity;
+    vertex_transforms *const transforms = any ? ffd_alloc(1, sizeof *transforms) : NULL;
+    j->inverses = any ? ffd_alloc_zero(j->count, 9 * sizeof *j->inverses) : NULL;
+    if (!status && any && (!transforms || !j->inverses))
+        status = ffd_fail_memory(error);
+    for (size_t o = 0; o < owners.count && !status && any; o++) {
+        const size_t part = owners.parts[o], count = document->parts[part].vertex_count;
+        for (size_t i = 0; i < count; i++) {
+            if (i % VERTEX_TRANSFORMS == 0)
+                ffd_vertex_transforms_read(document, part, i,
+                                           count - i < VERTEX_TRANSFORMS ? count - i : VERTEX_TRANSFORMS,
+                                           transforms, NULL);
+            const vertex_transform transform = ffd_vertex_transform_of(transforms, i % VERTEX_TRANSFORMS);
+            double *const inverse = j->inverses + 9 * (owners.first[o] + i);
+            for (int d = 0; d < 9 && transform.identity; d += 4)
+                inverse[d] = 1;
+            if (!transform.identity && !transform.singular)
+                memcpy(inverse, transform.inverse, 9 * sizeof *inverse);
+        }
+    }
+    ffd_free(transforms);
+    ffd_vertex_owners_free(&owners);
+    return status;
+}
+
+/* The column of a placeholder's number, which several lattices may share; added where it is new. */
+static ffd_status find_column(jacobian *j, const spec_variable *variable, size_t component, size_t *column,
+                              ffd_error *error)
+{
+    char name[200];
+    snprintf(name, sizeof name, variable->is_array ? "%.150s[%zu]" : "%.150s", variable->name, component);
+    for (*column = 0; *column < j->columns; ++*column)
+        if (strcmp(j->names[*column], name) == 0)
+            return FFD_OK;
+    char **const more = ffd_realloc(j->names, j->columns + 1, sizeof *more);
+    if (!more)
+        return ffd_fail_memory(error);
+    j->names = more;
+    more[j->columns] = ffd_text_copy(name);
+    return more[j->columns] ? (j->columns++, FFD_OK) : ffd_fail_memory(error);
+}
+
+static ffd_status find_tangents(jacobian *j, jacobian_link *link, ffd_error *error)
+{
+    const ffd_lattice *const lattice = j->job.chain.links[link->number].lattice;
+    const lattice_spec *const spec = lattice->spec;
+    size_t own = 0;
+    ffd_status status = ffd_lattice_tangents_find(lattice, &link->tangents, error);
+    link->columns = ffd_alloc(link->tangents.columns, sizeof *link->columns);
+    if (!status && !link->columns)
+        return ffd_fail_memory(error);
+    for (size_t v = 0; v < spec->variable_count && !status; v++)
+        for (size_t c = 0; c < spec->variables[v].size && !status; c++)
+            status = find_column(j, &spec->variables[v], c, &link->columns[own++], error);
+    return status;
+}
+
+/* The links that count: one, or all that have placeholders. */
+static ffd_status choose_links(jacobian *j, ffd_error *error)
+{
+    const size_t all = j->job.chain.count;
+    const bool by_points = j->desc->by == FFD_BY_POINTS;
+    const size_t of = j->desc->of == FFD_LATTICE_LAST ? all - 1 : j->desc->of;
+    if (by_points && of >= all)
+        return ffd_fail(error, FFD_E_ARGUMENT, "there is no lattice %zu: the job has %zu, counted from 0", of,
+                        all);
+    j->links = ffd_alloc_zero(all, sizeof *j->links);
+    if (!j->links)
+        return ffd_fail_memory(error);
+    for (size_t l = 0; l < all; l++)
+        if (by_points ? l == of : j->job.chain.links[l].lattice->spec->variable_count > 0)
+            j->links[j->link_count++].number = l;
+    return j->link_count > 0
+               ? FFD_OK
+               : ffd_fail(error, FFD_E_INVALID, "no lattice has a placeholder to differentiate by");
+}
+
+ffd_status ffd_jacobian_prepare(jacobian *j, ffd_error *error)
+{
+    const bool by_points = j->desc->by == FFD_BY_POINTS;
+    ffd_status status = ffd_mesh_check(j->job.document, error);
+    j->count = (size_t)ffd_mesh_vertex_count(j->job.document);
+    if (!status)
+        status = ffd_chain_fit(&j->job.chain, j->job.document, j->job.threads, error);
+    if (!status)
+        status = choose_links(j, error);
+    for (size_t l = 0; l < j->link_count && !status; l++) {
+        jacobian_link *const link = &j->links[l];
+        status = fill_embedding(j, link, error);
+        if (!status)
+            status = find_later(j, link, error);
+        if (!status && !by_points)
+            status = find_tangents(j, link, error);
+    }
+    if (!status && j->desc->components)
+        status = find_inverses(j, error);
+    if (status)
+        return status;
+    j->blocks = !by_points || j->desc->components || j->links[0].later;
+    j->rows = j->blocks ? 3 * j->count : j->count;
+    if (by_points)
+        j->columns = (j->blocks ? 3 : 1) * j->links[0].embedding->rest->count;
+    return FFD_OK;
+}
+
+void ffd_jacobian_free(jacobian *j)
+{
+    for (size_t l = 0; l < j->link_count; l++) {
+        ffd_embedding_destroy(&j->links[l].embedding);
+        ffd_free(j->links[l].later);
+        ffd_free(j->links[l].columns);
+        ffd_lattice_tangents_free(&j->links[l].tangents);
+    }
+    ffd_free(j->links);
+    ffd_free(j->inverses);
+    for (size_t c = 0; j->names && c < j->columns; c++)
+        ffd_free(j->names[c]);
+    ffd_free(j->names);
+}
