@@ -403,7 +403,8 @@ m("one-library-of-two-words", "check left out", "cli_materials", "if (is_file(pa
   "if (size > NAME_MAX_SIZE && is_file(path, text, size))\n        return ffd_obj_add_name")
 m("library-of-a-continued-line", "check left out", "obj_resources", "return !is_continued(first, at);",
   "return !is_continued(first, at) || at > first;")
-m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, letter, last)) {",
+m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, at, last)) return at;",
+  "if (begins_statement(first, at, end))\n            return at;", "if (begins_statement(first, letter, last)) {",
   "if (begins_statement(first, letter, end)) {")
 m("words-of-an-option", "wrong constant", "obj_resources, cli_materials", '{"-mm", 2, false}', '{"-mm", 1, false}')
 m("map-beside-the-mesh", "condition", "materials, cli_materials", "if (status || !*path || is_there(folder, *path)) return status;",
