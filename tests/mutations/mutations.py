@@ -404,7 +404,7 @@ m("one-library-of-two-words", "check left out", "cli_materials", "if (is_file(pa
 m("library-of-a-continued-line", "check left out", "obj_resources", "return !is_continued(first, at);",
   "return !is_continued(first, at) || at > first;")
 m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, at, last)) return at;",
-  "if (begins_statement(first, at, end))\n            return at;", "if (begins_statement(first, letter, last)) {",
+  "if (begins_statement(first, at, end < last ? end : last))\n            return at;", "if (begins_statement(first, letter, last)) {",
   "if (begins_statement(first, letter, end)) {")
 m("words-of-an-option", "wrong constant", "obj_resources, cli_materials", '{"-mm", 2, false}', '{"-mm", 1, false}')
 m("map-beside-the-mesh", "condition", "materials, cli_materials", "if (status || !*path || is_there(folder, *path)) return status;",

@@ -269,6 +269,7 @@ static void the_first_fault_is_told(void **state)
         {"f 1/1/1 2/2/2 601/3/3", "vertex index 601 is out of range: the file has 600"},
         {"f 1/1/1 2/2/2 3/3/301", "normal index 301 is out of range: the file has 300"},
         {"f 1/1/1 2/2/2 99999999/3/3", "vertex index 99999999 is out of range: the file has 600"},
+        {"f 1/1/1 2/2/100000000 3/3/3", "normal index 100000000 is out of range: the file has 300"},
         {"f 1/1/1 2/2-2 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2-2\""},
         {"f 1/1/1 2-2/2 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2-2/2\""},
         {"f 1/1/1 2/2/2/ 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2/2/\""},
