@@ -168,6 +168,17 @@ install_node_packages() {
     (cd "$work/node" && npm ci --ignore-scripts --no-audit --no-fund)
 }
 
+# The pages of the release build are those that a browser has judged, of the gcc build.
+compare_pages() {
+    for model in spot.obj knight.glb; do
+        for made in gcc release; do
+            "$work/$made/src/cli/ffd" view "$root/data/models/$model" -l "$root/data/lattices/twist.json" \
+                -o "$work/$made/$model.html" --force || return 1
+        done
+        cmp "$work/gcc/$model.html" "$work/release/$model.html" || return 1
+    done
+}
+
 # Both libraries by their wraps, from sources that were downloaded before.
 build_from_wraps() {
     rm -rf "$work/wraps"
@@ -195,10 +206,12 @@ if build gcc '' gcc g++ -Dbuildtype=debugoptimized -Dc_args=-g1 -Dcpp_args=-g1; 
 fi
 
 if [ -n "$all" ]; then
-    # As it is delivered: without assertions, with every optimization. A rule on the text of the sources says nothing new.
+    # As it is delivered: without assertions, with every optimization. A rule on the text of the sources says nothing new,
+    # nor do the validator and the browser, where the files and pages are byte for byte those of the gcc build.
     if build release 'golden rules property compilers' gcc g++ -Dbuildtype=release; then
         suites release release --suite golden --suite rules --suite property --suite compilers \
-            --no-suite text --no-suite slow --no-suite soak
+            --no-suite text --no-suite node --no-suite slow --no-suite soak
+        [ ! -x "$work/gcc/src/cli/ffd" ] || case_of release pages compare_pages
     fi
     drop release
 
@@ -238,13 +251,17 @@ if [ -n "$all" ]; then
     fi
     drop clang
 
+    # The demo runs beside what comes next: much of it takes one processor.
+    { sh "$root/data/demo.sh" "$work/demo" >"$logs/demo.out" 2>&1 </dev/null; echo $? >"$logs/demo.status"; } &
+
     # What the sanitizers do not see: memory that is read before it is written. The unit tests reach all of the library.
     if [ -f "$work/gcc/build.ninja" ]; then
         suites valgrind gcc --suite unit --no-suite slow --no-suite soak --timeout-multiplier 30 \
             --wrap "valgrind -q --error-exitcode=99 --leak-check=full --errors-for-leak-kinds=definite"
     fi
 
-    case_of demo run sh "$root/data/demo.sh" "$work/demo"
+    wait
+    case_of demo run sh -c 'cat "$1.out"; exit "$(cat "$1.status")"' sh "$logs/demo"
 
     if [ -d "$root/subprojects/openmesh-9.0" ] && [ -d "$root/subprojects/tinygltf-2.7.0" ]; then
         case_of wraps build build_from_wraps

@@ -127,12 +127,14 @@ ffd_status ffd_run_take_ended(batch_run *run, ffd_error *error)
 {
     const bool in_order = tells_in_order(run);
     size_t kept = 0;
+    run->waiting = 0;
     ffd_status status = FFD_OK;
     for (size_t i = 0; i < run->count; i++) {
         pool_task *const task = run->tasks[i];
         const bool is_over = task->state == TASK_DROPPED || (task->state == TASK_ENDED && task->noted);
         if (status || !is_over || (in_order && kept > 0)) {
             run->tasks[kept++] = task;
+            run->waiting += ffd_task_is_pending(task);
             continue;
         }
         if (task->state == TASK_ENDED)

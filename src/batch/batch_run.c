@@ -136,13 +136,6 @@ static ffd_status claim_tasks(batch_run *run, ffd_error *error)
 
 /* The whole */
 
-static void count_waiting(batch_run *run)
-{
-    run->waiting = 0;
-    for (size_t i = 0; i < run->count; i++)
-        run->waiting += ffd_task_is_pending(run->tasks[i]);
-}
-
 static void drop_waiting(batch_run *run)
 {
     run->dropped = run->dropped || !run->ended;
@@ -201,11 +194,10 @@ static ffd_status run_jobs(batch_run *run, ffd_error *error)
         first = first ? first : waited;
         status = ffd_run_note_ends(run, first ? NULL : error);
         heed_interrupts(run);
-        if (!status)
+        if (!status && run->ending)
             status = ffd_run_note_ends(run, first ? NULL : error); /* of those that were stopped */
         if (!status)
             status = ffd_run_take_ended(run, first ? NULL : error);
-        count_waiting(run);
         ffd_progress_show(&run->progress, &run->counts, ffd_jobs_fraction(run->source));
         if (run->count == 0 && (run->ended || run->ending))
             break;

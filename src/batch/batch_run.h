@@ -49,7 +49,7 @@ void ffd_run_say_error(batch_run *run, const ffd_error *error);
  */
 ffd_status ffd_run_note_ends(batch_run *run, ffd_error *error);
 /* Takes ended jobs out of the window; where they are told in their order, up to the first one that has not
-   ended. Errors: the same. */
+   ended. Counts those that wait. Errors: the same. */
 ffd_status ffd_run_take_ended(batch_run *run, ffd_error *error);
 
 #endif

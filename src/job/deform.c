@@ -56,13 +56,14 @@ static ffd_status resolve_output(const ffd_deform_desc *desc, mesh_save_options 
         return ffd_fail_file(error, FFD_E_ARGUMENT, desc->output,
                              "the ending \"%s\" is not that of a mesh format (" FORMAT_NAMES ")",
                              ffd_path_ending(desc->output));
-    if (!ffd_output_is_stream(desc->output) && ffd_file_same(input, desc->output))
+    /* The output first: mostly there is none, which answers it. */
+    if (!ffd_output_is_stream(desc->output) && ffd_file_same(desc->output, input))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the input (--in-place overwrites it)");
     for (size_t i = 0; i < desc->lattice_count && !ffd_output_is_stream(desc->output); i++)
-        if (ffd_file_same(desc->lattices[i], desc->output))
+        if (ffd_file_same(desc->output, desc->lattices[i]))
             return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is a lattice of this command");
     if (desc->embedding && !ffd_output_is_stream(desc->output) &&
-        ffd_file_same(desc->embedding, desc->output))
+        ffd_file_same(desc->output, desc->embedding))
         return ffd_fail_file(error, FFD_E_EXISTS, desc->output, "is the embedding that is to be reused");
     return ffd_output_check(desc->output, options->force, error);
 }

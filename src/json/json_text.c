@@ -1,7 +1,6 @@
 #include "json/json_text.h"
 #include "json/json_chars.h"
 #include <assert.h>
-#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -14,18 +13,27 @@ void ffd_json_begin(json_text *json, byte_buffer *out)
 
 static void line_break(json_text *json)
 {
-    ffd_buffer_text(json->out, "\n");
+    ffd_buffer_append(json->out, "\n", 1);
     for (int i = 0; i < json->depth; i++)
-        ffd_buffer_text(json->out, "  ");
+        ffd_buffer_append(json->out, "  ", 2);
+}
+
+/* Where the characters end that stand in a string as they are. */
+static const char *pass_plain(const char *c)
+{
+    while (*c >= ' ' && *c < 0x7f && *c != '"' && *c != '\\')
+        c++;
+    return c;
 }
 
 /* File names are bytes: those that are not UTF-8 become the replacement character, so that
    what comes out is JSON. */
 static void quoted(byte_buffer *out, const char *text)
 {
-    const char *const last = text + strlen(text);
-    ffd_buffer_text(out, "\"");
-    for (const char *c = text, *next; c < last; c = next) {
+    const char *c = pass_plain(text), *const last = c + strlen(c);
+    ffd_buffer_append(out, "\"", 1);
+    ffd_buffer_append(out, text, (size_t)(c - text));
+    for (const char *next; c < last; c = next) {
         uint32_t code;
         next = ffd_utf8_read(c, last, &code);
         if (!next || next > c + 1) {
@@ -44,7 +52,7 @@ static void quoted(byte_buffer *out, const char *text)
         else
             ffd_buffer_append(out, c, 1);
     }
-    ffd_buffer_text(out, "\"");
+    ffd_buffer_append(out, "\"", 1);
 }
 
 /* What comes before a value: the comma, the line break, the key. */
@@ -54,15 +62,15 @@ static void lead_in(json_text *json, const char *key)
     json->empty[json->depth] = false;
     if (json->depth > 0) {
         if (!first)
-            ffd_buffer_text(json->out, ",");
+            ffd_buffer_append(json->out, ",", 1);
         if (!json->inline_from[json->depth])
             line_break(json);
         else if (!first)
-            ffd_buffer_text(json->out, " ");
+            ffd_buffer_append(json->out, " ", 1);
     }
     if (key) {
         quoted(json->out, key);
-        ffd_buffer_text(json->out, ": ");
+        ffd_buffer_append(json->out, ": ", 2);
     }
 }
 
@@ -118,8 +126,12 @@ void ffd_json_number(json_text *json, const char *key, double value)
 
 void ffd_json_count(json_text *json, const char *key, uint64_t value)
 {
+    char digits[20], *const end = digits + sizeof digits, *first = end;
     lead_in(json, key);
-    ffd_buffer_format(json->out, "%" PRIu64, value);
+    do
+        *--first = (char)('0' + value % 10);
+    while (value /= 10);
+    ffd_buffer_append(json->out, first, (size_t)(end - first));
 }
 
 void ffd_json_counts(json_text *json, const json_count *members, size_t count)

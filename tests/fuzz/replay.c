@@ -14,7 +14,7 @@
 
 #define MOST_BYTES ((size_t)1 << 16)
 /* With the address sanitizer the fuzz targets themselves run thousands more. */
-#define MUTATIONS (FFD_SANITIZED ? 3 : 12)
+#define MUTATIONS (FFD_SANITIZED ? 1 : 12)
 /* Mutations of mutations: this many in a row from one file, then from the file again. */
 #define MUTATIONS_DEEP 4
 

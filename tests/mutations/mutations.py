@@ -29,6 +29,8 @@ def m(name, kind, tests, *texts):
 m("output-not-renamed", "rename left out", "file, cli_output",
   "if (count == 1 && ffd_place(files->temporary, files->target, files->replace) != 0)",
   "if (count == 1 && ffd_place(files->temporary, files->temporary, true) != 0)")
+m("link-to-nothing-is-a-file", "check left out", "file, cli_output",
+  "if (S_ISLNK(info->st_mode) && stat(path, info) != 0) {", "if (S_ISLNK(info->st_mode) && stat(path, info) > 0) {")
 m("appearing-output-replaced", "race", "file, cli_siege", ".replace = file->force}", ".replace = true}")
 m("head-set-aside-last", "order", "file_set, cli_file_sets", "for (size_t i = record->count; i-- > 0;) {",
   "for (size_t i = 0; i < record->count; i++) {")
@@ -388,6 +390,11 @@ m("backslash-at-the-end", "bound", "obj, cli_obj",
   "return next + 1 == scan->last || ffd_obj_class(next) == OBJ_LINE_END;")
 m("greatest-element", "off by one", "obj_users, obj", "*greatest = *greatest > element ? *greatest : element + 1;",
   "*greatest = *greatest > element ? *greatest : element;")
+m("corner-run-of-a-longer-index", "bound", "obj_users, obj", "(unsigned)normal - 1 >= 8)", "(unsigned)normal - 1 >= 9)")
+m("corner-run-without-a-slash", "check left out", "obj_users, obj, cli_obj", "text[other_slash] != '/' ||", "")
+m("first-normal-replaced", "check left out", "obj_users, obj_normals", "if (there == 0 && is_alone) {", "if (is_alone) {")
+m("libraries-not-seen", "condition", "obj_resources, cli_materials", "(!input->mapped && !ffd_obj_names_libraries(input)) ||",
+  "!input->mapped ||")
 m("block-cut-in-a-line", "bound", "obj_blocks", "if (!may_continue(first, end)) return at; at--;",
   "if (!may_continue(first, end) || at < last)\n            return at;\n        at--;")
 m("digits-of-a-number", "bound", "obj, number, bytes", "count < 1 || count > 16)", "count < 1 || count > 17)")
@@ -396,7 +403,8 @@ m("one-library-of-two-words", "check left out", "cli_materials", "if (is_file(pa
   "if (size > NAME_MAX_SIZE && is_file(path, text, size))\n        return ffd_obj_add_name")
 m("library-of-a-continued-line", "check left out", "obj_resources", "return !is_continued(first, at);",
   "return !is_continued(first, at) || at > first;")
-m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, letter, last)) {",
+m("library-across-pieces", "bound", "obj_resources", "if (begins_statement(first, at, last)) return at;",
+  "if (begins_statement(first, at, end < last ? end : last))\n            return at;", "if (begins_statement(first, letter, last)) {",
   "if (begins_statement(first, letter, end)) {")
 m("words-of-an-option", "wrong constant", "obj_resources, cli_materials", '{"-mm", 2, false}', '{"-mm", 1, false}')
 m("map-beside-the-mesh", "condition", "materials, cli_materials", "if (status || !*path || is_there(folder, *path)) return status;",
@@ -481,6 +489,7 @@ m("sparse-index", "endian", "gltf, gltf_models, cli_gltf_storage", "return at[0]
   "return at[1] | (uint32_t)at[0] << 8;")
 m("sparse-behind-the-tile", "bound", "gltf_storage, gltf, gltf_models", "if (index - first >= count) return;",
   "if (index - first > count)\n            return;")
+m("quote-in-a-plain-string", "check left out", "base", "*c < 0x7f && *c != '\"' && *c != '\\\\')", "*c < 0x7f && *c != '\\\\')")
 m("json-depth", "limit", "json_span, gltf, replay gltf", "if (++*depth > JSON_SPAN_DEPTH)",
   "if (++*depth > 2 * JSON_SPAN_DEPTH)")
 m("json-equal-keys", "off by one", "json_span, gltf",

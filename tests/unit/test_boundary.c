@@ -646,14 +646,14 @@ static void the_derivative_agrees_with_differences(void **state)
         boundary *border;
         int compared = 0;
         assert_int_equal(ffd_boundary_create(lattice, &border, NULL), FFD_OK);
-        for (int k = 0; k < 100; k++) {
+        for (int k = 0; k < 100; k += stride(5)) {
             double p[3];
             boundary_point nearest;
             draw_point(&d, lattice, 0.2, p);
             assert_int_equal(ffd_boundary_find(border, p, HUGE_VAL, &nearest, NULL), FFD_OK);
             compare_derivative(lattice, border, p, &nearest, &compared);
         }
-        if (compared < 60)
+        if (compared < (is_memory_checked() ? 1 : 60))
             fail_msg("%s: only %d of 300 derivatives are smooth", warped_cases[cases[i]].name, compared);
         ffd_boundary_destroy(&border);
         ffd_lattice_destroy(&lattice);
@@ -767,7 +767,7 @@ static void far_points_find_their_foot_without_overflow(void **state)
         boundary *border;
         assert_int_equal(ffd_boundary_create(lattice, &border, NULL), FFD_OK);
         check_lattice(warped_cases[i].name, lattice, &d, 1, 100);
-        for (int power = 3; power <= 300; power += power < 30 ? 3 : 30)
+        for (int power = 3; power <= 300; power += (power < 30 ? 3 : 30) * stride(3))
             for (int k = 0; k < 5; k += stride(5)) {
                 double p[3];
                 boundary_point nearest;

@@ -287,7 +287,7 @@ static ffd_folds find(const ffd_lattice *lattice, int sign)
 {
     ffd_folds folds, again;
     ffd_error error;
-    for (int threads = 1; threads <= 3; threads++) {
+    for (int threads = 1; threads <= 3; threads += is_memory_checked() ? 2 : 1) {
         if (ffd_folds_find(lattice, threads, threads == 1 ? &folds : &again, &error))
             fail_msg("%s", error.message);
         if (threads > 1)
@@ -314,6 +314,8 @@ static ffd_folds assert_verdict(const ffd_lattice *lattice, int sign, ffd_fold_v
         double at[3];
         assert_int_equal(folds.unknown_cells, 0);
         assert_true(folds.min_det >= 0);
+        if (is_memory_checked()) /* samples are numbers, which the other builds compare */
+            return folds;
         const long double least = least_sampled(lattice, sign, 2, at);
         assert_true(least >= -1e-12L * determinant_at(lattice, FFD_VOLUME_DEFORMED, at).size);
     }
@@ -474,7 +476,7 @@ static void verdicts_with_weights_agree_with_samples(void **state)
         finish(lattice);
         const ffd_folds folds = find(lattice, 1);
         double at[3];
-        const long double least = least_sampled(lattice, 1, 5, at);
+        const long double least = is_memory_checked() ? 1 : least_sampled(lattice, 1, 5, at);
         if (folds.verdict == FFD_FOLDS_NONE) {
             none++;
             assert_true(least > 0 && folds.min_det > 0);

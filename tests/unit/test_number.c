@@ -145,7 +145,7 @@ static void any_double_comes_back_as_itself(void **state)
 {
     draw d = {draw_seed()};
     setlocale(LC_ALL, "de_DE.UTF-8");
-    for (int i = 0; i < 200000; i++) {
+    for (int i = 0; i < repetitions(200000); i++) {
         const uint64_t bits = draw_bits(&d);
         double value, back = 0;
         memcpy(&value, &bits, sizeof value);

@@ -71,9 +71,11 @@ static int index_of(const file *f, int number, int so_far)
 
 static void put_face(file *f)
 {
+    /* Texture coordinates of any length, so that corners end anywhere in what is looked at at once. */
+    static const int coordinates[] = {9, 9, 9, 99, 12345, 123456789};
     char text[400] = "f";
-    for (int corners = draw_int(f->d, 3, 4); corners > 0; corners--) {
-        const int v = draw_int(f->d, 1, f->reach), vt = draw_int(f->d, 1, 9);
+    for (int corners = draw_int(f->d, 3, draw_int(f->d, 1, 20) > 1 ? 4 : 16); corners > 0; corners--) {
+        const int v = draw_int(f->d, 1, f->reach), vt = coordinates[draw_int(f->d, 0, 5)];
         const int n = !f->normals_total ? 7
                       : f->pairs        ? draw_int(f->d, 1, f->normals_total)
                                         : 1 + v % f->normals_total;
@@ -82,7 +84,9 @@ static void put_face(file *f)
         if (draw_int(f->d, 0, 9) == 0) {
             snprintf(end, room, " %d/%d", index_of(f, v, f->vertices), vt);
         } else {
-            snprintf(end, room, " %d/%d/%d", index_of(f, v, f->vertices), vt, index_of(f, n, f->normals));
+            const int normal = index_of(f, n, f->normals);
+            snprintf(end, room, vt < 12345 ? " %d/%d/%d" : " %d/%d/%09d", index_of(f, v, f->vertices), vt,
+                     normal);
             assert_true(f->named_count < MOST_CORNERS);
             f->named[f->named_count++] = (uint64_t)(v - 1) << 32 | (uint64_t)(n - 1);
         }
@@ -265,6 +269,9 @@ static void the_first_fault_is_told(void **state)
         {"f 1/1/1 2/2/2 601/3/3", "vertex index 601 is out of range: the file has 600"},
         {"f 1/1/1 2/2/2 3/3/301", "normal index 301 is out of range: the file has 300"},
         {"f 1/1/1 2/2/2 99999999/3/3", "vertex index 99999999 is out of range: the file has 600"},
+        {"f 1/1/1 2/2/100000000 3/3/3", "normal index 100000000 is out of range: the file has 300"},
+        {"f 1/1/1 2/2-2 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2-2\""},
+        {"f 1/1/1 2-2/2 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2-2/2\""},
         {"f 1/1/1 2/2/2/ 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2/2/\""},
         {"f 1/1/1 2/2/2\\2 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2/2\\2\""},
         {"f 1/1/1 2/2/2- 3/3/3", "not a corner (v, v/t, v//n or v/t/n): \"2/2/2-\""},

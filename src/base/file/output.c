@@ -200,13 +200,13 @@ static ffd_status fail_exists(const char *path, ffd_error *error)
 static ffd_status check_target(const char *path, bool force, struct stat *info, bool *exists,
                                ffd_error *error)
 {
-    *exists = stat(path, info) == 0;
-    if (!*exists) {
-        if (errno != ENOENT)
-            return ffd_fail_errno(error, path, "cannot be written");
-        if (lstat(path, info) == 0)
-            return ffd_fail_file(error, FFD_E_IO, path, "is a link that leads to no file");
-        return FFD_OK;
+    *exists = lstat(path, info) == 0;
+    if (!*exists)
+        return errno == ENOENT ? FFD_OK : ffd_fail_errno(error, path, "cannot be written");
+    if (S_ISLNK(info->st_mode) && stat(path, info) != 0) {
+        *exists = false;
+        return errno == ENOENT ? ffd_fail_file(error, FFD_E_IO, path, "is a link that leads to no file")
+                               : ffd_fail_errno(error, path, "cannot be written");
     }
     const ffd_status status = refuse_special(info, path, error);
     if (status)

@@ -192,7 +192,7 @@ static char *put_scientific(char *to, characters digits, int count, int exponent
 }
 
 /* In the shorter of both forms. */
-static char *put_number(char *to, characters digits, int count, int before_point)
+static ALWAYS_INLINE char *put_number(char *to, characters digits, int count, int before_point)
 {
     if (before_point > 0 && before_point < 8 && before_point < count) {
         put(with_point(digits, before_point), to);

@@ -97,32 +97,32 @@ static bool evaluate_on_face(void *context, const double t[3], double jacobian[9
                         : ffd_search_accepts(face->search, &face->at, face->region->weight_ratio);
 }
 
-/* The root at t, whose sample is `at`. */
-static root root_at(const point_search *search, const cell_region *region, const double t[3],
-                    const sample *at)
+/* Sets the root at t, whose sample is `at`. */
+static void find_root(const point_search *search, const cell_region *region, const double t[3],
+                      const sample *at, root *found)
 {
-    root found = {.residual = vec_length(at->residual)};
     double inverse[9], offset[3];
-    found.singular = ffd_mat_is_singular(at->jacobian, &found.determinant);
+    *found = (root){.residual = vec_length(at->residual)};
+    found->singular = ffd_mat_is_singular(at->jacobian, &found->determinant);
     offset_of(region, t, offset);
     for (int a = 0; a < 3; a++) {
         const knot_vector *knots = &search->locator->knots[a];
-        found.uvw[a] = ffd_knots_wrap(knots, knots->t[region->span[a]] + offset[a]);
+        found->uvw[a] = ffd_knots_wrap(knots, knots->t[region->span[a]] + offset[a]);
     }
     if (mat_invert(at->jacobian, inverse))
         for (int a = 0; a < 3; a++) {
             const double *row = inverse + 3 * a;
-            found.spread[a] = 4 * region->width[a] * at->weight * region->weight_ratio *
-                              (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
-                               fabs(row[2]) * search->tolerance[2]);
+            found->spread[a] = 4 * region->width[a] * at->weight * region->weight_ratio *
+                               (fabs(row[0]) * search->tolerance[0] + fabs(row[1]) * search->tolerance[1] +
+                                fabs(row[2]) * search->tolerance[2]);
         }
-    return found;
 }
 
 void ffd_search_record(point_search *search, const cell_region *region, const double t[3], const sample *at,
                        bool singular)
 {
-    root found = root_at(search, region, t, at);
+    root found;
+    find_root(search, region, t, at, &found);
     found.singular = found.singular || singular;
     ffd_roots_add(search->locator, &search->roots, &found);
 }
@@ -130,7 +130,7 @@ void ffd_search_record(point_search *search, const cell_region *region, const do
 void ffd_search_stall(point_search *search, const cell_region *region, const double t[3], const sample *at,
                       root *stall)
 {
-    *stall = root_at(search, region, t, at);
+    find_root(search, region, t, at, stall);
     stall->singular = true;
 }
 

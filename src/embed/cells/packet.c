@@ -1,5 +1,6 @@
 #include "embed/cells/packet.h"
 #include <math.h>
+#include <string.h>
 
 /* The side of a packet, relative to a cell's mean side: points that share a walk have
    nearly the same leaves. */

@@ -7,7 +7,6 @@
 #include "embed/cells/cell_locator.h"
 #include "embed/cells/roots.h"
 #include <stddef.h>
-#include <string.h>
 
 /* Bricks that one point may look into. */
 #define SEARCH_BRICKS 4096
@@ -34,7 +33,6 @@ typedef struct point_search {
     ffd_status status;
     ffd_error *error;
     int stall_count; /* iterations that ended without a root or a proof that there is none */
-    /* The last, not cleared: see ffd_search_begin. */
     root_list roots;
     root stalls[MOST_STALLS]; /* where they stood still, the first with the least residual */
 } point_search;
@@ -50,12 +48,19 @@ typedef struct sample {
 /* Makes the scratch if there is none. Returns false if memory runs out. */
 bool ffd_search_scratch_make(search_scratch **scratch);
 
-/* Clears what was found. The list of roots, by far the largest member, is not overwritten. */
+/* Clears what was found; the caller sets the point. Member by member: the lists are by far the largest, and
+   an instruction that clears a block takes longer to begin than these to end. */
 static inline void ffd_search_begin(point_search *search, const ffd_locator *locator)
 {
-    memset(search, 0, offsetof(point_search, roots));
-    search->roots.count = 0;
     search->locator = locator;
+    search->scratch = NULL;
+    search->unresolved = false;
+    search->hard_boxes = 0;
+    search->bricks = search->evaluations = search->leaves = 0;
+    search->status = FFD_OK;
+    search->error = NULL;
+    search->stall_count = 0;
+    search->roots.count = 0;
 }
 
 /* Sets the point, with the origin subtracted. Returns false if it is too far away for

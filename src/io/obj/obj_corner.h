@@ -49,18 +49,41 @@ static ALWAYS_INLINE bool ffd_obj_find_slashes(const char *at, obj_corner_form *
            form->texcoord <= 8 && form->normal <= 8;
 }
 
-/* Reads the vertex and normal index of a corner v//n or v/t/n. Returns the position after it; NULL if the
-   text is anything else. */
-static ALWAYS_INLINE const char *ffd_obj_pair_at(const char *at, byte_numbers *indices)
+/* Corners in 64 bytes, whose kinds are found once for all of them. */
+typedef struct obj_corner_run {
+    const char *text;
+    uint64_t others; /* a bit for each byte that is no digit, from the next corner on */
+    int first;       /* offset of the next corner */
+} obj_corner_run;
+
+/* Bytes that must be readable from a run's start on: an index may begin with the last of the 64. */
+#define OBJ_RUN_ROOM 72
+
+static ALWAYS_INLINE obj_corner_run ffd_obj_run_at(const char *text)
 {
-    obj_corner_form form;
-    if (!ffd_obj_find_slashes(at, &form) || form.normal == 0)
+    return (obj_corner_run){text, bytes_not_digits_of_64(text), 0};
+}
+
+/* Takes the vertex and normal index of the run's next corner, v//n or v/t/n, and the character after it.
+   Returns the position of that; NULL, and the run stays, if the text is anything else, or goes on beyond the
+   64 bytes. */
+static ALWAYS_INLINE const char *ffd_obj_run_pair(obj_corner_run *run, byte_numbers *indices)
+{
+    const unsigned char *const text = (const unsigned char *)run->text;
+    const uint64_t second = run->others & (run->others - 1), third = second & (second - 1);
+    if (!third)
         return NULL;
-    const unsigned char *const text = (const unsigned char *)at;
-    const uint64_t vertex = load_u64(text) ^ '0' * BYTES_ONES,
-                   normal = load_u64(text + form.end - form.normal) ^ '0' * BYTES_ONES;
-    *indices = bytes_two_numbers(vertex << (64 - 8 * form.vertex), normal << (64 - 8 * form.normal));
-    return at + form.end;
+    const int slash = __builtin_ctzll(run->others), other_slash = __builtin_ctzll(second),
+              end = __builtin_ctzll(third), vertex = slash - run->first, normal = end - other_slash - 1;
+    if (text[slash] != '/' || text[other_slash] != '/' || (unsigned)vertex - 1 >= 8 ||
+        (unsigned)normal - 1 >= 8)
+        return NULL;
+    const uint64_t v = load_u64(text + run->first) ^ '0' * BYTES_ONES,
+                   n = load_u64(text + other_slash + 1) ^ '0' * BYTES_ONES;
+    *indices = bytes_two_numbers(v << (64 - 8 * vertex), n << (64 - 8 * normal));
+    run->others = third & (third - 1);
+    run->first = end + 1;
+    return run->text + end;
 }
 
 #endif

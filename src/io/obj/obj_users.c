@@ -55,11 +55,16 @@ static void look_for_corners(const block_reader *r, obj_scan *scan, obj_block_us
             note_index(r, scan, &corner, block);
 }
 
-/* Whether the normal is the vertex' first one. */
-static bool is_first(_Atomic uint32_t *first, uint32_t normal)
+/* Whether the normal is the vertex' first one. is_alone: no other thread asks; to lock the memory takes as
+   long as to read a corner. */
+static ALWAYS_INLINE bool is_first(_Atomic uint32_t *first, uint32_t normal, bool is_alone)
 {
     const uint32_t number = normal + 1;
     uint32_t there = atomic_load_explicit(first, memory_order_relaxed);
+    if (there == 0 && is_alone) {
+        atomic_store_explicit(first, number, memory_order_relaxed);
+        return true;
+    }
     if (there == 0 && atomic_compare_exchange_strong_explicit(first, &there, number, memory_order_relaxed,
                                                               memory_order_relaxed))
         return true;
@@ -74,7 +79,7 @@ static ffd_status add_normal(const block_reader *r, const obj_scan *scan, size_t
     if (status)
         return status;
     note_greatest(&block->normals, normal);
-    if (!r->users->firsts || is_first(&r->users->firsts[vertex], (uint32_t)normal))
+    if (!r->users->firsts || is_first(&r->users->firsts[vertex], (uint32_t)normal, r->document->threads == 1))
         return FFD_OK;
     if (!ffd_grow((void **)&block->others, &block->other_capacity, block->other_count + 1,
                   sizeof *block->others))
@@ -87,22 +92,33 @@ static ffd_status add_normal(const block_reader *r, const obj_scan *scan, size_t
 static void pass_common_corners(const block_reader *r, obj_scan *scan, obj_block_users *block)
 {
     const char *at = scan->at;
-    while (scan->last - at > OBJ_CORNER_ROOM && *at == ' ') {
+    _Atomic uint32_t *const firsts = r->users->firsts;
+    const bool is_alone = r->document->threads == 1;
+    size_t vertices = block->vertices, normals = block->normals, corners = 0;
+    obj_corner_run run = {0};
+    while (at < scan->last && *at == ' ') {
         byte_numbers indices;
-        const char *const end = ffd_obj_pair_at(at + 1, &indices);
+        const char *end = ffd_obj_run_pair(&run, &indices);
+        if (!end && scan->last - at > OBJ_RUN_ROOM) {
+            run = ffd_obj_run_at(at + 1);
+            end = ffd_obj_run_pair(&run, &indices);
+        }
         if (!end || !ffd_obj_ends_any_word(end))
             break;
         /* 0 becomes a value that is too large. */
         const size_t vertex = (size_t)indices.first - 1, normal = (size_t)indices.second - 1;
         if (vertex >= r->vertices.total || normal >= r->normals.total)
             break;
-        if (r->users->firsts && !is_first(&r->users->firsts[vertex], (uint32_t)normal))
+        if (firsts && !is_first(&firsts[vertex], (uint32_t)normal, is_alone))
             break;
-        note_greatest(&block->vertices, vertex);
-        note_greatest(&block->normals, normal);
-        block->corners++;
+        note_greatest(&vertices, vertex);
+        note_greatest(&normals, normal);
+        corners++;
         at = end;
     }
+    block->vertices = vertices;
+    block->normals = normals;
+    block->corners += corners;
     scan->at = at;
 }
 

@@ -169,10 +169,24 @@ static ffd_status take_statement(found_libraries *found, const char **at, const 
     return status;
 }
 
-/* The next place from `at` on, but before `end`, where the keyword's first letter is. */
-static const char *find_letter(const char *at, const char *end)
+/* The next statement that begins from `at` on, but before `end`; NULL: there is none. */
+static const char *find_statement(const char *first, const char *at, const char *end, const char *last)
 {
-    return at < end ? memchr(at, keyword[0], (size_t)(end - at)) : NULL;
+    while (at < end && (at = memchr(at, keyword[0], (size_t)(end - at)))) {
+        if (begins_statement(first, at, last))
+            return at;
+        at++;
+    }
+    return NULL;
+}
+
+bool ffd_obj_names_libraries(const file_input *input)
+{
+    const char *first = (const char *)input->data;
+    const char *const last = first + ffd_text_size(first, input->size);
+    if (ffd_text_has_mark(first, input->size))
+        first += TEXT_MARK_SIZE;
+    return find_statement(first, first, last, last);
 }
 
 ffd_status ffd_obj_list_libraries(const file_input *input, const char *path, intern_table *names,
@@ -187,15 +201,12 @@ ffd_status ffd_obj_list_libraries(const file_input *input, const char *path, int
         first += TEXT_MARK_SIZE;
     for (const char *at = first; at < last && !status;) {
         const char *const end = (size_t)(last - at) > PIECE ? at + PIECE : last;
-        const char *letter;
+        const char *statement;
         if (input->mapped)
             ffd_file_prefault(at, (size_t)(end - at));
-        while (!status && (letter = find_letter(at, end))) {
-            at = letter + 1;
-            if (begins_statement(first, letter, last)) {
-                at = letter;
-                status = take_statement(&found, &at, last, path, error);
-            }
+        while (!status && (statement = find_statement(first, at, end, last))) {
+            at = statement;
+            status = take_statement(&found, &at, last, path, error);
         }
         at = at < end ? end : at;
         ffd_file_release_until(input, at, &released);

@@ -116,8 +116,9 @@ ffd_status ffd_obj_bring_resources(const file_input *input, const mesh_save_opti
                                    file_output *output, const mesh_log *log, ffd_error *error)
 {
     const char *const mesh = options->input;
+    /* To look through a file that is in memory takes less than to ask the system for folders. */
     if (!mesh || ffd_file_is_stream(mesh) || ffd_output_is_stream(options->path) ||
-        ffd_file_same(mesh, options->path))
+        (!input->mapped && !ffd_obj_names_libraries(input)) || ffd_file_same(mesh, options->path))
         return FFD_OK;
     char *const from = ffd_path_folder(mesh), *const to = ffd_path_folder(options->path);
     const resource_copier copier = {mesh, from, to, output, log, options->copied};
