@@ -38,8 +38,9 @@ typedef struct cli_job {
 
 extern const cli_option cli_job_options[];
 
-/* Setters of settings that begin with a cli_job. */
+/* A setter of settings that begin with a cli_job: adds a lattice file. */
 bool cli_add_lattice(void *settings, const cli_option *option, const char *value);
+/* Likewise: adds a selector of --only. */
 bool cli_add_selector(void *settings, const cli_option *option, const char *value);
 
 /* The names of ffd_outside, ffd_space and ffd_isa. */

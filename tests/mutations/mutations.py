@@ -185,6 +185,17 @@ m("misplaced-key", "left out", "cli_lattice_comments", "ffd_status status = refu
 m("lattice-member", "member name", "lattice_file, shapes, cli_lattice_new", '"height", spec->height',
   '"radius", spec->height')
 
+m("extent-of-the-last-lowest", "tie", "tangents", "first = s.v < first.v ? s : first;", "first = s.v <= first.v + 1 ? s : first;")
+m("weight-without-its-derivative", "term left out", "tangents", "made->weight = (dual){m->weight, d->weight};", "made->weight = (dual){m->weight, 0};")
+m("image-not-reflected", "sign", "tangents", "derivative[c] = plane && c == plane->axis ? -moved.c[c].d : moved.c[c].d;", "derivative[c] = moved.c[c].d;")
+m("exact-weights-not-followed", "term left out", "tangents", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, cosine).d;", "*d = dual_mul((dual){weights ? weights[point] : 1, *d}, (dual){cosine.v, 0}).d;")
+m("rows-not-faded", "factor left out", "cli_jacobian, points", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, fade, row);", "ffd_basis_row_at(embedding->rest, weights, nearest->uvw, 1, row);")
+m("later-lattice-forgotten", "factor left out", "cli_jacobian", "return later ? later : inverse ? inverse : identity;", "return inverse ? inverse : identity;")
+m("zip-checksum", "operation", "cli_jacobian", "member->crc = crc_of(member->crc, bytes, size);", "member->crc = crc_of(0, bytes, size);")
+m("invalid-point-converted", "condition", "points", "if (!invalid || work->in.type != work->out.type)", "if (work->out.data)")
+m("embedding-of-another-lattice", "check left out", "points", "if (memcmp(a->rest, b->rest, 3 * size) != 0)", "if (memcmp(a->rest, b->rest, size) > 1000)")
+m("older-struct-overrun", "bound", "points", "memcpy(callers, own, size < own_size ? size : own_size);", "memcpy(callers, own, own_size);")
+
 m("offsets-by-difference", "cancellation", "cli_parameters", "memcpy(lattice->difference, spec->deformed_offsets, size);",
   "memcpy(lattice->difference, lattice->difference, size);")
 m("minus-forgotten", "sign", "cli_parameters", "placeholder->factor = -placeholder->factor;", "placeholder->factor = +placeholder->factor;")

@@ -15,7 +15,7 @@ LAYERS = {
     "base/vector": {"base"},
     "base/text": {"base", "base/memory", "base/vector"},
     "base/system": {"base", "base/memory", "base/text"},
-    "io/npy": {"base/file"},
+    "io/npy": {"base", "base/file", "base/memory"},
     "json": {"base", "base/memory", "base/text"},
     "io/gltf/file": {"base", "base/file", "base/memory", "base/text", "json"},
     "io/gltf/model": {"base", "base/memory", "base/system", "json"},
@@ -105,6 +105,10 @@ LAYERS = {
     "job/judge": {
         "base", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed", "embed/frame", "io/openmesh",
         "job/chain", "job/input", "job/pass", "job/rig", "lattice", "mesh",
+    },
+    "job/jacobian": {
+        "base", "base/file", "base/memory", "base/system", "base/text", "base/vector", "deform", "embed/boundary", "io/npy",
+        "job", "job/chain", "job/input", "job/judge", "job/pass", "lattice", "lattice/tangent", "points",
     },
     "job/view": {
         "base", "base/file", "base/memory", "base/text", "base/vector", "job", "job/chain", "job/input", "job/judge",

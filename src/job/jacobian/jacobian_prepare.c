@@ -1,3 +1,5 @@
+/* jacobian_prepare.c - what the rows are made of: embeddings, gradients of later lattices, derivatives of
+ * moves. */
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "embed/boundary/boundary.h"

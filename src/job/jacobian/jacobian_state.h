@@ -1,4 +1,4 @@
-/* jacobian_state.h - what `ffd jacobian` holds while it runs. */
+/* jacobian_state.h - what `ffd jacobian` holds while it runs. Declares functions of jacobian_prepare.c. */
 #ifndef FFD_JOB_JACOBIAN_JACOBIAN_STATE_H
 #define FFD_JOB_JACOBIAN_JACOBIAN_STATE_H
 
