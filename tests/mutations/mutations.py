@@ -193,7 +193,7 @@ m("rows-not-faded", "factor left out", "cli_jacobian, points", "ffd_basis_row_at
 m("later-lattice-forgotten", "factor left out", "cli_jacobian", "return later ? later : inverse ? inverse : identity;", "return inverse ? inverse : identity;")
 m("zip-checksum", "operation", "cli_jacobian", "member->crc = crc_of(member->crc, bytes, size);", "member->crc = crc_of(0, bytes, size);")
 m("invalid-point-converted", "condition", "points", "if (!invalid || work->in.type != work->out.type)", "if (work->out.data)")
-m("embedding-of-another-lattice", "check left out", "points", "if (memcmp(a->rest, b->rest, 3 * size) != 0)", "if (memcmp(a->rest, b->rest, size) > 1000)")
+m("arrays-of-another-lattice", "check left out", "points", "if (memcmp(a->rest, b->rest, 3 * size) != 0)", "if (memcmp(a->rest, b->rest, size) > 1000)")
 m("older-struct-overrun", "bound", "points", "memcpy(callers, own, size < own_size ? size : own_size);", "memcpy(callers, own, own_size);")
 
 m("offsets-by-difference", "cancellation", "cli_parameters", "memcpy(lattice->difference, spec->deformed_offsets, size);",
