@@ -195,6 +195,26 @@ def animated():
     return b
 
 
+def rigged():
+    """What follows a deformation (--rig): a skin without inverse binds, a mesh and a matrix below joints, an uneven group, a
+    sampler and an output of several channels, and what VRM has of it."""
+    b = skin()
+    del b.asset["skins"][0]["inverseBindMatrices"]
+    b.asset["nodes"] = [{"mesh": 0, "skin": 0}, {"translation": [0, 0.5, 0], "children": [2, 3]},
+                        {"translation": [0, 0.5, 0], "rotation": [0, 0, 0.6, 0.8], "children": [4]},
+                        {"mesh": 1, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.5, 0, 0, 1]}, {"name": "hand"},
+                        {"scale": [1, 2, 1], "children": [1]}]
+    b.asset["scenes"] = [{"nodes": [0, 5]}]
+    times = b.accessor([(0,), (1,)], "SCALAR", bounds=True)
+    turns = b.accessor([(0, 0, 0, 1), (0.6, 0, 0, 0.8)], "VEC4")
+    b.asset |= {"extensionsUsed": ["VRM"], "extensions": {"VRM": {"secondaryAnimation": {"boneGroups": []}}}, "animations": [{
+        "samplers": [{"input": times, "output": turns}, {"input": times, "output": turns, "interpolation": "STEP"},
+                     {"input": times, "output": b.accessor([(0, 0.5, 0), (0.25, 0.5, 0)], bounds=True)}],
+        "channels": [{"sampler": s, "target": {"node": n, "path": path}} for s, n, path in
+                     ((0, 1, "rotation"), (0, 2, "rotation"), (1, 4, "rotation"), (2, 1, "translation"), (2, 2, "translation"))]}]}
+    return b.mesh({"attributes": {"POSITION": b.positions([(0, 0, 0), (0.5, 0, 0), (0, 0.5, 0)])}})
+
+
 def strange():
     """What is carried through: extras, unknown extensions, long integers, names, images."""
     b = plain()
@@ -225,7 +245,7 @@ def flawed():
 
 
 ASSETS = [plain, tangents, modes, interleaved, sparse, quantized, morphs, skin, nodes, instanced, surroundings,
-          strange, flawed, materials, animated]
+          strange, flawed, materials, animated, rigged]
 
 
 def glb_of(asset, data):
