@@ -48,9 +48,14 @@ LAYERS = {
         "base", "base/file", "base/memory", "base/system", "base/text", "io/gltf/decode", "io/gltf/document",
         "io/gltf/file", "io/gltf/refer", "io/gltf/rig", "io/gltf/scene", "json", "mesh", "mesh/resource",
     },
+    "io/gltf/morph": {
+        "base", "base/file", "base/memory", "base/text", "io/gltf/decode", "io/gltf/document", "io/gltf/refer", "io/gltf/save",
+        "json", "mesh",
+    },
     "io/gltf": {
         "base/file", "base/memory", "base/system", "base/vector", "io/gltf/decode", "io/gltf/document",
-        "io/gltf/file", "io/gltf/model", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json", "mesh", "mesh/resource",
+        "io/gltf/file", "io/gltf/model", "io/gltf/morph", "io/gltf/rig", "io/gltf/save", "io/gltf/scene", "json",
+        "mesh", "mesh/resource",
     },
     "io/openmesh": {"base/memory", "base/system", "base/vector", "mesh"},
     "io/text": {"base", "base/file", "base/memory", "base/text", "mesh"},

@@ -5,7 +5,7 @@
 #include "base/file/path.h"
 #include "base/memory/memory.h"
 #include "io/gltf/gltf_open.h"
-#include "io/gltf/save/gltf_morph_text.h"
+#include "io/gltf/morph/gltf_morph_text.h"
 #include "io/gltf/save/gltf_save.h"
 #include "io/gltf/scene/gltf_results.h"
 #include <string.h>

@@ -1,6 +1,6 @@
 /* gltf_morph_text.h - a further morph target of zeros, in the text of a file. */
-#ifndef FFD_IO_GLTF_SAVE_GLTF_MORPH_TEXT_H
-#define FFD_IO_GLTF_SAVE_GLTF_MORPH_TEXT_H
+#ifndef FFD_IO_GLTF_MORPH_GLTF_MORPH_TEXT_H
+#define FFD_IO_GLTF_MORPH_GLTF_MORPH_TEXT_H
 
 #include "io/gltf/document/gltf_document.h"
 

@@ -1,7 +1,7 @@
 /* gltf_morph_reuse.h - which accessors of a morph target that is replaced can hold the new offsets, so that a
    file whose target is replaced again and again does not grow. */
-#ifndef FFD_IO_GLTF_SAVE_GLTF_MORPH_REUSE_H
-#define FFD_IO_GLTF_SAVE_GLTF_MORPH_REUSE_H
+#ifndef FFD_IO_GLTF_MORPH_GLTF_MORPH_REUSE_H
+#define FFD_IO_GLTF_MORPH_GLTF_MORPH_REUSE_H
 
 #include "io/gltf/document/gltf_document.h"
 

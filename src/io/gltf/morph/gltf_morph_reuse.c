@@ -1,4 +1,4 @@
-#include "io/gltf/save/gltf_morph_reuse.h"
+#include "io/gltf/morph/gltf_morph_reuse.h"
 #include "base/memory/memory.h"
 #include "io/gltf/refer/gltf_accessor_users.h"
 

@@ -1,22 +1,17 @@
-#include "io/gltf/save/gltf_morph_text.h"
-#include "base/little_endian.h"
+#include "io/gltf/morph/gltf_morph_text.h"
 #include "base/memory/memory.h"
-#include "base/text/base64.h"
+#include "io/gltf/morph/gltf_grown.h"
+#include "io/gltf/morph/gltf_morph_reuse.h"
+#include "io/gltf/morph/gltf_morph_weights.h"
 #include "io/gltf/save/gltf_json_insert.h"
-#include "io/gltf/save/gltf_morph_reuse.h"
-#include "io/gltf/save/gltf_morph_weights.h"
-#include "io/gltf/save/gltf_saver.h"
-#include <string.h>
 
-/* A saver that only edits the JSON. */
 typedef struct morph_writer {
-    gltf_saver saver;
+    gltf_grown file;
     const bool *meshes;
     const size_t *named;  /* per mesh: the target that is replaced; GLTF_NONE: none */
     bool *grow;           /* per mesh: it gets one more */
     unsigned char *users; /* of ffd_gltf_count_users */
     size_t *zeros[2];     /* per accessor: the new one of as many zeros; [1]: with bounds */
-    morph_data data;
 } morph_writer;
 
 static bool is_array(const gltf_saver *saver, uint32_t value)
@@ -46,22 +41,22 @@ size_t ffd_gltf_find_target(const gltf_document *d, size_t mesh)
 /* Returns the new accessor of zeros for offsets of an accessor. */
 static size_t zeros_for(morph_writer *w, size_t accessor, bool bounds)
 {
-    const gltf_document *d = w->saver.document;
+    const gltf_document *d = w->file.saver.document;
     size_t *number = &w->zeros[bounds][accessor];
     if (*number != GLTF_NONE)
         return *number;
-    ffd_buffer_format(&w->data.accessors, "%s{\"componentType\":5126,\"count\":%llu,\"type\":\"VEC3\"%s}",
-                      w->data.accessor_count > 0 ? "," : "",
-                      (unsigned long long)d->model.accessors[accessor].count,
-                      bounds ? ",\"min\":[0,0,0],\"max\":[0,0,0]" : "");
-    *number = d->model.accessor_count + w->data.accessor_count++;
+    ffd_buffer_format(
+        &w->file.data.accessors, "%s{\"componentType\":5126,\"count\":%llu,\"type\":\"VEC3\"%s}",
+        w->file.data.accessor_count > 0 ? "," : "", (unsigned long long)d->model.accessors[accessor].count,
+        bounds ? ",\"min\":[0,0,0],\"max\":[0,0,0]" : "");
+    *number = d->model.accessor_count + w->file.data.accessor_count++;
     return *number;
 }
 
 /* Returns the accessor for an attribute of a target: the one of the target that is replaced, if it can be. */
 static size_t accessor_for(morph_writer *w, const morph_place *place)
 {
-    const gltf_document *d = w->saver.document;
+    const gltf_document *d = w->file.saver.document;
     const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
     if (place->target < primitive->target_count && ffd_gltf_can_reuse(d, w->users, place))
         return (size_t)primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
@@ -71,7 +66,7 @@ static size_t accessor_for(morph_writer *w, const morph_place *place)
 /* Writes a target. It has normals and tangents only if these are deformed. */
 static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, byte_buffer *text)
 {
-    const gltf_document *d = w->saver.document;
+    const gltf_document *d = w->file.saver.document;
     const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const bool wanted[GLTF_DEFORMED] = {true, d->morph_normals,
                                         d->morph_normals && primitive->accessor[GLTF_NORMAL] >= 0};
@@ -88,19 +83,19 @@ static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, 
 
 static void replace_target(morph_writer *w, size_t mesh, size_t p, size_t target, uint32_t targets)
 {
-    const json_span *const tree = &w->saver.document->tree;
+    const json_span *const tree = &w->file.saver.document->tree;
     const json_value *const value = &tree->values[ffd_json_span_element(tree, targets, target)];
     byte_buffer text = {0};
     write_target(w, mesh, p, target, &text);
     if (!text.failed)
-        ffd_edits_replace(&w->saver.edits, value->begin, value->end, text.data, text.size);
-    w->saver.edits.failed = w->saver.edits.failed || text.failed;
+        ffd_edits_replace(&w->file.saver.edits, value->begin, value->end, text.data, text.size);
+    w->file.saver.edits.failed = w->file.saver.edits.failed || text.failed;
     ffd_buffer_free(&text);
 }
 
 static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
 {
-    const gltf_document *d = w->saver.document;
+    const gltf_document *d = w->file.saver.document;
     const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const uint32_t value = ffd_gltf_primitive_value(d, mesh, p);
     const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
@@ -115,7 +110,7 @@ static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
     write_target(w, mesh, p, place, &text);
     if (targets == JSON_NONE)
         ffd_buffer_text(&text, "]");
-    ffd_gltf_insert_last(&w->saver, targets == JSON_NONE ? value : targets, &text);
+    ffd_gltf_insert_last(&w->file.saver, targets == JSON_NONE ? value : targets, &text);
     ffd_buffer_free(&text);
 }
 
@@ -204,144 +199,30 @@ static void add_weights(gltf_saver *saver, uint32_t value, size_t targets, bool 
 
 static void add_to_meshes(morph_writer *w)
 {
-    const gltf_document *d = w->saver.document;
+    const gltf_document *d = w->file.saver.document;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
         if (!w->meshes[m])
             continue;
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
             add_to_primitive(w, m, p);
         if (!w->grow[m]) {
-            ffd_log_line(w->saver.log, FFD_LOG_WARNING,
+            ffd_log_line(w->file.saver.log, FFD_LOG_WARNING,
                          "mesh %zu has a morph target of that name already: it is replaced", m);
             continue;
         }
-        add_weights(&w->saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
-        add_names(&w->saver, m);
+        add_weights(&w->file.saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
+        add_names(&w->file.saver, m);
     }
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->model.nodes[n].mesh >= 0 && w->grow[d->model.nodes[n].mesh])
-            add_weights(&w->saver, d->node_values.values[n], 0, false);
-}
-
-static bool extends_bin(const gltf_document *d)
-{
-    return d->buffer_values.count > 0 && d->buffers[0].kind == BUFFER_BIN;
-}
-
-/* Returns where the BIN chunk's old bytes end and new ones begin. */
-static size_t bin_end(const gltf_document *d)
-{
-    return ffd_gltf_align(d->buffers[0].length);
-}
-
-static void write_buffer(morph_writer *w, byte_buffer *text)
-{
-    const size_t size = w->data.bytes.size, length = ffd_base64_length(size);
-    ffd_buffer_format(text, "{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,", size);
-    char *encoded = ffd_alloc(length, 1);
-    if (!encoded) {
-        text->failed = true;
-        return;
-    }
-    ffd_base64_encode((const unsigned char *)w->data.bytes.data, size, encoded);
-    ffd_buffer_append(text, encoded, length);
-    ffd_buffer_text(text, "\"}");
-    ffd_free(encoded);
-}
-
-/* Adds the bufferView of the new bytes, in the BIN chunk if there is one, else in a buffer of their own. */
-static void add_bytes(morph_writer *w)
-{
-    gltf_saver *saver = &w->saver;
-    const gltf_document *d = saver->document;
-    const bool bin = extends_bin(d);
-    byte_buffer view = {0}, buffer = {0};
-    if (w->data.bytes.size == 0)
-        return;
-    ffd_buffer_format(&view, "{\"buffer\":%zu,\"byteOffset\":%zu,\"byteLength\":%zu}",
-                      bin ? 0 : d->buffer_values.count, bin ? bin_end(d) : 0, w->data.bytes.size);
-    ffd_gltf_add_elements(saver, &d->view_values, "bufferViews", &view);
-    if (bin) {
-        const json_value *length =
-            &d->tree.values[ffd_json_span_member(&d->tree, d->buffer_values.values[0], "byteLength")];
-        ffd_edits_format(&saver->edits, length->begin, length->end, "%zu", bin_end(d) + w->data.bytes.size);
-    } else {
-        write_buffer(w, &buffer);
-        ffd_gltf_add_elements(saver, &d->buffer_values, "buffers", &buffer);
-    }
-    ffd_buffer_free(&view);
-    ffd_buffer_free(&buffer);
-}
-
-static void put_u32(byte_buffer *out, size_t number)
-{
-    unsigned char bytes[4];
-    store_u32(bytes, (uint32_t)number);
-    ffd_buffer_append(out, bytes, sizeof bytes);
-}
-
-static void pad(byte_buffer *out, const char *with)
-{
-    while (out->size % 4 && !out->failed)
-        ffd_buffer_append(out, with, 1);
-}
-
-/* Writes the container around a new JSON text. */
-static void write_glb(const morph_writer *w, byte_buffer *json, byte_buffer *out)
-{
-    const gltf_document *d = w->saver.document;
-    const bool grows = extends_bin(d) && w->data.bytes.size > 0;
-    pad(json, " ");
-    put_u32(out, GLB_MAGIC);
-    put_u32(out, GLB_VERSION);
-    put_u32(out, 0);
-    put_u32(out, json->size);
-    put_u32(out, GLB_CHUNK_JSON);
-    ffd_buffer_append(out, json->data, json->size);
-    if (d->glb.has_bin) {
-        const size_t kept = grows ? d->buffers[0].length : d->glb.bin_size;
-        put_u32(out, grows ? ffd_gltf_align(bin_end(d) + w->data.bytes.size) : kept);
-        put_u32(out, GLB_CHUNK_BIN);
-        ffd_buffer_append(out, d->input.data + d->glb.bin_begin, kept);
-        if (grows) {
-            pad(out, "");
-            ffd_buffer_append(out, w->data.bytes.data, w->data.bytes.size);
-            pad(out, "");
-        }
-    }
-    ffd_buffer_append(out, d->input.data + d->glb.rest_begin, d->glb.end - d->glb.rest_begin);
-    if (!out->failed)
-        store_u32((unsigned char *)out->data + 8, (uint32_t)out->size);
-}
-
-static ffd_status write_file(morph_writer *w, file_input *made, ffd_error *error)
-{
-    const gltf_document *d = w->saver.document;
-    byte_buffer text = {0}, glb = {0}, *const file = d->binary ? &glb : &text;
-    ffd_status status = FFD_OK;
-    ffd_edits_sort(&w->saver.edits);
-    ffd_edits_apply(&w->saver.edits, d->tree.text, 0, (uint32_t)d->tree.size, &text);
-    if (d->binary && !text.failed)
-        write_glb(w, &text, &glb);
-    if (text.failed || glb.failed || w->data.bytes.failed)
-        status = ffd_fail_memory(error);
-    else if (file->size > UINT32_MAX)
-        status = ffd_fail_file(error, FFD_E_LIMIT, d->name, "would have more than 4294967295 bytes");
-    if (status == FFD_OK) {
-        *made =
-            (file_input){.data = (const unsigned char *)file->data, .size = file->size, .block = file->data};
-        *file = (byte_buffer){0};
-    }
-    ffd_buffer_free(&text);
-    ffd_buffer_free(&glb);
-    return status;
+            add_weights(&w->file.saver, d->node_values.values[n], 0, false);
 }
 
 ffd_status ffd_gltf_add_target(const gltf_document *d, const bool *meshes, const size_t *named,
                                const mesh_log *log, file_input *made, ffd_error *error)
 {
     const size_t count = d->model.accessor_count;
-    morph_writer w = {.saver = {.document = d, .log = log}, .meshes = meshes, .named = named};
+    morph_writer w = {.file.saver = {.document = d, .log = log}, .meshes = meshes, .named = named};
     ffd_status status = FFD_OK;
     w.users = ffd_gltf_count_users(d);
     w.grow = ffd_alloc(d->model.mesh_count, sizeof *w.grow);
@@ -354,10 +235,8 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const bool *meshes, const
     }
     if (w.zeros[0] && w.zeros[1] && w.grow && w.users) {
         add_to_meshes(&w);
-        ffd_gltf_extend_weights(&w.saver, w.grow, &w.data);
-        ffd_gltf_add_elements(&w.saver, &d->accessor_values, "accessors", &w.data.accessors);
-        add_bytes(&w);
-        status = write_file(&w, made, error);
+        ffd_gltf_extend_weights(&w.file.saver, w.grow, &w.file.data);
+        status = ffd_gltf_grown_write(&w.file, made, error);
     } else {
         status = ffd_fail_memory(error);
     }
@@ -365,8 +244,6 @@ ffd_status ffd_gltf_add_target(const gltf_document *d, const bool *meshes, const
     ffd_free(w.users);
     ffd_free(w.zeros[0]);
     ffd_free(w.zeros[1]);
-    ffd_buffer_free(&w.data.accessors);
-    ffd_buffer_free(&w.data.bytes);
-    ffd_edits_free(&w.saver.edits);
+    ffd_gltf_grown_free(&w.file);
     return status;
 }
