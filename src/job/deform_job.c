@@ -68,11 +68,14 @@ ffd_status ffd_deform_job_begin(deform_job *job, const ffd_deform_desc *desc, bo
 {
     ffd_result_clear(result);
     *job = (deform_job){.desc = desc, .check = check, .losses = ffd_mapping_losses()};
-    const ffd_status status = check_desc(desc, &result->error);
+    ffd_status status = check_desc(desc, &result->error);
+    if (!status && check && desc->morphs)
+        status = ffd_fail(&result->error, FFD_E_ARGUMENT,
+                          "several morph targets are made by a deformation only (--morph)");
     if (status)
         return status;
     job->threads = desc->threads > 0 ? desc->threads : ffd_processor_count();
-    job->log = (mesh_log){desc->log, desc->log_user};
+    job->log = job->file_log = (mesh_log){desc->log, desc->log_user};
     return FFD_OK;
 }
 
@@ -185,14 +188,14 @@ static ffd_status prepare(deform_job *job, figure_arrays *arrays, ffd_error *err
     if (!status && !job->details)
         status = check_unknown(job, error);
     if (!status)
-        status = ffd_mesh_warn(job->document, &job->log, error);
+        status = ffd_mesh_warn(job->document, &job->file_log, error);
     job->recomputes = job->desc->normals == FFD_NORMALS_RECOMPUTE && has_normals(job->document);
-    job->document->results_replace =
-        !ffd_cache_holds_meshes(job->desc->share) && !wants_figures(job) && !job->recomputes;
+    job->document->results_replace = !ffd_cache_holds_meshes(job->desc->share) && !wants_figures(job) &&
+                                     !job->recomputes && !job->desc->morphs;
     if (!status)
         status = format->begin_results(job->document, attributes, attributes, error);
     if (job->desc->normals == FFD_NORMALS_RECOMPUTE && !job->recomputes && !format->normals_of_faces)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "has no normals to recompute");
+        ffd_log_line(&job->file_log, FFD_LOG_WARNING, "has no normals to recompute");
     arrays->budget = job->document->budget;
     if (!status)
         status = ffd_lattice_memory_share(&job->chain, &arrays->budget, error);
@@ -388,7 +391,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     }
     status = ffd_mapping_judge(job->losses, status, error);
     if (!status)
-        ffd_flaws_warn(&job->document->flaws, NULL, &job->log);
+        ffd_flaws_warn(&job->document->flaws, NULL, &job->file_log);
     if (!status)
         status = ffd_overlaps_warn(&job->chain, &job->log, error);
     if (!status)
@@ -396,7 +399,7 @@ ffd_status ffd_deform_job_run(deform_job *job, ffd_job_result *result, ffd_error
     if (!status)
         warn_of_left(job, result);
     if (!status && job->totals.vertices == 0)
-        ffd_log_line(&job->log, FFD_LOG_WARNING, "%s",
+        ffd_log_line(&job->file_log, FFD_LOG_WARNING, "%s",
                      job->desc->only_count ? "--only selects no vertices"
                                            : "there are no vertices to deform");
     if (!status && !job->check) {

@@ -15,7 +15,9 @@ typedef struct morph_place {
 unsigned char *ffd_gltf_count_users(const gltf_document *document);
 
 /* Whether an attribute's accessor has nothing but its offsets, as floats in bytes of its own, and all
-   selected ones get results; what is not selected keeps the old ones then. users: of ffd_gltf_count_users. */
-bool ffd_gltf_can_reuse(const gltf_document *document, const unsigned char *users, const morph_place *place);
+   selected ones get results, those of a target of source, whose instances are the document's; what is not
+   selected keeps the old ones then. users: of ffd_gltf_count_users. */
+bool ffd_gltf_can_reuse(const gltf_document *document, const unsigned char *users, const morph_place *place,
+                        const gltf_document *source, const gltf_morph *morph);
 
 #endif

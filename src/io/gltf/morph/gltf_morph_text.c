@@ -7,8 +7,7 @@
 
 typedef struct morph_writer {
     gltf_grown file;
-    const bool *meshes;
-    const size_t *named;  /* per mesh: the target that is replaced; GLTF_NONE: none */
+    const morph_request *request;
     bool *grow;           /* per mesh: it gets one more */
     unsigned char *users; /* of ffd_gltf_count_users */
     size_t *zeros[2];     /* per accessor: the new one of as many zeros; [1]: with bounds */
@@ -19,21 +18,20 @@ static bool is_array(const gltf_saver *saver, uint32_t value)
     return value != JSON_NONE && saver->document->tree.values[value].kind == JSON_ARRAY;
 }
 
-/* Returns the names of a mesh's targets; JSON_NONE if there is no list of them. */
-static uint32_t names_of(const gltf_document *d, size_t mesh)
+uint32_t ffd_gltf_target_names(const gltf_document *d, size_t mesh)
 {
     const uint32_t extras = ffd_json_span_member(&d->tree, d->mesh_values.values[mesh], "extras");
     const uint32_t names = ffd_json_span_member(&d->tree, extras, "targetNames");
     return names != JSON_NONE && d->tree.values[names].kind == JSON_ARRAY ? names : JSON_NONE;
 }
 
-size_t ffd_gltf_find_target(const gltf_document *d, size_t mesh)
+size_t ffd_gltf_find_target(const gltf_document *d, size_t mesh, const char *name)
 {
     const size_t count = ffd_gltf_target_count(d, mesh);
     size_t t = 0;
-    for (uint32_t v = ffd_json_span_first(&d->tree, names_of(d, mesh)); v != JSON_NONE && t < count;
-         v = ffd_json_span_after(&d->tree, v), t++)
-        if (ffd_json_span_string_is(&d->tree, v, d->morph_name))
+    for (uint32_t v = ffd_json_span_first(&d->tree, ffd_gltf_target_names(d, mesh));
+         v != JSON_NONE && t < count; v = ffd_json_span_after(&d->tree, v), t++)
+        if (ffd_json_span_string_is(&d->tree, v, name))
             return t;
     return GLTF_NONE;
 }
@@ -58,7 +56,8 @@ static size_t accessor_for(morph_writer *w, const morph_place *place)
 {
     const gltf_document *d = w->file.saver.document;
     const gltf_primitive *const primitive = &d->model.meshes[place->mesh].primitives[place->primitive];
-    if (place->target < primitive->target_count && ffd_gltf_can_reuse(d, w->users, place))
+    if (place->target < primitive->target_count &&
+        ffd_gltf_can_reuse(d, w->users, place, w->request->source, w->request->morph))
         return (size_t)primitive->target_accessors[GLTF_DEFORMED * place->target + place->semantic];
     return zeros_for(w, (size_t)primitive->accessor[place->semantic], place->semantic == GLTF_POSITION);
 }
@@ -68,8 +67,8 @@ static void write_target(morph_writer *w, size_t mesh, size_t p, size_t target, 
 {
     const gltf_document *d = w->file.saver.document;
     const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
-    const bool wanted[GLTF_DEFORMED] = {true, d->morph_normals,
-                                        d->morph_normals && primitive->accessor[GLTF_NORMAL] >= 0};
+    const bool wanted[GLTF_DEFORMED] = {true, w->request->morph->normals,
+                                        w->request->morph->normals && primitive->accessor[GLTF_NORMAL] >= 0};
     bool first = true;
     ffd_buffer_text(text, "{");
     for (size_t s = 0; s < GLTF_DEFORMED; s++)
@@ -99,7 +98,7 @@ static void add_to_primitive(morph_writer *w, size_t mesh, size_t p)
     const gltf_primitive *const primitive = &d->model.meshes[mesh].primitives[p];
     const uint32_t value = ffd_gltf_primitive_value(d, mesh, p);
     const uint32_t targets = ffd_json_span_member(&d->tree, value, "targets");
-    const size_t place = ffd_gltf_target_place(primitive, w->named[mesh]);
+    const size_t place = ffd_gltf_target_place(primitive, w->request->named[mesh]);
     byte_buffer text = {0};
     if (place < primitive->target_count) {
         replace_target(w, mesh, p, place, targets);
@@ -123,12 +122,13 @@ static void write_name(const char *name, byte_buffer *text)
 }
 
 /* Writes names for the targets from `first` on: made up, but for the new one, which is the last. */
-static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte_buffer *text)
+static void write_names(const gltf_saver *saver, const char *name, size_t mesh, size_t first,
+                        byte_buffer *text)
 {
     const size_t count = ffd_gltf_target_count(saver->document, mesh);
     for (size_t t = first; t < count; t++)
         ffd_buffer_format(text, "\"target_%zu\",", t);
-    write_name(saver->document->morph_name, text);
+    write_name(name, text);
     if (first + 1 == count)
         ffd_log_line(saver->log, FFD_LOG_INFO,
                      "the unnamed morph target of mesh %zu is now called target_%zu", mesh, first);
@@ -139,12 +139,12 @@ static void write_names(const gltf_saver *saver, size_t mesh, size_t first, byte
 }
 
 /* Adds the new target's name; if the list has more names than targets, it replaces the next one. */
-static void edit_names(gltf_saver *saver, size_t mesh, uint32_t names)
+static void edit_names(gltf_saver *saver, const char *name, size_t mesh, uint32_t names)
 {
     const json_span *tree = &saver->document->tree;
     const size_t count = ffd_gltf_target_count(saver->document, mesh), named = tree->values[names].count;
     byte_buffer text = {0};
-    write_names(saver, mesh, named < count ? named : count, &text);
+    write_names(saver, name, mesh, named < count ? named : count, &text);
     if (named <= count) {
         ffd_gltf_insert_last(saver, names, &text);
     } else if (!text.failed) {
@@ -155,7 +155,7 @@ static void edit_names(gltf_saver *saver, size_t mesh, uint32_t names)
     ffd_buffer_free(&text);
 }
 
-static void add_names(gltf_saver *saver, size_t mesh)
+static void add_names(gltf_saver *saver, const char *name, size_t mesh)
 {
     const json_span *tree = &saver->document->tree;
     const uint32_t value = saver->document->mesh_values.values[mesh];
@@ -169,11 +169,11 @@ static void add_names(gltf_saver *saver, size_t mesh)
         return;
     }
     if (names != JSON_NONE) {
-        edit_names(saver, mesh, names);
+        edit_names(saver, name, mesh, names);
         return;
     }
     ffd_buffer_text(&text, extras == JSON_NONE ? "\"extras\":{\"targetNames\":[" : "\"targetNames\":[");
-    write_names(saver, mesh, 0, &text);
+    write_names(saver, name, mesh, 0, &text);
     ffd_buffer_text(&text, extras == JSON_NONE ? "]}" : "]");
     ffd_gltf_insert_last(saver, extras == JSON_NONE ? value : extras, &text);
     ffd_buffer_free(&text);
@@ -201,7 +201,7 @@ static void add_to_meshes(morph_writer *w)
 {
     const gltf_document *d = w->file.saver.document;
     for (size_t m = 0; m < d->model.mesh_count; m++) {
-        if (!w->meshes[m])
+        if (!w->request->meshes[m])
             continue;
         for (size_t p = 0; p < d->model.meshes[m].primitive_count; p++)
             add_to_primitive(w, m, p);
@@ -211,23 +211,23 @@ static void add_to_meshes(morph_writer *w)
             continue;
         }
         add_weights(&w->file.saver, d->mesh_values.values[m], ffd_gltf_target_count(d, m), true);
-        add_names(&w->file.saver, m);
+        add_names(&w->file.saver, w->request->morph->name, m);
     }
     for (size_t n = 0; n < d->model.node_count; n++)
         if (d->model.nodes[n].mesh >= 0 && w->grow[d->model.nodes[n].mesh])
             add_weights(&w->file.saver, d->node_values.values[n], 0, false);
 }
 
-ffd_status ffd_gltf_add_target(const gltf_document *d, const bool *meshes, const size_t *named,
-                               const mesh_log *log, file_input *made, ffd_error *error)
+ffd_status ffd_gltf_add_target(const gltf_document *d, const morph_request *request, file_input *made,
+                               ffd_error *error)
 {
     const size_t count = d->model.accessor_count;
-    morph_writer w = {.file.saver = {.document = d, .log = log}, .meshes = meshes, .named = named};
+    morph_writer w = {.file.saver = {.document = d, .log = request->log}, .request = request};
     ffd_status status = FFD_OK;
     w.users = ffd_gltf_count_users(d);
     w.grow = ffd_alloc(d->model.mesh_count, sizeof *w.grow);
     for (size_t m = 0; m < d->model.mesh_count && w.grow; m++)
-        w.grow[m] = meshes[m] && named[m] == GLTF_NONE;
+        w.grow[m] = request->meshes[m] && request->named[m] == GLTF_NONE;
     for (int i = 0; i < 2; i++) {
         w.zeros[i] = ffd_alloc(count, sizeof *w.zeros[i]);
         for (size_t a = 0; w.zeros[i] && a < count; a++)
