@@ -1,5 +1,6 @@
 #include "cli/job.h"
 #include "base/file/folder.h"
+#include "cli/morphs.h"
 #include "cli/nearest.h"
 #include <math.h>
 #include <stdlib.h>
@@ -174,6 +175,7 @@ static void free_lists(cli_job *job)
 {
     cli_values_free(&job->values);
     cli_names_free(&job->allowed);
+    cli_morphs_free(job);
     free(job->lattices);
     free(job->only);
 }
@@ -245,9 +247,11 @@ const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, s
     if (job->embedding && job->blocks)
         return "--embedding works with one lattice, and not with --blocks";
     if (job->embedding && job->lattice_count > 1)
-        return "--embedding works with one lattice, but several -l are given";
+        return "--embedding works with one lattice, but several are given";
     if (job->embedding && inputs > 1)
         return "--embedding works with one mesh, but several IN are given";
+    if (cli_morphs_mistake(job))
+        return cli_morphs_mistake(job);
     if (job->stable && !job->report)
         return "--report-stable needs --report";
     const char *why = wrong_streams(job, words, inputs);
