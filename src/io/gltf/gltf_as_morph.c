@@ -52,7 +52,10 @@ ffd_status ffd_gltf_keep_clips(mesh_document *document, const morph_clip *clips,
     gltf_document *d = (gltf_document *)document;
     d->clips = clips;
     d->clip_count = count;
-    return ffd_gltf_check_clips(d, clips, count, names, name_count, error);
+    const ffd_status status = ffd_gltf_check_clips(d, clips, count, names, name_count, error);
+    if (status)
+        ffd_fail_name_file(error, d->name);
+    return status;
 }
 
 static bool is_moved(const gltf_document *d, const gltf_morph *morph, size_t part, size_t semantic)
