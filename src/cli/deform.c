@@ -250,9 +250,9 @@ static const cli_example examples[] = {
     {"bend a mesh", "ffd deform robot.glb bent.glb -l bend.json"},
     {"many meshes into a folder, with a report",
      "mkdir -p bent && ffd deform cow.obj vase.obj --out-dir bent -l twist.json --report report.json"},
-    {"two shapes of a face, and an animation of them",
-     "ffd deform head.glb face.glb --morph smile=smile.json --morph blink=blink.json "
-     "--clip \"hello: 0, 0.3 smile=1, 0.4 smile=1 blink=1, 0.5 smile=1, 1\""},
+    {"two shapes to animate, and an animation of them",
+     "ffd deform head.glb face.glb --morph smile=smile.json --morph wink=wink.json --clip 'hi: 0, 0.3 "
+     "smile=1, 1 wink=1'"},
     {"from a stream to a stream",
      "ffd deform - - --input-format obj --output-format ply -l bend.json <cow.obj >cow.ply"},
     {NULL, NULL},

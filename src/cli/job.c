@@ -247,7 +247,8 @@ const char *cli_job_option_mistake(const cli_job *job, const cli_words *words, s
     if (job->embedding && job->blocks)
         return "--embedding works with one lattice, and not with --blocks";
     if (job->embedding && job->lattice_count > 1)
-        return "--embedding works with one lattice, but several are given";
+        return job->morph_count ? "--embedding works with one lattice, but several --morph are given"
+                                : "--embedding works with one lattice, but several -l are given";
     if (job->embedding && inputs > 1)
         return "--embedding works with one mesh, but several IN are given";
     if (cli_morphs_mistake(job))

@@ -281,7 +281,7 @@ def what_does_not_go_together(run):
     for options, said in ((("-l", "shear.json"), "-l cannot be used with --morph: each --morph names its own lattice"),
                           (("--as-morph", "x"), "--as-morph cannot be used with --morph"),
                           (("--blocks",), "--blocks cannot be used with --morph"),
-                          (("--embedding", "e.npy"), "--embedding works with one lattice, but several are given")):
+                          (("--embedding", "e.npy"), "--embedding works with one lattice, but several --morph are given")):
         done = run.ffd("deform", "in.glb", "out.glb", *MORPHS, *options, code=USAGE)
         check(said in done.err[0], done.err)
     done = run.ffd("deform", "in.glb", "out.glb", "-l", "shear.json", "--clip", "hop: 0", code=USAGE)
