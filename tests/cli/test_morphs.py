@@ -390,6 +390,14 @@ def a_mesh_whose_extras_hold_no_names(run):
 
 
 @case
+def what_is_odd_in_the_file_is_said_once(run):
+    scene = two_meshes(targets=1, far=[[0.0, 0.0, 0.0]])
+    scene.asset["meshes"][0]["weights"] = []
+    write(run, scene)
+    deformed(run, err=re.compile("^in.glb: the default weights of mesh 0"))
+
+
+@case
 def in_place_and_in_a_folder_of_buffers(run):
     write(run)
     asset, data = glb_split(run.read("in.glb"))
