@@ -1,5 +1,4 @@
 #include "cli/morphs.h"
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,17 +65,6 @@ bool cli_add_clip(void *settings, const cli_option *option, const char *value)
     return false;
 }
 
-const char *cli_morphs_mistake(const cli_job *job)
-{
-    if (job->morph_count == 0)
-        return job->clips.count ? "--clip needs --morph" : NULL;
-    if (job->lattice_count > job->morph_count)
-        return "-l cannot be used with --morph: each --morph names its own lattice";
-    if (job->as_morph)
-        return "--as-morph cannot be used with --morph";
-    return job->blocks ? "--blocks cannot be used with --morph" : NULL;
-}
-
 bool cli_morphs_describe(cli_job *job, ffd_deform_desc *desc)
 {
     desc->clips = job->clips.names;
@@ -90,13 +78,4 @@ bool cli_morphs_describe(cli_job *job, ffd_deform_desc *desc)
     if (!job->morph_results)
         cli_complain("out of memory");
     return job->morph_results;
-}
-
-void cli_morphs_free(cli_job *job)
-{
-    for (size_t i = 0; i < job->morph_count; i++)
-        free((char *)(uintptr_t)job->morphs[i]);
-    free(job->morphs);
-    free(job->morph_results);
-    cli_names_free(&job->clips);
 }

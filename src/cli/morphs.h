@@ -11,11 +11,7 @@ bool cli_add_morph(void *settings, const cli_option *option, const char *value);
 /* Adds an animation of weights. */
 bool cli_add_clip(void *settings, const cli_option *option, const char *value);
 
-/* Returns what is wrong with the options of morph targets, or NULL. */
-const char *cli_morphs_mistake(const cli_job *job);
 /* Fills desc's morphs. False if memory runs out, after a complaint. */
 bool cli_morphs_describe(cli_job *job, ffd_deform_desc *desc);
-/* Frees the names and results. */
-void cli_morphs_free(cli_job *job);
 
 #endif
