@@ -163,6 +163,7 @@ static ffd_status run_all(deform_job *job, ffd_job_result *results, ffd_error *e
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
+    job->document->sparse_targets = true;
     ffd_status status = keep_clips(job, error);
     if (!status)
         status = begin(job, error);

@@ -414,6 +414,8 @@ struct mesh_document {
     bool shown;
     /* Results are offsets of a morph target of its own (keep_base): the others stay. */
     bool keeps_base;
+    /* Set by a job before it saves: of such targets only offsets other than 0 need be stored. */
+    bool sparse_targets;
 };
 
 /* Whether some part shows more than its own vertices. */

@@ -378,6 +378,36 @@ def more_than_eight_are_said(run):
 
 
 @case
+def offsets_that_are_zeros_are_not_stored(run):
+    """Where two thirds of them are: the rest, with 16-bit numbers up to 65,536 vertices, else with 32. --as-morph stores all."""
+    for count, moved, code in ((12, 4, 5123), (12, 5, None), (65536, 9, 5123), (65537, 9, 5125)):
+        points = [[0.5, 0.25, 0.0]] * moved + [[90.0, float(i % 7), 1.0] for i in range(count - moved)]
+        points[0], points[-1] = points[-1], points[0]
+        scene = Scene(nodes=[{"mesh": 0}, {"mesh": 0, "translation": [0, 2, 0]}], scenes=[{"nodes": [0, 1]}])
+        attributes = {"POSITION": scene.add(points, bounds=True)}
+        scene.asset["meshes"] = [{"primitives": [{"attributes": attributes, "mode": 0}]}]
+        write(run, scene)
+        asset, data = deformed(run, "--clip", "c: 0, 1 squash=1")
+        run.ffd("deform", "in.glb", "a.glb", "--force", "-l", "shear.json", "--as-morph", "squash", "-q")
+        run.ffd("deform", "a.glb", "b.glb", "--force", "-l", "shift.json", "--as-morph", "stretch", "-q")
+        dense = glb_split(run.read("b.glb"))
+        check(not any("sparse" in accessor for accessor in dense[0]["accessors"]), "--as-morph changes its bytes")
+        equal(targets_of(asset, data), targets_of(*dense), f"{moved} of {count}")
+        sparse = [accessor for accessor in asset["accessors"] if "sparse" in accessor]
+        equal(len(sparse), 3 if code else 0, "two nodes see squash differently")
+        for accessor in sparse:
+            equal((accessor["sparse"]["indices"]["componentType"], accessor["sparse"]["count"], "bufferView" in accessor), (code, moved, False))
+            for part in ("indices", "values"):
+                view = asset["bufferViews"][accessor["sparse"][part]["bufferView"]]
+                check("target" not in view and "byteStride" not in view, view)
+        # Such a target is replaced like any other.
+        run.ffd("deform", "out.glb", "again.glb", "--force", "-q", "--morph", "squash=shift.json", "--morph", "stretch=shear.json")
+        again = targets_of(*glb_split(run.read("again.glb")))
+        equal([node["stretch"] for node in again], [node["squash"] for node in targets_of(*dense)])
+        equal([node["squash"] for node in again], [node["stretch"] for node in targets_of(*dense)])
+
+
+@case
 def a_mesh_whose_extras_hold_no_names(run):
     """The clip knows the new targets by their places."""
     scene = two_meshes()

@@ -728,6 +728,12 @@ m("morph-name-in-a-batch", "format", "cli_morphs", "if (*c == '\\'') ffd_buffer_
   "if (*c == '\"')\n            ffd_buffer_append(text, c, 1);")
 m("morph-name-not-resumed", "left out", "cli_morphs", 'ffd_buffer_text(content, "--morph="); quote_name(name, content);',
   'ffd_buffer_text(content, "--morph=");')
+m("sparse-too-soon", "bound", "cli_morphs", "if (sparse->count <= count / 3)", "if (sparse->count <= count / 2)")
+m("sparse-short-numbers", "bound", "cli_morphs", "sparse->index_size = count <= SHORT_INDICES ? 2 : 4;",
+  "sparse->index_size = count <= SHORT_INDICES + 1 ? 2 : 4;")
+m("sparse-as-morph", "condition", "cli_morphs", "return d->base.sparse_targets && version->accessor >=", "return version->accessor >=")
+m("sparse-target-of-a-view", "format", "cli_morphs", "if (!append->sparse) write_target(saver, version->accessor, text);",
+  "write_target(saver, version->accessor, text);")
 m("morph-limit-of-viewers", "bound", "cli_morphs", "if (count <= MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))",
   "if (count < MORPHS_PLAYED || count <= ffd_gltf_target_count(d, m))")
 m("changed-corners", "bound", "changed_faces", "if (filler->corner < filler->corners && vertex < filler->faces->vertex_count)",

@@ -279,6 +279,7 @@ static ffd_status save_file(const morph_file *file, const morph_marks *marks,
 {
     const gltf_document *const d = file->source;
     gltf_document *const other = (gltf_document *)file->made;
+    other->base.sparse_targets = d->base.sparse_targets;
     other->own_accessors = other->model.accessor_count - d->model.accessor_count;
     for (size_t k = 0; k < d->morph_count; k++)
         lend_results(d, &marks[k], false, other);
