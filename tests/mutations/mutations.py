@@ -611,7 +611,8 @@ m("colours-of-255", "check left out", "cli_convert", "value > 255 || floor(value
 m("colours-above-1", "check left out", "cli_convert", "limit_colours(&model, target, log);", "")
 m("zeros-are-blank", "check left out", "cli_batch, cli_batch_table", "line->data[i] == 0 || !strchr(", "!strchr(")
 m("lone-returns-not-seen", "check left out", "cli_batch_table", "if (has_lone_return(name))", "if (!name)")
-m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0}",
+m("glb-stride", "stride", "cli_convert, validator", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0, 0}",
+  "{12, 12, 12, glb_colour_size(w), 12, 12, 0, 0, 0}", "{12, 12, 8, glb_colour_size(w), 12, 12, 0, 0}",
   "{12, 12, 12, glb_colour_size(w), 12, 12, 0, 0}")
 m("alpha-is-linear", "check left out", "cli_convert", "c < 3 ? ffd_srgb_to_linear(colour[c]) : colour[c];",
   "ffd_srgb_to_linear(colour[c]);")
