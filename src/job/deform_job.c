@@ -45,7 +45,7 @@ static ffd_status check_embedding(const ffd_deform_desc *desc, ffd_error *error)
 static ffd_status check_desc(const ffd_deform_desc *desc, ffd_error *error)
 {
     if (desc->struct_size != sizeof *desc || !desc->input.path || (desc->lattice_count && !desc->lattices) ||
-        (desc->only_count && !desc->only))
+        (desc->only_count && !desc->only) || (desc->clip_count && !desc->clips))
         return ffd_fail(error, FFD_E_ARGUMENT, "the job's description is not complete");
     if (!(desc->falloff >= 0 && isfinite(desc->falloff)))
         return ffd_fail(error, FFD_E_ARGUMENT, "the falloff %g is not a length", desc->falloff);
