@@ -251,8 +251,8 @@ static const cli_example examples[] = {
     {"many meshes into a folder, with a report",
      "mkdir -p bent && ffd deform cow.obj vase.obj --out-dir bent -l twist.json --report report.json"},
     {"two shapes to animate, and an animation of them",
-     "ffd deform head.glb face.glb --morph smile=smile.json --morph wink=wink.json --clip 'hi: 0, 0.3 "
-     "smile=1, 1 wink=1'"},
+     "ffd deform robot.glb moves.glb --morph bow=bend.json --morph turn=twist.json --clip 'hi: 0, 0.5 bow=1, "
+     "1 turn=1'"},
     {"from a stream to a stream",
      "ffd deform - - --input-format obj --output-format ply -l bend.json <cow.obj >cow.ply"},
     {NULL, NULL},
