@@ -159,7 +159,8 @@ static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_jo
     return status;
 }
 
-static ffd_status run_all(deform_job *job, ffd_job_result *results, ffd_error *error)
+/* done: how many have figures afterwards, also one that a gate refuses. */
+static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
@@ -169,6 +170,7 @@ static ffd_status run_all(deform_job *job, ffd_job_result *results, ffd_error *e
         status = begin(job, error);
     for (size_t k = 0; k < count && !status; k++) {
         status = run_one(job, k, &log, &results[k], error);
+        *done += !status || status == FFD_E_GATE;
         if (!status)
             ffd_log_line(&log, FFD_LOG_INFO, "morph target \"%s\": %llu of %llu %s moved, by %g at most",
                          job->desc->morphs[k], (unsigned long long)results[k].moved,
@@ -185,10 +187,11 @@ ffd_status ffd_morphs_run(deform_job *job, ffd_job_result *result, ffd_error *er
     ffd_job_result *const results = desc->morph_results ? desc->morph_results : own;
     if (!results)
         return ffd_fail_memory(error);
-    const ffd_status status = run_all(job, results, error);
-    if (!status) {
-        ffd_morph_results_join(results, desc->lattice_count, result);
-        result->morph_count = desc->lattice_count;
+    size_t done = 0;
+    const ffd_status status = run_all(job, results, &done, error);
+    if (!status || status == FFD_E_GATE) {
+        ffd_morph_results_join(results, done, result);
+        result->morph_count = done;
         result->morphs = desc->morphs;
         result->morph_lattices = desc->lattices;
         result->morph_results = desc->morph_results;

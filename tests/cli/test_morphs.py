@@ -360,11 +360,32 @@ def figures_of_each_target(run):
     equal(entry["bounds"]["after"]["max"][0], max(m["bounds"]["after"]["max"][0] for m in entry["morphs"]))
     # A gate says of which target it is; nothing is written.
     run.remove("out.glb")
-    run.ffd("deform", "in.glb", "out.glb", *morphs, "--fail-on", "folds", code=NO,
+    run.ffd("deform", "in.glb", "out.glb", *morphs, "--fail-on", "folds", "--report", "gate.json", code=NO,
             err=lambda said: check(said[-1].startswith("in.glb: morph target \"fold\": the deformed volume folds"), said))
+    failed, = json.loads(run.text("gate.json"))["jobs"]
+    equal(([m["name"] for m in failed["morphs"]], failed["folds"]["verdict"]), (["squash", "stretch", "fold"], "some"))
     run.ffd("deform", "in.glb", "out.glb", *MORPHS, "--outside", "error", code=5, err=re.compile('^in.glb: morph target "squash": 1 of 4'))
     run.ffd("deform", "in.glb", "out.glb", "--morph", "a=none.json", "--morph", "b=shear.json", code=3, err=re.compile("^none.json: "))
     check(not run.exists("out.glb"), run.names())
+
+
+@case
+def what_lattices_have_of_their_own(run):
+    """A box round the mesh, which is the base whatever targets come before, and placeholders of one of them."""
+    write(run)
+    run.write("round.json", {**lattice(moves=[{"at": [1, 1, 1], "by": [0, {"$": "A"}, 0]}]), "rest": {"box": "mesh", "margin": 0.1}})
+    run.ffd("deform", "in.glb", "out.glb", "--morph", "stretch=shift.json", "--morph", "round=round.json", "--set", "A=0.5", "-q")
+    run.ffd("deform", "in.glb", "one.glb", "-l", "round.json", "--as-morph", "round", "--set", "A=0.5", "-q")
+    found, expected = (targets_of(*glb_split(run.read(name))) for name in ("out.glb", "one.glb"))
+    equal([node.get("round") for node in found], [node.get("round") for node in expected])
+    run.ffd("deform", "in.glb", "no.glb", *MORPHS, "--set", "A=0.5", code=INVALID, err=re.compile('no lattice has the placeholder .* .--set.$'))
+    # Several meshes, with one set of targets.
+    run.write("b.glb", two_meshes(targets=1).glb())
+    run.folder_of("o")
+    run.ffd("deform", "in.glb", "b.glb", "--out-dir", "o", *MORPHS, "--report", "r.json", "-q")
+    equal([[m["name"] for m in entry["morphs"]] for entry in json.loads(run.text("r.json"))["jobs"]], [["squash", "stretch"]] * 2)
+    run.ffd("deform", "b.glb", "c.glb", *MORPHS, "-q")
+    equal(run.read("o/b.glb"), run.read("c.glb"))
 
 
 @case
