@@ -396,6 +396,9 @@ def more_than_eight_are_said(run):
                                                       ["in.glb: 1 mesh has 9 morph targets: some viewers play only 8"]))
     equal(len(glb_split(run.read("out.glb"))[0]["meshes"][0]["primitives"][0]["targets"]), 9)
     deformed(run, morphs=nine[:14])
+    write(run, two_meshes(targets=8, far=[[0.0, 0.0, 0.0]]))
+    for options in (nine[:2], ("-l", "shift.json", "--as-morph", "x")):
+        deformed(run, morphs=options, err="in.glb: 1 mesh has 9 morph targets: some viewers play only 8")
 
 
 @case

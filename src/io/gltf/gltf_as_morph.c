@@ -257,7 +257,7 @@ static ffd_status add_clips(morph_file *file, const morph_marks *marks, const me
     return status;
 }
 
-/* Says that a mesh that gets targets, of several, has more than many viewers play. */
+/* Says that a mesh that gets targets has more than many viewers play. */
 static void warn_of_many(const gltf_document *d, const gltf_document *file, const mesh_log *log)
 {
     size_t meshes = 0, most = 0;
@@ -268,7 +268,7 @@ static void warn_of_many(const gltf_document *d, const gltf_document *file, cons
         meshes++;
         most = count > most ? count : most;
     }
-    if (meshes > 0 && d->morph_count > 1)
+    if (meshes > 0)
         ffd_log_line(log, FFD_LOG_WARNING, "%zu %s %zu morph targets: some viewers play only %d", meshes,
                      meshes == 1 ? "mesh has" : "meshes have up to", most, MORPHS_PLAYED);
 }
