@@ -323,12 +323,14 @@ def a_conversion_gets_all_targets(run):
     # Normals that the targets split in different ways.
     run.write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nvn 0 0 1\nf 1//1 2//1 3//1\nf 2//1 4//1 3//1\n")
     run.write("twist.json", lattice(low=(-1, -1, -1), high=(2, 2, 2), moves=[{"twist": {"axis": "z", "degrees": 70}}]))
-    morphs = ("--morph", "twist=twist.json", "--morph", "corner=l.json")
+    # One moves all corners, the other only the last.
+    run.write("tip.json", lattice(size=(3, 3, 3), degree=[1, 1, 1], moves=[{"at": [2, 2, 2], "by": [0, 0.5, 0.3]}]))
+    morphs = ("--morph", "twist=twist.json", "--morph", "corner=tip.json")
     run.ffd("deform", "n.obj", "n.glb", *morphs, "-q")
     asset, data = glb_split(run.read("n.glb"))
     corners = {tuple(p): (tuple(twist), tuple(corner)) for p, twist, corner in zip(
         read_all(asset, data, 0), *(targets_of(asset, data)[0][name][0]["NORMAL"] for name in ("twist", "corner")))}
-    for k, (name, file) in enumerate((("twist", "twist.json"), ("corner", "l.json"))):
+    for k, (name, file) in enumerate((("twist", "twist.json"), ("corner", "tip.json"))):
         run.ffd("deform", "n.obj", "one.glb", "--force", "-l", file, "--as-morph", name, "-q")
         one, one_data = glb_split(run.read("one.glb"))
         equal({tuple(p): tuple(n) for p, n in zip(read_all(one, one_data, 0), targets_of(one, one_data)[0][name][0]["NORMAL"])},
@@ -339,7 +341,7 @@ def a_conversion_gets_all_targets(run):
 def figures_of_each_target(run):
     """The report has those of each, as -l alone has them, and the worst at the top."""
     write(run)
-    run.write("fold.json", lattice(low=(-4, -5, -1), high=(3, 6, 3), moves=[{"at": [0, "all", "all"], "by": [30, 0, 0]}]))
+    run.write("fold.json", lattice(low=(-4, -5, -1), high=(1.5, 6, 3), moves=[{"at": [0, "all", "all"], "by": [30, 0, 0]}]))
     morphs = (*MORPHS, "--morph", "fold=fold.json")
     told = ["in.glb: morph target \"squash\": 1 of 4 vertices is not inside: 1 outside (left where it is)",
             "in.glb: morph target \"stretch\": 1 of 4 vertices is not inside: 1 outside (left where it is)"]
@@ -424,6 +426,9 @@ def offsets_that_are_zeros_are_not_stored(run):
             for part in ("indices", "values"):
                 view = asset["bufferViews"][accessor["sparse"][part]["bufferView"]]
                 check("target" not in view and "byteStride" not in view, view)
+        for options in (("--threads", "1"), ("--threads", "3", "--isa", "scalar")):
+            run.ffd("deform", "in.glb", "again.glb", "--force", "-q", *MORPHS, "--clip", "c: 0, 1 squash=1", *options)
+            check(run.read("again.glb") == run.read("out.glb"), options)
         # Such a target is replaced like any other.
         run.ffd("deform", "out.glb", "again.glb", "--force", "-q", "--morph", "squash=shift.json", "--morph", "stretch=shear.json")
         again = targets_of(*glb_split(run.read("again.glb")))

@@ -708,7 +708,7 @@ m("clip-of-doubles", "rounding", "cli_morphs", "const float rounded = (float)tim
 m("clip-two-weights", "check left out", "morph_clip, cli_morphs, replay clip", "if (p->last_key[target] == clip->key_count)",
   "if (p->last_key[target] > clip->key_count)")
 m("clip-target-not-known", "check left out", "morph_clip, cli_morphs", "if (!ffd_intern_find(known, name, strlen(name), &number))",
-  "if (!name)")
+  "if (!ffd_intern_find(known, name, strlen(name), &number) && !name)")
 m("clip-weight-stays", "state", "cli_morphs", "weights[clip->weights[i].target] = 0;", "weights[clip->weights[i].target] += 0;")
 m("clip-default-weights", "condition", "cli_morphs", "if (names[t] == KEEPS && !ffd_gltf_weight(d, default_value, &row[t]))",
   "if (names[t] == IS_ZERO && !ffd_gltf_weight(d, default_value, &row[t]))")
