@@ -300,7 +300,8 @@ static ffd_status send(deform_job *job, const mesh_pass *pass, ffd_error *error)
 
 static ffd_status deform(deform_job *job, const figure_arrays *arrays, ffd_error *error)
 {
-    ffd_share *const share = job->chain.count == 1 && !job->desc->embedding ? job->desc->share : NULL;
+    const bool keeps = job->chain.count == 1 && !job->desc->embedding && !job->forgets_locations;
+    ffd_share *const share = keeps ? job->desc->share : NULL;
     const hash128 rest = located_in(&job->chain.links[0]);
     bool is_located;
     ffd_location *const locations =

@@ -9,6 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Of a vertex, for what a target makes of it. */
+#define TARGET_BYTES 64
+
 static ffd_status check_name(const char *name, ffd_error *error)
 {
     char shown[80];
@@ -159,12 +162,20 @@ static ffd_status run_one(deform_job *job, size_t k, const mesh_log *log, ffd_jo
     return status;
 }
 
+/* Whether there is memory for u,v,w of all vertices beside what the targets need, of which there are some. */
+static bool has_room(const deform_job *job, size_t targets)
+{
+    return targets > 1 && ffd_budget_check(&job->document->budget, ffd_mesh_vertex_count(job->document),
+                                           sizeof(ffd_location) + targets * TARGET_BYTES, NULL) == FFD_OK;
+}
+
 /* done: how many have figures afterwards, also one that a gate refuses. */
 static ffd_status run_all(deform_job *job, ffd_job_result *results, size_t *done, ffd_error *error)
 {
     const mesh_log log = job->log;
     const size_t count = job->desc->lattice_count;
     job->document->sparse_targets = true;
+    job->forgets_locations = !has_room(job, count);
     ffd_status status = keep_clips(job, error);
     if (!status)
         status = begin(job, error);

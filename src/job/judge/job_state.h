@@ -29,8 +29,10 @@ typedef struct deform_job {
     pass_totals totals;
     uint8_t *kept;        /* marks of the pass (job/chain/chain.h); NULL: no vertices */
     job_details *details; /* to be filled, or NULL */
-    mesh_model base;   /* the shape before, where a conversion adds the deformation to it as a morph target */
-    morph_clip *clips; /* clip_count, of the weights of several morph targets */
+    mesh_model base; /* the shape before, where a conversion adds the deformation to it as a morph target */
+    bool forgets_locations; /* u,v,w are not kept for passes to come: there is no memory for them, or no such
+                               pass */
+    morph_clip *clips;      /* clip_count, of the weights of several morph targets */
     size_t clip_count;
 } deform_job;
 
